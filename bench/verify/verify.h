@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/mesh/tet_mesh.h"
+#include "engine/plc/input.h"
+
+namespace ccdt {
+
+struct VerifyOptions {
+  double flatness = 1e-8;  ///< what counts as flat and as the same place, as a fraction of the input's bounding box
+  /// Must every unconstrained inner face be locally Delaunay? `claimed`: if the mesh says so of itself.
+  enum class Delaunay { claimed, yes, no } delaunay = Delaunay::claimed;
+};
+
+/// One property that was checked.
+struct Check {
+  std::string name;            ///< e.g. "positive orientation"
+  std::uint64_t checked = 0;   ///< how many things were looked at
+  std::uint64_t failed = 0;    ///< how many of them are wrong
+  bool required = true;        ///< does a failure make the mesh wrong?
+  std::vector<std::string> examples;  ///< the first few failures, with coordinates
+};
+
+struct Verification {
+  std::vector<Check> checks;
+  double mesh_volume = 0, input_volume = 0;
+  bool ok() const {
+    for (const Check& c : checks)
+      if (c.required && c.failed > 0) return false;
+    return true;
+  }
+};
+
+/// An exact check of a mesh against its input, by CGAL's exact kernel; shares no predicate with the engine. Works on any mesher's output.
+Verification verify(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options = {},
+                    const Progress& progress = {});
+
+}  // namespace ccdt

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <functional>
+
+namespace ccdt {
+
+/// An index that cannot be mistaken for an index of another kind.
+///
+/// It converts to an integer freely (arrays are subscripted with it), but an integer or an index of another kind
+/// becomes one only by an explicit conversion.
+template <class Tag>
+struct Index {
+  std::uint32_t value = none_value;
+
+  static constexpr std::uint32_t none_value = 0xFFFFFFFFu;
+
+  constexpr Index() = default;
+  constexpr explicit Index(std::uint32_t v) : value(v) {}
+  template <class Integer>
+  constexpr explicit Index(Integer v) : value(static_cast<std::uint32_t>(v)) {}
+
+  constexpr operator std::uint32_t() const { return value; }
+  constexpr bool is_none() const { return value == none_value; }
+  constexpr auto operator<=>(const Index&) const = default;
+  constexpr bool operator==(const Index&) const = default;
+};
+
+using VertexId = Index<struct VertexTag>;
+using SegmentId = Index<struct SegmentTag>;
+using FacetId = Index<struct FacetTag>;
+using ChamberId = Index<struct ChamberTag>;
+using CellId = Index<struct CellTag>;
+
+}  // namespace ccdt
+
+template <class Tag>
+struct std::hash<ccdt::Index<Tag>> {
+  std::size_t operator()(ccdt::Index<Tag> i) const noexcept { return std::hash<std::uint32_t>()(i.value); }
+};

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/base/progress.h"
+#include "engine/mesher.h"
+#include "engine/numbers/point.h"
+
+namespace ccdt {
+
+/// A triangle of a facet, counterclockwise seen from above, and what is on its two sides.
+struct SurfaceTriangle {
+  std::array<VertexId, 3> vertices;
+  bool inside_above = false, inside_below = false;  ///< does the domain lie there?
+};
+
+struct LatticeOptions {
+  Lattice kind = Lattice::fcc;
+  double edge_length = 0;  ///< target edge length in grid units; 0: as the surface has it
+  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
+};
+
+/// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units, pairwise different, strictly
+/// inside the domain, outside the smallest sphere through any surface triangle and any subsegment, and different from all vertices.
+///
+/// \param vertices     grid units
+/// \param subsegments  edges that protect the segments, also those that no triangle has
+/// \throw LimitError   more points than vertex ids
+std::vector<Point3> place_lattice_points(std::span<const Point3> vertices, std::span<const SurfaceTriangle> triangles,
+                                         std::span<const std::array<VertexId, 2>> subsegments,
+                                         const LatticeOptions& options, const Progress& progress = {});
+
+}  // namespace ccdt

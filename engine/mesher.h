@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/base/progress.h"
+#include "engine/mesh/tet_mesh.h"
+#include "engine/plc/input.h"
+
+namespace ccdt {
+
+enum class Lattice { none, fcc, bcc, sc };
+enum class Protection { shell, midpoint };
+
+/// The strategies of the engine and their parameters.
+struct MeshOptions {
+  bool face_protection = true;  ///< check which faces are Delaunay first; off: every face goes through the front
+  Lattice lattice = Lattice::fcc;
+  Protection protection = Protection::shell;
+  double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it
+  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  double flatness = 1e-8;  ///< see PlcOptions
+};
+
+/// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
+struct StageSeconds {
+  double plc = 0, protect = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0, label = 0, improve = 0;
+  double mesh = 0;  ///< meshing alone: all of the above
+};
+
+struct MeshCounts {
+  std::uint64_t vertices = 0;           ///< of the mesh
+  std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
+  std::uint64_t interior_vertices = 0;  ///< lattice points
+  std::uint64_t tetrahedra = 0;
+  std::uint64_t faces = 0;              ///< triangles on facets
+  std::uint64_t undelaunay_faces = 0;   ///< of those, the ones that are not Delaunay
+  std::uint64_t front_tetrahedra = 0;   ///< tetrahedra built by the front
+};
+
+struct MeshResult {
+  TetMesh mesh;
+  MeshCounts counts;
+  StageSeconds seconds;
+  double largest_rounding = 0;  ///< largest change of an input coordinate, in the units of the input
+};
+
+/// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
+///
+/// \throw InputError  the input is no valid PLC
+/// \throw LimitError  a segment would need a split finer than the grid allows
+/// \throw MeshError   no valid mesh was found
+MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});
+
+}  // namespace ccdt

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/numbers/point.h"
+
+namespace ccdt {
+
+/// A facet given by polygons in one plane, as in TetGen's .poly and in OBJ, OFF and PLY faces with more than three corners.
+/// A polygon of two vertices is a segment within the facet, of one vertex a vertex within it. Loops other than the outer one that bound a
+/// hole in the facet are told by `holes`: a point in each hole.
+struct PolygonFacet {
+  std::vector<std::vector<std::uint32_t>> polygons;
+  std::vector<Point3> holes;
+  int marker = 0;
+  std::uint32_t number = 0;  ///< number of the facet in the file, from 0
+};
+
+/// What a file holds, in the units of the file, before anything is checked: indices are in range (the readers see to
+/// that) and nothing else is promised.
+struct InputPlc {
+  /// How the file says what is inside.
+  enum class Inside {
+    even_odd,  ///< surface formats: a point is inside if it is separated from infinity by an odd number of shells
+    seeds,     ///< .poly, .smesh, .mesh: all that infinity cannot reach, less what the hole seeds reach
+  };
+
+  struct Region {
+    Point3 seed;
+    int attribute = 0;
+    double max_volume = 0;  ///< 0: none
+  };
+
+  std::string name;  ///< path as the user gave it
+  Inside inside = Inside::even_odd;
+
+  std::vector<Point3> vertices;
+
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<int> triangle_markers;             ///< empty, or one a triangle
+  std::vector<std::uint32_t> triangle_numbers;   ///< empty (the index itself), or the number of the facet in the file
+  std::vector<PolygonFacet> polygon_facets;
+
+  std::vector<std::array<std::uint32_t, 2>> segments;
+  std::vector<int> segment_markers;  ///< empty, or one a segment
+
+  std::vector<Point3> holes;
+  std::vector<Region> regions;
+
+  std::size_t facet_count() const { return triangles.size() + polygon_facets.size(); }
+};
+
+}  // namespace ccdt
