@@ -32,9 +32,9 @@ struct MeshCounts {
   std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
   std::uint64_t interior_vertices = 0;  ///< lattice points
   std::uint64_t tetrahedra = 0;
-  std::uint64_t faces = 0;              ///< triangles on facets
-  std::uint64_t undelaunay_faces = 0;   ///< of those, the ones that are not Delaunay
-  std::uint64_t front_tetrahedra = 0;   ///< tetrahedra built by the front
+  std::uint64_t faces = 0;             ///< triangles on facets
+  std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
+  std::uint64_t front_tetrahedra = 0;  ///< tetrahedra built by the front
 };
 
 struct MeshResult {

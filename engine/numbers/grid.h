@@ -14,8 +14,8 @@ namespace ccdt {
 /// grid units, every coordinate is an integer of at most 2^51 + 2^20 in magnitude: it fits a double, and so does the
 /// **difference of any two coordinates, exactly**.
 struct DyadicGrid {
-  Point3 origin;     ///< units of the input; a multiple of the quantum near the centre of the bounding box
-  double unit = 1;   ///< one grid unit in units of the input; a power of two
+  Point3 origin;    ///< units of the input; a multiple of the quantum near the centre of the bounding box
+  double unit = 1;  ///< one grid unit in units of the input; a power of two
 
   static constexpr double quantum = 1048576.0;  ///< the quantum in grid units, 2^20
 

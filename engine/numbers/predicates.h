@@ -30,16 +30,16 @@ int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                        const std::array<std::uint32_t, 5>& ids);
 
-/// Within a plane: for a, b, c, d exactly coplanar and `apex` off their plane with orient3d(a, b, c, apex) > 0: +1 when d is
-/// inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has none), so that
-/// the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.
+/// Within a plane: for a, b, c, d exactly coplanar and `apex` off their plane with orient3d(a, b, c, apex) > 0: +1 when
+/// d is inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has
+/// none), so that the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.
 ///
 /// \param ids  the permanent ids of a, b, c, d
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
                        const std::array<std::uint32_t, 4>& ids);
 
-/// Sign of orient3d(p, q, r, x) for x the centroid of the triangle abc, moved within abc by an infinitesimal generic amount:
-/// zero only when the plane of p, q, r contains all of a, b, c or p, q, r are collinear.
+/// Sign of orient3d(p, q, r, x) for x the centroid of the triangle abc, moved within abc by an infinitesimal generic
+/// amount: zero only when the plane of p, q, r contains all of a, b, c or p, q, r are collinear.
 int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const Point3& a, const Point3& b,
                       const Point3& c);
 

@@ -1,0 +1,206 @@
+#include "engine/numbers/predicates.h"
+
+#include <algorithm>
+#include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdlib>
+
+#include "engine/numbers/filters.h"
+
+namespace ccdt {
+namespace {
+
+// Fixed-size integers without allocation. The widest insphere needs 5 * 53 + 7 bits.
+__extension__ typedef __int128 Int128;
+template <unsigned bits>
+using WideInt = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<bits, bits, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked, void>,
+    boost::multiprecision::et_off>;
+
+template <class T>
+int sign_of(const T& x) {
+  return x > 0 ? 1 : x < 0 ? -1 : 0;
+}
+
+/// Differences to one point as integers, less the trailing zero bits that all of them share: the sign of a homogeneous
+/// determinant does not change.
+template <int n>
+struct Differences {
+  std::array<std::array<std::int64_t, 3>, n> row;
+  int bits = 0;  ///< magnitudes are below 2^bits
+};
+
+template <int n>
+Differences<n> shifted_differences(const std::array<const Point3*, n>& points, const Point3& base) {
+  Differences<n> result;
+  std::uint64_t low_bits = 0, magnitudes = 0;
+  for (int i = 0; i < n; ++i) {
+    const Point3& p = *points[i];
+    result.row[i] = {static_cast<std::int64_t>(p.x - base.x), static_cast<std::int64_t>(p.y - base.y),
+                     static_cast<std::int64_t>(p.z - base.z)};
+    for (const std::int64_t v : result.row[i]) {
+      low_bits |= static_cast<std::uint64_t>(v);
+      magnitudes |= static_cast<std::uint64_t>(v < 0 ? -v : v);
+    }
+  }
+  if (low_bits == 0) return result;
+  const int shift = std::countr_zero(low_bits);
+  for (auto& row : result.row)
+    for (std::int64_t& v : row) v >>= shift;
+  result.bits = std::bit_width(magnitudes >> shift);
+  return result;
+}
+
+/// Determinant of three rows; `Minor` holds 2 * bits + 1 bits, `Result` 3 * bits + 3.
+template <class Minor, class Result>
+Result determinant3(const std::array<std::array<std::int64_t, 3>, 3>& m) {
+  const Minor x = Minor(m[0][1]) * m[1][2] - Minor(m[0][2]) * m[1][1];
+  const Minor y = Minor(m[0][2]) * m[1][0] - Minor(m[0][0]) * m[1][2];
+  const Minor z = Minor(m[0][0]) * m[1][1] - Minor(m[0][1]) * m[1][0];
+  return Result(x) * m[2][0] + Result(y) * m[2][1] + Result(z) * m[2][2];
+}
+
+/// The insphere determinant of four rows; `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits + 3, `Result` 5 * bits
+/// + 7.
+template <class Minor, class Volume, class Result>
+int insphere_sign(const std::array<std::array<std::int64_t, 3>, 4>& m) {
+  const auto minor = [&](int i, int j) -> Minor {
+    return static_cast<Minor>(Minor(m[i][0]) * m[j][1] - Minor(m[j][0]) * m[i][1]);
+  };
+  const Minor ab = minor(0, 1), bc = minor(1, 2), cd = minor(2, 3), da = minor(3, 0), ac = minor(0, 2),
+              bd = minor(1, 3);
+  const auto z = [&](int i) { return Volume(m[i][2]); };
+  const Volume abc = z(0) * bc - z(1) * ac + z(2) * ab;
+  const Volume bcd = z(1) * cd - z(2) * bd + z(3) * bc;
+  const Volume cda = z(2) * da + z(3) * ac + z(0) * cd;
+  const Volume dab = z(3) * ab + z(0) * bd + z(1) * da;
+  const auto lift = [&](int i) -> Result {
+    return Result(Minor(m[i][0]) * m[i][0] + Minor(m[i][1]) * m[i][1] + Minor(m[i][2]) * m[i][2]);
+  };
+  const Result det = (lift(2) * dab - lift(3) * abc) + (lift(0) * bcd - lift(1) * cda);
+  return sign_of(det);
+}
+
+int exact_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const Differences<3> m = shifted_differences<3>({&b, &c, &d}, a);
+  if (m.bits <= 20) return sign_of(determinant3<std::int64_t, std::int64_t>(m.row));
+  if (m.bits <= 41) return sign_of(determinant3<Int128, Int128>(m.row));
+  return sign_of(determinant3<WideInt<256>, WideInt<256>>(m.row));
+}
+
+int exact_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
+  const Differences<4> m = shifted_differences<4>({&a, &b, &c, &d}, e);
+  if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
+  if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
+  if (m.bits <= 49) return insphere_sign<Int128, WideInt<256>, WideInt<256>>(m.row);
+  return insphere_sign<Int128, WideInt<512>, WideInt<512>>(m.row);
+}
+
+WideInt<256> signed_volume(const Point3& p, const Point3& q, const Point3& r, const Point3& x) {
+  const auto row = [&](const Point3& v) -> std::array<std::int64_t, 3> {
+    return {static_cast<std::int64_t>(v.x - p.x), static_cast<std::int64_t>(v.y - p.y),
+            static_cast<std::int64_t>(v.z - p.z)};
+  };
+  return determinant3<WideInt<256>, WideInt<256>>({row(q), row(r), row(x)});
+}
+
+/// The indices of the ids in ascending order: the order in which the perturbations decide.
+template <std::size_t n>
+std::array<int, n> ascending(const std::array<std::uint32_t, n>& ids) {
+  std::array<int, n> order;
+  for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<int>(i);
+  for (std::size_t i = 1; i < n; ++i)
+    for (std::size_t j = i; j > 0 && ids[order[j]] < ids[order[j - 1]]; --j) std::swap(order[j], order[j - 1]);
+  return order;
+}
+
+}  // namespace
+
+int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const double det = orient3d_filter(a, b, c, d);
+  if (det != 0) return det > 0 ? 1 : -1;
+  return exact_orient3d(a, b, c, d);
+}
+
+int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
+  const double det = insphere_filter(a, b, c, d, e);
+  if (det != 0) return det > 0 ? 1 : -1;
+  return exact_insphere(a, b, c, d, e);
+}
+
+int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                       const std::array<std::uint32_t, 5>& ids) {
+  if (const int sign = insphere(a, b, c, d, e); sign != 0) return sign;
+  // With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of
+  // a corner acts with the sign of the volume in which e replaces that corner, raising that of e with the sign of minus
+  // the whole volume.
+  for (const int i : ascending(ids)) {
+    int sign = 0;
+    switch (i) {
+      case 0:
+        sign = orient3d(e, b, c, d);
+        break;
+      case 1:
+        sign = orient3d(a, e, c, d);
+        break;
+      case 2:
+        sign = orient3d(a, b, e, d);
+        break;
+      case 3:
+        sign = orient3d(a, b, c, e);
+        break;
+      default:
+        sign = -orient3d(a, b, c, d);
+        break;
+    }
+    if (sign != 0) return sign;
+  }
+  return 0;
+}
+
+int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
+                       const std::array<std::uint32_t, 4>& ids) {
+  if (const int sign = insphere(a, b, c, apex, d); sign != 0) return sign;
+  for (const int i : ascending(ids)) {
+    int sign = 0;
+    switch (i) {
+      case 0:
+        sign = orient3d(d, b, c, apex);
+        break;
+      case 1:
+        sign = orient3d(a, d, c, apex);
+        break;
+      case 2:
+        sign = orient3d(a, b, d, apex);
+        break;
+      default:
+        sign = -orient3d(a, b, c, apex);
+        break;
+    }
+    if (sign != 0) return sign;
+  }
+  return 0;
+}
+
+int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const Point3& a, const Point3& b,
+                      const Point3& c) {
+  const int sa = orient3d(p, q, r, a), sb = orient3d(p, q, r, b), sc = orient3d(p, q, r, c);
+  if (sa >= 0 && sb >= 0 && sc >= 0) return sa + sb + sc > 0 ? 1 : 0;
+  if (sa <= 0 && sb <= 0 && sc <= 0) return -1;
+  const WideInt<256> va = signed_volume(p, q, r, a), vb = signed_volume(p, q, r, b), vc = signed_volume(p, q, r, c);
+  // The centroid is moved towards b first, then, infinitely less, towards c.
+  if (const int sign = sign_of(WideInt<256>(va + vb + vc)); sign != 0) return sign;
+  if (const int sign = sign_of(WideInt<256>(vb - va)); sign != 0) return sign;
+  return sign_of(WideInt<256>(vc - va));
+}
+
+bool collinear(const Point3& a, const Point3& b, const Point3& c) {
+  const Differences<2> m = shifted_differences<2>({&b, &c}, a);
+  const auto parallel = [&](int i, int j) {
+    return Int128(m.row[0][i]) * m.row[1][j] == Int128(m.row[0][j]) * m.row[1][i];
+  };
+  return parallel(0, 1) && parallel(1, 2) && parallel(2, 0);
+}
+
+}  // namespace ccdt
