@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+
+namespace ccdt {
+
+/// A face between a cell that a new vertex destroys and one that it leaves.
+struct CavityFace {
+  std::array<std::uint32_t, 3> vertices;  ///< the new vertex is above them
+  std::uint32_t outside;                  ///< code of the face in the cell that stays
+};
+
+/// Inserts vertices into a tetrahedralization one by one, in three steps that may be taken apart: find the cavity, look
+/// at it, fill it. It owns the working memory, which is kept from one insertion to the next.
+class Insertion {
+ public:
+  explicit Insertion(Delaunay& delaunay);
+
+  /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
+  /// \param start  a cell to walk from; the nearer the quicker
+  /// \return false if a vertex with this very point is in the tetrahedralization (`twin()` tells which)
+  bool dig(std::uint32_t v, std::uint32_t start);
+
+  std::span<const std::uint32_t> cavity_cells() const { return cavity_; }
+  std::span<const CavityFace> cavity_faces() const { return border_; }
+  std::uint32_t twin() const { return twin_; }
+  bool in_cavity(std::uint32_t cell) const { return mark_[cell] == Mark::conflict; }
+
+  /// Gives the cavity up and leaves all as it was.
+  void abandon();
+  /// Joins the new vertex to the border of the cavity.
+  /// \return one of the new cells
+  std::uint32_t fill();
+
+ private:
+  enum class Mark : std::uint8_t { unknown, conflict, outside };
+
+  std::uint32_t walk(const Point3& p, std::uint32_t start);
+  bool conflicts(const Cell& cell) const;
+  bool conflicts_exactly(const Cell& cell) const;
+  bool ghost_conflicts(const Cell& ghost) const;
+  void place_new_cells();
+  void connect_by_table();
+  void connect_by_search();
+
+  Delaunay& d_;
+  std::uint32_t v_ = 0, twin_ = 0;
+  Point3 p_;
+  unsigned turn_ = 0;
+  std::vector<Mark> mark_;
+  std::vector<std::uint32_t> cavity_, outside_, places_;
+  std::vector<CavityFace> border_;
+  // Vertices of the border get small local numbers, so that the directed edges of the border are places in a small
+  // table.
+  static constexpr std::uint32_t table_side = 128;
+  std::vector<std::uint8_t> local_;  // by vertex + 1 (the ghost wraps round to 0); 0xFF: none
+  std::vector<std::uint32_t> border_vertices_;
+  std::vector<std::uint32_t> table_;
+};
+
+}  // namespace ccdt
