@@ -1,0 +1,3 @@
+#pragma once
+
+#include "engine/facets/planar_triangulation.h"
