@@ -23,8 +23,9 @@ struct LatticeOptions {
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
 };
 
-/// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units, pairwise different, strictly
-/// inside the domain, outside the smallest sphere through any surface triangle and any subsegment, and different from all vertices.
+/// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
+/// pairwise different, strictly inside the domain, outside the smallest sphere through any surface triangle and any
+/// subsegment, and different from all vertices.
 ///
 /// \param vertices     grid units
 /// \param subsegments  edges that protect the segments, also those that no triangle has

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/lattice/size_field.h"
+#include "engine/lattice/surface.h"
+
+namespace ccdt {
+
+/// Where a node lies: touched by the surface, or wholly on one side of it.
+enum class NodePlace : std::uint8_t { outside, surface, inside };
+
+struct OctreeNode {
+  std::array<std::uint32_t, 3> corner{};  ///< the least, in octree units
+  std::uint32_t first_child = 0;          ///< eight in a row, in Morton order (x is the lowest bit); 0: a leaf
+  std::uint32_t first_triangle = 0;       ///< of its part of `Octree::triangles`; only nodes on the surface have one
+  std::uint32_t triangle_count = 0;
+  std::uint8_t level = 0;  ///< 0: the root
+  NodePlace place = NodePlace::surface;
+
+  bool is_leaf() const { return first_child == 0; }
+};
+
+/// An octree whose leaves are lattice cells (paper, section 3). Nodes outside the domain are never split. Levels of
+/// leaves that meet, be it in a corner only, differ by one at most, except at leaves that are outside.
+///
+/// An *octree unit* is half the side of the finest leaf that is possible, so every lattice point has whole octree
+/// units.
+struct Octree {
+  Point3 origin;                  ///< the least corner of the root, in grid units
+  double unit = 1;                ///< one octree unit in grid units; few significant bits, or a small multiple of such
+  unsigned depth = 0;             ///< level of the finest leaves that are possible
+  Box bounds;                     ///< of the surface
+  std::vector<OctreeNode> nodes;  ///< the root first
+  std::vector<std::uint32_t> triangles;  ///< those that touch a node, node by node
+
+  static constexpr unsigned bits = 21;  ///< of a coordinate within the root
+
+  std::uint32_t side(const OctreeNode& node) const { return 2u << (depth - node.level); }
+  double length(std::uint32_t octree_units) const { return unit * octree_units; }
+  Point3 point(const std::array<std::uint32_t, 3>& c) const {
+    return origin + Point3{unit * c[0], unit * c[1], unit * c[2]};
+  }
+  Box box(const OctreeNode& node) const;
+  /// The child of an inner node that holds a point of it (each holds its lower faces, not the upper ones).
+  std::uint32_t child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const;
+  std::span<const std::uint32_t> triangles_of(const OctreeNode& node) const {
+    return std::span(triangles).subspan(node.first_triangle, node.triangle_count);
+  }
+};
+
+/// Builds the octree whose leaves have the cell side that the size asks for, within a factor of sqrt(2); where the size
+/// is the reference of the size field, within 0.4 per cent.
+///
+/// \throw LimitError  more leaves than a program can index
+Octree build_octree(const Surface& surface, const SizeField& size, Lattice kind);
+
+/// Is a point of a node on the surface strictly inside the domain? Exact; should no sight in the whole tree decide, the
+/// answer is no: a point may be missing then, but none is wrong.
+bool is_inside(const Octree& tree, const Surface& surface, const Point3& p, const OctreeNode& node);
+
+}  // namespace ccdt
