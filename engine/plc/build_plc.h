@@ -10,10 +10,11 @@ struct PlcOptions {
   double flatness = 1e-8;  ///< a patch whose vertices are this near to one plane is one facet; as a fraction of the box
 };
 
-/// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and chambers, and checks that they form a
-/// piecewise linear complex.
+/// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and chambers, and checks that they
+/// form a piecewise linear complex.
 ///
-/// \throw InputError  non-finite coordinates, degenerate or duplicate facets, facets that cross or cover each other, an open
+/// \throw InputError  non-finite coordinates, degenerate or duplicate facets, facets that cross or cover each other, an
+/// open
 ///                    surface, no facets, seeds outside; with the place in the units of the input and a remedy
 Plc build_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
 

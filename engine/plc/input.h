@@ -9,9 +9,9 @@
 
 namespace ccdt {
 
-/// A facet given by polygons in one plane, as in TetGen's .poly and in OBJ, OFF and PLY faces with more than three corners.
-/// A polygon of two vertices is a segment within the facet, of one vertex a vertex within it. Loops other than the outer one that bound a
-/// hole in the facet are told by `holes`: a point in each hole.
+/// A facet given by polygons in one plane, as in TetGen's .poly and in OBJ, OFF and PLY faces with more than three
+/// corners. A polygon of two vertices is a segment within the facet, of one vertex a vertex within it. Loops other than
+/// the outer one that bound a hole in the facet are told by `holes`: a point in each hole.
 struct PolygonFacet {
   std::vector<std::vector<std::uint32_t>> polygons;
   std::vector<Point3> holes;
@@ -40,8 +40,8 @@ struct InputPlc {
   std::vector<Point3> vertices;
 
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<int> triangle_markers;             ///< empty, or one a triangle
-  std::vector<std::uint32_t> triangle_numbers;   ///< empty (the index itself), or the number of the facet in the file
+  std::vector<int> triangle_markers;            ///< empty, or one a triangle
+  std::vector<std::uint32_t> triangle_numbers;  ///< empty (the index itself), or the number of the facet in the file
   std::vector<PolygonFacet> polygon_facets;
 
   std::vector<std::array<std::uint32_t, 2>> segments;

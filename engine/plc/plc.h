@@ -22,7 +22,8 @@ struct Segment {
 ///
 /// `above` is the side that its triangles' normals point to (right-hand rule, counterclockwise seen from above).
 struct Facet {
-  std::vector<std::array<VertexId, 3>> triangles;  ///< any triangulation, with all vertices of the facet, consistently oriented
+  std::vector<std::array<VertexId, 3>>
+      triangles;             ///< any triangulation, with all vertices of the facet, consistently oriented
   bool exactly_flat = true;  ///< false: flat only within the tolerance
   int marker = 0;
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
@@ -37,19 +38,19 @@ struct Chamber {
 
 /// A piecewise linear complex, checked and ready to be meshed (paper, section 2).
 ///
-/// Invariants: vertices are pairwise different and multiples of `DyadicGrid::quantum`; segments and facets meet only in common
-/// vertices and segments; a vertex of the PLC that lies on a segment splits it and one that lies in a facet is a vertex of
-/// its triangulation; every boundary edge of a facet is a segment.
+/// Invariants: vertices are pairwise different and multiples of `DyadicGrid::quantum`; segments and facets meet only in
+/// common vertices and segments; a vertex of the PLC that lies on a segment splits it and one that lies in a facet is a
+/// vertex of its triangulation; every boundary edge of a facet is a segment.
 struct Plc {
   std::string name;
   DyadicGrid grid;
-  std::vector<Point3> vertices;         ///< grid units
-  std::vector<Point3> world;            ///< the same vertices in the units of the input, unrounded
+  std::vector<Point3> vertices;           ///< grid units
+  std::vector<Point3> world;              ///< the same vertices in the units of the input, unrounded
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex the vertex that it became
   std::vector<Segment> segments;
   std::vector<Facet> facets;
   std::vector<Chamber> chambers;
-  double largest_rounding = 0;          ///< largest change of a coordinate by the grid, in the units of the input
+  double largest_rounding = 0;  ///< largest change of a coordinate by the grid, in the units of the input
 };
 
 }  // namespace ccdt

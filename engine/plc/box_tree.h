@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/numbers/point.h"
+
+namespace ccdt {
+
+/// An axis-parallel box, closed.
+struct Box {
+  Point3 low, high;
+
+  bool meets(const Box& o) const {
+    return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y && low.z <= o.high.z &&
+           o.low.z <= high.z;
+  }
+};
+
+inline Box hull(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+inline Box box_of(const Point3& p) {
+  return {p, p};
+}
+
+/// A hierarchy of bounding boxes: the items in Morton order of their centres, halved again and again.
+///
+///     node 1 = [2 3], node i = [2i 2i+1], the last `leaf_count` nodes are runs of `leaf_size` items
+class BoxTree {
+ public:
+  explicit BoxTree(std::vector<Box> boxes);
+
+  /// Calls visit(item) for all items whose box meets the given one.
+  template <class Visit>
+  void for_each_meeting(const Box& box, Visit&& visit) const {
+    if (!items_.empty()) descend(1, box, visit);
+  }
+
+  /// Calls visit(i, j) once for every pair of different items whose boxes meet.
+  template <class Visit>
+  void for_each_pair(Visit&& visit) const {
+    if (!items_.empty()) descend_self(1, visit);
+  }
+
+ private:
+  static constexpr std::uint32_t leaf_size = 4;
+
+  bool is_leaf(std::uint32_t node) const { return node >= leaf_count_; }
+  std::span<const std::uint32_t> items_of(std::uint32_t leaf) const {
+    const std::size_t begin = std::min<std::size_t>(std::size_t{leaf - leaf_count_} * leaf_size, items_.size());
+    return std::span(items_).subspan(begin, std::min<std::size_t>(leaf_size, items_.size() - begin));
+  }
+
+  template <class Visit>
+  void descend(std::uint32_t node, const Box& box, Visit& visit) const {
+    if (!nodes_[node].meets(box)) return;
+    if (!is_leaf(node)) {
+      descend(2 * node, box, visit);
+      descend(2 * node + 1, box, visit);
+      return;
+    }
+    for (const std::uint32_t i : items_of(node))
+      if (boxes_[i].meets(box)) visit(i);
+  }
+
+  template <class Visit>
+  void descend_self(std::uint32_t node, Visit& visit) const {
+    if (!is_leaf(node)) {
+      descend_self(2 * node, visit);
+      descend_self(2 * node + 1, visit);
+      descend_both(2 * node, 2 * node + 1, visit);
+      return;
+    }
+    const auto items = items_of(node);
+    for (std::size_t i = 0; i < items.size(); ++i)
+      for (std::size_t j = i + 1; j < items.size(); ++j)
+        if (boxes_[items[i]].meets(boxes_[items[j]])) visit(items[i], items[j]);
+  }
+
+  template <class Visit>
+  void descend_both(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+    if (!nodes_[a].meets(nodes_[b])) return;
+    if (!is_leaf(a)) {  // both are on the same level
+      descend_both(2 * a, 2 * b, visit);
+      descend_both(2 * a, 2 * b + 1, visit);
+      descend_both(2 * a + 1, 2 * b, visit);
+      descend_both(2 * a + 1, 2 * b + 1, visit);
+      return;
+    }
+    for (const std::uint32_t i : items_of(a)) {
+      if (!boxes_[i].meets(nodes_[b])) continue;
+      for (const std::uint32_t j : items_of(b))
+        if (boxes_[i].meets(boxes_[j])) visit(i, j);
+    }
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> items_;  // in Morton order
+  std::vector<Box> nodes_;
+  std::uint32_t leaf_count_ = 1;  // a power of two
+};
+
+}  // namespace ccdt

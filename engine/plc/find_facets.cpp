@@ -1,0 +1,228 @@
+#include "engine/plc/find_facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/numbers/predicates.h"
+#include "engine/plc/quanta.h"
+
+namespace ccdt {
+
+namespace {
+
+constexpr std::uint32_t none = EdgeTable::none;
+
+struct Plane {
+  Point3 normal;  // of any length
+  Point3 point;
+
+  double squared_distance(const Point3& p) const {
+    const double d = dot(normal, p - point);
+    return d * d / squared_length(normal);
+  }
+};
+
+// The plane of a growing patch: its area vector, which depends on its outline alone and is therefore insensitive to the
+// rounding of single triangles, and the mean of its corners.
+struct FittedPlane {
+  Point3 area, sum_of_offsets, reference;
+  double count = 0;
+
+  void add(const Point3& normal, const std::array<Point3, 3>& corners) {
+    if (count == 0) reference = corners[0];
+    area = area + normal;
+    for (const Point3& p : corners) sum_of_offsets = sum_of_offsets + (p - reference);
+    count += 3;
+  }
+  Plane plane() const { return {area, reference + (1.0 / count) * sum_of_offsets}; }
+};
+
+class PatchFinder {
+ public:
+  PatchFinder(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
+              const std::vector<char>& is_segment, double tolerance)
+      : vertices_(vertices),
+        triangles_(triangles),
+        edges_(edges),
+        squared_tolerance_(tolerance * tolerance),
+        normals_(triangles.size()),
+        facet_of_(triangles.size(), none),
+        turned_(triangles.size(), 0),
+        round_of_(triangles.size(), 0),
+        may_cross_(edges.size()) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      const auto [a, b, c] = corner_points(t);
+      normals_[t] = rounded_normal(a, b, c);
+    }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      const auto around = edges.around(e);
+      may_cross_[e] =
+          around.size() == 2 && !is_segment[e] && triangles.markers[around[0]] == triangles.markers[around[1]];
+    }
+  }
+
+  FacetPatches find() {
+    std::vector<std::uint32_t> order(triangles_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<double> squared_area(triangles_.size());
+    for (std::uint32_t t : order) squared_area[t] = squared_length(normals_[t]);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t s, std::uint32_t t) { return squared_area[s] > squared_area[t]; });
+
+    std::vector<std::uint32_t> seeds;
+    for (const std::uint32_t seed : order) {
+      if (facet_of_[seed] != none) continue;
+      find_patch(seed);
+      for (const std::uint32_t t : patch_) {
+        facet_of_[t] = static_cast<std::uint32_t>(seeds.size());
+        if (turned_[t]) std::swap(triangles_.corners[t][1], triangles_.corners[t][2]);
+      }
+      seeds.push_back(seed);
+    }
+    return number_by_first_triangle(seeds);
+  }
+
+ private:
+  std::array<Point3, 3> corner_points(std::uint32_t t) const {
+    const Corners& c = triangles_.corners[t];
+    return {vertices_[c[0]], vertices_[c[1]], vertices_[c[2]]};
+  }
+
+  // Leaves the patch of the seed in `patch_`: grown along a plane that is fitted on the way and, if some vertex turns
+  // out to be too far from the final plane, once more along that plane as it is.
+  void find_patch(std::uint32_t seed) {
+    FittedPlane fitted;
+    fitted.add(normals_[seed], corner_points(seed));
+    grow(seed, fitted, true);
+    if (patch_.size() <= 1) return;
+    const Plane plane = centred(fitted.plane());
+    if (all_within(plane)) return;
+    if (!is_within(seed, plane)) {
+      FittedPlane alone;
+      alone.add(normals_[seed], corner_points(seed));
+      fitted = alone;
+    }
+    grow(seed, fitted, false);
+  }
+
+  void grow(std::uint32_t seed, FittedPlane& fitted, bool refit) {
+    ++round_;
+    Plane plane = fitted.plane();
+    patch_.assign(1, seed);
+    round_of_[seed] = round_;
+    turned_[seed] = dot(normals_[seed], plane.normal) < 0;
+    for (std::size_t i = 0; i < patch_.size(); ++i) {
+      const std::uint32_t t = patch_[i];
+      for (const std::uint32_t e : edges_.edges_of[t]) {
+        const std::uint32_t next = neighbour_across(e, t);
+        if (next == none || !accept(next, e, t, plane)) continue;
+        patch_.push_back(next);
+        round_of_[next] = round_;
+        if (!refit) continue;
+        fitted.add(turned_[next] ? -1.0 * normals_[next] : normals_[next], corner_points(next));
+        plane = fitted.plane();
+      }
+    }
+  }
+
+  std::uint32_t neighbour_across(std::uint32_t e, std::uint32_t t) const {
+    if (!may_cross_[e]) return none;
+    const auto around = edges_.around(e);
+    const std::uint32_t next = around[0] == t ? around[1] : around[0];
+    return facet_of_[next] == none && round_of_[next] != round_ ? next : none;
+  }
+
+  // Is the neighbour in the plane and, turned as its neighbour demands, counterclockwise in the projection?
+  bool accept(std::uint32_t next, std::uint32_t e, std::uint32_t t, const Plane& plane) {
+    const auto [a, b] = edges_.ends[e];
+    const VertexId apex = apex_over(triangles_.corners[next], a, b);
+    if (plane.squared_distance(vertices_[apex]) > squared_tolerance_) return false;
+    if (plane.squared_distance(vertices_[a]) > squared_tolerance_) return false;
+    if (plane.squared_distance(vertices_[b]) > squared_tolerance_) return false;
+    const bool t_runs = runs_along(triangles_.corners[t], a, b) != static_cast<bool>(turned_[t]);
+    const bool turn = runs_along(triangles_.corners[next], a, b) == t_runs;
+    const int axis = dominant_axis(plane.normal);
+    const double along = as_array(normals_[next])[axis] * as_array(plane.normal)[axis];  // signs are exact
+    if (turn ? along >= 0 : along <= 0) return false;
+    turned_[next] = turn;
+    return true;
+  }
+
+  bool is_within(std::uint32_t t, const Plane& plane) const {
+    for (const Point3& p : corner_points(t))
+      if (plane.squared_distance(p) > squared_tolerance_) return false;
+    return true;
+  }
+
+  bool all_within(const Plane& plane) const {
+    return std::all_of(patch_.begin(), patch_.end(), [&](std::uint32_t t) { return is_within(t, plane); });
+  }
+
+  // The parallel plane in the middle of the patch's vertices.
+  Plane centred(Plane plane) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const std::uint32_t t : patch_)
+      for (const Point3& p : corner_points(t)) {
+        const double d = dot(plane.normal, p - plane.point);
+        low = std::min(low, d);
+        high = std::max(high, d);
+      }
+    plane.point = plane.point + (0.5 * (low + high) / squared_length(plane.normal)) * plane.normal;
+    return plane;
+  }
+
+  FacetPatches number_by_first_triangle(const std::vector<std::uint32_t>& seeds) const {
+    FacetPatches patches;
+    patches.facet_of.resize(triangles_.size());
+    std::vector<std::uint32_t> number(seeds.size(), none), reference;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      std::uint32_t& n = number[facet_of_[t]];
+      if (n == none) {
+        n = static_cast<std::uint32_t>(reference.size());
+        reference.push_back(seeds[facet_of_[t]]);
+      }
+      patches.facet_of[t] = n;
+    }
+    patches.exactly_flat.assign(reference.size(), 1);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      char& flat = patches.exactly_flat[patches.facet_of[t]];
+      const std::uint32_t seed = reference[patches.facet_of[t]];
+      if (!flat || seed == t) continue;
+      const auto [a, b, c] = corner_points(seed);
+      for (const Point3& p : corner_points(t)) flat = flat && orient3d(a, b, c, p) == 0;
+    }
+    patches.is_inner_edge.assign(edges_.size(), 0);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!may_cross_[e]) continue;
+      const auto around = edges_.around(e);
+      const auto [a, b] = edges_.ends[e];
+      patches.is_inner_edge[e] =
+          facet_of_[around[0]] == facet_of_[around[1]] &&
+          runs_along(triangles_.corners[around[0]], a, b) != runs_along(triangles_.corners[around[1]], a, b);
+    }
+    return patches;
+  }
+
+  std::span<const Point3> vertices_;
+  TriangleSet& triangles_;
+  const EdgeTable& edges_;
+  double squared_tolerance_;
+  std::vector<Point3> normals_;  // as the input orients the triangles
+  std::vector<std::uint32_t> facet_of_;
+  std::vector<char> turned_;
+  std::vector<std::uint32_t> round_of_;  // the last round of growing that reached the triangle
+  std::vector<char> may_cross_;          // edges that a patch may grow over
+  std::uint32_t round_ = 0;
+  std::vector<std::uint32_t> patch_;
+};
+
+}  // namespace
+
+FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
+                         const std::vector<char>& is_segment, double tolerance) {
+  return PatchFinder(vertices, triangles, edges, is_segment, tolerance).find();
+}
+
+}  // namespace ccdt

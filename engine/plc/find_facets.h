@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/numbers/point.h"
+#include "engine/plc/edge_table.h"
+#include "engine/plc/triangle_set.h"
+
+namespace ccdt {
+
+/// Which triangles form one facet.
+struct FacetPatches {
+  std::vector<std::uint32_t> facet_of;  ///< of each triangle; facets are numbered by their first triangle
+  std::vector<char> exactly_flat;       ///< of each facet: all its vertices are in one plane
+  std::vector<char> is_inner_edge;      ///< of each edge: it lies within one facet and is no segment
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(exactly_flat.size()); }
+};
+
+/// Finds patches of triangles that are flat, exactly or within a tolerance, and turns the triangles of each patch so
+/// that all are counterclockwise seen from one side.
+///
+/// A patch grows from its largest triangle over edges that have exactly two triangles, of one marker, and are no input
+/// segment. It never folds: every triangle is counterclockwise when the patch is projected along the dominant axis of
+/// its plane.
+///
+/// \param vertices    in grid units
+/// \param triangles   the corners of a triangle may be exchanged
+/// \param is_segment  of each edge: the input names it a segment
+/// \param tolerance   in grid units; all vertices of a patch are this near to one plane
+FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
+                         const std::vector<char>& is_segment, double tolerance);
+
+}  // namespace ccdt

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "engine/numbers/point.h"
+
+namespace ccdt {
+
+/// A point where two things meet that should not; the decision is exact, the point is rounded.
+struct Contact {
+  Point3 where;
+  bool coplanar = false;
+};
+
+/// Where a segment meets a triangle, both closed; nothing if they are apart.
+std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, const std::array<Point3, 3>& triangle);
+
+/// Where two triangles without a common vertex meet, both closed.
+std::optional<Contact> meet_triangles(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
+
+/// Where two triangles with just the common corner s[0] = t[0] meet elsewhere.
+std::optional<Contact> meet_triangles_at_corner(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
+
+/// Where a segment from a corner of a triangle, t[0], meets the triangle elsewhere.
+std::optional<Contact> meet_segment_at_corner(const Point3& end, const std::array<Point3, 3>& t);
+
+/// Where two segments meet, both closed; they need not be in one plane.
+std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Point3& a, const Point3& b);
+
+/// Is the point within the closed triangle, in space?
+bool is_on_triangle(const Point3& p, const std::array<Point3, 3>& triangle);
+
+/// Is the point between the ends of the segment, in space, ends excluded?
+bool is_within_segment(const Point3& p, const Point3& a, const Point3& b);
+
+}  // namespace ccdt
