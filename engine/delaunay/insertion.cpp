@@ -14,7 +14,7 @@ constexpr std::uint8_t no_local = 0xFF;
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
 
-bool Insertion::dig(std::uint32_t v, std::uint32_t start) {
+CCDT_WIDE_LANES bool Insertion::dig(std::uint32_t v, std::uint32_t start) {
   v_ = v;
   p_ = d_.point(v);
   mark_.resize(d_.cells.size(), Mark::unknown);
@@ -101,18 +101,24 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   }
 }
 
-inline bool Insertion::conflicts(const Cell& cell) const {
+CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
   if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
   const auto& v = cell.vertices;
-  const double det = insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
-  if (det != 0) return det > 0;
-  return conflicts_exactly(cell);
+  const Sign sign = insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
+  if (sign == Sign::plus || sign == Sign::minus) return sign == Sign::plus;
+  return sign == Sign::zero ? tie_conflicts(cell) : conflicts_exactly(cell);
 }
 
 bool Insertion::conflicts_exactly(const Cell& cell) const {
+  const auto& v = cell.vertices;
+  const int sign = insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
+  return sign != 0 ? sign > 0 : tie_conflicts(cell);
+}
+
+bool Insertion::tie_conflicts(const Cell& cell) const {
   const auto vertex = [&](int i) -> const DelaunayVertex& { return d_.vertices[cell.vertices[i]]; };
-  return insphere_perturbed(vertex(0).point, vertex(1).point, vertex(2).point, vertex(3).point, p_,
-                            {vertex(0).id, vertex(1).id, vertex(2).id, vertex(3).id, d_.vertices[v_].id}) > 0;
+  return tie_of_insphere(vertex(0).point, vertex(1).point, vertex(2).point, vertex(3).point, p_,
+                         {vertex(0).id, vertex(1).id, vertex(2).id, vertex(3).id, d_.vertices[v_].id}) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.

@@ -42,6 +42,7 @@ class Insertion {
   std::uint32_t walk(const Point3& p, std::uint32_t start);
   bool conflicts(const Cell& cell) const;
   bool conflicts_exactly(const Cell& cell) const;
+  bool tie_conflicts(const Cell& cell) const;
   bool ghost_conflicts(const Cell& ghost) const;
   void place_new_cells();
   void connect_by_table();

@@ -1,6 +1,5 @@
 #include "engine/numbers/predicates.h"
 
-#include <algorithm>
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdlib>
@@ -105,82 +104,75 @@ WideInt<256> signed_volume(const Point3& p, const Point3& q, const Point3& r, co
   return determinant3<WideInt<256>, WideInt<256>>({row(q), row(r), row(x)});
 }
 
-/// The indices of the ids in ascending order: the order in which the perturbations decide.
-template <std::size_t n>
-std::array<int, n> ascending(const std::array<std::uint32_t, n>& ids) {
-  std::array<int, n> order;
-  for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<int>(i);
-  for (std::size_t i = 1; i < n; ++i)
-    for (std::size_t j = i; j > 0 && ids[order[j]] < ids[order[j - 1]]; --j) std::swap(order[j], order[j - 1]);
-  return order;
+/// Asks `coefficient(i)` for the sign with which the height of point i acts, in ascending order of the ids, until one
+/// is not zero.
+template <std::size_t n, class Coefficient>
+int first_nonzero(const std::array<std::uint32_t, n>& ids, const Coefficient& coefficient) {
+  std::uint64_t least_allowed = 0;
+  for (std::size_t round = 0; round < n; ++round) {
+    std::size_t best = n;
+    for (std::size_t i = 0; i < n; ++i)
+      if (ids[i] >= least_allowed && (best == n || ids[i] < ids[best])) best = i;
+    if (const int sign = coefficient(best); sign != 0) return sign;
+    least_allowed = std::uint64_t{ids[best]} + 1;
+  }
+  return 0;
 }
 
 }  // namespace
 
 int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  const double det = orient3d_filter(a, b, c, d);
-  if (det != 0) return det > 0 ? 1 : -1;
+  if (const Sign sign = orient3d_filter(a, b, c, d); sign != Sign::unknown) return static_cast<int>(sign);
   return exact_orient3d(a, b, c, d);
 }
 
 int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
-  const double det = insphere_filter(a, b, c, d, e);
-  if (det != 0) return det > 0 ? 1 : -1;
+  if (const Sign sign = insphere_filter(a, b, c, d, e); sign != Sign::unknown) return static_cast<int>(sign);
   return exact_insphere(a, b, c, d, e);
+}
+
+// With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of a
+// corner acts with the sign of the volume in which e replaces that corner, raising that of e with the sign of minus the
+// whole volume.
+int tie_of_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                    const std::array<std::uint32_t, 5>& ids) {
+  return first_nonzero(ids, [&](std::size_t i) {
+    switch (i) {
+      case 0:
+        return orient3d(e, b, c, d);
+      case 1:
+        return orient3d(a, e, c, d);
+      case 2:
+        return orient3d(a, b, e, d);
+      case 3:
+        return orient3d(a, b, c, e);
+      default:
+        return -orient3d(a, b, c, d);
+    }
+  });
 }
 
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                        const std::array<std::uint32_t, 5>& ids) {
-  if (const int sign = insphere(a, b, c, d, e); sign != 0) return sign;
-  // With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of
-  // a corner acts with the sign of the volume in which e replaces that corner, raising that of e with the sign of minus
-  // the whole volume.
-  for (const int i : ascending(ids)) {
-    int sign = 0;
-    switch (i) {
-      case 0:
-        sign = orient3d(e, b, c, d);
-        break;
-      case 1:
-        sign = orient3d(a, e, c, d);
-        break;
-      case 2:
-        sign = orient3d(a, b, e, d);
-        break;
-      case 3:
-        sign = orient3d(a, b, c, e);
-        break;
-      default:
-        sign = -orient3d(a, b, c, d);
-        break;
-    }
-    if (sign != 0) return sign;
-  }
-  return 0;
+  const int sign = insphere(a, b, c, d, e);
+  return sign != 0 ? sign : tie_of_insphere(a, b, c, d, e, ids);
 }
 
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
                        const std::array<std::uint32_t, 4>& ids) {
   if (const int sign = insphere(a, b, c, apex, d); sign != 0) return sign;
-  for (const int i : ascending(ids)) {
-    int sign = 0;
+  return first_nonzero(ids, [&](std::size_t i) {
     switch (i) {
       case 0:
-        sign = orient3d(d, b, c, apex);
-        break;
+        return orient3d(d, b, c, apex);
       case 1:
-        sign = orient3d(a, d, c, apex);
-        break;
+        return orient3d(a, d, c, apex);
       case 2:
-        sign = orient3d(a, b, d, apex);
-        break;
+        return orient3d(a, b, d, apex);
       default:
-        sign = -orient3d(a, b, c, apex);
-        break;
+        return -orient3d(a, b, c, apex);
     }
-    if (sign != 0) return sign;
-  }
-  return 0;
+  });
 }
 
 int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const Point3& a, const Point3& b,

@@ -30,6 +30,10 @@ int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                        const std::array<std::uint32_t, 5>& ids);
 
+/// What `insphere_perturbed` says once `insphere` is known to be zero.
+int tie_of_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                    const std::array<std::uint32_t, 5>& ids);
+
 /// Within a plane: for a, b, c, d exactly coplanar and `apex` off their plane with orient3d(a, b, c, apex) > 0: +1 when
 /// d is inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has
 /// none), so that the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.
