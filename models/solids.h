@@ -10,7 +10,7 @@ namespace ccdt {
 /// One of the solids that `ccdt model` knows.
 struct Solid {
   std::string_view name;
-  std::string_view what;            ///< one line for people
+  std::string_view what;  ///< one line for people
   double default_edge_length;
   InputPlc (*make)(double edge_length);
 };
@@ -19,7 +19,8 @@ struct Solid {
 std::span<const Solid> solids();
 
 /// The solid of that name with triangles of about that edge length (units of the model; <= 0: its default).
-/// \throw InputError  no such solid (the known ones are listed), or an edge length that is too coarse or too fine for it
+/// \throw InputError  no such solid (the known ones are listed), or an edge length that is too coarse or too fine for
+/// it
 InputPlc make_solid(std::string_view name, double edge_length);
 
 }  // namespace ccdt

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/plc/input.h"
+
+namespace ccdt {
+
+// The solids behind `make_solid`, one source file each. The edge length has been checked against the part's limits.
+
+/// A piston of 80 mm: crown with a bowl, three ring grooves, hollow skirt, bosses and a bore for the pin.
+/// Markers: 1 crown, 2 bowl, 3 lands, 4 grooves, 5 skirt, 6 rim, 7 cavity, 8 pin bore, 9 bosses.
+InputPlc make_piston(double edge_length);
+
+/// An angle bracket of 80 mm with holes, a gusset, round corners, a slit in its foot and an interior face between its
+/// legs. Regions: 1 foot, 2 wall. Markers: 1 foot, 2 wall, 3 bend, 4 ends, 5 sides, 6 holes, 7 gusset; inside: 8
+/// interior face, 9 slit.
+InputPlc make_bracket(double edge_length);
+
+/// A bicycle's foot peg of 120 mm: threaded stub, hexagon, collar, toothed grip, end cap with a bore.
+/// Markers: 1 thread, 2 hexagon, 3 collar, 4 teeth, 5 grooves between them, 6 flanks, 7 cap, 8 bore.
+InputPlc make_stepping_pole(double edge_length);
+
+/// The unit cube with a square grid on each face.
+InputPlc make_cube(double edge_length);
+/// The unit sphere about the origin: an icosahedron, each face divided, on the sphere.
+InputPlc make_sphere(double edge_length);
+/// Radii 1 and 0.4 about the z axis.
+InputPlc make_torus(double edge_length);
+/// Schoenhardt's polyhedron (1928): a prism over a triangle with its top turned by 30 degrees, so that its reflex edges
+/// keep it from being tetrahedralized without a Steiner vertex. Always the same 6 vertices and 8 triangles.
+InputPlc make_schoenhardt(double edge_length);
+
+}  // namespace ccdt

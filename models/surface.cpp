@@ -1,0 +1,55 @@
+#include "models/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace ccdt {
+
+std::uint32_t add_vertex(Surface& surface, const Point3& point) {
+  surface.vertices.push_back(point);
+  return static_cast<std::uint32_t>(surface.vertices.size() - 1);
+}
+
+std::uint32_t corner(Surface& surface, const Point3& point) {
+  const auto found = surface.corners.find(as_array(point));
+  if (found != surface.corners.end()) return found->second;
+  const std::uint32_t id = add_vertex(surface, point);
+  surface.corners.emplace(as_array(point), id);
+  return id;
+}
+
+void add_triangle(Surface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, int marker) {
+  surface.triangles.push_back({a, b, c});
+  surface.markers.push_back(marker);
+}
+
+double distance(const Point3& a, const Point3& b) {
+  return std::sqrt(squared_length(b - a));
+}
+
+Chain reversed(const Chain& chain) {
+  return Chain(chain.rbegin(), chain.rend());
+}
+
+Chain closed_loop(std::span<const Chain> chains) {
+  Chain loop;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const Chain& next = chains[(i + 1) % chains.size()];
+    if (chains[i].back() != next.front()) throw std::logic_error("the chains of a loop do not meet");
+    loop.insert(loop.end(), chains[i].begin(), chains[i].end() - 1);
+  }
+  return loop;
+}
+
+InputPlc to_input(Surface&& surface, InputPlc::Inside inside) {
+  InputPlc input;
+  input.inside = inside;
+  input.vertices = std::move(surface.vertices);
+  input.triangles = std::move(surface.triangles);
+  input.triangle_markers = std::move(surface.markers);
+  return input;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "engine/numbers/point.h"
+#include "engine/plc/input.h"
+
+namespace ccdt {
+
+/// A triangulated surface while it is put together from patches.
+///
+/// Patches that meet share the vertices of their common curve by index, because each curve is cut into edges once.
+struct Surface {
+  std::vector<Point3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<int> markers;                                ///< one a triangle
+  std::map<std::array<double, 3>, std::uint32_t> corners;  ///< where curves end
+};
+
+/// Vertices along a curve, in order. An open chain holds both ends; a closed one does not repeat its first vertex.
+using Chain = std::vector<std::uint32_t>;
+
+/// Adds a vertex without asking whether there is one.
+std::uint32_t add_vertex(Surface& surface, const Point3& point);
+
+/// The corner at exactly these coordinates; added when it is new.
+std::uint32_t corner(Surface& surface, const Point3& point);
+
+void add_triangle(Surface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, int marker);
+
+double distance(const Point3& a, const Point3& b);
+
+Chain reversed(const Chain& chain);
+
+/// Open chains, each of which starts where the one before ends (the last ends where the first starts), as one closed
+/// chain. \throw std::logic_error  they do not
+Chain closed_loop(std::span<const Chain> chains);
+
+/// Moves the surface into an input with triangles and markers only.
+InputPlc to_input(Surface&& surface, InputPlc::Inside inside);
+
+}  // namespace ccdt
