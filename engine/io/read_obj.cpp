@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+
+#include "engine/io/plc_formats.h"
+#include "engine/io/text_scanner.h"
+
+namespace ccdt::io {
+
+namespace {
+
+/// A corner is v, v/vt, v//vn or v/vt/vn; only v counts. From 1, or, negative, back from the last vertex so far.
+std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertices) {
+  const std::string_view word = in.word(facet), digits = word.substr(0, word.find('/'));
+  std::int64_t index = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  if (error != std::errc() || stop != digits.data() + digits.size())
+    in.fail(facet, "expected a vertex index, found " + in_quotes(word));
+  const std::int64_t count = static_cast<std::int64_t>(vertices);
+  if (index < -count || index > count || index == 0)
+    in.fail(facet,
+            "vertex index " + std::to_string(index) + " is out of range: " +
+                (count == 0 ? "no vertices come before it" : std::to_string(count) + " vertices come before it"),
+            "correct the index; vertices are numbered from 1 and must come before the facets that use them");
+  return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
+}
+
+/// Groups become markers: a name that is a whole number is the marker itself, other names get the numbers that are
+/// left, from 1 in the order of their appearance. Facets before the first group have the marker 0.
+class Groups {
+ public:
+  Groups() : names_{"0"} {}
+
+  void enter(std::string_view name) {
+    const auto [entry, is_new] = numbers_.try_emplace(std::string(name), static_cast<int>(names_.size()));
+    if (is_new) names_.emplace_back(name);
+    current_ = entry->second;
+  }
+  int current() const { return current_; }
+
+  std::vector<int> markers() const {
+    std::vector<int> markers(names_.size(), 0);
+    std::vector<bool> named(names_.size(), false);
+    std::set<int> used = {0};
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const std::string& name = names_[i];
+      const char* end = name.data() + name.size();
+      const auto [stop, error] = std::from_chars(name.data(), end, markers[i]);
+      named[i] = error == std::errc() && stop == end;
+      if (named[i]) used.insert(markers[i]);
+    }
+    int next = 1;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (named[i]) continue;
+      while (used.contains(next)) ++next;
+      markers[i] = next++;
+    }
+    return markers;
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, int> numbers_;
+  int current_ = 0;
+};
+
+void read_face(TextScanner& in, InputPlc& plc, std::uint32_t number, int group, std::vector<std::uint32_t>& corners) {
+  const Item facet{"facet", number};
+  corners.clear();
+  while (!in.at_line_end()) corners.push_back(read_corner(in, facet, plc.vertices.size()));
+  if (corners.size() < 3) in.fail(facet, "it has " + std::to_string(corners.size()) + " corners, but needs three");
+  add_facet(plc, corners, group, number);
+}
+
+}  // namespace
+
+InputPlc read_obj(const FileBytes& file) {
+  InputPlc plc;
+  Groups groups;
+  TextScanner in(file);
+  in.join_lines_at_backslash();
+  std::uint32_t faces = 0;
+  std::vector<std::uint32_t> corners;
+  while (!in.at_end()) {
+    const std::string_view keyword = in.word({"statement"});
+    if (keyword == "v") {
+      const Item vertex{"vertex", static_cast<std::int64_t>(plc.vertices.size())};
+      plc.vertices.push_back(in.point(vertex));
+      in.skip_line();
+    } else if (keyword == "f") {
+      read_face(in, plc, faces++, groups.current(), corners);
+    } else if (keyword == "g" || keyword == "o") {
+      groups.enter(in.rest_of_line());
+    } else {
+      while (!in.at_line_end()) in.word({"statement"});  // a joined line is one line
+      in.skip_line();
+    }
+  }
+  const std::vector<int> markers = groups.markers();
+  for (int& group : plc.triangle_markers) group = markers[static_cast<std::size_t>(group)];
+  for (PolygonFacet& facet : plc.polygon_facets) facet.marker = markers[static_cast<std::size_t>(facet.marker)];
+  finish_facets(plc);
+  return plc;
+}
+
+}  // namespace ccdt::io

@@ -1,0 +1,66 @@
+#include "engine/io/plc_formats.h"
+#include "engine/io/text_scanner.h"
+
+namespace ccdt::io {
+
+namespace {
+
+/// The keyword is [ST][C][N][4][n]OFF and may be missing. Texture coordinates, colours and normals follow the
+/// coordinates on a vertex's line and are skipped; four-dimensional, n-dimensional and binary files are refused.
+void read_keyword(TextScanner& in) {
+  const Item header{"header"};
+  const std::string_view first = in.peek();
+  if (first.size() < 3 || !equal_ignoring_case(first.substr(first.size() - 3), "off")) {
+    if (!first.empty() && first[0] >= '0' && first[0] <= '9') return;
+    const std::string_view found = in.word(header);
+    in.fail(header, "expected 'OFF', found " + in_quotes(found), "check that this is an OFF file");
+  }
+  std::string_view prefix = in.word(header);
+  prefix.remove_suffix(3);
+  for (const std::string_view part : {"ST", "C", "N"})
+    if (prefix.starts_with(part)) prefix.remove_prefix(part.size());
+  if (!prefix.empty())
+    in.fail(header, "OFF with the prefix " + in_quotes(prefix) + " is not supported",
+            "export it as plain three-dimensional OFF");
+  if (!in.at_line_end() && equal_ignoring_case(in.peek(), "binary")) {
+    in.word(header);
+    in.fail(header, "binary OFF is not supported", "export it as text");
+  }
+}
+
+void read_face(TextScanner& in, std::uint32_t number, InputPlc& plc, std::vector<std::uint32_t>& corners) {
+  const Item facet{"facet", number};
+  corners.resize(in.count(facet, 2));
+  if (corners.empty()) in.fail(facet, "it has no corners");
+  for (std::uint32_t& corner : corners) corner = in.index(facet, 0, plc.vertices.size());
+  in.skip_line();  // a colour
+  add_facet(plc, corners, 0, number);
+}
+
+}  // namespace
+
+InputPlc read_off(const FileBytes& file) {
+  InputPlc plc;
+  TextScanner in(file);
+  read_keyword(in);
+  const std::size_t vertices = in.count({"number of vertices"}, 6), faces = in.count({"number of facets"}, 4);
+  in.skip_line();  // the number of edges, which may be missing and says nothing
+  plc.vertices.reserve(vertices);
+  plc.triangles.reserve(faces);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    plc.vertices.push_back(in.point({"vertex", static_cast<std::int64_t>(i)}));
+    in.skip_line();
+  }
+  std::vector<std::uint32_t> corners;
+  for (std::size_t i = 0; i < faces; ++i) read_face(in, static_cast<std::uint32_t>(i), plc, corners);
+  if (!in.at_end()) {
+    const Item end{"end of the file"};
+    const std::string_view found = in.word(end);
+    in.fail(end, "found " + in_quotes(found) + " after the last of " + std::to_string(faces) + " facets",
+            "correct the counts in the header, or export the file again");
+  }
+  finish_facets(plc);
+  return plc;
+}
+
+}  // namespace ccdt::io

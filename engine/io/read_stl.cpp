@@ -1,0 +1,130 @@
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "engine/base/errors.h"
+#include "engine/io/merge_vertices.h"
+#include "engine/io/plc_formats.h"
+#include "engine/io/text_scanner.h"
+
+namespace ccdt::io {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "binary STL is copied as it is in memory");
+
+constexpr std::size_t header_size = 84, facet_size = 50, first_corner = 12, corner_size = 12;
+
+template <class T>
+T value_at(const FileBytes& file, std::size_t byte) {
+  T value;
+  std::memcpy(&value, file.bytes.data() + byte, sizeof value);
+  return value;
+}
+
+/// Text begins with `solid` and has no control characters. A binary header may begin with `solid`, too, but a
+/// count or a coordinate soon has a byte that no text has.
+bool looks_like_text(const FileBytes& file) {
+  std::string_view start = std::string_view(file.bytes).substr(0, 1024);
+  for (const char c : start)
+    if (static_cast<unsigned char>(c) < 32 && (c < '\t' || c > '\r')) return false;
+  start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+  return equal_ignoring_case(start.substr(0, 5), "solid");
+}
+
+bool has_binary_size(const FileBytes& file) {
+  if (file.bytes.size() < header_size) return false;
+  const std::size_t needed = header_size + facet_size * value_at<std::uint32_t>(file, 80);
+  // Some writers pad the end; a whole facet more would be data that nobody reads.
+  return file.bytes.size() >= needed && file.bytes.size() - needed < facet_size;
+}
+
+[[noreturn]] void fail_for_size(const FileBytes& file) {
+  const std::size_t size = file.bytes.size();
+  const std::string remedy = "copy or export the file again";
+  if (size < header_size)
+    fail_at_byte(file, size,
+                 "the file is truncated, or no STL: " + std::to_string(size) +
+                     " bytes, but a binary STL begins with a header of 84 bytes and a text STL with 'solid'",
+                 remedy);
+  const std::size_t count = value_at<std::uint32_t>(file, 80), needed = header_size + facet_size * count;
+  const std::string claim = "the header claims " + std::to_string(count) + " triangles (" + std::to_string(needed) +
+                            " bytes), but the file has " + std::to_string(size) + " bytes";
+  if (needed > size)
+    fail_at_byte(file, size, claim + ": it is truncated, or its count is wrong", remedy,
+                 {static_cast<long long>((size - header_size) / facet_size)});
+  fail_at_byte(file, needed, claim + ": the rest would be lost", remedy);
+}
+
+InputPlc read_binary(const FileBytes& file) {
+  const std::size_t count = value_at<std::uint32_t>(file, 80);
+  InputPlc plc;
+  plc.triangles.reserve(count);
+  VertexMerger merger(plc.vertices);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<std::uint32_t, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t byte = header_size + i * facet_size + first_corner + k * corner_size;
+      const auto xyz = value_at<std::array<float, 3>>(file, byte);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(xyz[axis]))
+          fail_at_byte(file, byte + 4 * axis,
+                       "facet " + std::to_string(i) + ": a coordinate is not a finite number (NaN or infinite)",
+                       "repair this facet, or export the file again", {static_cast<long long>(i)});
+      corners[k] = merger.index_of({xyz[0], xyz[1], xyz[2]});
+    }
+    plc.triangles.push_back(corners);
+  }
+  return plc;
+}
+
+void expect(TextScanner& in, const Item& facet, std::string_view keyword) {
+  const std::string_view found = in.word(facet);
+  if (!equal_ignoring_case(found, keyword))
+    in.fail(facet, "expected '" + std::string(keyword) + "', found " + in_quotes(found));
+}
+
+std::array<std::uint32_t, 3> read_text_facet(TextScanner& in, const Item& facet, VertexMerger& merger) {
+  expect(in, facet, "normal");
+  for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and nobody needs them
+  expect(in, facet, "outer");
+  expect(in, facet, "loop");
+  std::array<std::uint32_t, 3> corners;
+  for (std::uint32_t& corner : corners) {
+    expect(in, facet, "vertex");
+    corner = merger.index_of(in.point(facet));
+  }
+  expect(in, facet, "endloop");
+  expect(in, facet, "endfacet");
+  return corners;
+}
+
+InputPlc read_text(const FileBytes& file) {
+  InputPlc plc;
+  VertexMerger merger(plc.vertices);
+  TextScanner in(file, TextScanner::no_comments);
+  while (!in.at_end()) {
+    expect(in, {"start of a solid"}, "solid");
+    in.skip_line();  // its name, which may be anything
+    while (true) {
+      const Item facet{"facet", static_cast<std::int64_t>(plc.triangles.size())};
+      const std::string_view keyword = in.word(facet);
+      if (equal_ignoring_case(keyword, "endsolid")) break;
+      if (!equal_ignoring_case(keyword, "facet"))
+        in.fail(facet, "expected 'facet' or 'endsolid', found " + in_quotes(keyword));
+      plc.triangles.push_back(read_text_facet(in, facet, merger));
+    }
+    in.skip_line();
+  }
+  return plc;
+}
+
+}  // namespace
+
+InputPlc read_stl(const FileBytes& file) {
+  if (has_binary_size(file)) return read_binary(file);  // also when its header begins with `solid`
+  if (looks_like_text(file)) return read_text(file);
+  fail_for_size(file);
+}
+
+}  // namespace ccdt::io

@@ -1,0 +1,198 @@
+#include "engine/io/text_scanner.h"
+
+#include <algorithm>
+#include <charconv>
+#include <climits>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/base/errors.h"
+
+namespace ccdt::io {
+
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+bool is_space(char c) {
+  return is_blank(c) || c == '\n';
+}
+
+constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits and one value means none
+
+std::string name_of(const Item& item) {
+  std::string name(item.kind);
+  if (item.number >= 0) name += " " + std::to_string(item.number);
+  return name;
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view word) {
+  std::string result = "'";
+  for (const char c : word.substr(0, 40)) result += c >= 32 && c < 127 ? c : '?';
+  return result + (word.size() > 40 ? "...'" : "'");
+}
+
+bool equal_ignoring_case(std::string_view a, std::string_view lower) {
+  return std::equal(a.begin(), a.end(), lower.begin(), lower.end(),
+                    [](char x, char y) { return (x >= 'A' && x <= 'Z' ? x - 'A' + 'a' : x) == y; });
+}
+
+TextScanner::TextScanner(const FileBytes& file, int comment, std::size_t begin, std::size_t end)
+    : file_(file),
+      text_(file.bytes),
+      position_(std::min(begin, file.bytes.size())),
+      end_(std::min(end, file.bytes.size())),
+      word_begin_(position_),
+      comment_(comment) {}
+
+void TextScanner::skip_blanks(bool also_lines) {
+  while (position_ < end_) {
+    const char c = text_[position_];
+    if (is_blank(c) || (also_lines && c == '\n')) {
+      ++position_;
+    } else if (also_lines && static_cast<unsigned char>(c) == comment_) {
+      skip_line();
+    } else if (joins_lines_ && c == '\\') {
+      std::size_t next = position_ + 1;
+      if (next < end_ && text_[next] == '\r') ++next;
+      if (next >= end_ || text_[next] != '\n') return;
+      position_ = next + 1;
+    } else {
+      return;
+    }
+  }
+}
+
+bool TextScanner::at_end() {
+  skip_blanks(true);
+  return position_ >= end_;
+}
+
+bool TextScanner::at_line_end() {
+  skip_blanks(false);
+  return position_ >= end_ || text_[position_] == '\n' || static_cast<unsigned char>(text_[position_]) == comment_;
+}
+
+void TextScanner::skip_line() {
+  position_ = std::min(text_.find('\n', position_), end_);
+  if (position_ < end_) ++position_;
+}
+
+std::string_view TextScanner::rest_of_line() {
+  skip_blanks(false);
+  word_begin_ = position_;
+  skip_line();
+  std::string_view rest = text_.substr(word_begin_, position_ - word_begin_);
+  while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
+  return rest;
+}
+
+std::string_view TextScanner::word(const Item& item) {
+  skip_blanks(true);
+  if (position_ >= end_) fail_truncated(item);
+  word_begin_ = position_;
+  while (position_ < end_ && !is_space(text_[position_]) && static_cast<unsigned char>(text_[position_]) != comment_)
+    ++position_;
+  return text_.substr(word_begin_, position_ - word_begin_);
+}
+
+std::string_view TextScanner::peek() {
+  if (at_end()) return {};
+  const std::size_t before = position_;
+  const std::string_view next = word({"word"});
+  position_ = before;
+  return next;
+}
+
+std::optional<double> TextScanner::parse_number(std::string_view word) const {
+  const char *begin = word.data(), *end = begin + word.size();
+  if (word.size() > 1 && word[0] == '+') ++begin;
+  double value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end) return std::nullopt;
+  // Too large for a double or too small: strtod tells which; from_chars has already seen that the form is right.
+  if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
+  if (error != std::errc()) return std::nullopt;
+  return value;
+}
+
+double TextScanner::number(const Item& item) {
+  const std::string_view found = word(item);
+  const std::optional<double> value = parse_number(found);
+  if (!value) fail(item, expected("a number", found));
+  if (!std::isfinite(*value))
+    fail(item, in_quotes(found) + " is not a finite number", "correct this number, or export the file again");
+  return *value;
+}
+
+Point3 TextScanner::point(const Item& item) {
+  const double x = number(item), y = number(item), z = number(item);
+  return {x, y, z};
+}
+
+std::int64_t TextScanner::integer(const Item& item) {
+  const std::string_view found = word(item);
+  const char *begin = found.data(), *end = begin + found.size();
+  if (found.size() > 1 && found[0] == '+') ++begin;
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end) fail(item, expected("a whole number", found));
+  return value;
+}
+
+int TextScanner::attribute(const Item& item) {
+  const double value = number(item);
+  if (value != std::floor(value) || value < INT_MIN || value > INT_MAX)
+    fail(item, expected("a whole number of 32 bits", text_.substr(word_begin_, position_ - word_begin_)),
+         "number regions and markers by whole numbers");
+  return static_cast<int>(value);
+}
+
+std::uint32_t TextScanner::index(const Item& item, std::int64_t first, std::size_t count) {
+  const std::int64_t value = integer(item);
+  if (value < first || value - first >= static_cast<std::int64_t>(count)) {
+    const std::string range = count == 0 ? "the file has no vertices"
+                                         : "the file's vertices are " + std::to_string(first) + " to " +
+                                               std::to_string(first + static_cast<std::int64_t>(count) - 1);
+    fail(item, "vertex index " + std::to_string(value) + " is out of range: " + range);
+  }
+  return static_cast<std::uint32_t>(value - first);
+}
+
+std::size_t TextScanner::count(const Item& item, std::size_t least_bytes_each) {
+  const std::int64_t value = integer(item);
+  if (value < 0) fail(item, std::to_string(value) + " is negative");
+  const std::size_t result = static_cast<std::size_t>(value);
+  if (result > most_things) fail(item, std::to_string(value) + " is more than " + std::to_string(most_things));
+  if (result * least_bytes_each > remaining() + 1)  // the last one needs no line end
+    fail(item,
+         std::to_string(value) + " claimed, which need at least " + std::to_string(result * least_bytes_each) +
+             " bytes, but only " + std::to_string(remaining()) + " bytes follow",
+         "the file is truncated or its header is wrong: export it again");
+  return result;
+}
+
+std::string TextScanner::expected(const char* what, std::string_view found) const {
+  return std::string("expected ") + what + ", found " + in_quotes(found);
+}
+
+void TextScanner::fail(const Item& item, const std::string& what, const std::string& remedy) const {
+  Place place = place_in(file_.name);
+  place.line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(word_begin_), '\n');
+  if (item.kind == "facet" && item.number >= 0) place.facets = {item.number};
+  throw InputError(name_of(item) + ": " + what, std::move(place), remedy);
+}
+
+void TextScanner::fail_truncated(const Item& item) const {
+  Place place = place_in(file_.name);
+  place.line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end_), '\n');
+  place.byte = static_cast<long long>(end_);
+  if (item.kind == "facet" && item.number >= 0) place.facets = {item.number};
+  throw InputError("the file is truncated: it ends within or before " + name_of(item), std::move(place),
+                   "copy or export the file again");
+}
+
+}  // namespace ccdt::io

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/io/file_bytes.h"
+#include "engine/numbers/point.h"
+
+namespace ccdt::io {
+
+/// What is being read, for messages: "vertex 17". A number of -1 is not told. Items of the kind "facet" also go into
+/// the place of the error.
+struct Item {
+  std::string_view kind;
+  std::int64_t number = -1;
+};
+
+/// Walks over the words of a text. It knows no formats, but it knows where it is: all errors carry the file and the
+/// line, which is counted only when an error needs it.
+class TextScanner {
+ public:
+  static constexpr int no_comments = -1;
+
+  /// \param begin,end  the part of the file that is text
+  /// \param comment    from this character on, the rest of a line is a comment
+  explicit TextScanner(const FileBytes& file, int comment = '#', std::size_t begin = 0,
+                       std::size_t end = std::string::npos);
+
+  /// A backslash at the end of a line joins it with the next one (as in OBJ).
+  void join_lines_at_backslash() { joins_lines_ = true; }
+
+  /// Skips blanks, line ends and comments; is nothing left?
+  bool at_end();
+  /// Skips blanks; is nothing left on this line but a comment?
+  bool at_line_end();
+  void skip_line();
+  /// The rest of the line without blanks around it; goes to the next line.
+  std::string_view rest_of_line();
+
+  /// The next word, wherever it is. \throw InputError  the text ends
+  std::string_view word(const Item& item);
+  /// The next word without moving on; empty at the end.
+  std::string_view peek();
+
+  double number(const Item& item);  ///< finite
+  Point3 point(const Item& item);
+  std::int64_t integer(const Item& item);
+  /// A whole number that fits an int; also written as "3.0".
+  int attribute(const Item& item);
+  /// An index from `first` to `first + count - 1`, returned from 0.
+  std::uint32_t index(const Item& item, std::int64_t first, std::size_t count);
+  /// How many of something follow. Each needs at least so many bytes, which the rest of the file must have.
+  std::size_t count(const Item& item, std::size_t least_bytes_each);
+
+  std::size_t position() const { return position_; }
+  std::size_t remaining() const { return end_ - position_; }
+  [[noreturn]] void fail(const Item& item, const std::string& what, const std::string& remedy = malformed_remedy) const;
+  [[noreturn]] void fail_truncated(const Item& item) const;
+
+  static constexpr const char* malformed_remedy = "correct this line, or export the file again";
+
+ private:
+  void skip_blanks(bool also_lines);
+  std::optional<double> parse_number(std::string_view word) const;
+  std::string expected(const char* what, std::string_view found) const;
+
+  const FileBytes& file_;
+  std::string_view text_;
+  std::size_t position_, end_;
+  std::size_t word_begin_;  ///< of the last word, where errors are
+  int comment_;
+  bool joins_lines_ = false;
+};
+
+/// A word for a message: in quotes, shortened, unprintable characters replaced.
+std::string in_quotes(std::string_view word);
+
+/// Are the words equal but for upper and lower case?
+bool equal_ignoring_case(std::string_view a, std::string_view lower);
+
+}  // namespace ccdt::io
