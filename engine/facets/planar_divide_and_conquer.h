@@ -137,7 +137,8 @@ class DivideAndConquer {
     if (!is_right_of(rings_.target(candidate), base)) return candidate;
     for (;;) {
       const Edge next = rings_.next_around[candidate];
-      if (predicates_.incircle(rings_.target(base), rings_.origin(base), rings_.target(candidate),
+      if (next == EdgeRings::reverse(base) ||
+          predicates_.incircle(rings_.target(base), rings_.origin(base), rings_.target(candidate),
                                rings_.target(next)) <= 0) {
         return candidate;
       }
@@ -151,8 +152,8 @@ class DivideAndConquer {
     if (!is_right_of(rings_.target(candidate), base)) return candidate;
     for (;;) {
       const Edge next = rings_.previous_around[candidate];
-      if (predicates_.incircle(rings_.target(base), rings_.origin(base), rings_.target(candidate),
-                               rings_.target(next)) <= 0) {
+      if (next == base || predicates_.incircle(rings_.target(base), rings_.origin(base), rings_.target(candidate),
+                                               rings_.target(next)) <= 0) {
         return candidate;
       }
       rings_.remove(candidate);

@@ -1,0 +1,191 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "engine/facets/planar_triangulation.h"
+
+namespace ccdt::planar_test {
+
+struct IntegerPoint {
+  std::int64_t x, y;
+  auto operator<=>(const IntegerPoint&) const = default;
+};
+
+/// Points with integer coordinates (of at most 2^20, say) as a model of `PlanarPredicates`, written as plainly as
+/// possible. It counts how often it is asked.
+struct IntegerPlane {
+  std::vector<IntegerPoint> points;
+  mutable std::size_t calls = 0;
+
+  std::int64_t area(VertexId a, VertexId b, VertexId c) const {
+    const IntegerPoint &p = points[a], &q = points[b], &r = points[c];
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  }
+
+  int orient(VertexId a, VertexId b, VertexId c) const {
+    ++calls;
+    const std::int64_t twice = area(a, b, c);
+    return (twice > 0) - (twice < 0);
+  }
+
+  int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    ++calls;
+    const std::array<VertexId, 4> ids{a, b, c, d};
+    std::array<std::int64_t, 4> heights;
+    for (std::size_t i = 0; i < 4; ++i)
+      heights[i] = points[ids[i]].x * points[ids[i]].x + points[ids[i]].y * points[ids[i]].y;
+    if (const int sign = lifted_sign(ids, heights)) return sign;
+    // A tie: the lifted point of the smallest id is raised by the most.
+    std::array<std::size_t, 4> order{0, 1, 2, 3};
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ids[i] < ids[j]; });
+    for (std::size_t raised : order) {
+      std::array<std::int64_t, 4> change{};
+      change[raised] = 1;
+      if (const int sign = lifted_sign(ids, change)) return sign;
+    }
+    return 0;
+  }
+
+ private:
+  /// The sign of the determinant of the rows (x, y, height, 1): positive if d is below the plane of the lifted a, b, c.
+  /// Expanded along the heights.
+  int lifted_sign(const std::array<VertexId, 4>& ids, const std::array<std::int64_t, 4>& heights) const {
+    __extension__ __int128 determinant = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<VertexId, 3> rest;
+      std::size_t count = 0;
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (j != i) rest[count++] = ids[j];
+      }
+      determinant +=
+          static_cast<decltype(determinant)>(i % 2 == 0 ? heights[i] : -heights[i]) * area(rest[0], rest[1], rest[2]);
+    }
+    return (determinant > 0) - (determinant < 0);
+  }
+};
+
+using Triangles = std::vector<std::array<VertexId, 3>>;
+
+inline std::vector<VertexId> all_vertices(const IntegerPlane& plane) {
+  std::vector<VertexId> vertices;
+  for (std::size_t i = 0; i < plane.points.size(); ++i) vertices.emplace_back(i);
+  return vertices;
+}
+
+inline PlanarEdge edge(std::uint32_t a, std::uint32_t b) {
+  return {VertexId(a), VertexId(b)};
+}
+inline std::array<VertexId, 3> triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  return {VertexId(a), VertexId(b), VertexId(c)};
+}
+
+/// The triangles in a form that can be compared: each from its smallest vertex on, and sorted.
+inline Triangles canonical(const PlanarTriangulation& t) {
+  Triangles triangles = t.triangles;
+  for (auto& corners : triangles)
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+inline std::int64_t twice_area(const PlanarTriangulation& t, const IntegerPlane& plane) {
+  std::int64_t sum = 0;
+  for (const auto& [a, b, c] : t.triangles) sum += plane.area(a, b, c);
+  return sum;
+}
+
+inline bool has_constrained(const PlanarTriangulation& t, VertexId a, VertexId b) {
+  const auto side = planar_find_edge(t, a, b);
+  return side && t.constrained[side->triangle][side->corner];
+}
+
+/// Everything that must always hold of a triangulation: adjacency from both sides, maps that find what is there,
+/// counterclockwise triangles.
+inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane) {
+  ASSERT_EQ(t.neighbors.size(), t.triangles.size());
+  ASSERT_EQ(t.constrained.size(), t.triangles.size());
+  const PlanarTriangulation rebuilt = planar_from_triangles(t.triangles);
+  EXPECT_EQ(t.neighbors, rebuilt.neighbors);
+  for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
+    const auto& [a, b, c] = t.triangles[i];
+    EXPECT_EQ(plane.orient(a, b, c), 1);
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const VertexId from = t.triangles[i][(corner + 1) % 3], to = t.triangles[i][(corner + 2) % 3];
+      const auto& around = t.triangles[t.triangle_of_vertex.get(from)];
+      EXPECT_NE(std::find(around.begin(), around.end(), from), around.end());
+      if (const auto other = planar_other_side(t, {i, corner})) {
+        EXPECT_EQ(t.constrained[other->triangle][other->corner], t.constrained[i][corner]);
+      }
+      const auto found = planar_find_edge(t, to, from);
+      ASSERT_TRUE(found);
+      const auto found_other = planar_other_side(t, *found);
+      EXPECT_TRUE((found->triangle == i && found->corner == corner) ||
+                  (found_other && found_other->triangle == i && found_other->corner == corner));
+    }
+  }
+}
+
+/// Constrained Delaunay, by the definition of its edges.
+inline void expect_locally_delaunay(const PlanarTriangulation& t, const IntegerPlane& plane) {
+  for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
+    const auto& [a, b, c] = t.triangles[i];
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const auto other = planar_other_side(t, {i, corner});
+      if (!other || t.constrained[i][corner]) continue;
+      EXPECT_LT(plane.incircle(a, b, c, t.triangles[other->triangle][other->corner]), 0);
+    }
+  }
+}
+
+/// Delaunay by the definition of its triangles: no vertex at all in any circumcircle.
+inline void expect_empty_circles(const PlanarTriangulation& t, const IntegerPlane& plane) {
+  for (const auto& [a, b, c] : t.triangles) {
+    for (VertexId d : all_vertices(plane)) {
+      if (d == a || d == b || d == c) continue;
+      EXPECT_LT(plane.incircle(a, b, c, d), 0);
+    }
+  }
+}
+
+// ---- Point sets -----------------------------------------------------------------------------------------------------
+
+inline IntegerPlane random_points(std::size_t count, std::int64_t extent, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::set<IntegerPoint> different;
+  IntegerPlane plane;
+  while (plane.points.size() < count) {
+    const IntegerPoint p{static_cast<std::int64_t>(random() % static_cast<std::uint32_t>(extent)),
+                         static_cast<std::int64_t>(random() % static_cast<std::uint32_t>(extent))};
+    if (different.insert(p).second) plane.points.push_back(p);
+  }
+  return plane;
+}
+
+inline IntegerPlane square_grid(std::int64_t side) {
+  IntegerPlane plane;
+  for (std::int64_t y = 0; y < side; ++y) {
+    for (std::int64_t x = 0; x < side; ++x) plane.points.push_back({x, y});
+  }
+  return plane;
+}
+
+/// All integer points on a circle around the origin.
+inline IntegerPlane circle_points(std::int64_t radius) {
+  IntegerPlane plane;
+  for (std::int64_t x = -radius; x <= radius; ++x) {
+    for (std::int64_t y = -radius; y <= radius; ++y) {
+      if (x * x + y * y == radius * radius) plane.points.push_back({x, y});
+    }
+  }
+  return plane;
+}
+
+}  // namespace ccdt::planar_test
