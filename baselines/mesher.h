@@ -1,22 +1,29 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/mesher.h"
 
 namespace ccdt {
 
+/// What a mesher made, and how it was asked to.
+struct MesherRun {
+  MeshResult result;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< in the mesher's own words, e.g. {"switches", "pQ"}
+  std::vector<std::string> notes;  ///< what a reader of the result has to know, one sentence each
+};
+
 /// One way to make a tetrahedral mesh: our engine or somebody else's program, behind one function.
 struct Mesher {
-  std::string name;                                                       ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay
-  std::string version;                                                    ///< of the library
-  std::string what;                                                       ///< one line for people
+  std::string name;     ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay
+  std::string version;  ///< of the library
+  std::string what;     ///< one line for people
   std::string licence;
-  MeshResult (*run)(const InputPlc&, const MeshOptions&, const Progress&);  ///< throws as `mesh_plc`
+  MesherRun (*run)(const InputPlc&, const MeshOptions&, const Progress&);  ///< throws as `mesh_plc`
 };
 
 /// All meshers that this build has, ours first.

@@ -1,0 +1,60 @@
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/version.h>
+
+#include <chrono>
+
+#include "baselines/common.h"
+#include "baselines/known_meshers.h"
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
+using DataStructure =
+    CGAL::Triangulation_data_structure_3<VertexBase, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, DataStructure>;
+
+MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions&, const Progress& progress) {
+  const InputPlc merged = merge_equal_vertices(input);
+  std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
+  points.reserve(merged.vertices.size());
+  for (const Point3& p : merged.vertices)
+    points.emplace_back(Kernel::Point_3(p.x, p.y, p.z), static_cast<std::uint32_t>(points.size()));
+
+  report(progress, "delaunay", 0, 0);
+  const auto begin = std::chrono::steady_clock::now();
+  Triangulation triangulation(points.begin(), points.end());  // sorts along a Hilbert curve itself
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  MesherRun run;
+  run.result.seconds.delaunay = run.result.seconds.mesh = seconds;
+  run.settings = {{"kernel", "Exact_predicates_inexact_constructions_kernel"}, {"order", "Hilbert curve (median)"}};
+  run.notes = {"the Delaunay tetrahedralization of the vertices fills their convex hull and knows no facets"};
+  TetMesh& mesh = run.result.mesh;
+  mesh.vertices = merged.vertices;
+  mesh.tetrahedra.reserve(triangulation.number_of_finite_cells());
+  for (const auto cell : triangulation.finite_cell_handles())
+    mesh.tetrahedra.push_back(
+        {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
+  mesh.regions.assign(mesh.tetrahedra.size(), 0);
+  if (mesh.tetrahedra.empty()) {
+    Place place;
+    place.file = input.name;
+    throw MeshError("the vertices are all in one plane and have no tetrahedra", place, "give a solid");
+  }
+  run.result.counts = count_elements(merged, mesh);
+  return run;
+}
+
+}  // namespace
+
+Mesher cgal_delaunay_mesher() {
+  return {"cgal-delaunay", CGAL_VERSION_STR, "CGAL Delaunay_triangulation_3 of the vertices alone (their convex hull)",
+          "GPL-3.0-or-later", run_cgal_delaunay};
+}
+
+}  // namespace ccdt

@@ -1,0 +1,184 @@
+// Mesh_3 is by far the longest compilation of the project: nothing else belongs in this file.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_criteria_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polyhedral_complex_mesh_domain_3.h>
+#include <CGAL/make_mesh_3.h>
+#include <CGAL/version.h>
+
+#include <chrono>
+#include <map>
+#include <unordered_map>
+
+#include "baselines/common.h"
+#include "baselines/known_meshers.h"
+#include "engine/base/errors.h"
+#include "engine/plc/build_plc.h"
+
+namespace ccdt {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Polyhedron = CGAL::Mesh_polyhedron_3<Kernel>::type;
+using Domain = CGAL::Polyhedral_complex_mesh_domain_3<Kernel>;
+using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Sequential_tag>::type;
+using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
+using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
+namespace parameters = CGAL::parameters;
+
+/// What bounds the refinement. Sizes are radii of circumscribed spheres; a mesh whose largest radius is the edge length
+/// has edges of about that length on average.
+struct Sizes {
+  double feature_angle = 60;  ///< degrees between normals from which an edge is sharp: the library's default
+  double edge, facet_angle = 25, facet, facet_distance, cell_radius_edge = 3, cell;  ///< angle and ratio: its manual's
+
+  explicit Sizes(double edge_length)
+      : edge(edge_length), facet(edge_length), facet_distance(edge_length / 10), cell(edge_length) {}
+};
+
+/// The triangles between one pair of chambers, all with the first below (where their normals come from) and the second
+/// above.
+struct Patch {
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::unordered_map<std::uint32_t, std::size_t> index;
+
+  std::size_t add(const Plc& plc, VertexId v) {
+    const auto [entry, is_new] = index.try_emplace(v.value, points.size());
+    const Point3& p = plc.world[v];
+    if (is_new) points.emplace_back(p.x, p.y, p.z);
+    return entry->second;
+  }
+};
+
+using Sides = std::pair<int, int>;  ///< subdomains below and above; 0 is outside
+
+std::map<Sides, Patch> patches_of(const Plc& plc) {
+  const auto subdomain = [&](ChamberId c) { return plc.chambers[c].inside ? static_cast<int>(c.value) + 1 : 0; };
+  std::map<Sides, Patch> patches;
+  for (const Facet& facet : plc.facets) {
+    Sides sides{subdomain(facet.below), subdomain(facet.above)};
+    if (sides.first == 0 && sides.second == 0) continue;  // in a hole
+    const bool flip = sides.first < sides.second;
+    if (flip) std::swap(sides.first, sides.second);
+    Patch& patch = patches[sides];
+    for (const auto& triangle : facet.triangles) {
+      std::array<std::size_t, 3> corners{};
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = patch.add(plc, triangle[i]);
+      if (flip) std::swap(corners[0], corners[1]);
+      patch.triangles.push_back(corners);
+    }
+  }
+  return patches;
+}
+
+Polyhedron polyhedron_of(Patch& patch) {
+  namespace pmp = CGAL::Polygon_mesh_processing;
+  // Splits vertices and edges at which the patch is not a manifold.
+  pmp::orient_polygon_soup(patch.points, patch.triangles);
+  Polyhedron polyhedron;
+  pmp::polygon_soup_to_polygon_mesh(patch.points, patch.triangles, polyhedron);
+  return polyhedron;
+}
+
+/// The vertices of a triangulation in the order in which they were asked for.
+class VertexNumbers {
+ public:
+  explicit VertexNumbers(TetMesh& mesh) : mesh_(mesh) {}
+
+  std::uint32_t operator()(Triangulation::Vertex_handle v) {
+    const auto [entry, is_new] = numbers_.try_emplace(&*v, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    const auto& p = v->point();
+    if (is_new) mesh_.vertices.push_back({p.x(), p.y(), p.z()});
+    return entry->second;
+  }
+
+ private:
+  TetMesh& mesh_;
+  std::unordered_map<const void*, std::uint32_t> numbers_;
+};
+
+TetMesh read_back(const Complex& complex, const Plc& plc) {
+  TetMesh mesh;
+  VertexNumbers number(mesh);
+  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
+    mesh.tetrahedra.push_back(
+        {number(cell->vertex(0)), number(cell->vertex(1)), number(cell->vertex(2)), number(cell->vertex(3))});
+    mesh.regions.push_back(plc.chambers[static_cast<std::size_t>(complex.subdomain_index(cell) - 1)].region);
+  }
+  for (auto facet = complex.facets_in_complex_begin(); facet != complex.facets_in_complex_end(); ++facet) {
+    std::array<std::uint32_t, 3> corners{};
+    for (int i = 0; i < 3; ++i)
+      corners[static_cast<std::size_t>(i)] = number(facet->first->vertex((facet->second + 1 + i) % 4));
+    mesh.faces.push_back(corners);
+  }
+  for (auto edge = complex.edges_in_complex_begin(); edge != complex.edges_in_complex_end(); ++edge)
+    mesh.edges.push_back({number(edge->first->vertex(edge->second)), number(edge->first->vertex(edge->third))});
+  mesh.face_markers.assign(mesh.faces.size(), 0);
+  mesh.edge_markers.assign(mesh.edges.size(), 0);
+  orient_positively(mesh);
+  return mesh;
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const Sizes& sizes) {
+  return {{"domain", "Polyhedral_complex_mesh_domain_3"},
+          {"feature_angle", digits(sizes.feature_angle)},
+          {"edge_size", digits(sizes.edge)},
+          {"facet_angle", digits(sizes.facet_angle)},
+          {"facet_size", digits(sizes.facet)},
+          {"facet_distance", digits(sizes.facet_distance)},
+          {"cell_radius_edge_ratio", digits(sizes.cell_radius_edge)},
+          {"cell_size", digits(sizes.cell)},
+          {"perturb", "on (library default)"},
+          {"exude", "on (library default)"}};
+}
+
+Complex refine(const std::map<Sides, Patch>& patches, const Sizes& sizes) {
+  std::vector<Polyhedron> polyhedra;
+  std::vector<Sides> sides;
+  for (auto [key, patch] : patches) {
+    polyhedra.push_back(polyhedron_of(patch));
+    sides.push_back(key);
+  }
+  Domain domain(polyhedra.begin(), polyhedra.end(), sides.begin(), sides.end());
+  domain.detect_features(sizes.feature_angle);
+  const Criteria criteria(parameters::edge_size = sizes.edge, parameters::facet_angle = sizes.facet_angle,
+                          parameters::facet_size = sizes.facet, parameters::facet_distance = sizes.facet_distance,
+                          parameters::cell_radius_edge_ratio = sizes.cell_radius_edge,
+                          parameters::cell_size = sizes.cell);
+  return CGAL::make_mesh_3<Complex>(domain, criteria);
+}
+
+MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
+  const Plc plc = build_plc(input, {.flatness = options.flatness});
+  const auto patches = patches_of(plc);
+  const Sizes sizes(target_edge_length(input, options));
+  MesherRun run;
+  run.settings = settings_of(sizes);
+  run.notes = {"the surface is remeshed: the input's triangles are approximated, not kept"};
+  report(progress, "mesh_3", 0, 0);
+  const auto begin = std::chrono::steady_clock::now();
+  const Complex complex = refine(patches, sizes);
+  run.result.seconds.mesh = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  run.result.mesh = read_back(complex, plc);
+  if (run.result.mesh.tetrahedra.empty()) {
+    Place place;
+    place.file = input.name;
+    throw MeshError("Mesh_3 made no tetrahedra at this edge length", place, "ask for a smaller --edge-length");
+  }
+  run.result.counts = count_elements(input, run.result.mesh);
+  return run;
+}
+
+}  // namespace
+
+Mesher cgal_mesh3_mesher() {
+  return {"cgal-mesh3", CGAL_VERSION_STR, "CGAL Mesh_3: Delaunay refinement that approximates the surface",
+          "GPL-3.0-or-later", run_cgal_mesh3};
+}
+
+}  // namespace ccdt

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "baselines/mesher.h"
+
+namespace ccdt {
+
+/// TetGen (Si 2015), called as a library in this process. Without interior points (`Lattice::none`) it makes the
+/// constrained Delaunay tetrahedralization of the input; with them it refines to the target edge length.
+Mesher tetgen_mesher();
+
+/// CGAL Mesh_3 (Jamin et al. 2015): Delaunay refinement of a domain bounded by the facets, with sharp edges protected
+/// by balls.
+Mesher cgal_mesh3_mesher();
+
+/// CGAL Delaunay_triangulation_3 of the input's vertices: fills their convex hull and knows no facets. It is the lower
+/// bound of what any Delaunay-based mesher costs.
+Mesher cgal_delaunay_mesher();
+
+}  // namespace ccdt

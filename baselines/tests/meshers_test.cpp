@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "baselines/mesher.h"
+#include "baselines/tests/shapes.h"
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+double volume(const TetMesh& mesh) {
+  double total = 0;
+  for (const auto& t : mesh.tetrahedra) {
+    const auto& v = mesh.vertices;
+    const double part = dot(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]), v[t[3]] - v[t[0]]) / 6;
+    EXPECT_GT(part, 0);
+    total += part;
+  }
+  return total;
+}
+
+bool has(std::string_view name) {
+  return std::ranges::find(meshers(), name, &Mesher::name) != meshers().end();
+}
+
+MesherRun run(std::string_view name, const InputPlc& plc, const MeshOptions& options) {
+  return mesher(name).run(plc, options, {});
+}
+
+const MeshOptions bare = {.lattice = Lattice::none};
+
+TEST(Meshers, OursIsFirst) {
+  EXPECT_EQ(meshers().front().name, "ccdt");
+}
+
+TEST(Meshers, UnknownNameIsAnErrorThatListsTheKnownOnes) {
+  try {
+    mesher("nobody");
+    FAIL() << "no such mesher";
+  } catch (const Error& error) {
+    EXPECT_NE(error.remedy().find("ccdt"), std::string::npos);
+  }
+}
+
+TEST(TetGen, MeshesACubeWithoutNewVertices) {
+  if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
+  const MesherRun made = run("tetgen", shapes::with_repeated_vertices(shapes::cube()), bare);
+  EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
+  EXPECT_EQ(made.result.counts.vertices, 8u);
+  EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
+  EXPECT_EQ(made.settings.at(0).second, "pQ");
+  EXPECT_GT(made.result.seconds.mesh, 0);
+}
+
+TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
+  if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
+  const MesherRun made = run("tetgen", shapes::cube(), {.edge_length = 0.2});
+  EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
+  EXPECT_GT(made.result.counts.interior_vertices, 20u);
+  EXPECT_EQ(made.settings.at(0).second.substr(0, 8), "pq1.414a");
+  EXPECT_GE(static_cast<double>(made.result.counts.tetrahedra), 6 * std::sqrt(2.0) / (0.2 * 0.2 * 0.2));
+}
+
+TEST(TetGen, LeavesAClosedShellWithinASurfaceEmpty) {
+  if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
+  const MesherRun made = run("tetgen", shapes::cube_with_hole(), bare);
+  EXPECT_NEAR(volume(made.result.mesh), 26, 1e-9);
+}
+
+TEST(TetGen, KeepsRegionsAndMarkers) {
+  if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
+  InputPlc plc = shapes::cube_with_hole();
+  plc.inside = InputPlc::Inside::seeds;
+  plc.triangle_markers.assign(24, 7);
+  plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
+  const MesherRun made = run("tetgen", plc, bare);
+  EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
+  EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
+  EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
+  EXPECT_TRUE(std::ranges::all_of(made.result.mesh.face_markers, [](int marker) { return marker == 7; }));
+}
+
+TEST(TetGen, SelfIntersectionBecomesAMeshErrorAndPrintsNothing) {
+  if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
+  InputPlc plc;
+  shapes::add_cube(plc, 0, 2);
+  shapes::add_cube(plc, 1, 3);
+  testing::internal::CaptureStdout();
+  EXPECT_THROW(run("tetgen", plc, bare), MeshError);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST(TetGen, OpenSurfaceBecomesAMeshError) {
+  if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
+  InputPlc plc = shapes::cube();
+  plc.triangles.pop_back();
+  EXPECT_THROW(run("tetgen", plc, bare), MeshError);
+}
+
+TEST(CgalDelaunay, FillsTheConvexHullOfTheVertices) {
+  if (!has("cgal-delaunay")) GTEST_SKIP() << "built without CGAL's meshers";
+  const MesherRun made = run("cgal-delaunay", shapes::cube_with_hole(), bare);
+  EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
+  EXPECT_EQ(made.result.counts.vertices, 16u);
+  EXPECT_EQ(made.result.seconds.delaunay, made.result.seconds.mesh);
+}
+
+TEST(CgalDelaunay, OfVerticesInAPlaneIsAMeshError) {
+  if (!has("cgal-delaunay")) GTEST_SKIP() << "built without CGAL's meshers";
+  InputPlc plc;
+  plc.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  EXPECT_THROW(run("cgal-delaunay", plc, bare), MeshError);
+}
+
+TEST(CgalMesh3, MeshesACubeWithAHoleKeepingItsSharpEdges) {
+  if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
+  const MesherRun made = run("cgal-mesh3", shapes::cube_with_hole(), {.edge_length = 0.6});
+  EXPECT_NEAR(volume(made.result.mesh), 26, 1e-6);
+  EXPECT_GT(made.result.mesh.edges.size(), 24u);
+  EXPECT_FALSE(made.settings.empty());
+}
+
+TEST(CgalMesh3, GivesEachRegionItsAttribute) {
+  if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
+  InputPlc plc = shapes::cube_with_hole();
+  plc.inside = InputPlc::Inside::seeds;
+  plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
+  const MesherRun made = run("cgal-mesh3", plc, {.edge_length = 0.6});
+  EXPECT_NEAR(volume(made.result.mesh), 27, 1e-6);
+  EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
+  EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
+}
+
+}  // namespace
+}  // namespace ccdt

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "engine/plc/input.h"
+
+namespace ccdt::shapes {
+
+/// A cube from `low` to `high` with twelve triangles, appended to a PLC.
+inline void add_cube(InputPlc& plc, double low, double high) {
+  const auto first = static_cast<std::uint32_t>(plc.vertices.size());
+  for (int i = 0; i < 8; ++i) plc.vertices.push_back({i & 1 ? high : low, i & 2 ? high : low, i & 4 ? high : low});
+  constexpr std::array<std::array<std::uint32_t, 3>, 12> triangles = {{{0, 2, 1},
+                                                                       {1, 2, 3},
+                                                                       {4, 5, 6},
+                                                                       {5, 7, 6},
+                                                                       {0, 1, 4},
+                                                                       {1, 5, 4},
+                                                                       {2, 6, 3},
+                                                                       {3, 6, 7},
+                                                                       {0, 4, 2},
+                                                                       {2, 4, 6},
+                                                                       {1, 3, 5},
+                                                                       {3, 7, 5}}};
+  for (auto triangle : triangles) {
+    for (auto& v : triangle) v += first;
+    plc.triangles.push_back(triangle);
+  }
+}
+
+inline InputPlc cube() {
+  InputPlc plc;
+  plc.name = "cube";
+  add_cube(plc, 0, 1);
+  return plc;
+}
+
+/// A cube of side 3 around a cubic hole of side 1: volume 26.
+inline InputPlc cube_with_hole() {
+  InputPlc plc;
+  plc.name = "cube with a hole";
+  add_cube(plc, 0, 3);
+  add_cube(plc, 1, 2);
+  return plc;
+}
+
+/// Every triangle with vertices of its own, as in an STL file.
+inline InputPlc with_repeated_vertices(const InputPlc& plc) {
+  InputPlc repeated;
+  repeated.name = plc.name;
+  for (const auto& triangle : plc.triangles) {
+    const auto v = static_cast<std::uint32_t>(repeated.vertices.size());
+    for (const auto corner : triangle) repeated.vertices.push_back(plc.vertices[corner]);
+    repeated.triangles.push_back({v, v + 1, v + 2});
+  }
+  return repeated;
+}
+
+}  // namespace ccdt::shapes

@@ -1,0 +1,266 @@
+#define TETLIBRARY
+#include <tetgen.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <new>
+
+#include "baselines/common.h"
+#include "baselines/isolated_call.h"
+#include "baselines/known_meshers.h"
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+/// Radius-edge ratio of the examples in TetGen's manual for meshes of good quality.
+constexpr const char* quality_switch = "q1.414";
+
+/// `p`: the constrained Delaunay tetrahedralization of a piecewise linear complex; `q`, `a`: refined, with a bound on
+/// the volume; `A`: region attributes; `Q`: quiet.
+std::string switches_for(const InputPlc& input, const MeshOptions& options) {
+  std::string switches = "p";
+  if (options.lattice != Lattice::none) {
+    const double bound = regular_tetrahedron_volume(target_edge_length(input, options));
+    switches += quality_switch;
+    if (bound > 0) switches += "a" + digits(bound);
+  }
+  if (!input.regions.empty()) switches += "A";
+  return switches + "Q";
+}
+
+void copy_point(const Point3& p, REAL* to) {
+  to[0] = p.x;
+  to[1] = p.y;
+  to[2] = p.z;
+}
+
+REAL* copy_points(const std::vector<Point3>& points) {
+  REAL* list = new REAL[3 * points.size()];
+  for (std::size_t i = 0; i < points.size(); ++i) copy_point(points[i], list + 3 * i);
+  return list;
+}
+
+template <class Loop>
+void fill_polygon(tetgenio::polygon& polygon, const Loop& loop) {
+  tetgenio::init(&polygon);
+  polygon.numberofvertices = static_cast<int>(loop.size());
+  polygon.vertexlist = new int[loop.size()];
+  std::ranges::transform(loop, polygon.vertexlist, [](std::uint32_t v) { return static_cast<int>(v); });
+}
+
+void fill_facets(const InputPlc& input, tetgenio& io) {
+  io.numberoffacets = static_cast<int>(input.facet_count());
+  io.facetlist = new tetgenio::facet[input.facet_count()];
+  io.facetmarkerlist = new int[input.facet_count()];
+  std::size_t f = 0;
+  for (std::size_t t = 0; t < input.triangles.size(); ++t, ++f) {
+    tetgenio::facet& facet = io.facetlist[f];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = 1;
+    facet.polygonlist = new tetgenio::polygon[1];
+    fill_polygon(facet.polygonlist[0], input.triangles[t]);
+    io.facetmarkerlist[f] = input.triangle_markers.empty() ? 0 : input.triangle_markers[t];
+  }
+  for (const PolygonFacet& polygons : input.polygon_facets) {
+    tetgenio::facet& facet = io.facetlist[f];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = static_cast<int>(polygons.polygons.size());
+    facet.polygonlist = new tetgenio::polygon[polygons.polygons.size()];
+    for (std::size_t i = 0; i < polygons.polygons.size(); ++i) fill_polygon(facet.polygonlist[i], polygons.polygons[i]);
+    facet.numberofholes = static_cast<int>(polygons.holes.size());
+    if (!polygons.holes.empty()) facet.holelist = copy_points(polygons.holes);
+    io.facetmarkerlist[f++] = polygons.marker;
+  }
+}
+
+void fill_segments(const InputPlc& input, tetgenio& io) {
+  if (input.segments.empty()) return;
+  io.numberofedges = static_cast<int>(input.segments.size());
+  io.edgelist = new int[2 * input.segments.size()];
+  io.edgemarkerlist = new int[input.segments.size()];
+  for (std::size_t s = 0; s < input.segments.size(); ++s) {
+    for (std::size_t end : {0, 1}) io.edgelist[2 * s + end] = static_cast<int>(input.segments[s][end]);
+    io.edgemarkerlist[s] = input.segment_markers.empty() ? 0 : input.segment_markers[s];
+  }
+}
+
+void fill_seeds(const InputPlc& input, tetgenio& io) {
+  if (!input.holes.empty()) {
+    io.numberofholes = static_cast<int>(input.holes.size());
+    io.holelist = copy_points(input.holes);
+  }
+  if (input.regions.empty()) return;
+  io.numberofregions = static_cast<int>(input.regions.size());
+  io.regionlist = new REAL[5 * input.regions.size()];
+  for (std::size_t r = 0; r < input.regions.size(); ++r) {
+    REAL* region = io.regionlist + 5 * r;
+    copy_point(input.regions[r].seed, region);
+    region[3] = input.regions[r].attribute;
+    region[4] = input.regions[r].max_volume > 0 ? input.regions[r].max_volume : -1;
+  }
+}
+
+template <std::size_t N>
+std::vector<std::array<std::uint32_t, N>> tuples(const int* list, int count) {
+  std::vector<std::array<std::uint32_t, N>> all(static_cast<std::size_t>(count));
+  for (auto& tuple : all)
+    for (auto& v : tuple) v = static_cast<std::uint32_t>(*list++);
+  return all;
+}
+
+std::vector<int> markers(const int* list, int count) {
+  return list == nullptr ? std::vector<int>(static_cast<std::size_t>(count), 0) : std::vector<int>(list, list + count);
+}
+
+TetMesh read_back(const tetgenio& io) {
+  TetMesh mesh;
+  for (int v = 0; v < io.numberofpoints; ++v) {
+    const REAL* p = io.pointlist + 3 * v;
+    mesh.vertices.push_back({p[0], p[1], p[2]});
+  }
+  mesh.tetrahedra = tuples<4>(io.tetrahedronlist, io.numberoftetrahedra);
+  mesh.regions.assign(mesh.tetrahedra.size(), 0);
+  if (io.numberoftetrahedronattributes > 0)
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      const auto stride = static_cast<std::size_t>(io.numberoftetrahedronattributes);
+      mesh.regions[t] = static_cast<int>(io.tetrahedronattributelist[stride * t]);
+    }
+  mesh.faces = tuples<3>(io.trifacelist, io.numberoftrifaces);
+  mesh.face_markers = markers(io.trifacemarkerlist, io.numberoftrifaces);
+  mesh.edges = tuples<2>(io.edgelist, io.numberofedges);
+  mesh.edge_markers = markers(io.edgemarkerlist, io.numberofedges);
+  orient_positively(mesh);
+  return mesh;
+}
+
+/// Arrays one after the other as bytes, each behind its length: how a mesh comes back from the process that made it.
+class Bytes {
+ public:
+  Bytes() = default;
+  explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
+
+  template <class T>
+  void put(const std::vector<T>& array) {
+    const std::size_t size = array.size();
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes_.append(reinterpret_cast<const char*>(array.data()), size * sizeof(T));
+  }
+
+  template <class T>
+  void take(std::vector<T>& array) {
+    std::size_t size = 0;
+    std::memcpy(&size, bytes_.data() + at_, sizeof size);
+    array.resize(size);
+    if (size > 0) std::memcpy(array.data(), bytes_.data() + at_ + sizeof size, size * sizeof(T));
+    at_ += sizeof size + size * sizeof(T);
+  }
+
+  std::string release() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+/// What happens in the process of TetGen's own.
+struct Outcome {
+  std::vector<int> code;        ///< none: it went well
+  std::vector<double> seconds;  ///< one
+  TetMesh mesh;
+
+  template <class Visit>
+  void each_array(Visit visit) {
+    visit(code), visit(seconds), visit(mesh.vertices), visit(mesh.tetrahedra), visit(mesh.regions), visit(mesh.faces);
+    visit(mesh.face_markers), visit(mesh.edges), visit(mesh.edge_markers);
+  }
+};
+
+std::string tetrahedralize_to_bytes(const InputPlc& input, std::string switches) {
+  tetgenio in, out;
+  in.numberofpoints = static_cast<int>(input.vertices.size());
+  in.pointlist = copy_points(input.vertices);
+  fill_facets(input, in);
+  fill_segments(input, in);
+  fill_seeds(input, in);
+  Outcome outcome;
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    tetrahedralize(switches.data(), &in, &out);
+    outcome.seconds = {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+    outcome.mesh = read_back(out);
+  } catch (int code) {
+    outcome.code = {code};
+  }
+  Bytes bytes;
+  outcome.each_array([&](auto& array) { bytes.put(array); });
+  return bytes.release();
+}
+
+/// What TetGen's exit codes mean, from its manual.
+std::string words_of(int code) {
+  switch (code) {
+    case 2:
+      return "TetGen reports an internal error of its own";
+    case 3:
+      return "TetGen found that the input intersects itself";
+    case 4:
+      return "TetGen found a feature smaller than its tolerance";
+    case 5:
+      return "TetGen found two facets that are too close to each other";
+    case 10:
+      return "TetGen refused the input";
+    default:
+      return "TetGen stopped with code " + std::to_string(code);
+  }
+}
+
+[[noreturn]] void fail(std::string what, const InputPlc& input, const std::string& printed) {
+  if (!printed.empty()) what += "; it printed: " + printed;
+  Place place;
+  place.file = input.name;
+  throw MeshError(what, place, "try another mesher, or check the surface there");
+}
+
+/// Calls TetGen in a process of its own: when it gives up, release 1.5 frees its memory twice and crashes, more often
+/// than not.
+Outcome call_tetgen(const InputPlc& input, const std::string& switches) {
+  const IsolatedCall call = call_isolated([&] { return tetrahedralize_to_bytes(input, switches); });
+  if (!call.returned)
+    fail(call.signal == 0 ? "TetGen ended its process" : "TetGen ended with signal " + std::to_string(call.signal),
+         input, call.printed);
+  Outcome outcome;
+  Bytes bytes(call.value);
+  outcome.each_array([&](auto& array) { bytes.take(array); });
+  if (!outcome.code.empty() && outcome.code[0] == 1) throw std::bad_alloc();
+  if (!outcome.code.empty()) fail(words_of(outcome.code[0]), input, call.printed);
+  return outcome;
+}
+
+MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
+  const InputPlc merged = merge_equal_vertices(input);
+  if (merged.vertices.size() < 4) fail("there are fewer than four vertices", input, "");
+  const std::string switches = switches_for(merged, options);
+  report(progress, "tetgen", 0, 0);
+  Outcome outcome = call_tetgen(merged, switches);
+
+  MesherRun run;
+  run.settings = {{"switches", switches}};
+  run.result.seconds.mesh = outcome.seconds[0];
+  TetMesh& mesh = run.result.mesh;
+  mesh = std::move(outcome.mesh);
+  if (input.inside == InputPlc::Inside::even_odd) keep_odd_chambers(mesh);
+  if (mesh.tetrahedra.empty()) fail("no tetrahedra are inside: the surface is open", input, "");
+  run.result.counts = count_elements(merged, mesh);
+  return run;
+}
+
+}  // namespace
+
+Mesher tetgen_mesher() {
+  return {"tetgen", CCDT_TETGEN_VERSION, "TetGen: constrained Delaunay tetrahedralization and Delaunay refinement",
+          "AGPL-3.0-or-later", run_tetgen};
+}
+
+}  // namespace ccdt

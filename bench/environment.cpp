@@ -1,0 +1,80 @@
+#include "bench/environment.h"
+
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <boost/version.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "baselines/mesher.h"
+#include "bench/revision.h"
+
+namespace ccdt {
+namespace {
+
+/// The value of the first line of a file of "name : value" lines that has this name; empty if there is none.
+std::string value_in_file(const char* file, const std::string& name) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    const auto colon = line.find(':');
+    if (!line.starts_with(name) || colon == std::string::npos) continue;
+    const auto begin = line.find_first_not_of(" \t", colon + 1);
+    return begin == std::string::npos ? "" : line.substr(begin);
+  }
+  return {};
+}
+
+unsigned usable_cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<unsigned>(CPU_COUNT(&set)) : 1;
+}
+
+std::string dotted(long major, long minor, long patch) {
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+std::map<std::string, std::string> library_versions() {
+  std::map<std::string, std::string> versions = {
+      {"boost", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
+      {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+  };
+  for (const Mesher& m : meshers()) {
+    if (m.name == "tetgen") versions["tetgen"] = m.version;
+    if (m.name.starts_with("cgal")) versions["cgal"] = m.version;
+  }
+  return versions;
+}
+
+}  // namespace
+
+Environment capture_environment() {
+  Environment environment;
+  environment.cpu = value_in_file("/proc/cpuinfo", "model name");
+  environment.cores = usable_cores();
+  double load[1] = {0};
+  if (getloadavg(load, 1) == 1) environment.load_average = load[0];
+  utsname system{};
+  if (uname(&system) == 0)
+    environment.system = std::string(system.sysname) + " " + system.release + " " + system.machine;
+  environment.compiler = CCDT_COMPILER;
+  environment.flags = CCDT_FLAGS;
+  environment.build_type = CCDT_BUILD_TYPE;
+  environment.revision = source_revision;
+  environment.libraries = library_versions();
+  return environment;
+}
+
+std::uint64_t peak_rss_bytes() {
+  rusage children{};
+  getrusage(RUSAGE_CHILDREN, &children);
+  const std::uint64_t own = std::strtoull(value_in_file("/proc/self/status", "VmHWM").c_str(), nullptr, 10);
+  return 1024 * std::max(own, static_cast<std::uint64_t>(children.ru_maxrss));
+}
+
+}  // namespace ccdt

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace ccdt {
+
+/// Where and with what a run was made: what is needed to understand its times later.
+struct Environment {
+  std::string cpu;          ///< model name
+  unsigned cores = 0;       ///< that this process may use
+  double load_average = 0;  ///< over the last minute, before the run
+  std::string system;       ///< kernel and its release
+  std::string compiler, flags, build_type;
+  std::string revision;                          ///< of the source, "unknown" outside a git checkout
+  std::map<std::string, std::string> libraries;  ///< versions
+};
+
+Environment capture_environment();
+
+/// The largest resident memory so far of this process, or of a child that it has waited for. Unlike getrusage's, its
+/// own starts anew at exec: a program is not blamed for the memory of the one that started it.
+std::uint64_t peak_rss_bytes();
+
+}  // namespace ccdt

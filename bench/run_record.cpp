@@ -1,0 +1,268 @@
+#include "bench/run_record.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/errors.h"
+#include "engine/io/file_bytes.h"
+#include "engine/io/output_file.h"
+
+namespace ccdt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* schema = "ccdt.run/1";
+
+template <class Pairs>
+Json object_of(const Pairs& pairs) {
+  Json object = Json::object();
+  for (const auto& [name, value] : pairs) object[name] = value;
+  return object;
+}
+
+Json options_json(const RunRecord& record) {
+  Json options = Json::object();
+  for (const auto& [name, option] : record.options)
+    std::visit([&, &key = name](const auto& value) { options[key] = value; }, option);
+  if (!record.mesher_settings.empty()) options["mesher_settings"] = object_of(record.mesher_settings);
+  return options;
+}
+
+Json environment_json(const Environment& e) {
+  return {{"cpu", e.cpu},
+          {"cores", e.cores},
+          {"load_average", e.load_average},
+          {"system", e.system},
+          {"compiler", e.compiler},
+          {"flags", e.flags},
+          {"build_type", e.build_type},
+          {"revision", e.revision},
+          {"libraries", object_of(e.libraries)}};
+}
+
+Json counts_json(const MeshCounts& c) {
+  return {{"vertices", c.vertices},
+          {"steiner_vertices", c.steiner_vertices},
+          {"interior_vertices", c.interior_vertices},
+          {"tetrahedra", c.tetrahedra},
+          {"faces", c.faces},
+          {"undelaunay_faces", c.undelaunay_faces},
+          {"front_tetrahedra", c.front_tetrahedra}};
+}
+
+Json seconds_json(const RunRecord& r) {
+  const StageSeconds& s = r.seconds;
+  return {{"read", r.read_seconds},   {"plc", s.plc},           {"protect", s.protect},
+          {"lattice", s.lattice},     {"delaunay", s.delaunay}, {"face_check", s.face_check},
+          {"front", s.front},         {"label", s.label},       {"improve", s.improve},
+          {"write", r.write_seconds}, {"mesh", s.mesh}};
+}
+
+Json histogram_json(const Histogram& h) {
+  return {{"edges", h.edges}, {"counts", h.counts}};
+}
+
+Json quality_json(const Quality& q) {
+  return {{"r",
+           {{"min", q.r.min},
+            {"mean", q.r.mean},
+            {"median", q.r.median},
+            {"p99", q.r.p99},
+            {"max", q.r.max},
+            {"histogram", histogram_json(q.r.histogram)}}},
+          {"dihedral_degrees",
+           {{"min", q.dihedral_degrees.min},
+            {"max", q.dihedral_degrees.max},
+            {"histogram", histogram_json(q.dihedral_degrees.histogram)}}}};
+}
+
+/// JSON has no infinity; what was infinite (r of a flat tetrahedron) is null there.
+double number(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
+RunRecord::Option option_from(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>();
+  if (value.is_string()) return value.get<std::string>();
+  return number(value);
+}
+
+Environment environment_from(const Json& j) {
+  Environment e;
+  e.cpu = j.at("cpu");
+  e.cores = j.at("cores");
+  e.load_average = j.at("load_average");
+  e.system = j.at("system");
+  e.compiler = j.at("compiler");
+  e.flags = j.at("flags");
+  e.build_type = j.at("build_type");
+  e.revision = j.at("revision");
+  for (const auto& [name, version] : j.at("libraries").items()) e.libraries[name] = version;
+  return e;
+}
+
+MeshCounts counts_from(const Json& j) {
+  MeshCounts c;
+  c.vertices = j.at("vertices");
+  c.steiner_vertices = j.at("steiner_vertices");
+  c.interior_vertices = j.at("interior_vertices");
+  c.tetrahedra = j.at("tetrahedra");
+  c.faces = j.at("faces");
+  c.undelaunay_faces = j.at("undelaunay_faces");
+  c.front_tetrahedra = j.at("front_tetrahedra");
+  return c;
+}
+
+void seconds_from(const Json& j, RunRecord& r) {
+  StageSeconds& s = r.seconds;
+  r.read_seconds = j.at("read");
+  s.plc = j.at("plc");
+  s.protect = j.at("protect");
+  s.lattice = j.at("lattice");
+  s.delaunay = j.at("delaunay");
+  s.face_check = j.at("face_check");
+  s.front = j.at("front");
+  s.label = j.at("label");
+  s.improve = j.at("improve");
+  r.write_seconds = j.at("write");
+  s.mesh = j.at("mesh");
+}
+
+Histogram histogram_from(const Json& j) {
+  return {j.at("edges"), j.at("counts")};
+}
+
+Quality quality_from(const Json& j, double volume) {
+  Quality q;
+  const Json& r = j.at("r");
+  q.r = {number(r.at("min")), number(r.at("mean")), number(r.at("median")),
+         number(r.at("p99")), number(r.at("max")),  histogram_from(r.at("histogram"))};
+  const Json& d = j.at("dihedral_degrees");
+  q.dihedral_degrees = {number(d.at("min")), number(d.at("max")), histogram_from(d.at("histogram"))};
+  q.volume = volume;
+  return q;
+}
+
+RunRecord record_from(const Json& j) {
+  RunRecord r;
+  const Json &mesher = j.at("mesher"), &input = j.at("input");
+  r.mesher = {mesher.at("name"), mesher.at("version"), mesher.at("revision")};
+  r.input = {input.at("name"), input.at("sha256"), input.at("vertices"), input.at("facets"), input.at("segments")};
+  for (const auto& [name, value] : j.at("options").items()) {
+    if (name != "mesher_settings") {
+      r.options.emplace_back(name, option_from(value));
+      continue;
+    }
+    for (const auto& [setting, words] : value.items()) r.mesher_settings.emplace_back(setting, words);
+  }
+  r.environment = environment_from(j.at("environment"));
+  r.counts = counts_from(j.at("counts"));
+  seconds_from(j.at("seconds"), r);
+  r.peak_rss_bytes = j.at("peak_rss_bytes");
+  r.quality = quality_from(j.at("quality"), j.at("volume"));
+  r.largest_rounding = j.at("largest_rounding");
+  r.status = run_status(j.at("status").get<std::string>());
+  r.reason = j.value("reason", "");
+  r.notes = j.value("notes", std::vector<std::string>());
+  if (j.contains("samples"))
+    for (const auto& [name, values] : j.at("samples").items()) r.samples[name] = values.get<std::vector<double>>();
+  return r;
+}
+
+}  // namespace
+
+std::string_view name_of(Lattice lattice) {
+  switch (lattice) {
+    case Lattice::none:
+      return "none";
+    case Lattice::fcc:
+      return "fcc";
+    case Lattice::bcc:
+      return "bcc";
+    case Lattice::sc:
+      return "sc";
+  }
+  return {};
+}
+
+std::string_view name_of(Protection protection) {
+  return protection == Protection::shell ? "shell" : "midpoint";
+}
+
+RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
+  RunRecord record;
+  record.environment = capture_environment();
+  record.mesher = {mesher.name, mesher.version, mesher.name == "ccdt" ? record.environment.revision : ""};
+  record.input.name = input.name;
+  record.input.vertices = input.vertices.size();
+  record.input.facets = input.facet_count();
+  record.input.segments = input.segments.size();
+  record.options = {{"face_protection", options.face_protection},
+                    {"lattice", std::string(name_of(options.lattice))},
+                    {"locator", "grid"},
+                    {"delaunay", "insert"},
+                    {"protection", std::string(name_of(options.protection))},
+                    {"improve", "none"},
+                    {"surface", "keep"},
+                    {"edge_length", options.edge_length},
+                    {"grading", options.grading},
+                    {"flatness", options.flatness},
+                    {"threads", 1.0}};
+  return record;
+}
+
+std::string to_json(const RunRecord& r) {
+  Json json = {{"schema", schema},
+               {"mesher", {{"name", r.mesher.name}, {"version", r.mesher.version}, {"revision", r.mesher.revision}}},
+               {"input",
+                {{"name", r.input.name},
+                 {"sha256", r.input.sha256},
+                 {"vertices", r.input.vertices},
+                 {"facets", r.input.facets},
+                 {"segments", r.input.segments}}},
+               {"options", options_json(r)},
+               {"environment", environment_json(r.environment)},
+               {"counts", counts_json(r.counts)},
+               {"seconds", seconds_json(r)},
+               {"peak_rss_bytes", r.peak_rss_bytes},
+               {"quality", quality_json(r.quality)},
+               {"volume", r.quality.volume},
+               {"largest_rounding", r.largest_rounding},
+               {"status", name_of(r.status)}};
+  if (!r.reason.empty()) json["reason"] = r.reason;
+  if (!r.notes.empty()) json["notes"] = r.notes;
+  if (!r.samples.empty()) json["samples"] = object_of(r.samples);
+  // Replacing what is no UTF-8 (a file name may hold any bytes) beats losing the report.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunRecord run_record_from_json(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.value("schema", "") != schema)
+      throw InputError("not a report of schema ccdt.run/1", {}, "give the JSON that `ccdt mesh --report` wrote");
+    return record_from(json);
+  } catch (const std::exception& error) {
+    if (dynamic_cast<const Error*>(&error) != nullptr) throw;
+    throw InputError("not a report of schema ccdt.run/1: " + std::string(error.what()), {},
+                     "give the JSON that `ccdt mesh --report` wrote");
+  }
+}
+
+void write_run_record(const RunRecord& record, const std::filesystem::path& file) {
+  io::OutputFile output(file);
+  output << to_json(record);
+  output.commit();
+}
+
+RunRecord read_run_record(const std::filesystem::path& file) {
+  try {
+    return run_record_from_json(io::read_whole_file(file).bytes);
+  } catch (InputError& error) {
+    error.place().file = file.string();
+    throw;
+  }
+}
+
+}  // namespace ccdt

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "baselines/mesher.h"
+#include "bench/child_process.h"
+#include "bench/environment.h"
+#include "bench/quality.h"
+
+namespace ccdt {
+
+/// One run of one mesher on one input: what is written as JSON of schema `ccdt.run/1`.
+struct RunRecord {
+  using Option = std::variant<bool, double, std::string>;
+
+  struct MesherName {
+    std::string name, version, revision;
+  } mesher;
+  struct Input {
+    std::string name, sha256;
+    std::uint64_t vertices = 0, facets = 0, segments = 0;
+  } input;
+  std::vector<std::pair<std::string, Option>> options;
+  std::vector<std::pair<std::string, std::string>> mesher_settings;  ///< in the mesher's own words
+  Environment environment;
+  MeshCounts counts;
+  StageSeconds seconds;
+  double read_seconds = 0, write_seconds = 0;
+  std::uint64_t peak_rss_bytes = 0;
+  Quality quality;
+  double largest_rounding = 0;
+  RunStatus status = RunStatus::ok;
+  std::string reason;              ///< why the status is not ok
+  std::vector<std::string> notes;  ///< what a reader has to know
+  std::map<std::string, std::vector<double>>
+      samples;  ///< raw seconds by name, where one record stands for several runs
+};
+
+/// A record that says who was asked to mesh what and how, before anything has been done.
+RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options);
+
+std::string_view name_of(Lattice lattice);
+std::string_view name_of(Protection protection);
+
+/// As JSON of schema `ccdt.run/1`, indented.
+std::string to_json(const RunRecord& record);
+/// \throw InputError  no JSON of that schema
+RunRecord run_record_from_json(const std::string& text);
+
+/// Writes the file whole or not at all. \throw OutputError
+void write_run_record(const RunRecord& record, const std::filesystem::path& file);
+/// \throw InputError  cannot be read, or no JSON of that schema
+RunRecord read_run_record(const std::filesystem::path& file);
+
+}  // namespace ccdt

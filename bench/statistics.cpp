@@ -1,0 +1,72 @@
+#include "bench/statistics.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace ccdt {
+namespace {
+
+/// Draws with replacement. `std::uniform_int_distribution` may differ between standard libraries; a product of the
+/// generator's 64 bits does not.
+void resample(std::span<const double> samples, std::mt19937_64& random, std::vector<double>& drawn) {
+  drawn.resize(samples.size());
+  for (double& value : drawn) {
+    const double unit = static_cast<double>(random() >> 11) * 0x1p-53;
+    value = samples[static_cast<std::size_t>(unit * static_cast<double>(samples.size()))];
+  }
+}
+
+/// The interval between the outer percentiles of the resampled statistic.
+template <class Statistic>
+Estimate percentile_interval(double value, const Bootstrap& bootstrap, Statistic statistic) {
+  std::mt19937_64 random(bootstrap.seed);
+  std::vector<double> drawn;
+  drawn.reserve(static_cast<std::size_t>(bootstrap.resamples));
+  for (int i = 0; i < bootstrap.resamples; ++i) drawn.push_back(statistic(random));
+  const double tail = (1 - bootstrap.confidence) / 2;
+  return {value, quantile(drawn, tail), quantile(drawn, 1 - tail)};
+}
+
+}  // namespace
+
+double quantile(std::span<const double> samples, double fraction) {
+  assert(!samples.empty() && fraction >= 0 && fraction <= 1);
+  std::vector<double> sorted(samples.begin(), samples.end());
+  const double position = fraction * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const auto at = [&](std::size_t i) {
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(i), sorted.end());
+    return sorted[i];
+  };
+  const double low = at(below);
+  const double weight = position - static_cast<double>(below);
+  return weight == 0 ? low : low + weight * (at(below + 1) - low);
+}
+
+double median(std::span<const double> samples) {
+  return quantile(samples, 0.5);
+}
+
+Estimate median_estimate(std::span<const double> samples, const Bootstrap& bootstrap) {
+  std::vector<double> drawn;
+  return percentile_interval(median(samples), bootstrap, [&](std::mt19937_64& random) {
+    resample(samples, random, drawn);
+    return median(drawn);
+  });
+}
+
+Estimate ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
+                          const Bootstrap& bootstrap) {
+  std::vector<double> drawn;
+  return percentile_interval(median(numerator) / median(denominator), bootstrap, [&](std::mt19937_64& random) {
+    resample(numerator, random, drawn);
+    const double above = median(drawn);
+    resample(denominator, random, drawn);
+    return above / median(drawn);
+  });
+}
+
+}  // namespace ccdt

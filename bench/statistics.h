@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace ccdt {
+
+/// An estimate with its confidence interval.
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+
+/// How a bootstrap is drawn. The seed is fixed, so the same samples always give the same interval.
+struct Bootstrap {
+  double confidence = 0.95;
+  int resamples = 4000;
+  std::uint64_t seed = 20050901;
+};
+
+/// The middle sample; of an even number the mean of the two in the middle.
+/// \pre there is a sample
+double median(std::span<const double> samples);
+
+/// The `fraction` quantile by linear interpolation between order statistics (type 7 of Hyndman and Fan 1996).
+/// \pre there is a sample, 0 <= fraction <= 1
+double quantile(std::span<const double> samples, double fraction);
+
+/// The median, with the percentile bootstrap interval (Efron and Tibshirani 1993, chapter 13).
+/// \pre there is a sample
+Estimate median_estimate(std::span<const double> samples, const Bootstrap& bootstrap = {});
+
+/// The ratio of the medians of two independent samples, each resampled on its own.
+/// \pre there is a sample in each and the denominators are positive
+Estimate ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
+                          const Bootstrap& bootstrap = {});
+
+}  // namespace ccdt

@@ -1,0 +1,123 @@
+#include "bench/run_record.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+using Json = nlohmann::json;
+
+RunRecord example() {
+  RunRecord record;
+  record.mesher = {"ccdt", "0.1.0", "abc"};
+  record.input = {"cube.off", std::string(64, '0'), 8, 12, 0};
+  record.options = {{"face_protection", true}, {"lattice", std::string("fcc")}, {"edge_length", 0.25}};
+  record.mesher_settings = {{"switches", "pQ"}};
+  record.environment.cpu = "a cpu";
+  record.environment.cores = 4;
+  record.environment.libraries = {{"tetgen", "1.5.0"}};
+  record.counts = {10, 1, 1, 30, 12, 2, 3};
+  record.seconds.delaunay = 0.5;
+  record.seconds.mesh = 0.75;
+  record.read_seconds = 0.125;
+  record.peak_rss_bytes = 1 << 20;
+  record.quality.r = {1, 1.5, 1.25, 3, std::numeric_limits<double>::infinity(), {{1, 2, 3}, {29, 1}}};
+  record.quality.dihedral_degrees = {10, 170, {{0, 90, 180}, {100, 80}}};
+  record.quality.volume = 1.0 / 3;
+  record.largest_rounding = 1e-10;
+  record.notes = {"a note"};
+  record.samples = {{"mesh", {0.75, 0.7}}};
+  return record;
+}
+
+TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
+  const Json json = Json::parse(to_json(example()));
+  EXPECT_EQ(json["schema"], "ccdt.run/1");
+  for (const char* pointer : {"/mesher/name",
+                              "/mesher/version",
+                              "/mesher/revision",
+                              "/input/name",
+                              "/input/sha256",
+                              "/input/vertices",
+                              "/input/facets",
+                              "/input/segments",
+                              "/options/face_protection",
+                              "/options/lattice",
+                              "/environment/cpu",
+                              "/environment/cores",
+                              "/environment/compiler",
+                              "/environment/flags",
+                              "/environment/libraries/tetgen",
+                              "/counts/vertices",
+                              "/counts/steiner_vertices",
+                              "/counts/interior_vertices",
+                              "/counts/tetrahedra",
+                              "/counts/faces",
+                              "/counts/undelaunay_faces",
+                              "/counts/front_tetrahedra",
+                              "/seconds/read",
+                              "/seconds/protect",
+                              "/seconds/lattice",
+                              "/seconds/delaunay",
+                              "/seconds/face_check",
+                              "/seconds/front",
+                              "/seconds/label",
+                              "/seconds/improve",
+                              "/seconds/write",
+                              "/seconds/mesh",
+                              "/peak_rss_bytes",
+                              "/quality/r/min",
+                              "/quality/r/mean",
+                              "/quality/r/median",
+                              "/quality/r/p99",
+                              "/quality/r/max",
+                              "/quality/r/histogram/edges",
+                              "/quality/r/histogram/counts",
+                              "/quality/dihedral_degrees/min",
+                              "/quality/dihedral_degrees/max",
+                              "/quality/dihedral_degrees/histogram/edges",
+                              "/quality/dihedral_degrees/histogram/counts",
+                              "/volume",
+                              "/status"})
+    EXPECT_TRUE(json.contains(Json::json_pointer(pointer))) << pointer;
+}
+
+TEST(RunRecord, ReadsBackBitForBit) {
+  const std::string text = to_json(example());
+  const RunRecord back = run_record_from_json(text);
+  EXPECT_EQ(to_json(back), text);
+  EXPECT_EQ(back.quality.volume, 1.0 / 3);
+  EXPECT_TRUE(std::isinf(back.quality.r.max));
+  EXPECT_EQ(back.samples.at("mesh").size(), 2u);
+}
+
+TEST(RunRecord, OfAFailureKeepsStatusAndReason) {
+  RunRecord record = example();
+  record.status = RunStatus::timeout;
+  record.reason = "stopped at the limit of 5 s";
+  const RunRecord back = run_record_from_json(to_json(record));
+  EXPECT_EQ(back.status, RunStatus::timeout);
+  EXPECT_EQ(back.reason, record.reason);
+}
+
+TEST(RunRecord, SurvivesFileNamesThatAreNoUtf8) {
+  RunRecord record = example();
+  record.input.name = "caf\xe9.stl";
+  EXPECT_TRUE(Json::accept(to_json(record)));
+}
+
+TEST(RunRecord, RefusesOtherJson) {
+  EXPECT_THROW(run_record_from_json("{}"), InputError);
+  EXPECT_THROW(run_record_from_json("[1, 2"), InputError);
+  EXPECT_THROW(run_record_from_json(R"({"schema": "ccdt.run/1"})"), InputError);
+  EXPECT_THROW(run_record_from_json(R"({"schema": "ccdt.run/2"})"), InputError);
+}
+
+}  // namespace
+}  // namespace ccdt
