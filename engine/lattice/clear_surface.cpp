@@ -7,7 +7,18 @@
 
 namespace ccdt {
 
-const double least_distance_to_surface = 0.5;
+// Measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of 5120 triangles, uniform;
+// in per cent the cells with a dihedral angle below 20 degrees, and the mean of the paper's r:
+//
+//     factor       0      0.4    0.5    0.55   0.6    0.65   0.7    0.8
+//     fcc, < 20    1.18   1.18   0.97   0.73   0.75   0.73   0.93   1.03
+//     fcc, r       1.236  1.236  1.228  1.222  1.223  1.228  1.247  1.255
+//     bcc, < 20    0.97   0.56   0.39   0.39   0.43   0.52   0.65   0.76
+//     bcc, r       1.245  1.214  1.176  1.175  1.182  1.196  1.204  1.205
+//
+// A scanned surface of uneven triangles has its best values from 0.55 to 0.65, a cube with a grid on its faces does not
+// care.
+const double least_distance_to_surface = 0.55;
 
 namespace {
 

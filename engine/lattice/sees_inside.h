@@ -18,7 +18,7 @@ namespace ccdt {
 /// \param p      integer coordinates; in the box
 /// \param box    integer coordinates
 /// \param nearby at least all triangles that meet the box, and at least one that does
-/// \return       false also if p is on the surface; nothing if no sight decides
+/// \return       nothing if no sight decides; never true if p is on the surface
 std::optional<bool> sees_inside(const Point3& p, const Box& box, const Surface& surface,
                                 std::span<const std::uint32_t> nearby);
 
