@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <random>
@@ -181,9 +182,11 @@ inline IntegerPlane square_grid(std::int64_t side) {
 inline IntegerPlane circle_points(std::int64_t radius) {
   IntegerPlane plane;
   for (std::int64_t x = -radius; x <= radius; ++x) {
-    for (std::int64_t y = -radius; y <= radius; ++y) {
-      if (x * x + y * y == radius * radius) plane.points.push_back({x, y});
-    }
+    const std::int64_t square = radius * radius - x * x;
+    const std::int64_t y = std::llround(std::sqrt(static_cast<double>(square)));
+    if (y * y != square) continue;
+    plane.points.push_back({x, y});
+    if (y != 0) plane.points.push_back({x, -y});
   }
   return plane;
 }
