@@ -13,6 +13,7 @@
 #include "engine/plc/snap_vertices.h"
 #include "engine/plc/sort_around_edges.h"
 #include "engine/plc/split_at_vertices.h"
+#include "engine/plc/triangulate_polygons.h"
 #include "engine/plc/vertical_ray.h"
 
 namespace ccdt {
@@ -48,7 +49,7 @@ SegmentSet gather_segments(const InputPlc& input, const Plc& plc) {
 }
 
 void refuse_no_facets(const InputPlc& input) {
-  if (input.facet_count() > 0) return;
+  if (input.facet_count() > 0 && !input.vertices.empty()) return;
   Place place;
   place.file = input.name;
   throw InputError("there are no facets", place, "give a surface, or a .poly or .smesh with facets");
@@ -113,6 +114,8 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
   snap_vertices(input, plc);
   TriangleSet triangles = gather_triangles(input, plc);
   SegmentSet segments = gather_segments(input, plc);
+  const double tolerance = options.flatness * box_size(plc.vertices);
+  triangulate_polygons(input, plc, tolerance, triangles, segments);
   refuse_degenerate_triangles(plc, triangles);
   refuse_duplicate_triangles(plc, triangles);
 
@@ -124,7 +127,6 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
   const SegmentMatch match = match_segments(segments, edges);
 
   report(progress, "plc", 2, steps);
-  const double tolerance = options.flatness * box_size(plc.vertices);
   const FacetPatches patches = find_facets(plc.vertices, triangles, edges, match.is_segment, tolerance);
 
   report(progress, "plc", 3, steps);

@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "engine/numbers/predicates.h"
+#include "engine/tests/plc_test_solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace plc_test;
+
+const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
+
+void expect_valid(const Plc& plc) {
+  std::set<std::array<std::uint32_t, 2>> ends = segment_ends(plc);
+  EXPECT_EQ(ends.size(), plc.segments.size()) << "a segment is there twice";
+  for (const Facet& f : plc.facets) {
+    std::map<std::array<std::uint32_t, 2>, int> edges;
+    for (const auto& t : f.triangles)
+      for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+    for (const auto& [edge, count] : edges) {
+      const bool is_segment = ends.count({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}) > 0;
+      EXPECT_TRUE(is_segment || (count == 1 && edges.count({edge[1], edge[0]}) == 1))
+          << "an inner edge of a facet without two triangles of one orientation";
+    }
+  }
+}
+
+TEST(PlcFacets, CubeHasSixFacetsTwelveSegmentsAndNothingGrazeable) {
+  const Plc plc = build_plc(unit_cube());
+  expect_valid(plc);
+  EXPECT_EQ(plc.vertices.size(), 8u);
+  EXPECT_EQ(plc.facets.size(), 6u);
+  EXPECT_EQ(plc.segments.size(), 12u);
+  EXPECT_EQ(grazeable_count(plc), 0u);
+  EXPECT_EQ(plc.chambers.size(), 2u);
+  EXPECT_FALSE(plc.chambers[0].inside);
+  EXPECT_TRUE(plc.chambers[1].inside);
+  for (const Facet& f : plc.facets) {
+    EXPECT_TRUE(f.exactly_flat);
+    EXPECT_EQ(f.above, 0u);
+    EXPECT_EQ(f.below, 1u);
+  }
+  EXPECT_DOUBLE_EQ(inside_volume(plc), 1.0);
+}
+
+TEST(PlcFacets, OrientationOfTheInputDoesNotMatter) {
+  InputPlc cube = unit_cube();
+  for (std::size_t t = 0; t < cube.triangles.size(); t += 3) std::swap(cube.triangles[t][0], cube.triangles[t][1]);
+  const Plc plc = build_plc(cube);
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), 6u);
+  EXPECT_EQ(plc.segments.size(), 12u);
+  EXPECT_NEAR(inside_volume(plc), 1.0, 1e-12);
+}
+
+TEST(PlcFacets, GriddedCubeHasSixFacets) {
+  const Plc plc = build_plc(gridded_cube(60));
+  expect_valid(plc);
+  EXPECT_EQ(plc.vertices.size(), 6u * 60 * 60 + 2);
+  EXPECT_EQ(plc.facets.size(), 6u);
+  EXPECT_EQ(plc.segments.size(), 12u * 60);
+  EXPECT_EQ(grazeable_count(plc), 0u);
+  for (const Facet& f : plc.facets) {
+    EXPECT_TRUE(f.exactly_flat);
+    EXPECT_EQ(f.triangles.size(), 2u * 60 * 60);
+  }
+}
+
+TEST(PlcFacets, GriddedCubeTurnedByAnArbitraryMatrixHasSixFacetsThatAreFlatWithinTheTolerance) {
+  const Plc plc = build_plc(rotated(arbitrary, gridded_cube(60)));
+  expect_valid(plc);
+  EXPECT_EQ(plc.vertices.size(), 6u * 60 * 60 + 2);
+  EXPECT_EQ(plc.facets.size(), 6u);
+  EXPECT_EQ(plc.segments.size(), 12u * 60);
+  EXPECT_EQ(grazeable_count(plc), 0u);
+  for (const Facet& f : plc.facets) EXPECT_FALSE(f.exactly_flat);
+}
+
+TEST(PlcFacets, NoToleranceLeavesTheFoldsOfATurnedCube) {
+  PlcOptions options;
+  options.flatness = 0;
+  const Plc plc = build_plc(rotated(arbitrary, gridded_cube(10)), options);
+  expect_valid(plc);
+  EXPECT_GT(plc.facets.size(), 300u);
+  EXPECT_EQ(plc.chambers.size(), 2u);
+}
+
+TEST(PlcFacets, RotationsChangeNeitherFacetsNorSegments) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (const InputPlc& solid : {gridded_cube(7), l_shape(), schoenhardt(), unit_cube()}) {
+    const Plc straight = build_plc(solid);
+    for (int i = 0; i < 25; ++i) {
+      const Matrix m = rotation(normal(random), normal(random), normal(random), normal(random));
+      // Vertices that the faces of the solid share are turned alike, so that they stay equal and keep their ids.
+      const Plc turned = build_plc(rotated(m, solid));
+      expect_valid(turned);
+      EXPECT_EQ(turned.facets.size(), straight.facets.size());
+      EXPECT_EQ(segment_ends(turned), segment_ends(straight));
+      EXPECT_EQ(segment_ends(turned, true), segment_ends(straight, true));
+      EXPECT_NEAR(inside_volume(turned), inside_volume(straight), 1e-9);
+    }
+  }
+}
+
+TEST(PlcFacets, LShapeHasOneGrazeableSegment) {
+  const Plc plc = build_plc(l_shape());
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), 8u);
+  EXPECT_EQ(plc.segments.size(), 18u);
+  EXPECT_EQ(segment_ends(plc, true), (std::set<std::array<std::uint32_t, 2>>{{0, 6}}));
+}
+
+TEST(PlcFacets, SchoenhardtHasThreeGrazeableSegments) {
+  const Plc plc = build_plc(schoenhardt());
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), 8u);
+  EXPECT_EQ(plc.segments.size(), 12u);
+  EXPECT_EQ(grazeable_count(plc), 3u);
+}
+
+TEST(PlcFacets, FineCylinderKeepsItsCreases) {
+  std::vector<std::array<double, 2>> circle;
+  const int n = 2000;
+  for (int i = 0; i < n; ++i) circle.push_back({std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n)});
+  const Plc plc = build_plc(prism(circle));
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), n + 2u);
+  EXPECT_EQ(plc.segments.size(), 3u * n);
+  EXPECT_EQ(grazeable_count(plc), 0u);
+}
+
+TEST(PlcFacets, MarkersDivideAFlatFace) {
+  InputPlc cube = unit_cube();
+  cube.triangle_markers.assign(12, 5);
+  cube.triangle_markers[0] = 6;
+  const Plc plc = build_plc(cube);
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), 7u);
+  EXPECT_EQ(plc.segments.size(), 13u);
+  EXPECT_EQ(plc.facets[0].marker, 6);
+  EXPECT_EQ(grazeable_count(plc), 1u) << "a segment within a flat face has 180 degrees of the domain";
+}
+
+TEST(PlcFacets, ASegmentOfTheInputDividesAFlatFaceAndKeepsItsMarker) {
+  InputPlc cube = unit_cube();
+  cube.segments = {{cube.triangles[0][2], cube.triangles[0][0]}};  // the diagonal
+  cube.segment_markers = {9};
+  const Plc plc = build_plc(cube);
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), 7u);
+  ASSERT_EQ(plc.segments.size(), 13u);
+  int marked = 0;
+  for (const Segment& s : plc.segments) marked += s.marker == 9;
+  EXPECT_EQ(marked, 1);
+}
+
+TEST(PlcFacets, VerticesThatFallTogetherAreMergedInOrderOfAppearance) {
+  InputPlc soup;  // as STL has it: three vertices a triangle
+  const InputPlc cube = unit_cube();
+  for (const auto& t : cube.triangles) {
+    const auto v = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t c : t) soup.vertices.push_back(cube.vertices[c]);
+    soup.triangles.push_back({v, v + 1, v + 2});
+  }
+  soup.vertices[3].x += 1e-12;
+  const Plc plc = build_plc(soup);
+  EXPECT_EQ(plc.vertices.size(), 8u);
+  EXPECT_EQ(plc.vertex_of_input[0], 0u);
+  EXPECT_EQ(plc.vertex_of_input[3], plc.vertex_of_input[0]);
+  EXPECT_EQ(plc.world[0], cube.vertices[cube.triangles[0][0]]);
+  EXPECT_NEAR(plc.largest_rounding, 1e-12, 1e-13);
+}
+
+TEST(PlcFacets, AVertexExactlyOnAnEdgeSplitsTheTrianglesThere) {
+  InputPlc cube = unit_cube();
+  cube.vertices.push_back({0.5, 0, 0});     // on an edge of the cube
+  cube.vertices.push_back({0.25, 0.5, 1});  // within a facet
+  const Plc plc = build_plc(cube);
+  expect_valid(plc);
+  EXPECT_EQ(plc.facets.size(), 6u);
+  EXPECT_EQ(plc.segments.size(), 13u);
+  EXPECT_EQ(segment_ends(plc).count({0, 8}), 1u);
+  EXPECT_EQ(segment_ends(plc).count({1, 8}), 1u);
+  std::set<std::uint32_t> on_facets;
+  for (const Facet& f : plc.facets)
+    for (const auto& t : f.triangles) on_facets.insert(t.begin(), t.end());
+  EXPECT_EQ(on_facets.size(), 10u);
+}
+
+TEST(PlcFacets, ExactlyFlatMeansThatAllVerticesAreInOnePlane) {
+  const Plc plc = build_plc(rotated(arbitrary, l_shape()));
+  for (const Facet& f : plc.facets) {
+    bool flat = true;
+    for (const auto& s : f.triangles)
+      for (const VertexId v : s) {
+        const auto& t = f.triangles[0];
+        flat = flat && orient3d(plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]], plc.vertices[v]) == 0;
+      }
+    EXPECT_EQ(f.exactly_flat, flat);
+  }
+}
+
+}  // namespace
+}  // namespace ccdt

@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/base/errors.h"
+#include "engine/tests/plc_test_solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace plc_test;
+
+using Polygon = std::vector<std::uint32_t>;
+
+const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
+
+PolygonFacet facet(std::vector<Polygon> polygons, std::uint32_t number) {
+  PolygonFacet f;
+  f.polygons = std::move(polygons);
+  f.number = number;
+  return f;
+}
+
+/// A box of six squares.
+InputPlc polygon_cube(double size = 1) {
+  InputPlc plc;
+  plc.name = "cube of squares";
+  plc.inside = InputPlc::Inside::seeds;
+  plc.vertices = box({0, 0, 0}, {size, size, size}).vertices;
+  for (const Polygon& q :
+       std::vector<Polygon>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    plc.polygon_facets.push_back(facet({q}, static_cast<std::uint32_t>(plc.polygon_facets.size())));
+  return plc;
+}
+
+/// A cube of size 4 with a square hole of size 2 from bottom to top.
+InputPlc cube_with_through_hole() {
+  InputPlc plc = polygon_cube(4);
+  for (const double z : {0.0, 4.0})
+    for (const auto& [x, y] : {std::pair{1.0, 1.0}, {3.0, 1.0}, {3.0, 3.0}, {1.0, 3.0}})
+      plc.vertices.push_back({x, y, z});
+  plc.polygon_facets[0].polygons.push_back({8, 9, 10, 11});
+  plc.polygon_facets[0].holes = {{2, 2.5, 0}};
+  plc.polygon_facets[1].polygons.push_back({12, 13, 14, 15});
+  plc.polygon_facets[1].holes = {{2, 2.5, 4}};
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t l = (k + 1) % 4;
+    plc.polygon_facets.push_back(facet({{8 + k, 8 + l, 12 + l, 12 + k}}, 6 + k));
+  }
+  return plc;
+}
+
+InputPlc turned(const Matrix& m, const InputPlc& plc) {
+  InputPlc result = rotated(m, plc);
+  for (PolygonFacet& f : result.polygon_facets)
+    for (Point3& hole : f.holes) hole = rotated(m, hole);
+  return result;
+}
+
+std::string refusal_of(const InputPlc& input) {
+  try {
+    build_plc(input);
+  } catch (const InputError& error) {
+    EXPECT_FALSE(error.remedy().empty());
+    return error.what();
+  }
+  return "";
+}
+
+void expect_told(const InputPlc& input, const std::string& text) {
+  const std::string what = refusal_of(input);
+  EXPECT_NE(what.find(text), std::string::npos) << what;
+}
+
+TEST(PlcPolygons, ACubeOfSquares) {
+  for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
+    const Plc plc = build_plc(turned(m, polygon_cube()));
+    EXPECT_EQ(plc.facets.size(), 6u);
+    EXPECT_EQ(plc.segments.size(), 12u);
+    EXPECT_NEAR(inside_volume(plc), 1, 1e-9);
+    for (const Facet& f : plc.facets) EXPECT_EQ(f.triangles.size(), 2u);
+  }
+}
+
+TEST(PlcPolygons, AThroughHole) {
+  for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
+    const Plc plc = build_plc(turned(m, cube_with_through_hole()));
+    EXPECT_EQ(plc.facets.size(), 10u);
+    EXPECT_EQ(plc.segments.size(), 24u);
+    EXPECT_EQ(grazeable_count(plc), 4u) << "the four upright edges of the hole";
+    EXPECT_EQ(inside_count(plc), 1u);
+    EXPECT_NEAR(inside_volume(plc), 64 - 16, 1e-6);
+    EXPECT_EQ(plc.facets[0].triangles.size(), 8u);
+  }
+}
+
+TEST(PlcPolygons, AConcavePolygon) {
+  const InputPlc l = l_shape();
+  InputPlc plc = l;
+  plc.triangles.clear();
+  Polygon bottom, top;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    bottom.push_back(5 - k);
+    top.push_back(6 + k);
+    plc.polygon_facets.push_back(facet({{k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k}}, k));
+  }
+  plc.polygon_facets.push_back(facet({bottom}, 6));
+  plc.polygon_facets.push_back(facet({top}, 7));
+  const Plc built = build_plc(plc);
+  EXPECT_EQ(built.facets.size(), 8u);
+  EXPECT_EQ(segment_ends(built), segment_ends(build_plc(l)));
+  EXPECT_NEAR(inside_volume(built), 3, 1e-12);
+}
+
+TEST(PlcPolygons, SegmentsAndVerticesWithinAFacet) {
+  InputPlc plc = polygon_cube(4);
+  plc.vertices.insert(plc.vertices.end(), {{1, 2, 4}, {3, 2, 4}, {2, 3, 4}});
+  plc.polygon_facets[1].polygons.push_back({8, 9});
+  plc.polygon_facets[1].polygons.push_back({10});
+  const Plc built = build_plc(plc);
+  EXPECT_EQ(built.facets.size(), 6u);
+  EXPECT_EQ(built.segments.size(), 13u);
+  EXPECT_EQ(segment_ends(built, true), (std::set<std::array<std::uint32_t, 2>>{{8, 9}}));
+  std::set<std::uint32_t> corners;
+  for (const auto& t : built.facets[1].triangles) corners.insert(t.begin(), t.end());
+  EXPECT_EQ(corners, (std::set<std::uint32_t>{4, 5, 6, 7, 8, 9, 10}));
+}
+
+TEST(PlcPolygons, ALoopWithinAFacetThatIsNoHoleDividesIt) {
+  InputPlc plc = polygon_cube(4);
+  plc.vertices.insert(plc.vertices.end(), {{1, 1, 4}, {3, 1, 4}, {2, 3, 4}});
+  plc.polygon_facets[1].polygons.push_back({8, 9, 10});
+  const Plc built = build_plc(plc);
+  EXPECT_EQ(built.facets.size(), 7u);
+  EXPECT_EQ(built.segments.size(), 15u);
+  EXPECT_EQ(built.chambers.size(), 2u);
+}
+
+TEST(PlcPolygons, AGivenSegmentAcrossAFacetBecomesAnEdgeOfIt) {
+  for (const std::array<std::uint32_t, 2>& diagonal : {std::array{4u, 7u}, std::array{5u, 6u}}) {
+    InputPlc plc = polygon_cube();
+    plc.segments = {diagonal};
+    plc.segment_markers = {3};
+    const Plc built = build_plc(plc);
+    EXPECT_EQ(built.segments.size(), 13u);
+    EXPECT_EQ(segment_ends(built).count(diagonal), 1u);
+    EXPECT_EQ(built.facets.size(), 7u);
+  }
+}
+
+TEST(PlcPolygons, AVertexOnAnEdgeOfNeighboursThatDoNotNameIt) {
+  InputPlc plc = polygon_cube(4);
+  plc.vertices.push_back({2, 0, 4});
+  plc.polygon_facets[1].polygons[0] = {4, 8, 5, 7, 6};  // the side facet has the whole edge
+  const Plc built = build_plc(plc);
+  EXPECT_EQ(built.facets.size(), 6u);
+  EXPECT_EQ(built.segments.size(), 13u);
+  EXPECT_NEAR(inside_volume(built), 64, 1e-9);
+}
+
+TEST(PlcPolygons, AFacetOfTwoVerticesIsADanglingSegment) {
+  InputPlc plc = polygon_cube(4);
+  plc.vertices.insert(plc.vertices.end(), {{1, 1, 1}, {2, 3, 2}});
+  plc.polygon_facets.push_back(facet({{8, 9}}, 6));
+  const Plc built = build_plc(plc);
+  EXPECT_EQ(built.facets.size(), 6u);
+  EXPECT_EQ(segment_ends(built, true), (std::set<std::array<std::uint32_t, 2>>{{8, 9}}));
+}
+
+TEST(PlcPolygons, BadFacetsAreRefused) {
+  InputPlc plc = polygon_cube();
+  plc.vertices[7].z = 1.001;
+  expect_told(plc, "not planar: its vertices are up to 0.0005 away");
+
+  plc = polygon_cube();
+  std::swap(plc.polygon_facets[2].polygons[0][0], plc.polygon_facets[2].polygons[0][1]);
+  expect_told(plc, "two edges of a facet cross");
+
+  plc = polygon_cube();
+  plc.vertices.insert(plc.vertices.end(), {{0.25, 0, 0}, {0.5, 0, 0}});
+  plc.polygon_facets.push_back(facet({{0, 8, 9, 1}}, 6));
+  expect_told(plc, "on one line");
+
+  plc = polygon_cube();
+  plc.polygon_facets[0].holes = {{0.5, 7, 0}};
+  expect_told(plc, "seed of a hole in a facet is outside");
+
+  plc = polygon_cube();
+  plc.vertices.push_back({3, 0.5, 1});
+  plc.polygon_facets[1].polygons.push_back({8});
+  expect_told(plc, "outside its outline");
+
+  plc = polygon_cube();
+  plc.polygon_facets[1].polygons = {{4, 5}, {5, 7}, {7, 6}};
+  expect_told(plc, "not closed");
+
+  plc = polygon_cube();
+  plc.polygon_facets.push_back(facet({{0, 2, 3, 1}}, 6));
+  expect_told(plc, "same corners");
+
+  plc = polygon_cube();
+  plc.polygon_facets.pop_back();
+  expect_told(plc, "1 boundary loop, of 4 edges");
+}
+
+}  // namespace
+}  // namespace ccdt
