@@ -92,9 +92,8 @@ class Clearing {
     for (std::uint32_t c = 0; c < 8; ++c) {
       std::uint32_t child_end = end;
       if (c < 7) {
-        const std::uint64_t next = morton_key(tree_.nodes[node.first_child + c + 1].corner);
-        const auto at = std::lower_bound(sites_.begin() + begin, sites_.begin() + end, next,
-                                         [](const Site& site, std::uint64_t key) { return site.key < key; });
+        const Site next = site_at(tree_.nodes[node.first_child + c + 1].corner);
+        const auto at = std::lower_bound(sites_.begin() + begin, sites_.begin() + end, next);
         child_end = static_cast<std::uint32_t>(at - sites_.begin());
       }
       find_sites(node.first_child + c, begin, child_end);
@@ -119,7 +118,7 @@ class Clearing {
     here.emptied = true;
     if (node.is_leaf()) {
       for (std::uint32_t s = here.begin; s < here.end; ++s) {
-        if (stays_[s] && contains(i, tree_.point(sites_[s].coordinates()))) stays_[s] = false;
+        if (stays_[s] && contains(i, tree_.point(coordinates_of(sites_[s])))) stays_[s] = false;
         if (stays_[s]) here.emptied = false;
       }
       return;

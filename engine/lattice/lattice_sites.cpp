@@ -1,5 +1,6 @@
 #include "engine/lattice/lattice_sites.h"
 
+#include <algorithm>
 #include <boost/sort/spreadsort/integer_sort.hpp>
 #include <span>
 
@@ -50,45 +51,29 @@ std::uint32_t gather(std::uint64_t x) {
 
 }  // namespace
 
-std::uint64_t morton_key(const std::array<std::uint32_t, 3>& c) {
+Site site_at(const std::array<std::uint32_t, 3>& c) {
   return spread(c[0]) | spread(c[1]) << 1 | spread(c[2]) << 2;
 }
 
-std::array<std::uint32_t, 3> Site::coordinates() const {
-  return {gather(key), gather(key >> 1), gather(key >> 2)};
+std::array<std::uint32_t, 3> coordinates_of(Site site) {
+  return {gather(site), gather(site >> 1), gather(site >> 2)};
 }
 
 std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
   const std::span<const CellPoint> cell = points_of_cell(kind);
   std::vector<Site> sites;
-  for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-    const OctreeNode& node = tree.nodes[i];
+  for (const OctreeNode& node : tree.nodes) {
     if (!node.is_leaf() || node.place == NodePlace::outside) continue;
     const std::uint32_t half = tree.side(node) / 2;
     for (const CellPoint& p : cell) {
       const std::array<std::uint32_t, 3> c = {node.corner[0] + p[0] * half, node.corner[1] + p[1] * half,
                                               node.corner[2] + p[2] * half};
-      if (strictly_contains(tree.bounds, tree.point(c))) sites.push_back({morton_key(c), i});
+      if (strictly_contains(tree.bounds, tree.point(c))) sites.push_back(site_at(c));
     }
   }
-  boost::sort::spreadsort::integer_sort(
-      sites.begin(), sites.end(), [](const Site& s, unsigned bits) { return s.key >> bits; },
-      [](const Site& a, const Site& b) { return a.key < b.key; });
-
-  // Equal keys in any order; of each group the best leaf stays.
-  const auto better = [&tree](std::uint32_t a, std::uint32_t b) {
-    const bool inside_a = tree.nodes[a].place == NodePlace::inside, inside_b = tree.nodes[b].place == NodePlace::inside;
-    return inside_a != inside_b ? inside_a : a < b;
-  };
-  std::size_t kept = 0;
-  for (const Site& site : sites) {
-    if (kept > 0 && sites[kept - 1].key == site.key) {
-      if (better(site.leaf, sites[kept - 1].leaf)) sites[kept - 1].leaf = site.leaf;
-    } else {
-      sites[kept++] = site;
-    }
-  }
-  sites.resize(kept);
+  boost::sort::spreadsort::integer_sort(sites.begin(), sites.end());
+  const auto repeated = std::ranges::unique(sites);
+  sites.erase(repeated.begin(), repeated.end());
   return sites;
 }
 

@@ -163,6 +163,12 @@ std::uint32_t Octree::child_at(const OctreeNode& node, const std::array<std::uin
   return child;
 }
 
+const OctreeNode& Octree::leaf_at(const std::array<std::uint32_t, 3>& c) const {
+  std::uint32_t i = 0;
+  while (!nodes[i].is_leaf()) i = child_at(nodes[i], c);
+  return nodes[i];
+}
+
 bool is_inside(const Octree& tree, const Surface& surface, const Point3& p, const OctreeNode& node) {
   const auto answer_in = [&](const OctreeNode& n) {
     return sees_inside(p, intersection(tree.box(n), tree.bounds), surface, tree.triangles_of(n));

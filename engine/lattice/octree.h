@@ -47,6 +47,8 @@ struct Octree {
   Box box(const OctreeNode& node) const;
   /// The child of an inner node that holds a point of it (each holds its lower faces, not the upper ones).
   std::uint32_t child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const;
+  /// The leaf that holds a point within the root.
+  const OctreeNode& leaf_at(const std::array<std::uint32_t, 3>& c) const;
   std::span<const std::uint32_t> triangles_of(const OctreeNode& node) const {
     return std::span(triangles).subspan(node.first_triangle, node.triangle_count);
   }

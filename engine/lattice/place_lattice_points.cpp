@@ -63,8 +63,10 @@ std::vector<Point3> place_lattice_points(std::span<const Point3> vertices, std::
   std::vector<Point3> points;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (!stays[i]) continue;
-    const OctreeNode& leaf = tree.nodes[sites[i].leaf];
-    const Point3 p = tree.point(sites[i].coordinates());
+    const auto coordinates = coordinates_of(sites[i]);
+    const OctreeNode& leaf = tree.leaf_at(coordinates);
+    if (leaf.place == NodePlace::outside) continue;
+    const Point3 p = tree.point(coordinates);
     if (leaf.place == NodePlace::inside || is_inside(tree, surface, p, leaf)) points.push_back(p);
   }
   if (static_cast<double>(vertices.size() + points.size()) > most_vertices) throw_too_many_points();
