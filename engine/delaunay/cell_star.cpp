@@ -1,0 +1,57 @@
+#include "engine/delaunay/cell_star.h"
+
+#include <algorithm>
+
+namespace ccdt {
+namespace {
+
+/// The place of v among the vertices of the cell, 4 if it is not there.
+std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
+  std::uint32_t i = 0;
+  while (i < 4 && cell.vertices[i] != v) ++i;
+  return i;
+}
+
+}  // namespace
+
+std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
+  seen_.resize(d_.cells.size(), question_);
+  if (++question_ == 0) {
+    std::fill(seen_.begin(), seen_.end(), 0);
+    question_ = 1;
+  }
+  cells_.assign(1, d_.vertices[vertex].cell);
+  seen_[cells_[0]] = question_;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = d_.cells[cells_[i]];
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (cell.vertices[f] == vertex) continue;
+      const std::uint32_t next = cell_of(cell.neighbors[f]);
+      if (seen_[next] == question_) continue;
+      seen_[next] = question_;
+      cells_.push_back(next);
+    }
+  }
+  return cells_;
+}
+
+bool CellStar::has_edge(std::uint32_t a, std::uint32_t b) {
+  const auto cells = around(a);
+  return std::any_of(cells.begin(), cells.end(), [&](std::uint32_t c) { return place_of(d_.cells[c], b) < 4; });
+}
+
+std::uint32_t CellStar::find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  for (const std::uint32_t here : around(a)) {
+    const Cell& cell = d_.cells[here];
+    const std::uint32_t i = place_of(cell, a), j = place_of(cell, b), k = place_of(cell, c);
+    if (j == 4 || k == 4) continue;
+    const std::uint32_t f = 6 - i - j - k;
+    const auto& corner = face_corners[f];
+    const bool above =
+        (corner[0] == i && corner[1] == j) || (corner[1] == i && corner[2] == j) || (corner[2] == i && corner[0] == j);
+    return above ? face_code(here, f) : cell.neighbors[f];
+  }
+  return no_neighbor;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,226 @@
+#include "engine/facets/facet_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "engine/base/edge_key.h"
+#include "engine/delaunay/cell_star.h"
+#include "engine/facets/facet_plane.h"
+#include "engine/facets/planar_triangulation.h"
+
+namespace ccdt {
+namespace {
+
+using Triangle = std::array<VertexId, 3>;
+
+/// Works through the facets of one PLC; holds what they share.
+class FacetMesher {
+ public:
+  FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay);
+
+  void triangulate(FacetId facet, FacetMesh& result);
+
+ private:
+  struct FacetSegment {
+    VertexId a, b;  ///< as its triangle has them
+    std::uint32_t segment;
+  };
+
+  std::vector<FacetSegment> segments_of(const Facet& facet) const;
+  PlanarTriangulation split_triangulation(const Facet& facet, const FacetPlane& plane,
+                                          const std::vector<FacetSegment>& segments) const;
+  FacetPlane flatten(const Facet& facet, const std::vector<FacetSegment>& segments);
+  void take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t);
+  bool is_flat_cell(std::uint32_t cell) const;
+  std::uint32_t cell_on_domain_side(const Facet& facet, const Triangle& triangle);
+
+  const Plc& plc_;
+  const SegmentChains& chains_;
+  const Delaunay& d_;
+  CellStar star_;
+  std::unordered_map<std::uint64_t, std::uint32_t> segment_of_edge_;
+  std::vector<Point3> flattened_;        // by vertex, of the facet at hand
+  std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
+  std::uint32_t here_ = 0;
+};
+
+FacetMesher::FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
+    : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
+  segment_of_edge_.reserve(plc.segments.size());
+  for (std::uint32_t s = 0; s < plc.segments.size(); ++s)
+    segment_of_edge_[edge_key(plc.segments[s].ends[0], plc.segments[s].ends[1])] = s;
+}
+
+std::vector<FacetMesher::FacetSegment> FacetMesher::segments_of(const Facet& facet) const {
+  std::vector<FacetSegment> segments;
+  for (const Triangle& t : facet.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const VertexId a = t[i], b = t[(i + 1) % 3];
+      if (const auto found = segment_of_edge_.find(edge_key(a, b)); found != segment_of_edge_.end())
+        segments.push_back({a, b, found->second});
+    }
+  }
+  // A segment within the facet is met from both sides.
+  std::sort(segments.begin(), segments.end(), [](const auto& l, const auto& r) { return l.segment < r.segment; });
+  const auto same = [](const auto& l, const auto& r) { return l.segment == r.segment; };
+  segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
+  return segments;
+}
+
+/// The axis that the normal is nearest to, and the apex above the facet in that direction.
+struct FacetFrame {
+  Point3 normal;
+  int axis;
+  double scale;  ///< extent of the facet
+};
+
+FacetFrame frame_of(const Facet& facet, const std::vector<DelaunayVertex>& vertices) {
+  Point3 normal;
+  const Point3& base = vertices[facet.triangles[0][0]].point;
+  double scale = 1;
+  for (const Triangle& t : facet.triangles) {
+    const Point3 u = vertices[t[1]].point - vertices[t[0]].point, v = vertices[t[2]].point - vertices[t[0]].point;
+    normal = normal + cross(u, v);
+    scale = std::max(scale, squared_length(vertices[t[0]].point - base));
+  }
+  normal = (1 / std::sqrt(squared_length(normal))) * normal;
+  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+  return {normal, x >= y && x >= z ? 0 : y >= z ? 1 : 2, std::sqrt(scale)};
+}
+
+FacetPlane exact_plane(const Facet& facet, const std::vector<DelaunayVertex>& vertices) {
+  const FacetFrame frame = frame_of(facet, vertices);
+  const double up = std::exp2(std::ceil(std::log2(frame.scale)));
+  Point3 apex = vertices[facet.triangles[0][0]].point;
+  (frame.axis == 0   ? apex.x
+   : frame.axis == 1 ? apex.y
+                     : apex.z) += std::copysign(up, frame.axis == 0   ? frame.normal.x
+                                                    : frame.axis == 1 ? frame.normal.y
+                                                                      : frame.normal.z);
+  return FacetPlane(vertices, apex);
+}
+
+/// Sees the vertices along the frame's axis and stretches what is seen to true distances: with the other two
+/// coordinates (s, t) and the heights that the plane has there, the distances are those of a linear image of (s, t),
+/// which loses no orientation.
+FacetPlane FacetMesher::flatten(const Facet& facet, const std::vector<FacetSegment>& segments) {
+  const FacetFrame frame = frame_of(facet, d_.vertices);
+  flattened_.resize(d_.vertices.size());
+  const auto pick = [&](const Point3& p) {  // the axis last, turning the other two so that above stays above
+    if (frame.axis == 0) return Point3{p.y, p.z, p.x};
+    if (frame.axis == 1) return Point3{p.z, p.x, p.y};
+    return p;
+  };
+  const Point3 n = pick(frame.normal);
+  const Point3 base = pick(d_.point(facet.triangles[0][0]));
+  const double rise_s = -n.x / n.z, rise_t = -n.y / n.z, turn = n.z > 0 ? 1 : -1;
+  const double first = std::sqrt(1 + rise_s * rise_s);
+  const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
+  const auto flatten_vertex = [&](VertexId v) {
+    const Point3 p = pick(d_.point(v)) - base;
+    flattened_[v] = {round_to_unit(0.25 * (first * p.x + shear * p.y)), round_to_unit(0.25 * turn * second * p.y), 0};
+  };
+  for (const Triangle& t : facet.triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
+  for (const FacetSegment& s : segments)
+    for (const ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);
+  return FacetPlane(d_.vertices, flattened_);
+}
+
+PlanarTriangulation FacetMesher::split_triangulation(const Facet& facet, const FacetPlane& plane,
+                                                     const std::vector<FacetSegment>& segments) const {
+  std::vector<PlanarEdge> constrained;
+  for (const FacetSegment& s : segments) constrained.push_back({s.a, s.b});
+  PlanarTriangulation t = planar_from_triangles(facet.triangles, constrained);
+  planar_legalize(t, plane);
+  for (const FacetSegment& s : segments) {
+    const auto& chain = chains_[s.segment];
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+      planar_split_edge(t, chain[i - 1].vertex, chain.back().vertex, chain[i].vertex, plane);
+  }
+  return t;
+}
+
+bool FacetMesher::is_flat_cell(std::uint32_t cell) const {
+  const auto& v = d_.cells[cell].vertices;
+  return std::all_of(v.begin(), v.end(), [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; });
+}
+
+/// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
+std::uint32_t FacetMesher::cell_on_domain_side(const Facet& facet, const Triangle& triangle) {
+  const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
+  if (code == no_neighbor) return no_neighbor;
+  const std::uint32_t cell = cell_of(code);
+  return plc_.chambers[facet.above].inside ? cell : cell_of(d_.cells[cell].neighbors[face_of(code)]);
+}
+
+/// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
+void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
+  ++here_;
+  std::vector<VertexId> vertices;
+  for (const Triangle& triangle : t.triangles) {
+    for (const VertexId v : triangle) {
+      if (in_facet_[v] != here_) vertices.push_back(v);
+      in_facet_[v] = here_;
+    }
+  }
+  const auto is_right = [&](const Triangle& triangle) {
+    const std::uint32_t cell = cell_on_domain_side(facet, triangle);
+    return cell != no_neighbor && !is_flat_cell(cell);
+  };
+  if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
+  const int domain_side = plc_.chambers[facet.above].inside ? 1 : -1;
+  std::vector<PlanarEdge> forced;
+  for (const VertexId v : vertices) {
+    for (const std::uint32_t c : star_.around(v)) {
+      if (d_.is_ghost(c) || is_flat_cell(c)) continue;
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const auto& corner = face_corners[f];
+        Triangle face;
+        for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
+        if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
+        if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
+        if (plane.orient(face[0], face[1], face[2]) != domain_side) continue;
+        for (int i = 0; i < 3; ++i) forced.push_back({face[i], face[(i + 1) % 3]});
+      }
+    }
+  }
+  std::vector<PlanarEdge> added;
+  for (const PlanarEdge& edge : forced) {
+    const auto side = planar_find_edge(t, edge[0], edge[1]);
+    if (side && t.constrained[side->triangle][side->corner]) continue;
+    if (planar_insert_constraint(t, edge[0], edge[1], plane)) added.push_back(edge);
+  }
+}
+
+void FacetMesher::triangulate(FacetId id, FacetMesh& result) {
+  const Facet& facet = plc_.facets[id];
+  const std::vector<FacetSegment> segments = segments_of(facet);
+  const bool unsplit = std::all_of(segments.begin(), segments.end(),
+                                   [&](const FacetSegment& s) { return chains_[s.segment].size() == 2; });
+  if (facet.triangles.size() == 1 && unsplit) {
+    result.triangles.push_back(facet.triangles[0]);
+    result.facet.push_back(id);
+    return;
+  }
+  const FacetPlane plane = facet.exactly_flat ? exact_plane(facet, d_.vertices) : flatten(facet, segments);
+  PlanarTriangulation t = split_triangulation(facet, plane, segments);
+  if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
+  result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
+  result.facet.resize(result.triangles.size(), id);
+}
+
+}  // namespace
+
+FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
+                             const Progress& progress) {
+  FacetMesher mesher(plc, chains, delaunay);
+  FacetMesh result;
+  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
+    if ((f & 0xFFF) == 0) report(progress, "facets", f, plc.facets.size());
+    mesher.triangulate(FacetId(f), result);
+  }
+  return result;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/base/progress.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/plc/plc.h"
+#include "engine/protection/segment_chains.h"
+
+namespace ccdt {
+
+/// The faces that the mesh must contain.
+struct FacetMesh {
+  std::vector<std::array<VertexId, 3>> triangles;  ///< counterclockwise seen from above their facet
+  std::vector<FacetId> facet;                      ///< of each triangle
+};
+
+/// Triangulates every facet with all its vertices, Steiner vertices included: its constrained Delaunay triangulation,
+/// which contains every Delaunay face in the facet.
+///
+/// A facet that is flat only within the tolerance has, where vertices are cocircular or on the convex hull, tetrahedra
+/// with all vertices in the facet, of almost no volume, whose two sides are two triangulations of the same patch. Of
+/// these the facet takes the one on the side of the domain, so that the flat tetrahedra are left outside; where the
+/// domain is on both sides, the upper one.
+FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
+                             const Progress& progress = {});
+
+}  // namespace ccdt

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/numbers/predicates.h"
+
+namespace ccdt {
+
+/// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `PlanarPredicates`).
+///
+/// In an exactly flat facet they are those of space with an apex above the plane. A facet that is flat only within the
+/// tolerance is *flattened*: its vertices are seen along the axis that its normal is nearest to, stretched to their
+/// true distances and rounded to the grid, which gives points that are exactly in one plane.
+class FacetPlane {
+ public:
+  FacetPlane(const std::vector<DelaunayVertex>& vertices, const Point3& apex) : vertices_(vertices), apex_(apex) {}
+  /// \param flattened  by vertex; only those of the facet are read
+  FacetPlane(const std::vector<DelaunayVertex>& vertices, const std::vector<Point3>& flattened)
+      : vertices_(vertices), flattened_(&flattened), apex_{0, 0, 0x1p50} {}
+
+  int orient(VertexId a, VertexId b, VertexId c) const { return orient3d(at(a), at(b), at(c), apex_); }
+
+  int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    return incircle_perturbed(at(a), at(b), at(c), apex_, at(d), {a, b, c, d});
+  }
+
+ private:
+  const Point3& at(VertexId v) const { return flattened_ ? (*flattened_)[v] : vertices_[v].point; }
+
+  const std::vector<DelaunayVertex>& vertices_;
+  const std::vector<Point3>* flattened_ = nullptr;
+  Point3 apex_;
+};
+
+}  // namespace ccdt

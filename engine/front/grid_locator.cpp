@@ -1,0 +1,58 @@
+#include "engine/front/grid_locator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ccdt {
+namespace {
+
+Point3 componentwise_min(const Point3& a, const Point3& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+
+Point3 componentwise_max(const Point3& a, const Point3& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+UniformGrid grid_of(std::span<const DelaunayVertex> vertices, std::size_t faces) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Point3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+  for (const DelaunayVertex& v : vertices) {
+    low = componentwise_min(low, v.point);
+    high = componentwise_max(high, v.point);
+  }
+  return make_uniform_grid(low, high, std::max(vertices.size(), faces));
+}
+
+/// Calls visit(cell) for every cell of the triangle's box that its plane comes near.
+template <class Visit>
+void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const Point3& b, const Point3& c,
+                               const Visit& visit) {
+  const double slack = 1e-3 * grid.cell_size;
+  const Point3 s{slack, slack, slack};
+  const Point3 normal = cross(b - a, c - a);
+  // How far a cell's corner can be from its centre, along the normal.
+  const double reach =
+      (std::fabs(normal.x) + std::fabs(normal.y) + std::fabs(normal.z)) * (0.5 * grid.cell_size + slack) * (1 + 1e-9);
+  UniformGrid::for_each(grid.cell_at(componentwise_min(componentwise_min(a, b), c) - s),
+                        grid.cell_at(componentwise_max(componentwise_max(a, b), c) + s),
+                        [&](const UniformGrid::CellIndex& cell) {
+                          if (std::fabs(dot(normal, grid.centre(cell) - a)) <= reach) visit(grid.number(cell));
+                        });
+}
+
+}  // namespace
+
+GridLocator::GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces)
+    : grid_(grid_of(vertices, faces.size())) {
+  vertices_ = make_cell_lists(grid_.size(), [&](const auto& emit) {
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(grid_.number(grid_.cell_at(vertices[v].point)), v);
+  });
+  faces_ = make_cell_lists(grid_.size(), [&](const auto& emit) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+      for_each_cell_of_triangle(grid_, vertices[faces[f][0]].point, vertices[faces[f][1]].point,
+                                vertices[faces[f][2]].point, [&](std::size_t cell) { emit(cell, f); });
+  });
+}
+
+}  // namespace ccdt

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/front/uniform_grid.h"
+
+namespace ccdt {
+
+/// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4).
+class GridLocator {
+ public:
+  GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
+
+  /// Calls visit(vertex) for vertices in growing distance from `centre`, ring of cells by ring, until `enough()` holds
+  /// at the end of a ring.
+  template <class Visit, class Enough>
+  void spiral(const Point3& centre, const Visit& visit, const Enough& enough) const;
+
+  /// Calls visit(vertex) for every vertex within the ball, and some beyond.
+  template <class Visit>
+  void in_ball(const Point3& centre, double radius, const Visit& visit) const;
+
+  /// Calls visit(face) for every face that the straight edge from p to q may meet, some more than once, until it
+  /// returns true. \return did some call?
+  template <class Visit>
+  bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const;
+
+ private:
+  UniformGrid grid_;
+  CellLists vertices_, faces_;
+};
+
+template <class Visit, class Enough>
+void GridLocator::spiral(const Point3& centre, const Visit& visit, const Enough& enough) const {
+  const UniformGrid::CellIndex middle = grid_.cell_at(centre);
+  int rings = 0;
+  for (int i = 0; i < 3; ++i) rings = std::max({rings, middle[i], grid_.cells[i] - 1 - middle[i]});
+  for (int ring = 0; ring <= rings && !enough(); ++ring) {
+    UniformGrid::CellIndex from, to;
+    for (int i = 0; i < 3; ++i) {
+      from[i] = std::max(0, middle[i] - ring);
+      to[i] = std::min(grid_.cells[i] - 1, middle[i] + ring);
+    }
+    for (int z = from[2]; z <= to[2]; ++z) {
+      for (int y = from[1]; y <= to[1]; ++y) {
+        // Within a row only the two ends are on the ring, unless the whole row is.
+        const bool whole = std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
+        const int step = whole ? 1 : std::max(1, 2 * ring);
+        for (int x = whole ? from[0] : middle[0] - ring; x <= to[0]; x += step) {
+          if (x < from[0]) continue;
+          for (const std::uint32_t v : vertices_.of(grid_.number({x, y, z}))) visit(v);
+        }
+      }
+    }
+  }
+}
+
+template <class Visit>
+void GridLocator::in_ball(const Point3& centre, double radius, const Visit& visit) const {
+  const Point3 r{radius, radius, radius};
+  UniformGrid::for_each(grid_.cell_at(centre - r), grid_.cell_at(centre + r), [&](const UniformGrid::CellIndex& cell) {
+    for (const std::uint32_t v : vertices_.of(grid_.number(cell))) visit(v);
+  });
+}
+
+template <class Visit>
+bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const {
+  // The edge in pieces of about a cell, each within a box of a few cells; a little wider than it is, for the roundings.
+  const double length = std::sqrt(squared_length(q - p));
+  const int pieces = std::max(1, static_cast<int>(length / grid_.cell_size));
+  const double slack = 1e-3 * grid_.cell_size;
+  UniformGrid::CellIndex last_from{-1, -1, -1}, last_to = last_from;
+  for (int i = 0; i < pieces; ++i) {
+    const Point3 a = p + (static_cast<double>(i) / pieces) * (q - p),
+                 b = p + (static_cast<double>(i + 1) / pieces) * (q - p);
+    const Point3 low{std::min(a.x, b.x) - slack, std::min(a.y, b.y) - slack, std::min(a.z, b.z) - slack};
+    const Point3 high{std::max(a.x, b.x) + slack, std::max(a.y, b.y) + slack, std::max(a.z, b.z) + slack};
+    const UniformGrid::CellIndex from = grid_.cell_at(low), to = grid_.cell_at(high);
+    if (from == last_from && to == last_to) continue;
+    last_from = from, last_to = to;
+    for (int z = from[2]; z <= to[2]; ++z)
+      for (int y = from[1]; y <= to[1]; ++y)
+        for (int x = from[0]; x <= to[0]; ++x)
+          for (const std::uint32_t f : faces_.of(grid_.number({x, y, z})))
+            if (visit(f)) return true;
+  }
+  return false;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/front/advance_front.h"
+
+namespace ccdt {
+
+/// Labels the Delaunay cells that belong to the domain with their chamber by flooding from the open faces of the front
+/// (paper, section 5.2, step 5). Holes, regions and slits need no more care: the chambers of the facets' sides tell
+/// them.
+///
+/// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are passed
+/// over \return by cell its chamber; none for cells outside and for those that the front has replaced \throw FrontStuck
+/// the flood leaks: front and tetrahedralization do not fit together
+std::vector<ChamberId> label_cells(const Delaunay& delaunay, const std::vector<FrontFace>& open,
+                                   const std::vector<std::uint32_t>& wall_codes);
+
+}  // namespace ccdt

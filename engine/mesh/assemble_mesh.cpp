@@ -1,0 +1,81 @@
+#include "engine/mesh/assemble_mesh.h"
+
+#include <cmath>
+
+#include "engine/mesh/to_world.h"
+
+namespace ccdt {
+namespace {
+
+double determinant(const Point3& a, const Point3& b, const Point3& c) {
+  return dot(a, cross(b, c));
+}
+
+/// Six times the volume that the facets enclose, by the divergence theorem.
+double volume_within(const Plc& plc, const FacetMesh& facets, const Delaunay& d) {
+  double volume = 0;
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const Facet& facet = plc.facets[facets.facet[i]];
+    const int outward = (plc.chambers[facet.below].inside ? 1 : 0) - (plc.chambers[facet.above].inside ? 1 : 0);
+    const auto& t = facets.triangles[i];
+    if (outward != 0) volume += outward * determinant(d.point(t[0]), d.point(t[1]), d.point(t[2]));
+  }
+  return volume;
+}
+
+/// All cells are positive and share their faces; if their volume is that of the domain too, they fill it once.
+void check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& d, const TetMesh& mesh) {
+  double filled = 0;
+  for (const auto& t : mesh.tetrahedra) {
+    const Point3& a = d.point(t[0]);
+    filled += determinant(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
+  }
+  const double wanted = volume_within(plc, facets, d);
+  if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return;
+  Place place;
+  place.file = plc.name;
+  throw FrontStuck("the tetrahedra do not fill the domain", place,
+                   "some facets are almost but not quite flat: try another --flatness");
+}
+
+void add_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
+                    const Delaunay& d, TetMesh& mesh) {
+  mesh.tetrahedra = front.tetrahedra;
+  for (const ChamberId chamber : front.chambers) mesh.regions.push_back(plc.chambers[chamber].region);
+  for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
+    if (chamber_of_cell[c].is_none()) continue;
+    mesh.tetrahedra.push_back(d.cells[c].vertices);
+    mesh.regions.push_back(plc.chambers[chamber_of_cell[c]].region);
+  }
+}
+
+void add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets, TetMesh& mesh) {
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const Facet& facet = plc.facets[facets.facet[i]];
+    if (!plc.chambers[facet.above].inside && !plc.chambers[facet.below].inside) continue;
+    const auto& t = facets.triangles[i];
+    mesh.faces.push_back({t[0], t[1], t[2]});
+    mesh.face_markers.push_back(facet.marker);
+  }
+  for (std::size_t s = 0; s < chains.size(); ++s) {
+    for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
+      mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});
+      mesh.edge_markers.push_back(plc.segments[s].marker);
+    }
+  }
+}
+
+}  // namespace
+
+TetMesh assemble_mesh(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets, const FrontResult& front,
+                      const std::vector<ChamberId>& chamber_of_cell, const Delaunay& delaunay) {
+  TetMesh mesh;
+  add_tetrahedra(plc, front, chamber_of_cell, delaunay, mesh);
+  check_volume(plc, facets, delaunay, mesh);
+  add_faces_and_edges(plc, chains, facets, mesh);
+  mesh.vertices = to_world(plc, delaunay.vertices, mesh.tetrahedra);
+  mesh.constrained_delaunay = true;
+  return mesh;
+}
+
+}  // namespace ccdt

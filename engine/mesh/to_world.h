@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/numbers/point.h"
+#include "engine/plc/plc.h"
+
+namespace ccdt {
+
+/// The vertices of a mesh in the units of the input. Input vertices get their original coordinates back wherever every
+/// tetrahedron around stays positively oriented in the coordinates that are written, exactly tested; elsewhere they
+/// stay where the grid has put them.
+///
+/// \throw MeshError  a tetrahedron is inverted by writing its vertices as doubles: the part is too far from the origin
+std::vector<Point3> to_world(const Plc& plc, const std::vector<DelaunayVertex>& vertices,
+                             std::span<const std::array<std::uint32_t, 4>> tetrahedra);
+
+}  // namespace ccdt

@@ -1,0 +1,142 @@
+#include "engine/mesher.h"
+
+#include <algorithm>
+
+#include "engine/base/stopwatch.h"
+#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_mesh.h"
+#include "engine/front/advance_front.h"
+#include "engine/front/face_check.h"
+#include "engine/label/label_cells.h"
+#include "engine/lattice/place_lattice_points.h"
+#include "engine/mesh/assemble_mesh.h"
+#include "engine/plc/build_plc.h"
+#include "engine/protection/insert_interior.h"
+#include "engine/protection/protect_edges.h"
+
+namespace ccdt {
+namespace {
+
+/// The state of one meshing, from the PLC to the mesh.
+struct Work {
+  const Plc& plc;
+  const MeshOptions& options;
+  const Progress& progress;
+  std::vector<bool> must_be_chain;  ///< by segment
+  Delaunay delaunay;
+  SegmentChains chains;
+  MeshCounts counts;
+  StageSeconds seconds;
+};
+
+void tetrahedralize_input(Work& w) {
+  const Stopwatch watch(w.seconds.delaunay);
+  w.delaunay = build_delaunay(w.plc.vertices, w.progress);
+}
+
+void protect(Work& w) {
+  const Stopwatch watch(w.seconds.protect);
+  w.chains = bare_chains(w.plc);
+  w.counts.steiner_vertices =
+      protect_edges(w.plc, w.must_be_chain, w.options.protection, w.delaunay, w.chains, w.progress);
+}
+
+/// The faces and subsegments that the lattice keeps away from.
+std::vector<Point3> lattice_points(const Work& w) {
+  const FacetMesh facets = triangulate_facets(w.plc, w.chains, w.delaunay);
+  std::vector<Point3> vertices;
+  for (const DelaunayVertex& v : w.delaunay.vertices) vertices.push_back(v.point);
+  std::vector<SurfaceTriangle> triangles;
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const Facet& facet = w.plc.facets[facets.facet[i]];
+    triangles.push_back({facets.triangles[i], w.plc.chambers[facet.above].inside, w.plc.chambers[facet.below].inside});
+  }
+  std::vector<std::array<VertexId, 2>> subsegments;
+  for (const auto& chain : w.chains)
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
+  const LatticeOptions options{w.options.lattice, w.options.edge_length / w.plc.grid.unit, w.options.grading};
+  return place_lattice_points(vertices, triangles, subsegments, options, w.progress);
+}
+
+void fill_inside(Work& w) {
+  if (w.options.lattice == Lattice::none) return;
+  std::vector<Point3> points;
+  {
+    const Stopwatch watch(w.seconds.lattice);
+    points = lattice_points(w);
+  }
+  const Stopwatch watch(w.seconds.delaunay);
+  w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
+}
+
+TetMesh constrain(Work& w) {
+  FacetMesh facets;
+  std::vector<std::uint32_t> codes;
+  {
+    const Stopwatch watch(w.seconds.face_check);
+    facets = triangulate_facets(w.plc, w.chains, w.delaunay, w.progress);
+    codes = find_delaunay_faces(facets, w.delaunay);
+    w.counts.faces = facets.triangles.size();
+    w.counts.undelaunay_faces = static_cast<std::uint64_t>(std::count(codes.begin(), codes.end(), no_neighbor));
+    if (!w.options.face_protection) std::fill(codes.begin(), codes.end(), no_neighbor);
+  }
+  FrontResult front;
+  {
+    const Stopwatch watch(w.seconds.front);
+    front = advance_front(w.plc, facets, codes, w.options.face_protection, w.delaunay, w.progress);
+    w.counts.front_tetrahedra = front.tetrahedra.size();
+  }
+  const Stopwatch watch(w.seconds.label);
+  const std::vector<ChamberId> chambers = label_cells(w.delaunay, front.open, codes);
+  return assemble_mesh(w.plc, w.chains, facets, front, chambers, w.delaunay);
+}
+
+/// Chooses more segments to protect after the front got stuck: all that are missing. False if there is none.
+bool protect_more(Work& w) {
+  CellStar star(w.delaunay);
+  bool more = false;
+  for (std::size_t s = 0; s < w.plc.segments.size(); ++s) {
+    const auto& ends = w.plc.segments[s].ends;
+    if (w.must_be_chain[s] || star.has_edge(ends[0], ends[1])) continue;
+    w.must_be_chain[s] = more = true;
+  }
+  return more;
+}
+
+TetMesh mesh_with(Work& w) {
+  while (true) {
+    try {
+      tetrahedralize_input(w);
+      protect(w);
+      fill_inside(w);
+      return constrain(w);
+    } catch (const FrontStuck&) {
+      if (!protect_more(w)) throw;
+    }
+  }
+}
+
+}  // namespace
+
+MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
+  StageSeconds seconds;
+  Plc plc;
+  {
+    const Stopwatch watch(seconds.plc);
+    plc = build_plc(input, {options.flatness}, progress);
+  }
+  Work work{plc, options, progress, grazeable_segments(plc), {}, {}, {}, seconds};
+  MeshResult result;
+  result.mesh = mesh_with(work);
+  result.counts = work.counts;
+  result.counts.vertices = result.mesh.vertices.size();
+  result.counts.tetrahedra = result.mesh.tetrahedra.size();
+  result.seconds = work.seconds;
+  StageSeconds& s = result.seconds;
+  s.mesh = s.plc + s.protect + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.improve;
+  result.largest_rounding = plc.largest_rounding;
+  return result;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/mesher.h"
+#include "engine/plc/plc.h"
+#include "engine/protection/segment_chains.h"
+
+namespace ccdt {
+
+/// Splits every missing grazeable segment until each is a chain of Delaunay edges (paper, section 2), so that the
+/// constrained Delaunay tetrahedralization exists (Shewchuk 2002).
+///
+/// `midpoint` bisects. `shell` does too, but near a vertex where segments meet at an acute angle it splits at a
+/// distance that is a power of two, so that the pieces of the segments that meet there end on common spheres and cannot
+/// split each other for ever (Ruppert 1995). Split points are dyadic fractions of the segment, j / 2^20, and lie on it
+/// exactly.
+///
+/// \param must_be_chain  by segment: shall it become a chain of Delaunay edges?
+/// \param delaunay  the tetrahedralization of the vertices of `plc`; gains the Steiner vertices, whose ids follow the
+/// existing ones \param chains    kept up to date; on entry the state of an earlier call, or the bare segments
+/// (`bare_chains`) \return          how many Steiner vertices were added \throw LimitError  a segment would need a
+/// split finer than 2^-20 of it; carries the place
+std::uint64_t protect_edges(const Plc& plc, const std::vector<bool>& must_be_chain, Protection strategy,
+                            Delaunay& delaunay, SegmentChains& chains, const Progress& progress = {});
+
+/// The segments before any split.
+SegmentChains bare_chains(const Plc& plc);
+
+/// Which segments need protection: the grazeable ones.
+std::vector<bool> grazeable_segments(const Plc& plc);
+
+}  // namespace ccdt

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/index.h"
+
+namespace ccdt {
+
+/// A vertex on a segment.
+struct ChainVertex {
+  VertexId vertex;
+  std::uint32_t fraction = 0;  ///< where: multiples of 1 / whole_segment from the segment's first end
+};
+
+inline constexpr std::uint32_t whole_segment = 1u << 20;
+
+/// What the segments of a PLC have become: for each the vertices on it, from its first end (fraction 0) to its second
+/// (`whole_segment`).
+using SegmentChains = std::vector<std::vector<ChainVertex>>;
+
+}  // namespace ccdt
