@@ -31,7 +31,10 @@ enum Marker { foot = 1, wall, bent, ends, sides, holes, gusset, interior_face, s
 
 const Point3 y_axis{0, 1, 0};
 
-/// The surface, and how finely its curves are cut: all border a face as narrow as the plates are thick.
+constexpr double narrow =
+    6;  // of the faces beside the curves: less than the thickness, for the sake of the bend's inner arcs
+
+/// The surface, and how finely its curves are cut.
 struct Bracket {
   Surface surface;
   double edge_length;
@@ -242,7 +245,7 @@ void add_interior_facets(Bracket& b, const GussetCurves& g, const LegCurves& on_
 }  // namespace
 
 InputPlc make_bracket(double edge_length) {
-  Bracket b{{}, edge_length, spacing_beside(edge_length, thickness)};
+  Bracket b{{}, edge_length, spacing_beside(edge_length, narrow)};
   const Leg foot_leg{true}, wall_leg{false};
   const LegCurves on_foot = cut_leg(b, foot_leg), on_wall = cut_leg(b, wall_leg);
   const GussetCurves g = cut_gusset(b);

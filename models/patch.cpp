@@ -55,7 +55,12 @@ PlanarTriangulation triangulate(const std::vector<Point2>& points, const PatchOu
   PlanarCarving carving;
   carving.outside = PlanarCarving::Outside::nesting;
   PlanarTriangulationResult result = planar_triangulate(vertices, edges, PlanarPoints(points), carving);
-  if (!result || !result.unused.empty()) throw std::logic_error("the curves of a patch do not bound it");
+  const auto is_kept = [&](const PlanarEdge& e) {
+    return planar_find_edge(result.triangulation, e[0], e[1]).has_value();
+  };
+  if (!result || !result.unused.empty() || !std::all_of(edges.begin(), edges.end(), is_kept)) {
+    throw std::logic_error("the curves of a patch cross, or meet otherwise than in shared vertices");
+  }
   return std::move(result.triangulation);
 }
 

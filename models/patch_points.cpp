@@ -11,7 +11,7 @@ namespace {
 
 // In units of the wanted edge length there:
 constexpr double least_gap = 0.72;          // between points
-constexpr double least_gap_to_edge = 0.52;  // between a point and the middle of an edge of the outline
+constexpr double least_gap_to_edge = 0.52;  // between a point and an edge of the outline
 constexpr double triangle_height = 0.8660254037844386;
 
 double gap(const Point2& a, const Point2& b) {
@@ -114,10 +114,10 @@ class PointFront {
         box_(box_of(outline.vertices)),
         enclosure_(outline, box_, 2 * spacing.smallest()),
         points_(box_, spacing.smallest()),
-        middles_(box_, spacing.smallest()) {
+        edge_samples_(box_, spacing.smallest()) {
     for (const Point2& p : outline.vertices) points_.add(p);
     for (const auto* edges : {&outline.border, &outline.cuts}) {
-      for (const PatchEdge& e : *edges) middles_.add(middle(outline.vertices[e[0]], outline.vertices[e[1]]));
+      for (const auto& [a, b] : *edges) add_samples(outline.vertices[a], outline.vertices[b]);
     }
   }
 
@@ -151,10 +151,19 @@ class PointFront {
     double angle;  // of one of the six edges that it should have
   };
 
+  /// Stands for an edge by its middle, and by more points where it is long beside the smallest spacing.
+  void add_samples(const Point2& a, const Point2& b) {
+    const int parts = std::max(2, static_cast<int>(std::ceil(gap(a, b) / spacing_.smallest())));
+    for (int i = 1; i < parts; ++i) {
+      const double t = static_cast<double>(i) / parts;
+      edge_samples_.add({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+    }
+  }
+
   void try_point(const Point2& from, double angle, double step, double edge_angle) {
     const Point2 p{from.x + step * std::cos(angle), from.y + step * std::sin(angle)};
     const double wanted = spacing_(p);
-    if (points_.any_within(p, least_gap * wanted) || middles_.any_within(p, least_gap_to_edge * wanted)) return;
+    if (points_.any_within(p, least_gap * wanted) || edge_samples_.any_within(p, least_gap_to_edge * wanted)) return;
     if (!enclosure_.contains(p)) return;
     points_.add(p);
     placed_.push_back({p, edge_angle});
@@ -163,7 +172,7 @@ class PointFront {
   const PatchSpacing& spacing_;
   Box box_;
   Enclosure enclosure_;
-  PointBuckets points_, middles_;
+  PointBuckets points_, edge_samples_;
   std::vector<Placed> placed_;
 };
 

@@ -87,7 +87,9 @@ InputPlc make_cube(double edge_length) {
 
 InputPlc make_sphere(double edge_length) {
   const Icosahedron ico = icosahedron();
-  const int n = parts_of(1.107, edge_length);  // the angle between neighbours of the icosahedron
+  // Of 20 n^2 equilateral triangles with that edge length over n and the area of the sphere.
+  const double rough_edge = 4 * std::sqrt(std::numbers::pi / (20 * std::numbers::sqrt3));
+  const int n = parts_of(rough_edge, edge_length);
   Surface surface;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Chain> edges;
   for (const Point3& p : ico.vertices) add_vertex(surface, p);

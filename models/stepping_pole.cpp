@@ -119,7 +119,7 @@ void add_hexagon(Surface& surface, const Outline& lower, const Outline& upper, d
     const Chain& piece = lower.pieces[i];
     return {side_plane(surface.vertices[piece.front()], surface.vertices[piece.back()]), hexagon};
   };
-  add_sides(surface, lower, upper, spacing_beside(edge_length, hexagon_top), edge_length, chart_and_marker);
+  add_sides(surface, lower, upper, spacing_beside(edge_length, hexagon_radius / 4), edge_length, chart_and_marker);
 }
 
 /// A plane face between two closed curves, which faces up the axis (`outward`) or down.
@@ -182,7 +182,7 @@ InputPlc make_stepping_pole(double edge_length) {
   };
   const Ring neck = add_stub(surface, edge_length);
 
-  const double hexagon_spacing = spacing_beside(edge_length, hexagon_top);
+  const double hexagon_spacing = spacing_beside(edge_length, hexagon_radius / 4);  // two edges a side at least
   const Outline hexagon_lower = hexagon_outline(surface, 0, hexagon_spacing);
   const Outline hexagon_upper = hexagon_outline(surface, hexagon_top, hexagon_spacing);
   const Ring collar_lower = collar_ring(hexagon_top), collar_upper = collar_ring(collar_top);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/numbers/point.h"
+
+namespace ccdt::testing {
+
+/// Pairs of triangles one of which is pierced by an edge of the other, or that share an edge and are folded onto each
+/// other. In floating point: what only touches may or may not be told, but a surface mesh with room between its sheets
+/// is judged rightly.
+std::vector<std::pair<std::size_t, std::size_t>> crossings(std::span<const Point3> vertices,
+                                                           std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace ccdt::testing

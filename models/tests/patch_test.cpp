@@ -1,0 +1,131 @@
+#include "models/patch.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "models/revolve.h"
+#include "models/tests/surface_checks.h"
+
+namespace ccdt::testing {
+namespace {
+
+Chain rectangle(Surface& surface, double width, double height, double spacing) {
+  const std::array<Point3, 4> p{{{0, 0, 0}, {width, 0, 0}, {width, height, 0}, {0, height, 0}}};
+  std::array<Chain, 4> sides;
+  for (std::size_t i = 0; i < 4; ++i) sides[i] = line(surface, p[i], p[(i + 1) % 4], spacing);
+  return closed_loop(sides);
+}
+
+double area(const Surface& surface) {
+  double sum = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Point3 normal = cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]);
+    sum += normal.z / 2;  // negative if it is turned over
+  }
+  return sum;
+}
+
+TEST(Curves, EndInTheSameVertexWhereTheyMeet) {
+  Surface surface;
+  const Chain round = arc(surface, Axis::z, {10, 0, 0}, 2, 0, 90, 0.5);
+  const Chain straight = line(surface, {10, 2, 0}, {0, 2, 0}, 0.5);
+  EXPECT_EQ(round.back(), straight.front());
+}
+
+TEST(Curves, AreCutIntoEqualParts) {
+  Surface surface;
+  const auto ellipse = [](double t) { return Point3{10 * cosine(180 * t), 4 * sine(180 * t), 0}; };
+  const Chain chain = curve(surface, ellipse(0), ellipse(1), ellipse, 0.2, 1);
+  double shortest = 1e9, longest = 0;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const double length = distance(surface.vertices[chain[i]], surface.vertices[chain[i + 1]]);
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  EXPECT_LT(longest, 1.02 * shortest);
+  EXPECT_NEAR(longest, 0.2, 0.01);
+}
+
+TEST(Curves, ThatDoNotMeetMakeNoLoop) {
+  Surface surface;
+  const std::array chains{line(surface, {0, 0, 0}, {1, 0, 0}, 1), line(surface, {1, 1, 0}, {0, 0, 0}, 1)};
+  EXPECT_THROW(closed_loop(chains), std::logic_error);
+}
+
+TEST(Charts, LiftIsTheInverseOfFlatten) {
+  const Chart chart = cylinder_chart(Axis::x, {1, 2, 3}, 4, 120, Facing::inward);
+  const Point3 p = on_circle(Axis::x, {7, 2, 3}, 4, 75);
+  const Point3 q = chart.lift(chart.flatten(p));
+  EXPECT_NEAR(distance(p, q), 0, 1e-13);
+}
+
+TEST(Patch, CoversARectangleWithAHoleAndKeepsItsEdges) {
+  Surface surface;
+  const Chain outer = rectangle(surface, 20, 12, 1);
+  const Ring hole = ring(surface, Axis::z, {8, 6, 0}, 3, 0, 1);
+  const std::size_t border_vertices = surface.vertices.size();
+  add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 7});
+  const auto edges = static_cast<double>(hole.chain.size());
+  const double polygon = edges / 2 * 9 * std::sin(2 * std::numbers::pi / edges);
+  EXPECT_NEAR(area(surface), 240 - polygon, 1e-9);
+  std::size_t border = 0;
+  for (const EdgeUse& edge : edges_of(surface.triangles)) border += edge.forwards + edge.backwards == 1;
+  EXPECT_EQ(border, border_vertices);
+  for (const int marker : surface.markers) EXPECT_EQ(marker, 7);
+}
+
+TEST(Patch, HasTheEdgesOfACutInside) {
+  Surface surface;
+  const std::array<Point3, 5> p{{{0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {10, 10, 0}, {0, 10, 0}}};
+  std::array<Chain, 5> sides;
+  for (std::size_t i = 0; i < 5; ++i) sides[i] = line(surface, p[i], p[(i + 1) % 5], 1);
+  const Chain outer = closed_loop(sides);
+  const Chain cut = line(surface, p[2], {4, 5, 0}, 1);
+  add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer}, {cut}, 1, 1});
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const EdgeUse& edge : edges_of(surface.triangles)) edges.insert(edge.ends);
+  for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
+    EXPECT_TRUE(edges.contains({std::min(cut[i], cut[i + 1]), std::max(cut[i], cut[i + 1])}));
+  }
+  EXPECT_NEAR(area(surface), 100, 1e-9);
+}
+
+TEST(Patch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
+  Surface surface;
+  const Chain outer = rectangle(surface, 40, 40, 4);
+  const Ring hole = ring(surface, Axis::z, {20, 20, 0}, 1, 0, 4);
+  add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 4, 1});
+  InputPlc input;
+  input.vertices = surface.vertices;
+  input.triangles = surface.triangles;
+  EXPECT_GT(quantile(smallest_angles(input), 0), 25);
+}
+
+TEST(Patch, WhoseCurvesCrossIsRefused) {
+  for (const double x : {10.0, 9.5}) {  // in vertices of one and within edges of the other, and in no vertex
+    Surface surface;
+    const Chain outer = rectangle(surface, 10, 10, 1);
+    const Ring hole = ring(surface, Axis::z, {x, 5.3, 0}, 2, 0, 1);
+    EXPECT_THROW(add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 1}), std::logic_error);
+  }
+}
+
+TEST(Revolution, JoinsRingsOfDifferentCountsWithoutAGap) {
+  Surface surface;
+  const Ring coarse = ring(surface, Axis::z, {}, 10, 0, 2), fine = ring(surface, Axis::z, {}, 10, 8, 0.7);
+  add_cone(surface, coarse, fine, {Axis::z, {}, 2, 1});
+  std::size_t border = 0;
+  for (const EdgeUse& edge : edges_of(surface.triangles)) {
+    EXPECT_LE(edge.forwards, 1);
+    EXPECT_LE(edge.backwards, 1);
+    border += edge.forwards + edge.backwards == 1;
+  }
+  EXPECT_EQ(border, coarse.chain.size() + fine.chain.size());
+}
+
+}  // namespace
+}  // namespace ccdt::testing
