@@ -31,33 +31,7 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
   return {};
 }
 
-/// Puts two zero bits between the bits of a number of 21 bits.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x001F00000000FFFFu;
-  x = (x | x << 16) & 0x001F0000FF0000FFu;
-  x = (x | x << 8) & 0x100F00F00F00F00Fu;
-  x = (x | x << 4) & 0x10C30C30C30C30C3u;
-  return (x | x << 2) & 0x1249249249249249u;
-}
-
-std::uint32_t gather(std::uint64_t x) {
-  x &= 0x1249249249249249u;
-  x = (x | x >> 2) & 0x10C30C30C30C30C3u;
-  x = (x | x >> 4) & 0x100F00F00F00F00Fu;
-  x = (x | x >> 8) & 0x001F0000FF0000FFu;
-  x = (x | x >> 16) & 0x001F00000000FFFFu;
-  return static_cast<std::uint32_t>(x | x >> 32);
-}
-
 }  // namespace
-
-Site site_at(const std::array<std::uint32_t, 3>& c) {
-  return spread(c[0]) | spread(c[1]) << 1 | spread(c[2]) << 2;
-}
-
-std::array<std::uint32_t, 3> coordinates_of(Site site) {
-  return {gather(site), gather(site >> 1), gather(site >> 2)};
-}
 
 std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
   const std::span<const CellPoint> cell = points_of_cell(kind);

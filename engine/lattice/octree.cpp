@@ -109,21 +109,28 @@ class Builder {
       tree_.nodes.push_back(child);
     }
     if (parent.place != NodePlace::surface) return;
-    hand_down_triangles(parent);
+    hand_down_triangles(parent, first_child);
     place_empty_children(parent, first_child);
   }
 
-  void hand_down_triangles(const OctreeNode& parent) {
-    const auto first_child = static_cast<std::uint32_t>(tree_.nodes.size()) - 8;
+  void hand_down_triangles(const OctreeNode& parent, std::uint32_t first_child) {
+    std::array<Box, 8> boxes;
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      boxes[c] = tree_.box(tree_.nodes[first_child + c]);
+      lists_[c].clear();
+    }
+    for (std::uint32_t t : tree_.triangles_of(parent)) {
+      const Corners corners = surface_.corners(t);
+      const Box around = bounding_box(corners);
+      for (std::uint32_t c = 0; c < 8; ++c) {
+        if (may_touch(boxes[c], corners, around)) lists_[c].push_back(t);
+      }
+    }
     for (std::uint32_t c = 0; c < 8; ++c) {
       OctreeNode& child = tree_.nodes[first_child + c];
-      const Box box = tree_.box(child);
       child.first_triangle = static_cast<std::uint32_t>(tree_.triangles.size());
-      for (std::uint32_t i = 0; i < parent.triangle_count; ++i) {
-        const std::uint32_t t = tree_.triangles[parent.first_triangle + i];
-        if (may_touch(box, surface_.corners(t))) tree_.triangles.push_back(t);
-      }
-      child.triangle_count = static_cast<std::uint32_t>(tree_.triangles.size()) - child.first_triangle;
+      child.triangle_count = static_cast<std::uint32_t>(lists_[c].size());
+      tree_.triangles.insert(tree_.triangles.end(), lists_[c].begin(), lists_[c].end());
     }
   }
 
@@ -146,15 +153,10 @@ class Builder {
 
   Octree& tree_;
   const Surface& surface_;
+  std::array<std::vector<std::uint32_t>, 8> lists_;  ///< scratch of `hand_down_triangles`
 };
 
 }  // namespace
-
-Box Octree::box(const OctreeNode& node) const {
-  const Point3 low = point(node.corner);
-  const double length_of_side = length(side(node));
-  return {low, low + Point3{length_of_side, length_of_side, length_of_side}};
-}
 
 std::uint32_t Octree::child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const {
   const std::uint32_t half = side(node) / 2;

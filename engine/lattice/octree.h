@@ -44,7 +44,11 @@ struct Octree {
   Point3 point(const std::array<std::uint32_t, 3>& c) const {
     return origin + Point3{unit * c[0], unit * c[1], unit * c[2]};
   }
-  Box box(const OctreeNode& node) const;
+  Box box(const OctreeNode& node) const {
+    const Point3 low = point(node.corner);
+    const double side_length = length(side(node));
+    return {low, low + Point3{side_length, side_length, side_length}};
+  }
   /// The child of an inner node that holds a point of it (each holds its lower faces, not the upper ones).
   std::uint32_t child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const;
   /// The leaf that holds a point within the root.

@@ -46,46 +46,9 @@ void clip(std::vector<Vector>& polygon, int axis, double bound, double sign, std
 
 }  // namespace
 
-Box bounding_box(std::span<const Point3> points) {
-  Box box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-  for (const Point3& p : points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
-
-Box intersection(const Box& a, const Box& b) {
-  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y), std::max(a.low.z, b.low.z)},
-          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
-}
-
-bool strictly_contains(const Box& box, const Point3& p) {
-  return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y && p.z > box.low.z &&
-         p.z < box.high.z;
-}
-
-bool contains(const Box& outer, const Box& inner) {
-  return inner.low.x >= outer.low.x && inner.high.x <= outer.high.x && inner.low.y >= outer.low.y &&
-         inner.high.y <= outer.high.y && inner.low.z >= outer.low.z && inner.high.z <= outer.high.z;
-}
-
-double squared_distance(const Box& box, const Point3& p) {
-  return squared_distance(box, Box{p, p});
-}
-
-double squared_distance(const Box& a, const Box& b) {
-  return squared_length({std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0}),
-                         std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0}),
-                         std::max({a.low.z - b.high.z, b.low.z - a.high.z, 0.0})});
-}
-
-double squared_farthest_distance(const Box& box, const Point3& p) {
-  return squared_length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y),
-                         std::max(p.z - box.low.z, box.high.z - p.z)});
-}
-
-bool may_touch(const Box& box, const Corners& triangle) {
+bool may_touch(const Box& box, const Corners& triangle, const Box& around) {
+  if (!overlap(box, around)) return false;
+  if (contains(box, around)) return true;
   const Point3 centre = box.centre();
   std::array<Vector, 3> corners, edges;
   double reach = 0;
@@ -96,10 +59,6 @@ bool may_touch(const Box& box, const Corners& triangle) {
   // The box grows by a margin, so that rounding can only make us say that they touch.
   Vector half = as_array(0.5 * (box.high - box.low));
   for (double& h : half) h = h * (1 + 1e-9) + 1e-12 * reach;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
-    if (smallest_abs_outside(low, high) > half[axis]) return false;
-  }
   double longest = 0;
   for (int i = 0; i < 3; ++i) {
     edges[i] = as_array(triangle[(i + 1) % 3] - triangle[i]);

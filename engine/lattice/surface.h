@@ -5,25 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/lattice/box.h"
 #include "engine/lattice/place_lattice_points.h"
 
 namespace ccdt {
-
-/// An axis-parallel box with its border.
-struct Box {
-  Point3 low, high;
-
-  Point3 centre() const { return 0.5 * (low + high); }
-};
-
-Box bounding_box(std::span<const Point3> points);
-Box intersection(const Box& a, const Box& b);
-bool strictly_contains(const Box& box, const Point3& p);
-bool contains(const Box& outer, const Box& inner);
-double squared_distance(const Box& box, const Point3& p);
-double squared_distance(const Box& a, const Box& b);
-/// To the point of the box that is farthest from p.
-double squared_farthest_distance(const Box& box, const Point3& p);
 
 using Corners = std::array<Point3, 3>;
 
@@ -40,7 +25,9 @@ struct Surface {
 };
 
 /// False only if box and triangle are certainly apart (separating axes, with a margin for rounding).
-bool may_touch(const Box& box, const Corners& triangle);
+///
+/// \param around  the bounding box of the triangle
+bool may_touch(const Box& box, const Corners& triangle, const Box& around);
 
 /// A point within the part of the triangle that lies in the box, up to rounding; false if there is no such part.
 bool common_point(const Box& box, const Corners& triangle, Point3& point);
