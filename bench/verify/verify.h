@@ -11,17 +11,20 @@
 namespace ccdt {
 
 struct VerifyOptions {
-  double flatness = 1e-8;  ///< what counts as flat and as the same place, as a fraction of the input's bounding box
+  /// What counts as flat, as a fraction of the input's bounding box: four times this, because a mesher may measure
+  /// against another plane and the next power of two. A tenth of it counts as the same place: where exact coordinates
+  /// do not match.
+  double flatness = 1e-8;
   /// Must every unconstrained inner face be locally Delaunay? `claimed`: if the mesh says so of itself.
   enum class Delaunay { claimed, yes, no } delaunay = Delaunay::claimed;
 };
 
 /// One property that was checked.
 struct Check {
-  std::string name;            ///< e.g. "positive orientation"
-  std::uint64_t checked = 0;   ///< how many things were looked at
-  std::uint64_t failed = 0;    ///< how many of them are wrong
-  bool required = true;        ///< does a failure make the mesh wrong?
+  std::string name;                   ///< e.g. "positive orientation"
+  std::uint64_t checked = 0;          ///< how many things were looked at
+  std::uint64_t failed = 0;           ///< how many of them are wrong
+  bool required = true;               ///< does a failure make the mesh wrong?
   std::vector<std::string> examples;  ///< the first few failures, with coordinates
 };
 
@@ -35,7 +38,8 @@ struct Verification {
   }
 };
 
-/// An exact check of a mesh against its input, by CGAL's exact kernel; shares no predicate with the engine. Works on any mesher's output.
+/// An exact check of a mesh against its input, by CGAL's exact kernel; shares no predicate with the engine. Works on
+/// any mesher's output.
 Verification verify(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 

@@ -1,0 +1,86 @@
+#include "bench/verify/check_delaunay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/verify/exact.h"
+#include "bench/verify/findings.h"
+
+namespace ccdt::verification {
+
+namespace {
+
+/// Value of the in-sphere determinant, and a bound on how much it changes when every coordinate moves by one unit.
+struct Sensitivity {
+  double value, change;
+};
+
+double norm1(const Point3& p) {
+  return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
+}
+
+/// With the last point as origin the determinant of the rows (p_i, |p_i|^2) is sum_i |p_i|^2 m_i, m_i the signed 3x3
+/// minors. Its gradient by p_i is 2 m_i p_i plus |p_j|^2 times the gradients of the other minors, which are cross
+/// products. The origin's is minus the sum of all.
+Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
+  std::array<Point3, 4> p;
+  std::array<double, 4> height, minor;
+  for (std::size_t i = 0; i < 4; ++i) {
+    p[i] = points[i] - points[4];
+    height[i] = squared_length(p[i]);
+  }
+  std::array<Point3, 4> gradient{};
+  double value = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t a = i == 0 ? 1 : 0, b = i <= 1 ? 2 : 1, c = i <= 2 ? 3 : 2;
+    const double sign = i % 2 == 0 ? -1 : 1;
+    minor[i] = sign * dot(p[a], cross(p[b], p[c]));
+    value += height[i] * minor[i];
+    gradient[i] = gradient[i] + 2 * minor[i] * p[i];
+    gradient[a] = gradient[a] + sign * height[i] * cross(p[b], p[c]);
+    gradient[b] = gradient[b] + sign * height[i] * cross(p[c], p[a]);
+    gradient[c] = gradient[c] + sign * height[i] * cross(p[a], p[b]);
+  }
+  Point3 of_origin;
+  double change = 0;
+  for (const Point3& g : gradient) {
+    of_origin = of_origin - g;
+    change += norm1(g);
+  }
+  return {value, change + norm1(of_origin)};
+}
+
+std::string describe(const TetMesh& mesh, const std::array<std::uint32_t, 3>& face, std::uint32_t before,
+                     std::uint32_t behind, double ratio) {
+  std::string s = "the face";
+  for (const std::uint32_t v : face) s += " " + text(mesh.vertices[v]);
+  return s + " between " + text(mesh.vertices[before]) + " and " + text(mesh.vertices[behind]) + ", " +
+         std::to_string(ratio) + " times what rounding explains";
+}
+
+}  // namespace
+
+DelaunayChecks check_delaunay(const TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
+                              double rounding, bool required, const Progress& progress) {
+  DelaunayChecks checks{make_check("locally Delaunay faces", required),
+                        make_check("locally Delaunay without rounding", false)};
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
+    if (f % 65536 == 0) report(progress, "verify Delaunay", f, topology.faces.size());
+    if (constrained[f] || topology.on_boundary(f)) continue;
+    const std::uint32_t h = topology.half_faces[f][0], other = topology.half_faces[f][1];
+    const auto [a, c, b] = outward(mesh, h);
+    const std::uint32_t before = mesh.tetrahedra[h / 4][h % 4], behind = mesh.tetrahedra[other / 4][other % 4];
+    const std::array<Point3, 5> points = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[before],
+                                          mesh.vertices[behind]};
+    ++checks.local.checked;
+    ++checks.explained.checked;
+    if (side_of_sphere(points[0], points[1], points[2], points[3], points[4]) <= 0) continue;
+    const Sensitivity sensitivity = in_sphere_sensitivity(points);
+    const double ratio = std::fabs(sensitivity.value) / (1.01 * sensitivity.change * rounding);
+    fail(ratio > 1 ? checks.local : checks.explained,
+         [&] { return describe(mesh, topology.faces[f], before, behind, ratio); });
+  }
+  return checks;
+}
+
+}  // namespace ccdt::verification

@@ -1,0 +1,163 @@
+#include "bench/verify/check_domain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bench/verify/findings.h"
+
+namespace ccdt::verification {
+
+namespace {
+
+/// A sum that keeps what rounding would lose (Neumaier 1974).
+class Sum {
+ public:
+  void add(double x) {
+    const double sum = sum_ + x;
+    lost_ += std::fabs(sum_) >= std::fabs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
+    sum_ = sum;
+  }
+  double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+std::string text_of_tetrahedron(const TetMesh& mesh, std::size_t t) {
+  Point3 centre;
+  for (const std::uint32_t v : mesh.tetrahedra[t]) centre = centre + 0.25 * mesh.vertices[v];
+  return "tetrahedron " + std::to_string(t) + " around " + text(centre);
+}
+
+int region_of(const TetMesh& mesh, std::size_t t) {
+  return mesh.regions.empty() ? 0 : mesh.regions[t];
+}
+
+}  // namespace
+
+Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers) {
+  Rooms rooms;
+  rooms.chamber.assign(mesh.tetrahedra.size(), none);
+  std::vector<std::uint32_t> queue;
+  const auto enter = [&](std::uint32_t tet, std::uint32_t chamber) {
+    if (tet == none) return;
+    if (rooms.chamber[tet] == none) {
+      rooms.chamber[tet] = chamber;
+      queue.push_back(tet);
+    } else if (rooms.chamber[tet] != chamber) {
+      rooms.conflicts.push_back(tet);
+    }
+  };
+  for (const CoverFace& f : covers.faces) {
+    enter(f.tet_above, chambers.of_side[2 * f.piece]);
+    enter(f.tet_below, chambers.of_side[2 * f.piece + 1]);
+  }
+  while (!queue.empty()) {
+    const std::uint32_t t = queue.back();
+    queue.pop_back();
+    for (std::uint32_t corner = 0; corner < 4; ++corner) {
+      const std::uint32_t f = topology.face_of[4 * t + corner];
+      if (covers.covers[f] || topology.on_boundary(f)) continue;
+      const auto& halves = topology.half_faces[f];
+      enter(halves[0] / 4 == t ? halves[1] / 4 : halves[0] / 4, rooms.chamber[t]);
+    }
+  }
+  std::sort(rooms.conflicts.begin(), rooms.conflicts.end());
+  rooms.conflicts.erase(std::unique(rooms.conflicts.begin(), rooms.conflicts.end()), rooms.conflicts.end());
+  return rooms;
+}
+
+void resolve_unknown(const Rooms& rooms, Chambers& chambers) {
+  std::vector<bool> filled(chambers.count(), false);
+  for (const std::uint32_t c : rooms.chamber)
+    if (c != none) filled[c] = true;
+  for (std::uint32_t c = 0; c < chambers.count(); ++c)
+    if (chambers.inside[c] == Inside::unknown) chambers.inside[c] = filled[c] ? Inside::yes : Inside::no;
+}
+
+Check check_rooms(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
+  Check check = make_check("tetrahedra in the domain");
+  check.checked = mesh.tetrahedra.size();
+  for (const std::uint32_t t : rooms.conflicts)
+    fail(check, [&] { return text_of_tetrahedron(mesh, t) + " leaks through a facet"; });
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::uint32_t c = rooms.chamber[t];
+    if (c == none)
+      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is connected with no facet of the input"; });
+    else if (chambers.inside[c] != Inside::yes)
+      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is outside"; });
+  }
+  return check;
+}
+
+Check check_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
+  Check check = make_check("regions");
+  check.checked = mesh.tetrahedra.size();
+  std::vector<std::uint32_t> first(chambers.count(), none);
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::uint32_t c = rooms.chamber[t];
+    if (c == none) continue;
+    if (first[c] == none) first[c] = t;
+    const auto& wanted = chambers.attributes[c];
+    const int region = region_of(mesh, t), expected = wanted.empty() ? region_of(mesh, first[c]) : wanted[0];
+    if (region == expected || std::find(wanted.begin(), wanted.end(), region) != wanted.end()) continue;
+    fail(check, [&] {
+      return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(region) + " instead of " +
+             std::to_string(expected);
+    });
+  }
+  return check;
+}
+
+Check check_holes(const InputPlc& input, const Chambers& chambers, const Rooms& rooms) {
+  Check check = make_check("holes");
+  check.checked = input.holes.size();
+  std::vector<std::uint64_t> tetrahedra(chambers.count(), 0);
+  for (const std::uint32_t c : rooms.chamber)
+    if (c != none) ++tetrahedra[c];
+  for (std::uint32_t c = 0; c < chambers.count(); ++c) {
+    if (chambers.hole_seeds[c] == 0 || tetrahedra[c] == 0) continue;
+    fail(check, [&] { return "there are " + std::to_string(tetrahedra[c]) + " tetrahedra in a hole"; });
+  }
+  return check;
+}
+
+double mesh_volume(const TetMesh& mesh) {
+  Sum sum;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const Point3& o = mesh.vertices[a];
+    sum.add(dot(cross(mesh.vertices[b] - o, mesh.vertices[c] - o), mesh.vertices[d] - o) / 6);
+  }
+  return sum.value();
+}
+
+double input_volume(const Surface& surface, const Chambers& chambers) {
+  Sum sum;
+  if (surface.pieces() == 0) return 0;
+  const Point3 apex = surface.origin(0);
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
+    const bool above = chambers.inside[chambers.of_side[2 * p]] == Inside::yes;
+    const bool below = chambers.inside[chambers.of_side[2 * p + 1]] == Inside::yes;
+    const double cone = dot(surface.area_vector[p], surface.origin(p) - apex) / 3;
+    if (above != below) sum.add(below ? cone : -cone);
+  }
+  return sum.value();
+}
+
+Check check_volume(const Surface& surface, const Chambers& chambers, double of_mesh, double of_input) {
+  Check check = make_check("volume");
+  check.checked = 1;
+  double area = 0;
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
+    if (chambers.touches_inside(p)) area += std::sqrt(squared_length(surface.area_vector[p]));
+  if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
+  fail(check, [&] {
+    char buffer[128];
+    std::snprintf(buffer, sizeof buffer, "the mesh has the volume %.17g, the input %.17g", of_mesh, of_input);
+    return std::string(buffer);
+  });
+  return check;
+}
+
+}  // namespace ccdt::verification

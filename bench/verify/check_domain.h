@@ -1,0 +1,35 @@
+#pragma once
+
+#include "bench/verify/covers.h"
+#include "bench/verify/verify.h"
+
+namespace ccdt::verification {
+
+/// The chamber of each tetrahedron, `none` for those that no facet bounds.
+struct Rooms {
+  std::vector<std::uint32_t> chamber;
+  std::vector<std::uint32_t> conflicts;  ///< tetrahedra that are reached from two chambers without crossing a facet
+};
+
+/// Floods the mesh from the faces that stand for facets.
+Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers);
+
+/// Decides the chambers of which the input does not tell whether they are inside, by whether the mesh fills them.
+void resolve_unknown(const Rooms& rooms, Chambers& chambers);
+
+/// Every tetrahedron is in one chamber, and that is inside.
+Check check_rooms(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms);
+
+/// A tetrahedron has the attribute of the region seed in its chamber; without a seed, the same as all in the chamber.
+Check check_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms);
+
+/// No tetrahedron is in a chamber with a hole's point.
+Check check_holes(const InputPlc& input, const Chambers& chambers, const Rooms& rooms);
+
+double mesh_volume(const TetMesh& mesh);
+double input_volume(const Surface& surface, const Chambers& chambers);
+
+/// The volumes are equal to 1e-9, and what moving the surface within the tolerance can change.
+Check check_volume(const Surface& surface, const Chambers& chambers, double of_mesh, double of_input);
+
+}  // namespace ccdt::verification

@@ -1,0 +1,93 @@
+#include "bench/verify/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/verify/check_cells.h"
+#include "bench/verify/check_delaunay.h"
+#include "bench/verify/check_domain.h"
+#include "bench/verify/check_facets.h"
+
+// Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
+// changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
+// of input facets (same loops, flat, no face turned over: so it covers the patch once), and no patch has two such
+// parts. Within the tolerance, d therefore changes only across input facets: by one across a facet found as boundary,
+// up to the side where the tetrahedra are, else not at all. The facets' sides are labelled inside or outside from the
+// input alone, and each facet must be found as the boundary of its inside side exactly when its sides differ. So d and
+// the indicator of the domain change by the same across every facet; both are 0 at infinity; they are equal. The
+// tetrahedra fill the domain and do not overlap. Facets within the domain are spanned by inner faces in the same sense;
+// that no tetrahedron is reached from two chambers shows once more that none is pierced.
+
+namespace ccdt {
+
+using namespace verification;
+
+namespace {
+
+/// The engine rounds to 2^-33 of the next power of two above the box; and the coordinates in the file are rounded to
+/// doubles.
+double largest_rounding(const InputPlc& input, const Tolerances& tolerances) {
+  double largest = 0;
+  for (const Point3& p : input.vertices) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return std::ldexp(tolerances.box, -32) + std::numeric_limits<double>::epsilon() * largest;
+}
+
+bool wants_delaunay(const VerifyOptions& options, const TetMesh& mesh) {
+  if (options.delaunay == VerifyOptions::Delaunay::claimed) return mesh.constrained_delaunay;
+  return options.delaunay == VerifyOptions::Delaunay::yes;
+}
+
+void check_against_input(const InputPlc& input, const TetMesh& mesh, const Topology& topology,
+                         const VerifyOptions& options, const Progress& progress, Verification& result) {
+  const Tolerances tolerances = find_tolerances(input, options.flatness);
+  report(progress, "verify facets", 0, 0);
+  const Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances.place), tolerances);
+  const std::vector<bool> features = find_features(surface);
+  const Chains edges = find_chains(mesh, topology, surface, surface.edges);
+  const Chains segments = find_chains(mesh, topology, surface, surface.segments);
+  const Covers covers = find_covers(mesh, topology, surface, edges, features);
+  report(progress, "verify domain", 0, 0);
+  Chambers chambers = find_chambers(input, surface);
+  const Rooms rooms = find_rooms(mesh, topology, chambers, covers);
+  resolve_unknown(rooms, chambers);
+
+  const RayShooter rays(surface);
+  auto& checks = result.checks;
+  checks.push_back(check_vertices(input, surface, chambers, rays));
+  checks.push_back(check_segments(surface, edges, segments, features, chambers, rays));
+  checks.push_back(check_facets(surface, covers, chambers));
+  checks.push_back(check_boundary(mesh, topology, covers));
+  checks.push_back(check_rooms(mesh, chambers, rooms));
+  checks.push_back(check_holes(input, chambers, rooms));
+  checks.push_back(check_regions(mesh, chambers, rooms));
+  result.mesh_volume = mesh_volume(mesh);
+  result.input_volume = input_volume(surface, chambers);
+  checks.push_back(check_volume(surface, chambers, result.mesh_volume, result.input_volume));
+  if (options.delaunay == VerifyOptions::Delaunay::no) return;
+  DelaunayChecks delaunay = check_delaunay(mesh, topology, covers.covers, largest_rounding(input, tolerances),
+                                           wants_delaunay(options, mesh), progress);
+  checks.push_back(std::move(delaunay.local));
+  checks.push_back(std::move(delaunay.explained));
+}
+
+}  // namespace
+
+Verification verify(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options,
+                    const Progress& progress) {
+  Verification result;
+  auto& checks = result.checks;
+  checks.push_back(check_coordinates(mesh));
+  checks.push_back(check_indices(mesh));
+  if (!result.ok()) return result;  // nothing else can be asked of such a mesh
+  checks.push_back(check_orientation(mesh, progress));
+  report(progress, "verify faces", 0, 0);
+  const Topology topology = find_topology(mesh);
+  checks.push_back(check_shared_faces(mesh, topology));
+  checks.push_back(check_distinct_vertices(mesh, topology));
+  checks.push_back(check_used_vertices(mesh, topology));
+  check_against_input(input, mesh, topology, options, progress, result);
+  return result;
+}
+
+}  // namespace ccdt
