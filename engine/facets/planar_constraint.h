@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/facets/planar_legalize.h"
+#include "engine/facets/planar_local_steps.h"
 #include "engine/facets/planar_topology.h"
 #include "engine/facets/planar_triangulation.h"
 

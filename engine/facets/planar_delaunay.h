@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/facets/planar_divide_and_conquer.h"
-#include "engine/facets/planar_legalize.h"
 #include "engine/facets/planar_sweep_order.h"
 #include "engine/facets/planar_topology.h"
 #include "engine/facets/planar_triangulation.h"

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "engine/facets/planar_constraint.h"
-#include "engine/facets/planar_delaunay.h"
-#include "engine/facets/planar_legalize.h"
+#include "engine/facets/planar_local_steps.h"
 #include "engine/facets/planar_topology.h"
 #include "engine/facets/planar_triangulation.h"
 
