@@ -100,6 +100,32 @@ TEST(LatticePoints, DoNotDependOnTheOrderOfTriangles) {
   EXPECT_EQ(points, shape.place({Lattice::fcc, 0, 0.5}));
 }
 
+TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
+  for (const Shape& shape : {cubes(8, l_shape, true), sphere(3)}) {
+    const double edge_length = 0.16 * shape.unit * (shape.triangles.size() == 1280 ? 1 : 4);
+    const auto points = sorted(shape.place({Lattice::sc, edge_length, 0}));
+    ASSERT_GT(points.size(), 300u);
+    const double side = round_to_few_bits(cell_side(Lattice::sc, edge_length));
+    std::size_t missing = 0;
+    for (const Point3& p : points) {
+      for (const Point3& step :
+           {Point3{side, 0, 0}, {-side, 0, 0}, {0, side, 0}, {0, -side, 0}, {0, 0, side}, {0, 0, -side}}) {
+        const Point3 q = p + step;
+        if (std::ranges::binary_search(points, q, before)) continue;
+        ++missing;
+        if (std::abs(winding_number(shape, q)) < 0.5) continue;
+        const bool near = std::ranges::any_of(shape.triangles, [&](const SurfaceTriangle& t) {
+          const Corners c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]], shape.vertices[t.vertices[2]]};
+          return in_smallest_sphere(c[0], c[1], c[2], q) ||
+                 std::sqrt(squared_distance(c, q)) < 1.01 * least_distance_to_surface * edge_length;
+        });
+        ASSERT_TRUE(near) << q.x << " " << q.y << " " << q.z;
+      }
+    }
+    EXPECT_GT(missing, 0u);
+  }
+}
+
 /// How many points are next to p, and how far they are.
 struct Neighbours {
   int count = 0;
