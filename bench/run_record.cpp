@@ -3,14 +3,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "bench/json_parts.h"
 #include "engine/base/errors.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/output_file.h"
 
 namespace ccdt {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* schema = "ccdt.run/1";
 
@@ -27,28 +26,6 @@ Json options_json(const RunRecord& record) {
     std::visit([&, &key = name](const auto& value) { options[key] = value; }, option);
   if (!record.mesher_settings.empty()) options["mesher_settings"] = object_of(record.mesher_settings);
   return options;
-}
-
-Json environment_json(const Environment& e) {
-  return {{"cpu", e.cpu},
-          {"cores", e.cores},
-          {"load_average", e.load_average},
-          {"system", e.system},
-          {"compiler", e.compiler},
-          {"flags", e.flags},
-          {"build_type", e.build_type},
-          {"revision", e.revision},
-          {"libraries", object_of(e.libraries)}};
-}
-
-Json counts_json(const MeshCounts& c) {
-  return {{"vertices", c.vertices},
-          {"steiner_vertices", c.steiner_vertices},
-          {"interior_vertices", c.interior_vertices},
-          {"tetrahedra", c.tetrahedra},
-          {"faces", c.faces},
-          {"undelaunay_faces", c.undelaunay_faces},
-          {"front_tetrahedra", c.front_tetrahedra}};
 }
 
 Json seconds_json(const RunRecord& r) {
@@ -233,8 +210,7 @@ std::string to_json(const RunRecord& r) {
   if (!r.reason.empty()) json["reason"] = r.reason;
   if (!r.notes.empty()) json["notes"] = r.notes;
   if (!r.samples.empty()) json["samples"] = object_of(r.samples);
-  // Replacing what is no UTF-8 (a file name may hold any bytes) beats losing the report.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return to_text(json);
 }
 
 RunRecord run_record_from_json(const std::string& text) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/child_process.h"
+#include "bench/run_record.h"
+
+namespace ccdt {
+
+/// One thing to measure: a call of `ccdt mesh`.
+struct Case {
+  std::string mesher;
+  std::filesystem::path input;
+  std::filesystem::path output;      ///< where its mesh goes
+  std::vector<std::string> options;  ///< more of the command line
+};
+
+/// Runs a case once in a child process of its own and returns its record, which is also written to `report`. A child
+/// that crashes or meets a limit has a record as well, with its status and the reason.
+///
+/// \param program  the `ccdt` program
+/// \throw OutputError  the record cannot be written
+RunRecord run_case(const std::filesystem::path& program, const Case& what, const std::filesystem::path& report,
+                   const Limits& limits);
+
+}  // namespace ccdt

@@ -1,0 +1,229 @@
+#include "bench/experiments/table1.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
+
+#include "bench/experiments/case_runner.h"
+#include "engine/io/read_plc.h"
+#include "engine/io/tet_mesh_files.h"
+#include "engine/io/write_plc.h"
+#include "models/solids.h"
+
+namespace ccdt {
+namespace {
+
+/// A model of the paper, how finely it is meshed here, and what the paper measured on it (Table 1; Pentium IV, 2.0
+/// GHz).
+struct PaperModel {
+  const char* name;
+  double edge_length;
+  double delaunay_seconds, with_check_seconds, without_check_seconds;
+};
+
+constexpr std::array<PaperModel, 3> paper_models = {{{"piston", 0.05, 25.53, 26.01, 602.25},
+                                                     {"bracket", 0.05, 33.14, 34.26, 607.15},
+                                                     {"stepping-pole", 0.05, 35.83, 37.14, 610.94}}};
+
+/// Seconds of the constrained Delaunay tetrahedralization of given vertices: the paper's CDT times.
+double cdt_seconds(const RunRecord& run) {
+  const StageSeconds& s = run.seconds;
+  return s.delaunay + s.face_check + s.front + s.label;
+}
+
+double delaunay_seconds(const RunRecord& run) {
+  return run.seconds.delaunay;
+}
+double mesh_seconds(const RunRecord& run) {
+  return run.seconds.mesh;
+}
+
+/// A case of a model with all that its runs have told.
+struct MeasuredCase {
+  std::string name;
+  Case what;
+  std::vector<RunRecord> counted;
+  RunRecord first = {};  ///< of the run that is not counted
+  bool failed() const { return first.status != RunStatus::ok; }
+};
+
+bool is_built_in(std::string_view name) {
+  return std::ranges::find(meshers(), name, &Mesher::name) != meshers().end();
+}
+
+class ModelExperiment {
+ public:
+  ModelExperiment(const Table1Options& options, const PaperModel& model)
+      : options_(options), model_(model), edge_length_(model.edge_length * options.scale) {}
+
+  /// The cases in the order in which they take turns.
+  std::vector<MeasuredCase> plan() const {
+    std::vector<MeasuredCase> cases;
+    const auto add = [&](const char* name, const char* mesher, const std::filesystem::path& input,
+                         std::vector<std::string> more) {
+      if (!is_built_in(mesher)) return;
+      cases.push_back({name, {mesher, input, mesh_file(name), std::move(more)}, {}});
+    };
+    add("with_check", "ccdt", surface_file(), {"--face-protection", "on"});
+    add("without_check", "ccdt", surface_file(), {"--face-protection", "off"});
+    add("cgal_delaunay", "cgal-delaunay", mesh_file("with_check"), {});
+    add("tetgen_cdt", "tetgen", points_file(), {"--lattice", "none"});
+    add("tetgen_quality", "tetgen", surface_file(), {});
+    add("mesh3", "cgal-mesh3", surface_file(), {});
+    return cases;
+  }
+
+  void write_surface() const { write_plc(surface(), surface_file()); }
+
+  /// Runs a case once. Its first run is not counted.
+  void run(MeasuredCase& measured, int number) const {
+    if (measured.failed()) return;
+    const auto report = options_.folder / "runs" /
+                        (std::string(model_.name) + "-" + measured.name + "-" + std::to_string(number) + ".json");
+    RunRecord record = run_case(options_.program, measured.what, report, options_.limits);
+    if (number == 0) {
+      measured.first = record;
+      if (measured.name == "with_check" && !measured.failed()) write_points(record);
+    } else if (record.status == RunStatus::ok) {
+      measured.counted.push_back(record);
+    } else {
+      measured.first = record;  // it went well before, but a row of fewer samples than the others would not be fair
+    }
+  }
+
+  Table1Model evaluate(std::span<const MeasuredCase> cases) const;
+
+ private:
+  std::filesystem::path in_folder(const char* folder, const std::string& rest) const {
+    return options_.folder / folder / (std::string(model_.name) + rest);
+  }
+  std::filesystem::path surface_file() const { return in_folder("models", ".poly"); }
+  std::filesystem::path points_file() const { return in_folder("models", "-with-interior-vertices.poly"); }
+  std::filesystem::path mesh_file(const std::string& name) const { return in_folder("meshes", "-" + name + ".node"); }
+
+  InputPlc surface() const { return make_solid(model_.name, edge_length_); }
+
+  /// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and
+  /// facets.
+  void write_points(const RunRecord& record) const {
+    InputPlc plc = surface();
+    const TetMesh mesh = read_tet_mesh(mesh_file("with_check"));
+    const auto interior = static_cast<std::ptrdiff_t>(record.counts.interior_vertices);
+    plc.vertices.insert(plc.vertices.end(), mesh.vertices.end() - interior, mesh.vertices.end());
+    write_plc(plc, points_file());
+  }
+
+  bool same_tetrahedra() const {
+    const auto sorted = [&](const char* name) {
+      auto tetrahedra = read_tet_mesh(mesh_file(name)).tetrahedra;
+      for (auto& t : tetrahedra) std::ranges::sort(t);
+      std::ranges::sort(tetrahedra);
+      return tetrahedra;
+    };
+    return sorted("with_check") == sorted("without_check");
+  }
+
+  const Table1Options& options_;
+  const PaperModel& model_;
+  double edge_length_;
+};
+
+Table1Row row_of(const MeasuredCase& measured, std::string id, std::string label, double (*seconds)(const RunRecord&),
+                 std::optional<double> paper = {}) {
+  Table1Row row{std::move(id),         std::move(label),     {}, {}, paper, measured.first.counts,
+                measured.first.status, measured.first.reason};
+  if (measured.failed()) return row;
+  for (const RunRecord& record : measured.counted) row.samples.push_back(seconds(record));
+  row.seconds = median_estimate(row.samples);
+  return row;
+}
+
+Table1Ratio ratio_of(const Table1Model& model, std::string id, std::string label, const char* above,
+                     const char* below) {
+  const auto row = [&](const char* name) { return std::ranges::find(model.rows, name, &Table1Row::id); };
+  Table1Ratio ratio{std::move(id), std::move(label), {}, {}};
+  const auto a = row(above), b = row(below);
+  if (a == model.rows.end() || b == model.rows.end()) return ratio;
+  if (a->seconds && b->seconds && b->seconds->value > 0) ratio.value = ratio_of_medians(a->samples, b->samples);
+  if (a->paper_seconds && b->paper_seconds) ratio.paper = *a->paper_seconds / *b->paper_seconds;
+  return ratio;
+}
+
+/// The check against the Delaunay stage of the very same run: paired, so the machine's moods cancel out.
+Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperModel& paper) {
+  Table1Ratio ratio{
+      "with_check/delaunay", "with check / Delaunay", {}, paper.with_check_seconds / paper.delaunay_seconds};
+  std::vector<double> ratios;
+  for (const RunRecord& record : with_check.counted) ratios.push_back(cdt_seconds(record) / delaunay_seconds(record));
+  if (!with_check.failed()) ratio.value = median_estimate(ratios);
+  return ratio;
+}
+
+Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const {
+  Table1Model model;
+  model.name = model_.name;
+  model.edge_length = edge_length_;
+  const auto add = [&](const char* name, const char* id, const char* label, double (*seconds)(const RunRecord&),
+                       std::optional<double> paper = {}) {
+    const auto found = std::ranges::find(cases, name, &MeasuredCase::name);
+    if (found != cases.end()) model.rows.push_back(row_of(*found, id, label, seconds, paper));
+  };
+  add("with_check", "delaunay", "Delaunay", delaunay_seconds, model_.delaunay_seconds);
+  add("with_check", "with_check", "CDT with face protection check", cdt_seconds, model_.with_check_seconds);
+  add("without_check", "without_check", "CDT without", cdt_seconds, model_.without_check_seconds);
+  add("with_check", "ccdt_mesh", "ccdt, whole mesh", mesh_seconds);
+  add("cgal_delaunay", "cgal_delaunay", "CGAL Delaunay, same vertices", mesh_seconds);
+  add("tetgen_cdt", "tetgen_cdt", "TetGen CDT, same vertices", mesh_seconds);
+  add("tetgen_quality", "tetgen_quality", "TetGen, its own vertices", mesh_seconds);
+  add("mesh3", "mesh3", "CGAL Mesh_3, its own vertices", mesh_seconds);
+
+  model.ratios.push_back(check_ratio(cases[0], model_));
+  model.ratios.push_back(
+      ratio_of(model, "without_check/with_check", "without / with check", "without_check", "with_check"));
+  model.ratios.push_back(
+      ratio_of(model, "delaunay/cgal_delaunay", "Delaunay / CGAL Delaunay", "delaunay", "cgal_delaunay"));
+  model.ratios.push_back(
+      ratio_of(model, "with_check/tetgen_cdt", "with check / TetGen CDT", "with_check", "tetgen_cdt"));
+  if (!cases[0].failed() && !cases[1].failed()) model.same_tetrahedra = same_tetrahedra();
+  return model;
+}
+
+}  // namespace
+
+std::vector<std::string> table1_definitions() {
+  return {
+      "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
+      "CDT: the stages Delaunay, face check, front and labelling of a run; without the check every face goes through "
+      "the front.",
+      "with check / Delaunay is taken within each run; the other ratios are of medians.",
+      "Same vertices: CGAL's Delaunay has all vertices of our mesh, TetGen's CDT (switch p) the input with our "
+      "interior vertices.",
+      "Its own vertices: TetGen and Mesh_3 refine to the edge length of the surface; Mesh_3 also replaces the surface.",
+      "Meshers other than ours are timed by the call of the library alone.",
+  };
+}
+
+Table1 measure_table1(const Table1Options& options, const Progress& progress) {
+  for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
+  Table1 table;
+  table.environment = capture_environment();
+  table.runs = options.runs;
+  table.limits = options.limits;
+  std::uint64_t done = 0;
+  for (const PaperModel& paper : paper_models) {
+    const ModelExperiment experiment(options, paper);
+    experiment.write_surface();
+    std::vector<MeasuredCase> cases = experiment.plan();
+    const std::uint64_t total = paper_models.size() * cases.size() * static_cast<std::uint64_t>(options.runs + 1);
+    for (int number = 0; number <= options.runs; ++number)
+      for (MeasuredCase& measured : cases) {
+        report(progress, std::string(paper.name) + " " + measured.name, done++, total);
+        experiment.run(measured, number);
+      }
+    table.models.push_back(experiment.evaluate(cases));
+  }
+  return table;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,42 @@
+#include "reports/run_summary.h"
+
+#include <array>
+#include <utility>
+
+#include "reports/numbers.h"
+
+namespace ccdt {
+namespace {
+
+std::string stages(const StageSeconds& s) {
+  const std::array<std::pair<const char*, double>, 8> all = {{{"plc", s.plc},
+                                                              {"protect", s.protect},
+                                                              {"lattice", s.lattice},
+                                                              {"delaunay", s.delaunay},
+                                                              {"face check", s.face_check},
+                                                              {"front", s.front},
+                                                              {"label", s.label},
+                                                              {"improve", s.improve}}};
+  std::string text;
+  for (const auto& [name, seconds] : all)
+    if (seconds > 0) text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds)));
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+}  // namespace
+
+std::string summarize(const RunRecord& r) {
+  const MeshCounts& c = r.counts;
+  const Quality& q = r.quality;
+  std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
+                     " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
+  text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(q.volume, 6) + "\n";
+  text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
+          mebibytes(r.peak_rss_bytes) + "\n";
+  text += "quality     r: median " + rounded(q.r.median) + ", worst " + rounded(q.r.max) + "; dihedral angles " +
+          rounded(q.dihedral_degrees.min) + " to " + rounded(q.dihedral_degrees.max) + " degrees\n";
+  for (const std::string& note : r.notes) text += "note        " + note + "\n";
+  return text;
+}
+
+}  // namespace ccdt

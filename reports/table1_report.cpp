@@ -1,0 +1,112 @@
+#include "reports/table1_report.h"
+
+#include "reports/numbers.h"
+#include "reports/text_table.h"
+
+namespace ccdt {
+namespace {
+
+/// The paper gives two digits after the point.
+std::string paper_words(const std::optional<double>& value) {
+  return value ? rounded(*value, *value < 100 ? 4 : 5) : "";
+}
+
+std::string measured_words(const Table1Row& row) {
+  return row.seconds ? with_interval(*row.seconds) : std::string(name_of(row.status));
+}
+
+TextTable heading(const Table1& table, const std::string& first) {
+  TextTable cells = {{first}};
+  for (const Table1Model& model : table.models) {
+    cells[0].push_back(model.name);
+    cells[0].push_back("paper");
+  }
+  return cells;
+}
+
+TextTable sizes(const Table1& table) {
+  TextTable cells = {
+      {"model", "edge length", "vertices", "Steiner", "interior", "tetrahedra", "faces", "not Delaunay"}};
+  for (const Table1Model& model : table.models) {
+    const MeshCounts& c = model.rows.front().counts;
+    cells.push_back({model.name, rounded(model.edge_length), with_separators(c.vertices),
+                     with_separators(c.steiner_vertices), with_separators(c.interior_vertices),
+                     with_separators(c.tetrahedra), with_separators(c.faces), with_separators(c.undelaunay_faces)});
+  }
+  return cells;
+}
+
+TextTable seconds(const Table1& table) {
+  TextTable cells = heading(table, "seconds");
+  if (table.models.empty()) return cells;
+  for (std::size_t r = 0; r < table.models.front().rows.size(); ++r) {
+    cells.push_back({table.models.front().rows[r].label});
+    for (const Table1Model& model : table.models) {
+      cells.back().push_back(measured_words(model.rows[r]));
+      cells.back().push_back(paper_words(model.rows[r].paper_seconds));
+    }
+  }
+  return cells;
+}
+
+TextTable ratios(const Table1& table) {
+  TextTable cells = heading(table, "ratios");
+  if (table.models.empty()) return cells;
+  for (std::size_t r = 0; r < table.models.front().ratios.size(); ++r) {
+    cells.push_back({table.models.front().ratios[r].label});
+    for (const Table1Model& model : table.models) {
+      const Table1Ratio& ratio = model.ratios[r];
+      cells.back().push_back(ratio.value ? with_interval(*ratio.value) : "");
+      cells.back().push_back(paper_words(ratio.paper));
+    }
+  }
+  return cells;
+}
+
+/// What went wrong, a line each; empty if nothing did.
+std::vector<std::string> complaints(const Table1& table) {
+  std::vector<std::string> lines;
+  for (const Table1Model& model : table.models) {
+    for (const Table1Row& row : model.rows)
+      if (row.status != RunStatus::ok)
+        lines.push_back(model.name + ", " + row.label + ": " + std::string(name_of(row.status)) + ": " + row.reason);
+    if (!model.same_tetrahedra)
+      lines.push_back(model.name + ": with and without the check, the tetrahedra differ, which is an error of ccdt");
+  }
+  return lines;
+}
+
+std::string how(const Table1& table) {
+  return "Medians of " + std::to_string(table.runs) + " runs in turn after one that is not counted, with " +
+         rounded(100 * Bootstrap{}.confidence, 2) + "% bootstrap intervals. The paper's: Pentium IV, 2.0 GHz.";
+}
+
+std::string machine(const Environment& e) {
+  std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + rounded(e.load_average, 2) + "; " +
+                     e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
+  for (const auto& [name, version] : e.libraries) text += "; " + name + " " + version;
+  return text;
+}
+
+}  // namespace
+
+std::string to_terminal(const Table1& table) {
+  std::string text = "Table 1: constrained Delaunay tetrahedralization with and without the face protection check\n\n";
+  text += to_terminal(sizes(table)) + "\n" + to_terminal(seconds(table)) + "\n" + to_terminal(ratios(table)) + "\n";
+  for (const std::string& line : complaints(table)) text += line + "\n";
+  return text + how(table) + "\n";
+}
+
+std::string to_markdown(const Table1& table) {
+  std::string text = "# Table 1: CDT with and without the face protection check\n\n" + how(table) + "\n\n";
+  text += to_markdown(sizes(table)) + "\n" + to_markdown(seconds(table)) + "\n" + to_markdown(ratios(table)) + "\n";
+  const auto wrong = complaints(table);
+  if (!wrong.empty()) text += "## What went wrong\n\n";
+  for (const std::string& line : wrong) text += "- " + line + "\n";
+  if (!wrong.empty()) text += "\n";
+  text += "## What the rows mean\n\n";
+  for (const std::string& line : table1_definitions()) text += "- " + line + "\n";
+  return text + "\n## The machine\n\n" + machine(table.environment) + "\n";
+}
+
+}  // namespace ccdt

@@ -1,0 +1,35 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "tools/commands.h"
+#include "tools/error_words.h"
+
+int main(int argc, char** argv) {
+  using namespace ccdt;
+  ExitCode exit_code = wrong_usage;
+  try {
+    CLI::App app("ccdt: tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",
+                 "ccdt");
+    app.set_version_flag("--version", "ccdt " CCDT_VERSION);
+    app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 done, 1 the result failed a check, 2 usage, 3 bad input or a file cannot be read or\n"
+        "written, 4 a limit (time, memory, subdivision) was reached.\n\n"
+        "Example: mesh a part and prove the mesh right\n"
+        "  ccdt mesh part.stl -o part.vtu && ccdt verify part.stl part.vtu\n");
+    add_model_command(app, exit_code);
+    add_mesh_command(app, exit_code);
+    add_verify_command(app, exit_code);
+    add_reproduce_command(app, exit_code);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? done : wrong_usage;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", in_words(error).c_str());
+    return exit_code_of(error);
+  }
+  return exit_code;
+}

@@ -1,0 +1,77 @@
+#include "tools/error_words.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <new>
+
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+constexpr std::size_t most_shown = 10;  ///< facets or points; the rest is told by its number
+
+template <class Type>
+bool is(const std::exception& error) {
+  return dynamic_cast<const Type*>(&error) != nullptr;
+}
+
+/// The shortest digits that read back as the same number: up to 17.
+std::string digits(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string head(const Place& place) {
+  std::string text = "ccdt: ";
+  if (!place.file.empty()) text += place.file + ":";
+  if (place.line > 0) text += std::to_string(place.line) + ":";
+  if (place.byte >= 0) text += "byte " + std::to_string(place.byte) + ":";
+  if (text.back() == ':') text += " ";
+  return text;
+}
+
+std::string the_rest(std::size_t count) {
+  return count > most_shown ? " and " + std::to_string(count - most_shown) + " more" : "";
+}
+
+std::string body(const Place& place) {
+  std::string text;
+  if (!place.facets.empty()) {
+    text += place.facets.size() == 1 ? "\n  facet" : "\n  facets";
+    for (std::size_t i = 0; i < std::min(most_shown, place.facets.size()); ++i)
+      text += (i == 0 ? " " : ", ") + std::to_string(place.facets[i]);
+    text += the_rest(place.facets.size());
+  }
+  for (std::size_t i = 0; i < std::min(most_shown, place.points.size()); ++i) {
+    const auto& [x, y, z] = place.points[i];
+    text += "\n  at (" + digits(x) + ", " + digits(y) + ", " + digits(z) + ")";
+  }
+  if (place.points.size() > most_shown) text += "\n " + the_rest(place.points.size()) + " points";
+  return text;
+}
+
+}  // namespace
+
+std::string in_words(const std::exception& error) {
+  if (const auto* known = dynamic_cast<const Error*>(&error)) {
+    std::string text = head(known->place()) + known->what() + body(known->place());
+    if (!known->remedy().empty()) text += "\n  " + known->remedy();
+    return text;
+  }
+  if (is<std::bad_alloc>(error))
+    return "ccdt: the memory does not suffice\n  ask for a greater --edge-length, or give the machine more";
+  if (is<std::filesystem::filesystem_error>(error)) return "ccdt: " + std::string(error.what());
+  return "ccdt: internal error: " + std::string(error.what()) +
+         "\n  this is a fault of ccdt: please report it with the input";
+}
+
+ExitCode exit_code_of(const std::exception& error) {
+  if (is<InputError>(error) || is<OutputError>(error) || is<std::filesystem::filesystem_error>(error)) return bad_input;
+  if (is<LimitError>(error) || is<std::bad_alloc>(error)) return limit_reached;
+  return failed_a_check;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,184 @@
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "baselines/mesher.h"
+#include "bench/run_record.h"
+#include "bench/sha256.h"
+#include "engine/base/errors.h"
+#include "engine/io/read_plc.h"
+#include "engine/io/tet_mesh_files.h"
+#include "reports/run_summary.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/progress_bar.h"
+
+namespace ccdt {
+namespace {
+
+struct MeshCommand {
+  std::string input, output, report;
+  std::string mesher = "ccdt";
+  MeshOptions options;
+  std::string only_value;  ///< of options that have a single value so far
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+void check_files(const MeshCommand& command) {
+  if (!is_tet_mesh_file(command.output)) {
+    Place place;
+    place.file = command.output;
+    throw OutputError("no mesh format has this ending", place, "use one of .mesh .vtu .msh .node .ele .face");
+  }
+  check_can_be_written(command.output);
+  check_are_different(command.input, command.output);
+  if (command.report.empty()) return;
+  check_can_be_written(command.report);
+  check_are_different(command.input, command.report);
+  check_are_different(command.output, command.report);
+}
+
+/// Reads, meshes, measures and writes; what is known of the run so far is in the record at every moment.
+void mesh_file(const MeshCommand& command, RunRecord& record) {
+  ProgressBar bar;
+  const Progress progress = bar.progress();
+  const Mesher& chosen = mesher(command.mesher);
+
+  report(progress, "read", 0, 0);
+  const Stopwatch reading;
+  const InputPlc input = read_plc(command.input);
+  const double read_seconds = reading.seconds();
+  record = start_record(chosen, input, command.options);
+  record.input.sha256 = sha256_of_file(command.input);
+  record.read_seconds = read_seconds;
+
+  MesherRun run = chosen.run(input, command.options, progress);
+  record.peak_rss_bytes = peak_rss_bytes();  // of the mesher, not of what measures it
+  record.counts = run.result.counts;
+  record.seconds = run.result.seconds;
+  record.largest_rounding = run.result.largest_rounding;
+  record.mesher_settings = std::move(run.settings);
+  record.notes = std::move(run.notes);
+  record.quality = measure_quality(run.result.mesh);
+
+  report(progress, "write", 0, 0);
+  const Stopwatch writing;
+  write_tet_mesh(run.result.mesh, command.output);
+  record.write_seconds = writing.seconds();
+}
+
+void record_failure(const MeshCommand& command, RunRecord& record, const std::exception& error) {
+  if (record.mesher.name.empty()) {  // the input could not even be read
+    InputPlc unread;
+    unread.name = command.input;
+    record = start_record(mesher(command.mesher), unread, command.options);
+  }
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  record.status = memory ? RunStatus::out_of_memory : RunStatus::failed;
+  record.reason = memory ? "the memory does not suffice" : error.what();
+}
+
+void run(const MeshCommand& command) {
+  check_files(command);
+  RunRecord record;
+  try {
+    mesh_file(command, record);
+  } catch (const std::exception& error) {
+    record_failure(command, record, error);
+    if (!command.report.empty()) write_run_record(record, command.report);
+    throw;
+  }
+  if (!command.report.empty()) write_run_record(record, command.report);
+  std::printf("%s\n%s", command.output.c_str(), summarize(record).c_str());
+}
+
+std::string footer() {
+  std::string text = "Meshers of this build:\n";
+  for (const Mesher& m : meshers()) {
+    std::string name = m.name;
+    name.resize(15, ' ');
+    text += "  " + name + m.what + " (" + m.version + ", " + m.licence + ")\n";
+  }
+  return text +
+         "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"
+         "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
+         "Example: the constrained Delaunay tetrahedralization of the input alone\n"
+         "  ccdt mesh part.stl -o part.mesh --lattice none\n";
+}
+
+void add_files(CLI::App& verb, MeshCommand& command) {
+  verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh")->required();
+  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .mesh .node")->required();
+  verb.add_option("--report", command.report,
+                  "write a report of the run there (JSON, schema ccdt.run/1), also of a failure");
+}
+
+void add_strategies(CLI::App& verb, MeshCommand& command) {
+  std::vector<std::string> names;
+  for (const Mesher& m : meshers()) names.push_back(m.name);
+  verb.add_option("--mesher", command.mesher, "who meshes")->check(CLI::IsMember(names))->capture_default_str();
+
+  const auto choice = [&](const char* name, auto& target, const auto& values, const char* what, const char* standard) {
+    verb.add_option(name, target, what)
+        ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+        ->default_str(standard);
+  };
+  choice("--face-protection", command.options.face_protection,
+         std::vector<std::pair<std::string, bool>>{{"on", true}, {"off", false}},
+         "on, off: check first which faces are Delaunay, or send all through the front", "on");
+  choice("--lattice", command.options.lattice,
+         std::vector<std::pair<std::string, Lattice>>{
+             {"fcc", Lattice::fcc}, {"bcc", Lattice::bcc}, {"sc", Lattice::sc}, {"none", Lattice::none}},
+         "fcc, bcc, sc, none: the crystal whose points fill the inside", "fcc");
+  choice(
+      "--protection", command.options.protection,
+      std::vector<std::pair<std::string, Protection>>{{"shell", Protection::shell}, {"midpoint", Protection::midpoint}},
+      "shell, midpoint: where a segment is split", "shell");
+
+  const auto only = [&](const char* name, const char* value, const char* what) {
+    verb.add_option(name, command.only_value, what)->check(CLI::IsMember({value}))->default_str(value);
+  };
+  only("--locator", "grid", "who finds vertices near a face");
+  only("--delaunay", "insert", "how the Delaunay tetrahedralization is made");
+  only("--improve", "none", "improvement of the finished mesh");
+  only("--surface", "keep", "what happens to the triangles of the surface");
+  only("--threads", "1", "how many threads work");
+}
+
+void add_numbers(CLI::App& verb, MeshOptions& options) {
+  verb.add_option("--edge-length", options.edge_length,
+                  "target edge length in units of the input; default: as the surface has it")
+      ->check(positive_number());
+  verb.add_option("--grading", options.grading,
+                  "growth of the edge length per unit of distance from the surface; 0: uniform")
+      ->check(non_negative_number())
+      ->capture_default_str();
+  verb.add_option("--flatness", options.flatness,
+                  "a patch this near to one plane is one facet; fraction of the bounding box")
+      ->check(non_negative_number())
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<MeshCommand>();
+  CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
+  add_files(*verb, *command);
+  add_strategies(*verb, *command);
+  add_numbers(*verb, command->options);
+  verb->footer(footer());
+  verb->callback([command, &exit_code] {
+    run(*command);
+    exit_code = done;
+  });
+}
+
+}  // namespace ccdt

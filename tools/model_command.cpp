@@ -1,0 +1,61 @@
+#include <cstdio>
+#include <memory>
+
+#include "engine/io/write_plc.h"
+#include "models/solids.h"
+#include "reports/numbers.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+
+namespace ccdt {
+namespace {
+
+struct ModelCommand {
+  std::string name;
+  double edge_length = 0;
+  std::string output;
+};
+
+std::string footer() {
+  std::string text = "Solids:\n";
+  for (const Solid& solid : solids()) {
+    std::string name(solid.name);
+    name.resize(15, ' ');
+    text += "  " + name + std::string(solid.what) + "\n";
+  }
+  return text +
+         "\nExample: a stepping pole with edges of about 2 mm\n"
+         "  ccdt model stepping-pole --edge-length 2 -o pole.poly\n";
+}
+
+void run(const ModelCommand& command) {
+  check_can_be_written(command.output);
+  const InputPlc plc = make_solid(command.name, command.edge_length);
+  write_plc(plc, command.output);
+  std::printf("%s: %s vertices, %s facets\n", command.output.c_str(), with_separators(plc.vertices.size()).c_str(),
+              with_separators(plc.facet_count()).c_str());
+}
+
+}  // namespace
+
+void add_model_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<ModelCommand>();
+  CLI::App* verb = app.add_subcommand("model", "write one of the paper's solids, or a primitive, at a given density");
+  std::vector<std::string> names;
+  for (const Solid& solid : solids()) names.emplace_back(solid.name);
+  verb->add_option("NAME", command->name, "which solid (listed below)")
+      ->required()
+      ->check(CLI::IsMember(names).description(""));
+  verb->add_option("--edge-length", command->edge_length,
+                   "of the triangles, in units of the solid; default: the solid's")
+      ->check(positive_number());
+  verb->add_option("-o,--output", command->output, "surface or PLC: .stl .off .obj .ply .poly .smesh .mesh")
+      ->required();
+  verb->footer(footer());
+  verb->callback([command, &exit_code] {
+    run(*command);
+    exit_code = done;
+  });
+}
+
+}  // namespace ccdt

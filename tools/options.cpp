@@ -1,0 +1,54 @@
+#include "tools/options.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+/// \return what CLI11 prints if the text is no such number, else nothing
+std::string complaint(const std::string& text, double least, bool least_itself) {
+  double value = 0;
+  const std::string kind = least_itself ? "a number from 0" : "a number greater than 0";
+  if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) return text + " is not " + kind;
+  return value > least || (least_itself && value == least) ? "" : text + " is not " + kind;
+}
+
+Place place_of(const std::filesystem::path& file) {
+  Place place;
+  place.file = file.string();
+  return place;
+}
+
+}  // namespace
+
+CLI::Validator positive_number() {
+  return CLI::Validator([](std::string& text) { return complaint(text, 0, false); }, "> 0");
+}
+
+CLI::Validator non_negative_number() {
+  return CLI::Validator([](std::string& text) { return complaint(text, 0, true); }, ">= 0");
+}
+
+void check_can_be_written(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  if (std::filesystem::is_directory(file, ignored))
+    throw OutputError("this is a folder", place_of(file), "give the name of a file in it");
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw OutputError("there is no folder " + folder.string(), place_of(file), "make it first");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError("the folder " + folder.string() + " cannot be written to", place_of(file), "choose another");
+}
+
+void check_are_different(const std::filesystem::path& input, const std::filesystem::path& output) {
+  std::error_code error;
+  if (std::filesystem::equivalent(input, output, error) && !error)
+    throw OutputError("this would overwrite the input", place_of(output), "give the output another name");
+}
+
+}  // namespace ccdt

@@ -1,0 +1,68 @@
+#include "tools/progress_bar.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace ccdt {
+namespace {
+
+constexpr std::chrono::milliseconds least_pause{100};
+constexpr int bar_width = 30;
+constexpr int usual_columns = 80;
+
+int terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_columns;
+}
+
+}  // namespace
+
+std::string progress_line(std::string_view stage, std::uint64_t done, std::uint64_t total, double seconds,
+                          int columns) {
+  std::string line(stage);
+  if (total > 0) {
+    const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+    const auto full = static_cast<std::size_t>(part * bar_width);
+    line += " [" + std::string(full, '#') + std::string(bar_width - full, '.') + "] " +
+            std::to_string(static_cast<int>(100 * part)) + "%";
+  } else if (done > 0) {
+    line += " " + std::to_string(done);
+  }
+  line += " " + std::to_string(static_cast<long long>(seconds)) + " s";
+  return line.substr(0, static_cast<std::size_t>(std::max(0, columns - 1)));
+}
+
+ProgressBar::ProgressBar()
+    : on_terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_(begin_ - least_pause) {}
+
+ProgressBar::~ProgressBar() {
+  erase();
+}
+
+Progress ProgressBar::progress() {
+  if (!on_terminal_) return {};
+  return [this](std::string_view stage, std::uint64_t done, std::uint64_t total) { draw(stage, done, total); };
+}
+
+void ProgressBar::draw(std::string_view stage, std::uint64_t done, std::uint64_t total) {
+  const auto now = Clock::now();
+  if (stage == stage_ && now - last_ < least_pause) return;
+  stage_ = stage;
+  last_ = now;
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  std::fprintf(stderr, "\r\033[K%s", progress_line(stage, done, total, seconds, terminal_columns()).c_str());
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressBar::erase() {
+  if (!drawn_) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,72 @@
+#include <cstdio>
+#include <memory>
+
+#include "bench/verify/verify.h"
+#include "engine/io/output_file.h"
+#include "engine/io/read_plc.h"
+#include "engine/io/tet_mesh_files.h"
+#include "reports/verification_report.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/progress_bar.h"
+
+namespace ccdt {
+namespace {
+
+struct VerifyCommand {
+  std::string input, mesh, report;
+  VerifyOptions options;
+};
+
+bool run(const VerifyCommand& command) {
+  if (!command.report.empty()) {
+    check_can_be_written(command.report);
+    check_are_different(command.input, command.report);
+    check_are_different(command.mesh, command.report);
+  }
+  Verification verification;
+  {
+    ProgressBar bar;
+    const InputPlc input = read_plc(command.input);
+    const TetMesh mesh = read_tet_mesh(command.mesh);
+    verification = verify(input, mesh, command.options, bar.progress());
+  }
+  std::fputs(to_terminal(verification).c_str(), stdout);
+  std::printf("%s: %s\n", command.mesh.c_str(), verification.ok() ? "right" : "WRONG");
+  if (!command.report.empty()) {
+    io::OutputFile report(command.report);
+    report << to_json(verification, command.input, command.mesh);
+    report.commit();
+  }
+  return verification.ok();
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<VerifyCommand>();
+  CLI::App* verb = app.add_subcommand("verify", "check a mesh, of whatever mesher, exactly against its input");
+  verb->add_option("INPUT", command->input, "the surface or PLC that was meshed")->required();
+  verb->add_option("MESH", command->mesh, "the mesh: .vtu .msh .mesh .node")->required();
+  verb->add_option("--flatness", command->options.flatness,
+                   "what counts as flat and as the same place; fraction of the bounding box")
+      ->check(non_negative_number())
+      ->capture_default_str();
+  using Delaunay = VerifyOptions::Delaunay;
+  verb->add_option("--constrained-delaunay", command->options.delaunay,
+                   "claimed, yes, no: must it be constrained Delaunay (claimed: if the mesh says so)")
+      ->transform(CLI::CheckedTransformer(
+                      std::vector<std::pair<std::string, Delaunay>>{
+                          {"claimed", Delaunay::claimed}, {"yes", Delaunay::yes}, {"no", Delaunay::no}},
+                      CLI::ignore_case)
+                      .description(""))
+      ->default_str("claimed");
+  verb->add_option("--report", command->report, "write the checks there as JSON (schema ccdt.verify/1)");
+  verb->footer(
+      "Exit code 0: the mesh is right; 1: it is not.\n\n"
+      "Example: does the mesh fill exactly the part?\n"
+      "  ccdt verify part.stl part.vtu\n");
+  verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
+}
+
+}  // namespace ccdt
