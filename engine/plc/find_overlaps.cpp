@@ -5,6 +5,7 @@
 
 #include "engine/numbers/predicates.h"
 #include "engine/plc/intersect_triangles.h"
+#include "engine/plc/quanta.h"
 
 namespace ccdt {
 
@@ -25,18 +26,20 @@ Corners from_corner(const Corners& c, VertexId v) {
   return c[0] == v ? c : c[1] == v ? Corners{c[1], c[2], c[0]} : Corners{c[2], c[0], c[1]};
 }
 
-std::optional<Contact> meet(std::span<const Point3> vertices, const Corners& s, const Corners& t) {
+// For triangles of one exactly flat facet the axis is one that its plane is not parallel to, and otherwise negative.
+std::optional<Contact> meet(std::span<const Point3> vertices, const Corners& s, const Corners& t, int axis) {
   int common = 0;
-  VertexId corner;
+  VertexId corner = s[0];
   for (const VertexId v : s)
     if (has(t, v)) {
       ++common;
       corner = v;
     }
   if (common >= 2) return std::nullopt;
-  if (common == 0) return meet_triangles(points_of(vertices, s), points_of(vertices, t));
-  return meet_triangles_at_corner(points_of(vertices, from_corner(s, corner)),
-                                  points_of(vertices, from_corner(t, corner)));
+  const std::array<Point3, 3> p = points_of(vertices, common == 1 ? from_corner(s, corner) : s);
+  const std::array<Point3, 3> q = points_of(vertices, common == 1 ? from_corner(t, corner) : t);
+  if (axis >= 0 && are_apart_in_plane(axis, p, q, common)) return std::nullopt;
+  return common == 1 ? meet_triangles_at_corner(p, q) : meet_triangles(p, q);
 }
 
 bool are_coplanar(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t) {
@@ -71,13 +74,19 @@ std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& t
 
 std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
                                    const FacetPatches& facets, const BoxTree& tree, std::size_t limit) {
+  std::vector<int> axes(facets.count());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles.corners[t];
+    axes[facets.facet_of[t]] = dominant_axis(rounded_normal(vertices[a], vertices[b], vertices[c]));
+  }
   std::vector<Overlap> found;
   tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
     if (found.size() >= limit) return;
     const std::uint32_t facet = facets.facet_of[i];
-    if (facet == facets.facet_of[j] && !facets.exactly_flat[facet]) return;
+    const bool one_facet = facet == facets.facet_of[j];
+    if (one_facet && !facets.exactly_flat[facet]) return;
     const Corners &s = triangles.corners[i], &t = triangles.corners[j];
-    if (const auto contact = meet(vertices, s, t)) {
+    if (const auto contact = meet(vertices, s, t, one_facet ? axes[facet] : -1)) {
       const bool covering = contact->coplanar && are_coplanar(points_of(vertices, s), points_of(vertices, t));
       found.push_back({covering ? Between::covering_facets : Between::facets, i, j, contact->where});
     }

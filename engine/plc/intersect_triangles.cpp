@@ -33,8 +33,10 @@ bool in_box_of(const Point3& a, const Point3& b, const Point3& p) {
 }
 
 bool holds(View view, const Triangle& t, const Point3& p) {
-  const int u = view.orient(t[0], t[1], p), v = view.orient(t[1], t[2], p), w = view.orient(t[2], t[0], p);
-  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+  const int u = view.orient(t[0], t[1], p), v = view.orient(t[1], t[2], p);
+  if (u * v < 0) return false;
+  const int w = view.orient(t[2], t[0], p);
+  return u * w >= 0 && v * w >= 0;
 }
 
 // The point of pq on the line ab, rounded.
@@ -93,6 +95,26 @@ std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, c
   return meet_with_signs(p, q, orient3d(t[0], t[1], t[2], p), orient3d(t[0], t[1], t[2], q), t);
 }
 
+bool are_apart_in_plane(int axis, const Triangle& s, const Triangle& t, int common) {
+  const auto quanta = [](const Triangle& u) {
+    return std::array<Quanta, 3>{to_quanta(u[0]), to_quanta(u[1]), to_quanta(u[2])};
+  };
+  const std::array<Quanta, 3> qs = quanta(s), qt = quanta(t);
+  // Does the line of an edge of the one have it and the other on different sides? A common corner, the first of both,
+  // may be on the line.
+  const auto divides = [&](const std::array<Quanta, 3>& one, const std::array<Quanta, 3>& other) {
+    const int sense = orient_along(axis, one[0], one[1], one[2]);
+    for (int k = 0; k < 3; ++k) {
+      const bool through_common = common == 1 && k != 1;
+      int j = through_common ? 1 : 0;
+      while (j < 3 && orient_along(axis, one[k], one[(k + 1) % 3], other[j]) == -sense) ++j;
+      if (j == 3) return true;
+    }
+    return false;
+  };
+  return divides(qs, qt) || divides(qt, qs);
+}
+
 std::optional<Contact> meet_triangles(const Triangle& s, const Triangle& t) {
   const std::array<int, 3> s_signs = signs_against(t, s);
   if (on_one_side(s_signs)) return std::nullopt;
@@ -131,8 +153,9 @@ std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Poi
   return meet_in_plane({dominant_axis(normal)}, p, q, a, b);
 }
 
-bool is_on_triangle(const Point3& p, const Triangle& t) {
-  return orient3d(t[0], t[1], t[2], p) == 0 && holds(view_of(t), t, p);
+// The projection first: it rejects most points of the same plane, which are dear for `orient3d`.
+bool is_on_triangle(int axis, const Point3& p, const Triangle& t) {
+  return holds({axis}, t, p) && orient3d(t[0], t[1], t[2], p) == 0;
 }
 
 bool is_within_segment(const Point3& p, const Point3& a, const Point3& b) {

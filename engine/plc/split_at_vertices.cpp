@@ -12,13 +12,16 @@ namespace ccdt {
 
 namespace {
 
+// An axis that the plane of the triangle is not parallel to.
+int axis_of(std::span<const Point3> vertices, const Corners& t) {
+  return dominant_axis(rounded_normal(vertices[t[0]], vertices[t[1]], vertices[t[2]]));
+}
+
 // One vertex after the other splits the triangle that holds it into three, or two if it is on an edge.
 class TriangleSplitter {
  public:
   TriangleSplitter(std::span<const Point3> vertices, const Corners& t)
-      : vertices_(vertices),
-        axis_(dominant_axis(rounded_normal(vertices[t[0]], vertices[t[1]], vertices[t[2]]))),
-        sense_(orient(t[0], t[1], t[2])) {}
+      : vertices_(vertices), axis_(axis_of(vertices, t)), sense_(orient(t[0], t[1], t[2])) {}
 
   void split(const Corners& t, const std::vector<VertexId>& inner, std::vector<Corners>& parts) const {
     if (inner.empty()) {
@@ -58,12 +61,15 @@ bool has(const Corners& c, VertexId v) {
 }  // namespace
 
 bool split_triangles_at_vertices(std::span<const Point3> vertices, const BoxTree& tree, TriangleSet& triangles) {
+  std::vector<char> axes(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    axes[t] = static_cast<char>(axis_of(vertices, triangles.corners[t]));
   std::vector<std::pair<std::uint32_t, VertexId>> found;  // triangle and a vertex on it
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const VertexId v(i);
     tree.for_each_meeting(box_of(vertices[v]), [&](std::uint32_t t) {
       const Corners& c = triangles.corners[t];
-      if (!has(c, v) && is_on_triangle(vertices[v], {vertices[c[0]], vertices[c[1]], vertices[c[2]]}))
+      if (!has(c, v) && is_on_triangle(axes[t], vertices[v], {vertices[c[0]], vertices[c[1]], vertices[c[2]]}))
         found.emplace_back(t, v);
     });
   }
