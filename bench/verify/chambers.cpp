@@ -45,7 +45,7 @@ std::vector<Spoke> spokes(const Surface& surface, std::uint32_t edge) {
     const std::uint32_t use = surface.uses[i];
     Point3 inward = cross(surface.area_vector[surface.piece_of[use]], axis);
     if (!surface.is_forward(use)) inward = -1.0 * inward;
-    inward = (1 / std::sqrt(squared_length(inward))) * inward;
+    if (const double length = std::sqrt(squared_length(inward)); length > 0) inward = (1 / length) * inward;
     if (result.empty()) first = inward;
     const Point3 second = (1 / std::sqrt(squared_length(axis))) * cross(axis, first);
     result.push_back({use, result.empty() ? 0 : std::atan2(dot(inward, second), dot(inward, first))});

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include "bench/tests/verify_cases.h"
+#include "bench/verify/verify.h"
+
+namespace ccdt {
+namespace {
+
+TEST(Verify, ACubeInFiveTetrahedraIsRight) {
+  const MeshedInput m = cube_in_five();
+  expect_ok(m);
+  const Verification v = verify(m.input, m.mesh);
+  EXPECT_DOUBLE_EQ(v.mesh_volume, 1);
+  EXPECT_DOUBLE_EQ(v.input_volume, 1);
+  EXPECT_EQ(check_named(v, "input segments").checked, 12u);
+  EXPECT_EQ(check_named(v, "input facets").checked, 6u);
+  EXPECT_EQ(check_named(v, "boundary faces on input facets").checked, 12u);
+}
+
+TEST(Verify, GridsAreRightWithEitherDiagonalAndRotated) {
+  for (const bool turned : {false, true})
+    for (const Transform& transform : {Transform(unmoved), Transform(rotated)}) {
+      expect_ok(make_grid_mesh({4, 4, 4}, everywhere, turned, transform));
+      expect_ok(make_grid_mesh({3, 3, 3}, around_a_hole, turned, transform));
+      expect_ok(two_regions(turned, transform));
+    }
+}
+
+TEST(Verify, APrismIsRight) {
+  MeshedInput m;
+  m.input.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  m.input.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  m.mesh.vertices = m.input.vertices;
+  m.mesh.tetrahedra = {{0, 1, 2, 3}, {1, 4, 2, 3}, {4, 5, 2, 3}};
+  m.mesh.regions.assign(3, 0);
+  expect_ok(m);
+}
+
+TEST(Verify, NestedShellsAlternate) {
+  const auto shell = [](int i, int j, int k) {
+    const int depth = std::min({i, j, k, 6 - i, 6 - j, 6 - k});
+    return depth == 1 || depth == 2 ? outside : 0;
+  };
+  expect_ok(make_grid_mesh({7, 7, 7}, shell, true, rotated));
+}
+
+TEST(Verify, CubesThatShareAFaceOfASurfaceAreBothInside) {
+  MeshedInput m = two_regions(true, rotated);
+  m.input.inside = InputPlc::Inside::even_odd;
+  m.input.regions.clear();
+  expect_ok(m);
+}
+
+TEST(Verify, APlateOfPolygonsWithHolesIsRight) {
+  expect_ok(plate());
+}
+
+TEST(Verify, AVertexListedForEachTriangleIsOne) {
+  MeshedInput m = cube();
+  std::vector<Point3> soup;
+  for (auto& triangle : m.input.triangles)
+    for (std::uint32_t& v : triangle) {
+      soup.push_back(m.input.vertices[v]);
+      v = static_cast<std::uint32_t>(soup.size() - 1);
+    }
+  m.input.vertices = soup;
+  expect_ok(m);
+}
+
+TEST(Verify, CoordinatesMayBeRounded) {
+  MeshedInput m = make_grid_mesh({4, 4, 4}, everywhere, true, rotated);
+  for (std::size_t i = 0; i < m.mesh.vertices.size(); ++i) m.mesh.vertices[i].x += (i % 3 - 1.0) * 4e-10;
+  expect_ok(m);
+}
+
+TEST(Verify, AMissingInputVertexIsFoundIfItIsInside) {
+  MeshedInput m = cube();
+  m.input.vertices.push_back({-1, 0.5, 0.5});
+  expect_ok(m);
+  m.input.vertices.push_back({0.5, 0.25, 0.25});
+  expect_failure(m, "input vertices");
+  m = cube();
+  m.input.vertices.push_back({0.5, 0.25, 0});
+  expect_failure(m, "input vertices");
+}
+
+TEST(Verify, AMissingSegmentIsFound) {
+  MeshedInput m = make_grid_mesh({4, 3, 3}, everywhere, false, unmoved);
+  const auto segment = [&](const Point3& a, const Point3& b) {
+    m.input.segments.push_back({vertex_at(m.mesh, a), vertex_at(m.mesh, b)});
+  };
+  segment({0, 1, 1}, {4, 1, 1});
+  segment({0, 0, 0}, {3, 3, 3});
+  expect_ok(m);
+  segment({1, 1, 1}, {2, 3, 1});
+  expect_failure(m, "input segments");
+}
+
+TEST(Verify, AFilledHoleIsFound) {
+  MeshedInput m = cube();
+  m.input.triangles = make_grid_mesh({3, 3, 3}, around_a_hole, false, unmoved).input.triangles;
+  const MeshedInput hollow = make_grid_mesh({3, 3, 3}, around_a_hole, false, unmoved);
+  m.input = hollow.input;
+  expect_failure(m, "tetrahedra in the domain");
+  expect_failure(m, "volume");
+  m.input.inside = InputPlc::Inside::seeds;
+  expect_ok(m);
+  m.input.holes = {{1.5, 1.4, 1.3}};
+  expect_failure(m, "holes");
+  m.mesh = hollow.mesh;
+  expect_ok(m);
+}
+
+TEST(Verify, AMissingRegionIsFound) {
+  MeshedInput m = two_regions();
+  const MeshedInput half = make_grid_mesh({2, 3, 3}, everywhere, false, unmoved);
+  m.mesh = half.mesh;
+  for (int& r : m.mesh.regions) r = 1;
+  expect_failure(m, "input facets");
+  expect_failure(m, "input vertices");
+}
+
+TEST(Verify, ADanglingFacetMustBeThere) {
+  for (const bool turned : {false, true}) {
+    MeshedInput m = make_grid_mesh({3, 3, 3}, everywhere, turned, rotated);
+    const auto at = [&](double x, double y, double z) { return vertex_at(m.mesh, rotated({x, y, z})); };
+    m.input.triangles.push_back({at(1, 1, 1), at(2, 1, 1), at(2, 2, 1)});
+    m.input.triangles.push_back({at(1, 1, 1), at(2, 2, 1), at(1, 2, 1)});
+    expect_ok(m);
+    m.input.triangles.push_back({at(1, 1, 2), at(2, 1, 2), at(1, 2, 2)});  // the mesh has the other diagonal
+    expect_failure(m, "input facets");
+    expect_failure(m, "input segments");
+  }
+}
+
+TEST(Verify, APlateWithItsHoleClosedAtBothEndsIsAnotherDomain) {
+  MeshedInput m = plate();
+  m.input.polygon_facets[0].holes.clear();
+  expect_ok(m);  // a membrane at one end has the outside on both sides
+  m.input.polygon_facets[1].holes.clear();
+  expect_failure(m, "input facets");
+  expect_failure(m, "volume");
+  m.input.holes = {{1.5, 1.4, 0.3}};
+  expect_ok(m);
+}
+
+/// An octahedron with a square across it that is flat only within the tolerance: a flat tetrahedron lies in the square,
+/// between the two tetrahedra above one of its diagonals and the two below the other.
+MeshedInput octahedron_with_flat_tetrahedron(double thickness) {
+  MeshedInput m;
+  m.input.inside = InputPlc::Inside::seeds;
+  m.input.vertices = {{1, 0, thickness}, {0, 1, 0}, {-1, 0, thickness}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    m.input.triangles.push_back({i, (i + 1) % 4, 4});
+    m.input.triangles.push_back({(i + 1) % 4, i, 5});
+  }
+  m.input.regions = {{{0.1, 0.1, 0.5}, 7, 0}, {{0.1, 0.1, -0.5}, 9, 0}};
+  m.mesh.vertices = m.input.vertices;
+  m.mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 3, 4}, {1, 0, 3, 5}, {2, 1, 3, 5}, {0, 2, 1, 3}};
+  m.mesh.regions = {7, 7, 9, 9, 9};
+  return m;
+}
+
+TEST(Verify, AFlatTetrahedronMayLieInAnInteriorFacet) {
+  MeshedInput m = octahedron_with_flat_tetrahedron(1e-9);
+  m.input.triangles.push_back({0, 1, 2});
+  m.input.triangles.push_back({0, 3, 2});
+  expect_ok(m);
+  m.input.triangles.resize(8);
+  m.input.triangles.push_back({1, 2, 3});
+  m.input.triangles.push_back({0, 1, 3});
+  m.mesh.regions.back() = 7;  // these triangles are the ones below it
+  expect_ok(m);
+  m.input.triangles.resize(8);
+  m.input.polygon_facets.push_back({{{3, 2, 1, 0}}, {}, 0, 8});
+  expect_ok(m);
+  m.mesh.regions = {7, 9, 9, 9, 9};
+  expect_failure(m, "regions");
+}
+
+TEST(Verify, AThickTetrahedronMayNotLieInAFacet) {
+  MeshedInput m = octahedron_with_flat_tetrahedron(1e-6);
+  m.input.polygon_facets.push_back({{{0, 1, 2, 3}}, {}, 0, 8});
+  expect_failure(m, "input facets");
+}
+
+}  // namespace
+}  // namespace ccdt
