@@ -19,8 +19,8 @@ constexpr std::size_t buffer_size = 1 << 18;
 
 std::filesystem::path temporary_beside(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter = 0;
-  const std::string name =
-      "." + target.filename().string() + "." + std::to_string(::getpid()) + "." + std::to_string(counter++) + ".tmp";
+  std::string name = ".";
+  name += target.filename().string() + "." + std::to_string(::getpid()) + "." + std::to_string(counter++) + ".tmp";
   return target.parent_path() / name;
 }
 

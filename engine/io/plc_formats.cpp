@@ -78,23 +78,24 @@ std::string objection(const PolygonFacet& facet, const FormatLimits& limits) {
   return {};
 }
 
+[[noreturn]] void refuse(const std::string& file, const std::string& what) {
+  throw OutputError(what, place_in(file), "write a .poly file instead");
+}
+
 }  // namespace
 
 void check_format_holds(const InputPlc& plc, const FormatLimits& limits, const std::string& file) {
   const std::string name(limits.name);
-  const auto refuse = [&](const std::string& what, std::vector<long long> facets = {}) {
-    Place place = place_in(file);
-    place.facets = std::move(facets);
-    throw OutputError(what, std::move(place), "write a .poly file instead");
-  };
   if (plc.vertices.empty())
     throw OutputError("there are no vertices to write", place_in(file), "check the model that is to be written");
-  if (!limits.segments && !plc.segments.empty()) refuse(name + " cannot hold segments");
-  if (!limits.seeds && !plc.holes.empty()) refuse(name + " cannot hold seeds of holes");
-  if (!limits.seeds && !plc.regions.empty()) refuse(name + " cannot hold seeds of regions");
-  for (const PolygonFacet& facet : plc.polygon_facets)
-    if (const std::string what = objection(facet, limits); !what.empty()) refuse(what, {facet.number});
-  if (!limits.loose_vertices && has_loose_vertex(plc)) refuse(name + " cannot hold vertices that no facet has");
+  if (!limits.segments && !plc.segments.empty()) refuse(file, name + " cannot hold segments");
+  if (!limits.seeds && !plc.holes.empty()) refuse(file, name + " cannot hold seeds of holes");
+  if (!limits.seeds && !plc.regions.empty()) refuse(file, name + " cannot hold seeds of regions");
+  for (const PolygonFacet& facet : plc.polygon_facets) {
+    const std::string what = objection(facet, limits);
+    if (!what.empty()) refuse(file, "facet " + std::to_string(facet.number) + ": " + what);
+  }
+  if (!limits.loose_vertices && has_loose_vertex(plc)) refuse(file, name + " cannot hold vertices that no facet has");
 }
 
 InputPlc::Inside inside_claimed(const FileBytes& file) {
