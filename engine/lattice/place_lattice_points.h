@@ -25,7 +25,13 @@ struct LatticeOptions {
 
 /// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
 /// pairwise different, strictly inside the domain, outside the smallest sphere through any surface triangle and any
-/// subsegment, and different from all vertices.
+/// subsegment, and at least about half an edge length away from all triangles, subsegments and vertices. In Morton
+/// order of the octree; the same for any order of the triangles.
+///
+/// With a grading, the target edge length at x is the least of `edge_length` (if any) and, over the surface, of
+/// (mean edge length there + grading * distance). Leaves halve from level to level, so the lattice has it within a
+/// factor of sqrt(2), and within 0.4 per cent where it is `edge_length` or, if that is 0, the mean edge length of the
+/// surface. Without a grading all leaves are of that one size. For the constants of the lattices see cell_size.h.
 ///
 /// \param vertices     grid units
 /// \param subsegments  edges that protect the segments, also those that no triangle has
