@@ -19,8 +19,8 @@ struct Place {
 /// The base of all errors of the project: what is wrong, where, and what the user can do next.
 class Error : public std::runtime_error {
  public:
-  Error(std::string what, Place place, std::string remedy)
-      : std::runtime_error(std::move(what)), place_(std::move(place)), remedy_(std::move(remedy)) {}
+  Error(const std::string& what, Place place, std::string remedy)
+      : std::runtime_error(what), place_(std::move(place)), remedy_(std::move(remedy)) {}
 
   const Place& place() const { return place_; }
   Place& place() { return place_; }

@@ -9,10 +9,7 @@
 namespace ccdt {
 namespace {
 
-struct Ball {
-  Point3 centre;
-  double radius;
-};
+constexpr double everywhere = 0x1p60;
 
 /// The circumsphere in floating point, a little too large; endless where it cannot be told.
 Ball circumsphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
@@ -21,7 +18,7 @@ Ball circumsphere(const Point3& a, const Point3& b, const Point3& c, const Point
   const double volume = dot(u, vw);
   const Point3 to_centre = (0.5 / volume) * (squared_length(u) * vw + squared_length(v) * wu + squared_length(w) * uv);
   const double radius = std::sqrt(squared_length(to_centre)) * (1 + 1e-6);
-  if (!(radius < 0x1p56)) return {a, 0x1p60};
+  if (!(radius < 0x1p56)) return {a, everywhere};
   return {a + to_centre, radius};
 }
 
@@ -45,14 +42,15 @@ std::optional<std::uint32_t> ApexFinder::find(const OrientedFace& face) {
   face_ = face.corners;
   best_ = ghost_vertex;
   const Point3 &a = d_.point(face_[0]), &b = d_.point(face_[1]), &c = d_.point(face_[2]);
+  Ball ball{a, everywhere};
   const auto consider = [&](std::uint32_t v) {
-    if (is_better(v)) best_ = v;
+    if (!is_better(v)) return;
+    best_ = v;
+    ball = circumsphere(a, b, c, d_.point(v));
   };
-  locator_.spiral(approximate_centroid(a, b, c), consider, [&] { return best_ != ghost_vertex; });
+  // What is above the face and in a later, smaller sphere is in the earlier one too: one spiral is enough.
+  locator_.spiral(approximate_centroid(a, b, c), consider, [&] { return ball; });
   if (best_ == ghost_vertex) return std::nullopt;
-  // What is above the face and in a later, smaller sphere is in this one: one pass is enough.
-  const Ball ball = circumsphere(a, b, c, d_.point(best_));
-  locator_.in_ball(ball.centre, ball.radius, consider);
   return best_;
 }
 

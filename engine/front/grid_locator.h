@@ -12,19 +12,20 @@
 
 namespace ccdt {
 
+struct Ball {
+  Point3 centre;
+  double radius;
+};
+
 /// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4).
 class GridLocator {
  public:
   GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
 
-  /// Calls visit(vertex) for vertices in growing distance from `centre`, ring of cells by ring, until `enough()` holds
-  /// at the end of a ring.
-  template <class Visit, class Enough>
-  void spiral(const Point3& centre, const Visit& visit, const Enough& enough) const;
-
-  /// Calls visit(vertex) for every vertex within the ball, and some beyond.
-  template <class Visit>
-  void in_ball(const Point3& centre, double radius, const Visit& visit) const;
+  /// Calls visit(vertex) for vertices in growing distance from `centre`, ring of cells by ring. Cells outside the ball
+  /// that `reach()` gives are passed over; when all that is left is outside, it ends.
+  template <class Visit, class Reach>
+  void spiral(const Point3& centre, const Visit& visit, const Reach& reach) const;
 
   /// Calls visit(face) for every face that the straight edge from p to q may meet, some more than once, until it
   /// returns true. \return did some call?
@@ -36,16 +37,20 @@ class GridLocator {
   CellLists vertices_, faces_;
 };
 
-template <class Visit, class Enough>
-void GridLocator::spiral(const Point3& centre, const Visit& visit, const Enough& enough) const {
+template <class Visit, class Reach>
+void GridLocator::spiral(const Point3& centre, const Visit& visit, const Reach& reach) const {
   const UniformGrid::CellIndex middle = grid_.cell_at(centre);
   int rings = 0;
   for (int i = 0; i < 3; ++i) rings = std::max({rings, middle[i], grid_.cells[i] - 1 - middle[i]});
-  for (int ring = 0; ring <= rings && !enough(); ++ring) {
-    UniformGrid::CellIndex from, to;
+  for (int ring = 0; ring <= rings; ++ring) {
+    const Ball ball = reach();
+    const double farthest = std::sqrt(squared_length(ball.centre - centre)) + ball.radius;
+    if ((ring - 1) * grid_.cell_size > farthest) return;
+    const Point3 r{ball.radius, ball.radius, ball.radius};
+    UniformGrid::CellIndex from = grid_.cell_at(ball.centre - r), to = grid_.cell_at(ball.centre + r);
     for (int i = 0; i < 3; ++i) {
-      from[i] = std::max(0, middle[i] - ring);
-      to[i] = std::min(grid_.cells[i] - 1, middle[i] + ring);
+      from[i] = std::max(from[i], middle[i] - ring);
+      to[i] = std::min(to[i], middle[i] + ring);
     }
     for (int z = from[2]; z <= to[2]; ++z) {
       for (int y = from[1]; y <= to[1]; ++y) {
@@ -59,14 +64,6 @@ void GridLocator::spiral(const Point3& centre, const Visit& visit, const Enough&
       }
     }
   }
-}
-
-template <class Visit>
-void GridLocator::in_ball(const Point3& centre, double radius, const Visit& visit) const {
-  const Point3 r{radius, radius, radius};
-  UniformGrid::for_each(grid_.cell_at(centre - r), grid_.cell_at(centre + r), [&](const UniformGrid::CellIndex& cell) {
-    for (const std::uint32_t v : vertices_.of(grid_.number(cell))) visit(v);
-  });
 }
 
 template <class Visit>

@@ -32,6 +32,15 @@ using IntegerLanes = std::int64_t __attribute__((vector_size(32)));
 
 namespace filter {
 
+/// Of two magnitudes. (std::fmax is a call, for the sake of NaN.)
+CCDT_ALWAYS_INLINE double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+CCDT_ALWAYS_INLINE double largest_magnitude(double a, double b, double c) {
+  return larger(larger(std::fabs(a), std::fabs(b)), std::fabs(c));
+}
+
 /// x, y, z and a zero.
 CCDT_ALWAYS_INLINE void load(const Point3& p, Lanes& result) {
   result = Lanes{p.x, p.y, p.z, 0.0};
@@ -79,10 +88,9 @@ CCDT_ALWAYS_INLINE Sign orient3d_filter(const Point3& a, const Point3& b, const 
   // Six products of three entries, each with at most five roundings: 30 * 2^-53, rounded up for the bound's own
   // roundings.
   constexpr double factor = 40 * 0x1p-53;
-  const auto largest = [](double u, double v, double w) {
-    return std::fmax(std::fmax(std::fabs(u), std::fabs(v)), std::fabs(w));
-  };
-  const double mx = largest(bx, cx, dx), my = largest(by, cy, dy), mz = largest(bz, cz, dz);
+  using filter::largest_magnitude;
+  const double mx = largest_magnitude(bx, cx, dx), my = largest_magnitude(by, cy, dy),
+               mz = largest_magnitude(bz, cz, dz);
   if (std::fabs(det) > factor * mx * my * mz) return det > 0 ? Sign::plus : Sign::minus;
   const Lanes rows[3] = {{bx, by, bz, 0}, {cx, cy, cz, 0}, {dx, dy, dz, 0}};
   IntegerLanes bits = {}, row_bits;
@@ -91,7 +99,7 @@ CCDT_ALWAYS_INLINE Sign orient3d_filter(const Point3& a, const Point3& b, const 
     bits |= row_bits;
   }
   // Intermediate results are below 6 * largest^3 <= 2^53.
-  if (filter::few_bits(bits, largest(mx, my, mz), 114000.0))
+  if (filter::few_bits(bits, largest_magnitude(mx, my, mz), 114000.0))
     return det > 0 ? Sign::plus : det < 0 ? Sign::minus : Sign::zero;
   return Sign::unknown;
 }
@@ -138,9 +146,26 @@ CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const 
   filter::integer_bits(rc, bits_c), filter::integer_bits(rd, bits_d);
   const IntegerLanes bits = (bits_a | bits_b) | (bits_c | bits_d);
   // Intermediate results are below 72 * largest^5 <= 2^53.
-  if (filter::few_bits(bits, std::fmax(m[0], std::fmax(m[1], m[2])), 650.0))
+  if (filter::few_bits(bits, filter::larger(m[0], filter::larger(m[1], m[2])), 650.0))
     return det > 0 ? Sign::plus : det < 0 ? Sign::minus : Sign::zero;
   return Sign::unknown;
+}
+
+/// Sign of the sum of orient3d(p, q, r, x) over x = a, b, c: that of the centroid. Never `zero`.
+inline Sign orient3d_centroid_filter(const Point3& p, const Point3& q, const Point3& r, const Point3& a,
+                                     const Point3& b, const Point3& c) {
+  const Point3 u = q - p, v = r - p, ap = a - p, bp = b - p, cp = c - p;
+  const Point3 w = ap + bp + cp;
+  const double det = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) + w.z * (u.x * v.y - u.y * v.x);
+  // As for orient3d_filter, with two more roundings in each sum.
+  constexpr double factor = 60 * 0x1p-53;
+  const auto bound = [](double s, double t, double x, double y, double z) {
+    return filter::larger(filter::larger(std::fabs(s), std::fabs(t)), std::fabs(x) + std::fabs(y) + std::fabs(z));
+  };
+  const double mx = bound(u.x, v.x, ap.x, bp.x, cp.x), my = bound(u.y, v.y, ap.y, bp.y, cp.y),
+               mz = bound(u.z, v.z, ap.z, bp.z, cp.z);
+  if (std::fabs(det) <= factor * mx * my * mz) return Sign::unknown;
+  return det > 0 ? Sign::plus : Sign::minus;
 }
 
 }  // namespace ccdt

@@ -177,6 +177,8 @@ int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const 
 
 int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const Point3& a, const Point3& b,
                       const Point3& c) {
+  if (const Sign sign = orient3d_centroid_filter(p, q, r, a, b, c); sign != Sign::unknown)
+    return static_cast<int>(sign);
   const int sa = orient3d(p, q, r, a), sb = orient3d(p, q, r, b), sc = orient3d(p, q, r, c);
   if (sa >= 0 && sb >= 0 && sc >= 0) return sa + sb + sc > 0 ? 1 : 0;
   if (sa <= 0 && sb <= 0 && sc <= 0) return -1;
