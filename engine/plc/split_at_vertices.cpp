@@ -28,13 +28,14 @@ class TriangleSplitter {
       parts.push_back(t);
       return;
     }
-    const VertexId v = inner.front();
+    const std::size_t middle = inner.size() / 2;  // vertices in a row have their ids in a row: halves, not crumbs
+    const VertexId v = inner[middle];
     for (int k = 0; k < 3; ++k) {
       const Corners part = {t[k], t[(k + 1) % 3], v};
       if (orient(part[0], part[1], part[2]) == 0) continue;
       std::vector<VertexId> left;
-      for (std::size_t i = 1; i < inner.size(); ++i)
-        if (holds(part, inner[i])) left.push_back(inner[i]);
+      for (std::size_t i = 0; i < inner.size(); ++i)
+        if (i != middle && holds(part, inner[i])) left.push_back(inner[i]);
       split(part, left, parts);
     }
   }

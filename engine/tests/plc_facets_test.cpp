@@ -190,6 +190,20 @@ TEST(PlcFacets, AVertexExactlyOnAnEdgeSplitsTheTrianglesThere) {
   EXPECT_EQ(on_facets.size(), 10u);
 }
 
+TEST(PlcFacets, AFacetMayHaveManyVerticesThatItsTrianglesDoNotName) {
+  InputPlc cube = unit_cube();
+  const int n = 40;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) cube.vertices.push_back({double(i) / n, double(j) / n, 1});
+  const Plc plc = build_plc(cube);
+  expect_valid(plc);
+  EXPECT_EQ(plc.vertices.size(), 4u + (n + 1) * (n + 1));
+  EXPECT_EQ(plc.facets.size(), 6u);
+  EXPECT_EQ(plc.segments.size(), 8u + 4 * n);
+  EXPECT_EQ(plc.facets[1].triangles.size(), 2u * n * n);
+  EXPECT_NEAR(inside_volume(plc), 1, 1e-12);
+}
+
 TEST(PlcFacets, ExactlyFlatMeansThatAllVerticesAreInOnePlane) {
   const Plc plc = build_plc(rotated(arbitrary, l_shape()));
   for (const Facet& f : plc.facets) {
