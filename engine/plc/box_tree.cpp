@@ -17,19 +17,19 @@ std::uint64_t spread(std::uint64_t v) {
   return (v | v << 2) & 0x1249249249249249u;
 }
 
-constexpr Box empty_box() {
+constexpr ClosedBox empty_box() {
   constexpr double inf = std::numeric_limits<double>::infinity();
   return {{inf, inf, inf}, {-inf, -inf, -inf}};
 }
 
 // Twice the centre; finite boxes of the grid do not overflow.
-Point3 doubled_centre(const Box& b) {
+Point3 doubled_centre(const ClosedBox& b) {
   return b.low + b.high;
 }
 
-std::vector<std::uint32_t> morton_order(const std::vector<Box>& boxes) {
-  Box centres = empty_box();
-  for (const Box& b : boxes) centres = hull(centres, box_of(doubled_centre(b)));
+std::vector<std::uint32_t> morton_order(const std::vector<ClosedBox>& boxes) {
+  ClosedBox centres = empty_box();
+  for (const ClosedBox& b : boxes) centres = hull(centres, box_of(doubled_centre(b)));
   const Point3 size = centres.high - centres.low;
   const double extent = std::max({size.x, size.y, size.z, 1.0});
   const double scale = ((1 << bits_per_axis) - 1) / extent;
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> morton_order(const std::vector<Box>& boxes) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), items_(morton_order(boxes_)) {
+BoxTree::BoxTree(std::vector<ClosedBox> boxes) : boxes_(std::move(boxes)), items_(morton_order(boxes_)) {
   while (std::size_t{leaf_count_} * leaf_size < items_.size()) leaf_count_ *= 2;
   nodes_.assign(std::size_t{leaf_count_} * 2, empty_box());
   for (std::uint32_t leaf = leaf_count_; leaf < 2 * leaf_count_; ++leaf)

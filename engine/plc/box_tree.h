@@ -10,21 +10,21 @@
 namespace ccdt {
 
 /// An axis-parallel box, closed.
-struct Box {
+struct ClosedBox {
   Point3 low, high;
 
-  bool meets(const Box& o) const {
+  bool meets(const ClosedBox& o) const {
     return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y && low.z <= o.high.z &&
            o.low.z <= high.z;
   }
 };
 
-inline Box hull(const Box& a, const Box& b) {
+inline ClosedBox hull(const ClosedBox& a, const ClosedBox& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
 }
 
-inline Box box_of(const Point3& p) {
+inline ClosedBox box_of(const Point3& p) {
   return {p, p};
 }
 
@@ -33,11 +33,11 @@ inline Box box_of(const Point3& p) {
 ///     node 1 = [2 3], node i = [2i 2i+1], the last `leaf_count` nodes are runs of `leaf_size` items
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes);
+  explicit BoxTree(std::vector<ClosedBox> boxes);
 
   /// Calls visit(item) for all items whose box meets the given one.
   template <class Visit>
-  void for_each_meeting(const Box& box, Visit&& visit) const {
+  void for_each_meeting(const ClosedBox& box, Visit&& visit) const {
     if (!items_.empty()) descend(1, box, visit);
   }
 
@@ -57,7 +57,7 @@ class BoxTree {
   }
 
   template <class Visit>
-  void descend(std::uint32_t node, const Box& box, Visit& visit) const {
+  void descend(std::uint32_t node, const ClosedBox& box, Visit& visit) const {
     if (!nodes_[node].meets(box)) return;
     if (!is_leaf(node)) {
       descend(2 * node, box, visit);
@@ -99,9 +99,9 @@ class BoxTree {
     }
   }
 
-  std::vector<Box> boxes_;
+  std::vector<ClosedBox> boxes_;
   std::vector<std::uint32_t> items_;  // in Morton order
-  std::vector<Box> nodes_;
+  std::vector<ClosedBox> nodes_;
   std::uint32_t leaf_count_ = 1;  // a power of two
 };
 

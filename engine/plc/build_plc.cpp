@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t most_overlaps_told = 1000;
 
 double box_size(std::span<const Point3> vertices) {
-  Box box = box_of(vertices.front());
+  ClosedBox box = box_of(vertices.front());
   for (const Point3& p : vertices) box = hull(box, box_of(p));
   const Point3 size = box.high - box.low;
   return std::max({size.x, size.y, size.z});

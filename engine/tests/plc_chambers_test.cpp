@@ -186,7 +186,7 @@ TEST(PlcChambers, ASegmentIsSplitWhereAVertexLiesOnIt) {
 }
 
 // A facet from the top of a box down into it: its upper edge divides the top.
-TEST(PlcChambers, ASlitMakesItsFourEdgesGrazeable) {
+TEST(PlcChambers, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
   InputPlc input;
   input.inside = Inside::seeds;
   input.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0},   {0, 2, 0},   {0, 0, 2},   {2, 0, 2},
