@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/base/stopwatch.h"
-#include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
@@ -26,8 +25,8 @@ struct Work {
   std::vector<bool> must_be_chain;  ///< by segment
   Delaunay delaunay;
   SegmentChains chains;
-  MeshCounts counts;
-  StageSeconds seconds;
+  MeshCounts& counts;
+  StageSeconds& seconds;
 };
 
 void tetrahedralize_input(Work& w) {
@@ -92,50 +91,41 @@ TetMesh constrain(Work& w) {
   return assemble_mesh(w.plc, w.chains, facets, front, chambers, w.delaunay);
 }
 
-/// Chooses more segments to protect after the front got stuck: all that are missing. False if there is none.
-bool protect_more(Work& w) {
-  CellStar star(w.delaunay);
-  bool more = false;
-  for (std::size_t s = 0; s < w.plc.segments.size(); ++s) {
-    const auto& ends = w.plc.segments[s].ends;
-    if (w.must_be_chain[s] || star.has_edge(ends[0], ends[1])) continue;
-    w.must_be_chain[s] = more = true;
-  }
-  return more;
-}
-
 TetMesh mesh_with(Work& w) {
-  while (true) {
-    try {
-      tetrahedralize_input(w);
-      protect(w);
-      fill_inside(w);
-      return constrain(w);
-    } catch (const FrontStuck&) {
-      if (!protect_more(w)) throw;
-    }
-  }
+  tetrahedralize_input(w);
+  protect(w);
+  fill_inside(w);
+  return constrain(w);
 }
 
 }  // namespace
 
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  StageSeconds seconds;
-  Plc plc;
-  {
-    const Stopwatch watch(seconds.plc);
-    plc = build_plc(input, {options.flatness}, progress);
-  }
-  Work work{plc, options, progress, grazeable_segments(plc), {}, {}, {}, seconds};
   MeshResult result;
-  result.mesh = mesh_with(work);
-  result.counts = work.counts;
+  StageSeconds& s = result.seconds;
+  const auto attempt = [&](double flatness) {
+    Plc plc;
+    {
+      const Stopwatch watch(s.plc);
+      plc = build_plc(input, {flatness}, progress);
+    }
+    result.largest_rounding = plc.largest_rounding;
+    Work work{plc, options, progress, grazeable_segments(plc), {}, {}, result.counts, s};
+    result.mesh = mesh_with(work);
+  };
+  try {
+    attempt(options.flatness);
+  } catch (const FrontStuck&) {
+    // Only a facet that is flat within the tolerance, but not exactly, can do that: the theorem on protected edges
+    // speaks of exact facets. Taken as it is, the surface costs more Steiner vertices, but then its tetrahedralization
+    // exists.
+    if (options.flatness == 0) throw;
+    result.counts = {};
+    attempt(0);
+  }
   result.counts.vertices = result.mesh.vertices.size();
   result.counts.tetrahedra = result.mesh.tetrahedra.size();
-  result.seconds = work.seconds;
-  StageSeconds& s = result.seconds;
   s.mesh = s.plc + s.protect + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.improve;
-  result.largest_rounding = plc.largest_rounding;
   return result;
 }
 

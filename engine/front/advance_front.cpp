@@ -11,7 +11,7 @@ namespace {
 class Front {
  public:
   Front(const Plc& plc, const FacetMesh& facets, bool face_protection, const Delaunay& delaunay)
-      : plc_(plc), face_protection_(face_protection), d_(delaunay), star_(delaunay), finder_(plc, facets, delaunay) {}
+      : plc_(plc), face_protection_(face_protection), d_(delaunay), star_(delaunay), finder_(facets, delaunay) {}
 
   /// Opens both sides of the faces of the PLC, where the domain is.
   void start(const FacetMesh& facets, const std::vector<std::uint32_t>& codes);

@@ -11,32 +11,22 @@ namespace {
 
 constexpr double everywhere = 0x1p60;
 
-/// The circumsphere in floating point, a little too large; endless where it cannot be told.
+/// The circumsphere in floating point, a little too large; endless where the four points are too flat to tell.
 Ball circumsphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
   const Point3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
   const double volume = dot(u, vw);
+  const double size = std::sqrt(squared_length(u) * squared_length(v) * squared_length(w));
+  if (std::fabs(volume) < 1e-9 * size) return {a, everywhere};
   const Point3 to_centre = (0.5 / volume) * (squared_length(u) * vw + squared_length(v) * wu + squared_length(w) * uv);
   const double radius = std::sqrt(squared_length(to_centre)) * (1 + 1e-6);
-  if (!(radius < 0x1p56)) return {a, everywhere};
   return {a + to_centre, radius};
 }
 
 }  // namespace
 
-ApexFinder::ApexFinder(const Plc& plc, const FacetMesh& facets, const Delaunay& delaunay)
-    : facets_(facets),
-      d_(delaunay),
-      star_(delaunay),
-      locator_(delaunay.vertices, facets.triangles),
-      bent_facets_(delaunay.vertices.size()) {
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    if (plc.facets[facets.facet[i]].exactly_flat) continue;
-    for (const VertexId v : facets.triangles[i])
-      if (bent_facets_[v].empty() || bent_facets_[v].back() != facets.facet[i])
-        bent_facets_[v].push_back(facets.facet[i]);
-  }
-}
+ApexFinder::ApexFinder(const FacetMesh& facets, const Delaunay& delaunay)
+    : facets_(facets), d_(delaunay), locator_(delaunay.vertices, facets.triangles) {}
 
 std::optional<std::uint32_t> ApexFinder::find(const OrientedFace& face) {
   face_ = face.corners;
@@ -54,14 +44,14 @@ std::optional<std::uint32_t> ApexFinder::find(const OrientedFace& face) {
   return best_;
 }
 
-bool ApexFinder::is_better(std::uint32_t v) {
+bool ApexFinder::is_better(std::uint32_t v) const {
   if (v == best_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
   const Point3 &a = d_.point(face_[0]), &b = d_.point(face_[1]), &c = d_.point(face_[2]), &p = d_.point(v);
   if (orient3d(a, b, c, p) <= 0) return false;
   if (best_ != ghost_vertex &&
       insphere_perturbed(a, b, c, d_.point(best_), p, {face_[0], face_[1], face_[2], best_, v}) <= 0)
     return false;
-  return is_visible(v) && !makes_flat_cell(v);
+  return is_visible(v);
 }
 
 bool ApexFinder::is_visible(std::uint32_t v) const {
@@ -71,20 +61,6 @@ bool ApexFinder::is_visible(std::uint32_t v) const {
     if (t[0] == v || t[1] == v || t[2] == v) return false;
     return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, p, a, b, c);
   });
-}
-
-/// Four vertices of one facet make no cell, even where it is flat only within the tolerance; but for the flat cells
-/// that the Delaunay tetrahedralization has there, so that both ways to the mesh find the same.
-bool ApexFinder::makes_flat_cell(std::uint32_t v) {
-  const auto on_facet = [&](std::uint32_t u, FacetId facet) {
-    return std::find(bent_facets_[u].begin(), bent_facets_[u].end(), facet) != bent_facets_[u].end();
-  };
-  const bool flat = std::any_of(bent_facets_[v].begin(), bent_facets_[v].end(), [&](FacetId facet) {
-    return on_facet(face_[0], facet) && on_facet(face_[1], facet) && on_facet(face_[2], facet);
-  });
-  if (!flat) return false;
-  const std::uint32_t code = star_.find_face(face_[0], face_[1], face_[2]);
-  return code == no_neighbor || d_.cells[cell_of(code)].vertices[face_of(code)] != v;
 }
 
 }  // namespace ccdt

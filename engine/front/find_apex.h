@@ -3,35 +3,29 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
-#include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/front_faces.h"
 #include "engine/front/grid_locator.h"
-#include "engine/plc/plc.h"
 
 namespace ccdt {
 
 /// Finds the vertex that makes the constrained Delaunay tetrahedron above a face (paper, section 5.1).
 class ApexFinder {
  public:
-  ApexFinder(const Plc& plc, const FacetMesh& facets, const Delaunay& delaunay);
+  ApexFinder(const FacetMesh& facets, const Delaunay& delaunay);
 
   /// Nothing if no vertex above the face can be seen from it.
   std::optional<std::uint32_t> find(const OrientedFace& face);
 
  private:
-  bool is_better(std::uint32_t v);
+  bool is_better(std::uint32_t v) const;
   bool is_visible(std::uint32_t v) const;
-  bool makes_flat_cell(std::uint32_t v);
 
   const FacetMesh& facets_;
   const Delaunay& d_;
-  CellStar star_;
   GridLocator locator_;
-  std::vector<std::vector<FacetId>> bent_facets_;  // by vertex: its facets that are flat only within the tolerance
   // The face at hand and the best vertex for it so far.
   std::array<std::uint32_t, 3> face_{};
   std::uint32_t best_ = ghost_vertex;
