@@ -17,13 +17,16 @@ namespace {
 /// Radius-edge ratio of the examples in TetGen's manual for meshes of good quality.
 constexpr const char* quality_switch = "q1.414";
 
-/// `p`: the constrained Delaunay tetrahedralization of a piecewise linear complex; `q`, `a`: refined, with a bound on
-/// the volume; `A`: region attributes; `Q`: quiet.
+/// The largest tetrahedron of a refined mesh has about twice the volume of the average one.
+constexpr double largest_to_average = 2;
+
+/// `p`: the constrained Delaunay tetrahedralization of a piecewise linear complex; `Y`, `q`, `a`: refined inside, with
+/// the surface kept as our engine keeps it, and a bound on the volume; `A`: region attributes; `Q`: quiet.
 std::string switches_for(const InputPlc& input, const MeshOptions& options) {
   std::string switches = "p";
   if (options.lattice != Lattice::none) {
-    const double bound = regular_tetrahedron_volume(target_edge_length(input, options));
-    switches += quality_switch;
+    const double bound = largest_to_average * regular_tetrahedron_volume(target_edge_length(input, options));
+    switches += std::string("Y") + quality_switch;
     if (bound > 0) switches += "a" + digits(bound);
   }
   if (!input.regions.empty()) switches += "A";

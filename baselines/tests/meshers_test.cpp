@@ -59,8 +59,8 @@ TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
   const MesherRun made = run("tetgen", shapes::cube(), {.edge_length = 0.2});
   EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
-  EXPECT_EQ(made.settings.at(0).second.substr(0, 8), "pq1.414a");
-  EXPECT_GE(static_cast<double>(made.result.counts.tetrahedra), 6 * std::sqrt(2.0) / (0.2 * 0.2 * 0.2));
+  EXPECT_EQ(made.settings.at(0).second.substr(0, 9), "pYq1.414a");
+  EXPECT_GE(static_cast<double>(made.result.counts.tetrahedra), 3 * std::sqrt(2.0) / (0.2 * 0.2 * 0.2));
 }
 
 TEST(TetGen, LeavesAClosedShellWithinASurfaceEmpty) {
