@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/base/errors.h"
 #include "engine/delaunay/cell_star.h"
@@ -25,39 +26,6 @@ Point3 point_on_segment(const Plc& plc, std::uint32_t segment, std::uint32_t fra
   return a + fraction * ((1.0 / whole) * (b - a));
 }
 
-/// By vertex: do two segments meet there at an acute angle?
-std::vector<bool> acute_vertices(const Plc& plc) {
-  std::vector<std::vector<Point3>> directions(plc.vertices.size());
-  for (const Segment& s : plc.segments) {
-    const Point3 along = plc.vertices[s.ends[1]] - plc.vertices[s.ends[0]];
-    const Point3 unit = (1 / std::sqrt(squared_length(along))) * along;
-    directions[s.ends[0]].push_back(unit);
-    directions[s.ends[1]].push_back(-1.0 * unit);
-  }
-  std::vector<bool> acute(plc.vertices.size(), false);
-  for (std::size_t v = 0; v < acute.size(); ++v)
-    for (std::size_t i = 0; i < directions[v].size() && !acute[v]; ++i)
-      for (std::size_t j = 0; j < i && !acute[v]; ++j) acute[v] = dot(directions[v][i], directions[v][j]) > 1e-9;
-  return acute;
-}
-
-/// Where to split: a fraction strictly between the ends of the piece.
-std::uint32_t split_fraction(const Plc& plc, const Subsegment& piece, Protection strategy,
-                             const std::vector<bool>& acute) {
-  const std::uint32_t middle = piece.from.fraction + (piece.to.fraction - piece.from.fraction) / 2;
-  if (strategy == Protection::midpoint) return middle;
-  const Segment& segment = plc.segments[piece.segment];
-  const bool acute_from = piece.from.fraction == 0 && acute[segment.ends[0]],
-             acute_to = piece.to.fraction == whole && acute[segment.ends[1]];
-  if (acute_from == acute_to) return middle;
-  const double length = std::sqrt(squared_length(plc.vertices[segment.ends[1]] - plc.vertices[segment.ends[0]]));
-  const double half = length * (piece.to.fraction - piece.from.fraction) / whole / 2;
-  const double shell = std::exp2(std::nearbyint(std::log2(half)));
-  const auto offset = static_cast<std::uint32_t>(std::nearbyint(shell / length * whole));
-  const std::uint32_t fraction = acute_from ? offset : whole - offset;
-  return std::clamp(fraction, piece.from.fraction + 1, piece.to.fraction - 1);
-}
-
 [[noreturn]] void refuse_further_splits(const Plc& plc, const Subsegment& piece) {
   Place place;
   place.file = plc.name;
@@ -67,55 +35,141 @@ std::uint32_t split_fraction(const Plc& plc, const Subsegment& piece, Protection
       "look for features at its ends that are smaller than 1e-6 of it, and remove them or split the segment");
 }
 
-/// Splits a piece at a new vertex of the tetrahedralization.
-ChainVertex split(const Plc& plc, const Subsegment& piece, Protection strategy, const std::vector<bool>& acute,
-                  Delaunay& delaunay, Insertion& insertion) {
-  if (piece.to.fraction - piece.from.fraction < 2) refuse_further_splits(plc, piece);
-  const std::uint32_t fraction = split_fraction(plc, piece, strategy, acute);
-  const auto id = static_cast<std::uint32_t>(delaunay.vertices.size());
-  delaunay.vertices.push_back({point_on_segment(plc, piece.segment, fraction), id, 0});
-  insertion.dig(id, delaunay.vertices[piece.from.vertex].cell);
-  insertion.fill();
-  return {VertexId(id), fraction};
+/// The vertices and segments at hand, and the working memory of the stage.
+class Protector {
+ public:
+  Protector(const Plc& plc, Protection strategy, Delaunay& delaunay, const SegmentChains& chains);
+
+  bool is_protected(const std::vector<ChainVertex>& chain);
+  /// Splits the pieces of one segment until, as things stand, all are Delaunay edges.
+  void protect(std::uint32_t segment, std::vector<ChainVertex>& chain);
+
+ private:
+  ChainVertex split(const Subsegment& piece);
+  std::uint32_t split_fraction(const Subsegment& piece);
+  std::optional<std::uint32_t> encroaching_vertex(const Subsegment& piece, std::uint32_t fraction);
+  double split_length(const Subsegment& piece, std::uint32_t encroaching) const;
+
+  const Plc& plc_;
+  Protection strategy_;
+  Delaunay& d_;
+  Insertion insertion_;
+  CellStar star_;
+  std::vector<std::uint32_t> segment_of_steiner_;  // by vertex less those of the PLC
+};
+
+Protector::Protector(const Plc& plc, Protection strategy, Delaunay& delaunay, const SegmentChains& chains)
+    : plc_(plc),
+      strategy_(strategy),
+      d_(delaunay),
+      insertion_(delaunay),
+      star_(delaunay),
+      segment_of_steiner_(delaunay.vertices.size() - plc.vertices.size()) {
+  for (std::uint32_t s = 0; s < chains.size(); ++s)
+    for (std::size_t i = 1; i + 1 < chains[s].size(); ++i)
+      segment_of_steiner_[chains[s][i].vertex - plc.vertices.size()] = s;
 }
 
-/// Splits the pieces of one segment until, as things stand, all are Delaunay edges.
-void protect_segment(const Plc& plc, std::uint32_t segment, Protection strategy, const std::vector<bool>& acute,
-                     Delaunay& delaunay, Insertion& insertion, CellStar& star, std::vector<ChainVertex>& chain) {
+bool Protector::is_protected(const std::vector<ChainVertex>& chain) {
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+    if (!star_.has_edge(chain[i].vertex, chain[i + 1].vertex)) return false;
+  return true;
+}
+
+void Protector::protect(std::uint32_t segment, std::vector<ChainVertex>& chain) {
   std::vector<ChainVertex> ahead(chain.rbegin(), chain.rend() - 1);
   chain.resize(1);
   while (!ahead.empty()) {
     const Subsegment piece{segment, chain.back(), ahead.back()};
-    if (star.has_edge(piece.from.vertex, piece.to.vertex)) {
+    if (star_.has_edge(piece.from.vertex, piece.to.vertex)) {
       chain.push_back(piece.to);
       ahead.pop_back();
     } else {
-      ahead.push_back(split(plc, piece, strategy, acute, delaunay, insertion));
+      ahead.push_back(split(piece));
     }
   }
 }
 
-bool is_protected(const std::vector<ChainVertex>& chain, CellStar& star) {
-  for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-    if (!star.has_edge(chain[i].vertex, chain[i + 1].vertex)) return false;
-  return true;
+ChainVertex Protector::split(const Subsegment& piece) {
+  if (piece.to.fraction - piece.from.fraction < 2) refuse_further_splits(plc_, piece);
+  const std::uint32_t fraction = split_fraction(piece);
+  const auto id = static_cast<std::uint32_t>(d_.vertices.size());
+  d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
+  insertion_.dig(id, d_.vertices[piece.from.vertex].cell);
+  insertion_.fill();
+  segment_of_steiner_.push_back(piece.segment);
+  return {VertexId(id), fraction};
+}
+
+/// A fraction strictly between the ends of the piece.
+std::uint32_t Protector::split_fraction(const Subsegment& piece) {
+  const std::uint32_t middle = piece.from.fraction + (piece.to.fraction - piece.from.fraction) / 2;
+  if (strategy_ == Protection::midpoint) return middle;
+  const auto encroaching = encroaching_vertex(piece, middle);
+  if (!encroaching) return middle;
+  const auto& ends = plc_.segments[piece.segment].ends;
+  const double length = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0])));
+  const double fraction = std::nearbyint(split_length(piece, *encroaching) / length * whole);
+  return static_cast<std::uint32_t>(std::clamp(fraction, piece.from.fraction + 1.0, piece.to.fraction - 1.0));
+}
+
+/// Of the vertices around a point of the piece the one that sees the piece under the largest obtuse angle: it is why
+/// the piece is missing. Nothing if none is in the diametral sphere.
+std::optional<std::uint32_t> Protector::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
+  const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
+  d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
+  insertion_.dig(probe, d_.vertices[piece.from.vertex].cell);
+  const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
+  std::optional<std::uint32_t> worst;
+  double least_cosine = 0;
+  for (const CavityFace& face : insertion_.cavity_faces()) {
+    for (const std::uint32_t v : face.vertices) {
+      if (v == ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
+      const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
+      const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
+      if (cosine >= least_cosine) continue;
+      least_cosine = cosine;
+      worst = v;
+    }
+  }
+  insertion_.abandon();
+  d_.vertices.pop_back();
+  return worst;
+}
+
+/// Where the piece is split for the sake of an encroaching vertex, as a distance from the first end of its segment.
+double Protector::split_length(const Subsegment& piece, std::uint32_t encroaching) const {
+  const auto& ends = plc_.segments[piece.segment].ends;
+  const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
+  const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
+  if (encroaching >= plc_.vertices.size()) {
+    // On a segment that meets this one: on its shell, lest the two split each other for ever.
+    const auto& others = plc_.segments[segment_of_steiner_[encroaching - plc_.vertices.size()]].ends;
+    for (int i = 0; i < 2; ++i) {
+      if (ends[i] != others[0] && ends[i] != others[1]) continue;
+      const double radius = std::sqrt(squared_length(p - d_.point(ends[i])));
+      const double along = i == 0 ? radius : length - radius;
+      if (along * whole > length * (piece.from.fraction + 1) && along * whole < length * (piece.to.fraction - 1))
+        return along;
+    }
+  }
+  // Its foot: then it is in the diametral sphere of neither half.
+  return dot(p - first, d_.point(ends[1]) - first) / length;
 }
 
 }  // namespace
 
 std::uint64_t protect_edges(const Plc& plc, const std::vector<bool>& must_be_chain, Protection strategy,
                             Delaunay& delaunay, SegmentChains& chains, const Progress& progress) {
-  const std::vector<bool> acute = acute_vertices(plc);
   const std::size_t before = delaunay.vertices.size();
-  Insertion insertion(delaunay);
-  CellStar star(delaunay);
+  Protector protector(plc, strategy, delaunay, chains);
   // A new vertex may knock out a segment that was done: go round until nothing changes.
   for (bool changed = true; changed;) {
     changed = false;
     for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
       if ((s & 0xFFF) == 0) report(progress, "protect", s, plc.segments.size());
-      if (!must_be_chain[s] || is_protected(chains[s], star)) continue;
-      protect_segment(plc, s, strategy, acute, delaunay, insertion, star, chains[s]);
+      if (!must_be_chain[s] || protector.is_protected(chains[s])) continue;
+      protector.protect(s, chains[s]);
       changed = true;
     }
   }

@@ -14,10 +14,10 @@ namespace ccdt {
 /// Splits every missing grazeable segment until each is a chain of Delaunay edges (paper, section 2), so that the
 /// constrained Delaunay tetrahedralization exists (Shewchuk 2002).
 ///
-/// `midpoint` bisects. `shell` does too, but near a vertex where segments meet at an acute angle it splits at a
-/// distance that is a power of two, so that the pieces of the segments that meet there end on common spheres and cannot
-/// split each other for ever (Ruppert 1995). Split points are dyadic fractions of the segment, j / 2^20, and lie on it
-/// exactly.
+/// `midpoint` bisects. `shell` splits at the foot of the vertex that encroaches most, so that one split is enough for
+/// one vertex; but if that vertex is on a segment that meets this one, at the same distance from where they meet: the
+/// pieces of all segments there end on common spheres, and cannot split each other for ever (Ruppert 1995; Si and
+/// Gaertner 2005). Split points are dyadic fractions of the segment, j / 2^20, and lie on it exactly.
 ///
 /// \param must_be_chain  by segment: shall it become a chain of Delaunay edges?
 /// \param delaunay  the tetrahedralization of the vertices of `plc`; gains the Steiner vertices, whose ids follow the
