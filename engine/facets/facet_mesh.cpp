@@ -185,12 +185,13 @@ void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane
       }
     }
   }
-  std::vector<PlanarEdge> added;
   for (const PlanarEdge& edge : forced) {
     const auto side = planar_find_edge(t, edge[0], edge[1]);
-    if (side && t.constrained[side->triangle][side->corner]) continue;
-    if (planar_insert_constraint(t, edge[0], edge[1], plane)) added.push_back(edge);
+    if (!side || !t.constrained[side->triangle][side->corner]) planar_insert_constraint(t, edge[0], edge[1], plane);
   }
+  // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
+  const bool on_both_sides = plc_.chambers[facet.above].inside && plc_.chambers[facet.below].inside;
+  if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side));
 }
 
 void FacetMesher::triangulate(FacetId id, FacetMesh& result) {

@@ -35,4 +35,27 @@ class FacetPlane {
   Point3 apex_;
 };
 
+/// The plane of a facet that is flat only within the tolerance, where the preferred diagonal is the one further from
+/// the domain, and the Delaunay one only between exactly coplanar vertices. Seen from the domain the edges that
+/// `planar_legalize` leaves are convex where they can be; and convex edges need no protection (Shewchuk 2002).
+class BentPlane {
+ public:
+  /// \param domain_side  +1: the domain is above the facet, -1: below
+  BentPlane(const FacetPlane& plane, const std::vector<DelaunayVertex>& vertices, int domain_side)
+      : plane_(plane), vertices_(vertices), domain_side_(domain_side) {}
+
+  int orient(VertexId a, VertexId b, VertexId c) const { return plane_.orient(a, b, c); }
+
+  int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    const int above =
+        orient3d(vertices_[a].point, vertices_[b].point, vertices_[c].point, vertices_[d].point) * domain_side_;
+    return above != 0 ? -above : plane_.incircle(a, b, c, d);
+  }
+
+ private:
+  const FacetPlane& plane_;
+  const std::vector<DelaunayVertex>& vertices_;
+  int domain_side_;
+};
+
 }  // namespace ccdt

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/mesh/peel_flat_tetrahedra.h"
 #include "engine/mesh/to_world.h"
 
 namespace ccdt {
@@ -67,11 +68,12 @@ void add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const Face
 
 }  // namespace
 
-TetMesh assemble_mesh(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets, const FrontResult& front,
+TetMesh assemble_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const FrontResult& front,
                       const std::vector<ChamberId>& chamber_of_cell, const Delaunay& delaunay) {
   TetMesh mesh;
   add_tetrahedra(plc, front, chamber_of_cell, delaunay, mesh);
   check_volume(plc, facets, delaunay, mesh);
+  peel_flat_tetrahedra(plc, chains, facets, mesh);
   add_faces_and_edges(plc, chains, facets, mesh);
   mesh.vertices = to_world(plc, delaunay.vertices, mesh.tetrahedra);
   mesh.constrained_delaunay = true;
