@@ -56,9 +56,10 @@ TEST(TetGen, MeshesACubeWithoutNewVertices) {
 
 TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
   if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
-  const MesherRun made = run("tetgen", shapes::cube(), {.edge_length = 0.2});
+  const MesherRun made = run("tetgen", shapes::cube_with_grid(5), {.edge_length = 0.2});
   EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
+  EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
   EXPECT_EQ(made.settings.at(0).second.substr(0, 9), "pYq1.414a");
   EXPECT_GE(static_cast<double>(made.result.counts.tetrahedra), 3 * std::sqrt(2.0) / (0.2 * 0.2 * 0.2));
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "engine/plc/input.h"
 
 namespace ccdt::shapes {
@@ -39,6 +42,31 @@ inline InputPlc cube_with_hole() {
   plc.name = "cube with a hole";
   add_cube(plc, 0, 3);
   add_cube(plc, 1, 2);
+  return plc;
+}
+
+/// A unit cube whose faces are grids of n x n squares, each face with vertices of its own.
+inline InputPlc cube_with_grid(std::uint32_t n) {
+  InputPlc plc;
+  plc.name = "cube with a grid";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const bool high : {false, true}) {
+      const auto first = static_cast<std::uint32_t>(plc.vertices.size());
+      for (std::uint32_t i = 0; i <= n; ++i)
+        for (std::uint32_t j = 0; j <= n; ++j) {
+          std::array<double, 3> p{};
+          p[axis] = high ? 1 : 0;
+          p[(axis + 1) % 3] = static_cast<double>(i) / n;
+          p[(axis + 2) % 3] = static_cast<double>(j) / n;
+          plc.vertices.push_back({p[0], p[1], p[2]});
+        }
+      for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t j = 0; j < n; ++j) {
+          const std::uint32_t a = first + i * (n + 1) + j, b = a + n + 1;
+          plc.triangles.push_back(high ? std::array{a, b, b + 1} : std::array{a, b + 1, b});
+          plc.triangles.push_back(high ? std::array{a, b + 1, a + 1} : std::array{a, a + 1, b + 1});
+        }
+    }
   return plc;
 }
 

@@ -124,14 +124,15 @@ TEST_F(Program, VerifyExitsWithOneForAMeshOfAnotherPart) {
 }
 
 TEST_F(Program, ReportOfARunSaysWhatWasMeshedHowAndHowLong) {
-  write("cube.off", cube_off);
+  ASSERT_EQ(run("model cube --edge-length 0.25 -o cube.off").exit_code, 0);
   ASSERT_EQ(run("mesh cube.off -o cube.vtu --edge-length 0.25 --lattice bcc --report r.json").exit_code, 0);
   const Json report = Json::parse(text_of(work() / "r.json"));
   EXPECT_EQ(report["schema"], "ccdt.run/1");
   EXPECT_EQ(report["status"], "ok");
   EXPECT_EQ(report["mesher"]["name"], "ccdt");
-  EXPECT_EQ(report["input"]["vertices"], 8);
-  EXPECT_EQ(report["input"]["facets"], 12);
+  EXPECT_EQ(report["input"]["name"], "cube.off");
+  EXPECT_EQ(report["input"]["vertices"], 98);
+  EXPECT_EQ(report["input"]["facets"], 192);
   EXPECT_EQ(report["input"]["sha256"].get<std::string>().size(), 64u);
   EXPECT_EQ(report["options"]["lattice"], "bcc");
   EXPECT_EQ(report["options"]["edge_length"], 0.25);
