@@ -71,7 +71,7 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   put_simplex_first(points, order);
   Delaunay d;
   d.vertices.resize(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) d.vertices[i] = {points[order[i]], order[i], 0};
+  for (std::size_t i = 0; i < order.size(); ++i) d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i), 0};
   d.cells.reserve(7 * points.size() + 64);
   make_first_cells(d);
   Insertion insertion(d);

@@ -11,10 +11,10 @@
 
 namespace ccdt {
 
-/// A vertex of the tetrahedralization: its point and the permanent id that decides ties.
+/// A vertex of the tetrahedralization. Its rank, its place in the order of insertion, is given once and decides ties.
 struct DelaunayVertex {
   Point3 point;
-  std::uint32_t id = 0;
+  std::uint32_t rank = 0;
   std::uint32_t cell = 0;  ///< some cell that has this vertex
 };
 

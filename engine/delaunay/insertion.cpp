@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/edge_key.h"
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
@@ -14,7 +15,7 @@ constexpr std::uint8_t no_local = 0xFF;
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
 
-CCDT_WIDE_LANES bool Insertion::dig(std::uint32_t v, std::uint32_t start) {
+bool Insertion::dig(std::uint32_t v, std::uint32_t start) {
   v_ = v;
   p_ = d_.point(v);
   mark_.resize(d_.cells.size(), Mark::unknown);
@@ -26,40 +27,48 @@ CCDT_WIDE_LANES bool Insertion::dig(std::uint32_t v, std::uint32_t start) {
       return false;
     }
   }
-  cavity_.assign(1, first);
-  mark_[first] = Mark::conflict;
-  for (std::size_t i = 0; i < cavity_.size(); ++i) {
-    const Cell cell = d_.cells[cavity_[i]];
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
-      if (mark_[next] == Mark::unknown) {
-        if (conflicts(d_.cells[next])) {
-          mark_[next] = Mark::conflict;
-          cavity_.push_back(next);
-        } else {
-          mark_[next] = Mark::outside;
-          outside_.push_back(next);
-        }
-      }
-      if (mark_[next] == Mark::outside) {
-        const auto& corner = face_corners[f];
-        border_.push_back({{cell.vertices[corner[0]], cell.vertices[corner[1]], cell.vertices[corner[2]]}, code});
-      }
-    }
-  }
+  spread(first);
   return true;
 }
 
+/// Grows the cavity from its first cell across all faces behind which the new vertex is in the sphere.
+CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
+  const Cell* const cells = d_.cells.data();
+  Mark* const mark = mark_.data();
+  cavity_.add(first);
+  mark[first] = Mark::conflict;
+  for (std::size_t i = 0; i < cavity_.size; ++i) {
+    cavity_.make_room(4), outside_.make_room(4), border_.make_room(4);
+    const Cell cell = cells[cavity_.room[i]];
+    for (const std::uint32_t code : cell.neighbors) __builtin_prefetch(cells + cell_of(code));
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
+      if (mark[next] == Mark::conflict) continue;
+      if (mark[next] == Mark::unknown) {
+        if (conflicts(cells[next])) {
+          mark[next] = Mark::conflict;
+          cavity_.add(next);
+          continue;
+        }
+        mark[next] = Mark::outside;
+        outside_.add(next);
+      }
+      const auto& corner = face_corners[f];
+      border_.add({{cell.vertices[corner[0]], cell.vertices[corner[1]], cell.vertices[corner[2]]}, code});
+    }
+  }
+}
+
 void Insertion::abandon() {
-  for (const std::uint32_t c : cavity_) mark_[c] = Mark::unknown;
-  for (const std::uint32_t c : outside_) mark_[c] = Mark::unknown;
-  cavity_.clear();
-  outside_.clear();
-  border_.clear();
+  for (const std::uint32_t c : cavity_.items()) mark_[c] = Mark::unknown;
+  for (const std::uint32_t c : outside_.items()) mark_[c] = Mark::unknown;
+  cavity_.size = outside_.size = border_.size = 0;
 }
 
 std::uint32_t Insertion::fill() {
-  place_new_cells();
+  ++insertions_;
+  choose_places();
+  number_border_vertices();
   if (border_vertices_.size() <= table_side)
     connect_by_table();
   else
@@ -68,10 +77,9 @@ std::uint32_t Insertion::fill() {
   d_.vertices[v_].cell = some;
   for (const std::uint32_t u : border_vertices_) local_[u + 1] = no_local;
   border_vertices_.clear();
-  for (const std::uint32_t c : cavity_) mark_[c] = Mark::unknown;
-  for (std::size_t i = border_.size(); i < cavity_.size(); ++i) {
-    d_.cells[cavity_[i]].neighbors[0] = no_neighbor;
-    d_.free_cells.push_back(cavity_[i]);
+  for (std::size_t i = border_.size; i < cavity_.size; ++i) {
+    d_.cells[cavity_.room[i]].neighbors[0] = no_neighbor;
+    d_.free_cells.push_back(cavity_.room[i]);
   }
   abandon();
   return some;
@@ -101,73 +109,54 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   }
 }
 
+/// The new vertex has the greatest rank of all: where it is on a sphere, it is outside.
 CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
   if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
   const auto& v = cell.vertices;
   const Sign sign = insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
-  if (sign == Sign::plus || sign == Sign::minus) return sign == Sign::plus;
-  return sign == Sign::zero ? tie_conflicts(cell) : conflicts_exactly(cell);
+  return sign == Sign::unknown ? conflicts_exactly(cell) : sign == Sign::plus;
 }
 
 bool Insertion::conflicts_exactly(const Cell& cell) const {
   const auto& v = cell.vertices;
-  const int sign = insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
-  return sign != 0 ? sign > 0 : tie_conflicts(cell);
-}
-
-bool Insertion::tie_conflicts(const Cell& cell) const {
-  const auto vertex = [&](int i) -> const DelaunayVertex& { return d_.vertices[cell.vertices[i]]; };
-  return tie_of_insphere(vertex(0).point, vertex(1).point, vertex(2).point, vertex(3).point, p_,
-                         {vertex(0).id, vertex(1).id, vertex(2).id, vertex(3).id, d_.vertices[v_].id}) > 0;
+  return insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.
 bool Insertion::ghost_conflicts(const Cell& ghost) const {
-  const DelaunayVertex &a = d_.vertices[ghost.vertices[0]], &b = d_.vertices[ghost.vertices[1]],
-                       &c = d_.vertices[ghost.vertices[2]];
-  const int side = orient3d(a.point, b.point, c.point, p_);
+  const Point3 &a = d_.point(ghost.vertices[0]), &b = d_.point(ghost.vertices[1]), &c = d_.point(ghost.vertices[2]);
+  const int side = orient3d(a, b, c, p_);
   if (side != 0) return side > 0;
   const std::uint32_t inner = ghost.neighbors[3];
   const Point3& apex = d_.point(d_.cells[cell_of(inner)].vertices[face_of(inner)]);
   // The apex is below the ghost's triangle: seen from it the triangle is a, c, b.
-  return incircle_perturbed(a.point, c.point, b.point, apex, p_, {a.id, c.id, b.id, d_.vertices[v_].id}) > 0;
+  return insphere(a, c, b, apex, p_) > 0;
 }
 
-void Insertion::place_new_cells() {
-  places_.assign(cavity_.begin(), cavity_.begin() + std::min(cavity_.size(), border_.size()));
-  while (places_.size() < border_.size() && !d_.free_cells.empty()) {
+/// The cells of the cavity give their places to the new ones; more are taken from the dead and from the end.
+void Insertion::choose_places() {
+  const auto cavity = cavity_.items();
+  places_.assign(cavity.begin(), cavity.begin() + static_cast<std::ptrdiff_t>(std::min(cavity.size(), border_.size)));
+  while (places_.size() < border_.size && !d_.free_cells.empty()) {
     places_.push_back(d_.free_cells.back());
     d_.free_cells.pop_back();
   }
-  if (places_.size() < border_.size()) {
-    const std::size_t old = d_.cells.size(), more = border_.size() - places_.size();
-    d_.cells.resize(old + more);
-    mark_.resize(old + more, Mark::unknown);
-    for (std::size_t i = 0; i < more; ++i) places_.push_back(static_cast<std::uint32_t>(old + i));
-  }
-  for (std::size_t i = 0; i < border_.size(); ++i) {
-    CavityFace& face = border_[i];
-    const std::uint32_t place = places_[i];
-    Cell& cell = d_.cells[place];
-    // The ghost is always vertex 3: exchanging two pairs of vertices keeps the orientation.
-    auto& f = face.vertices;
-    if (f[0] == ghost_vertex)
-      cell.vertices = {f[2], f[1], v_, f[0]};
-    else if (f[1] == ghost_vertex)
-      cell.vertices = {f[0], f[2], v_, f[1]};
-    else if (f[2] == ghost_vertex)
-      cell.vertices = {f[1], f[0], v_, f[2]};
-    else
-      cell.vertices = {f[0], f[1], f[2], v_};
-    const std::uint32_t apex = cell.vertices[3] == ghost_vertex ? 2 : 3;
-    cell.neighbors[apex] = face.outside;
-    d_.cells[cell_of(face.outside)].neighbors[face_of(face.outside)] = face_code(place, apex);
-    for (const std::uint32_t u : f) {
-      if (local_[u + 1] == no_local) {
-        if (border_vertices_.size() < no_local) local_[u + 1] = static_cast<std::uint8_t>(border_vertices_.size());
-        border_vertices_.push_back(u);
-        if (u != ghost_vertex) d_.vertices[u].cell = place;
-      }
+  const std::size_t old = d_.cells.size(), more = border_.size - places_.size();
+  if (more == 0) return;
+  d_.cells.resize(old + more);
+  mark_.resize(old + more, Mark::unknown);
+  for (std::size_t i = 0; i < more; ++i) places_.push_back(static_cast<std::uint32_t>(old + i));
+}
+
+void Insertion::number_border_vertices() {
+  std::uint8_t* const local = local_.data();
+  for (std::size_t i = 0; i < border_.size; ++i) {
+    for (const std::uint32_t u : border_.room[i].vertices) {
+      const std::uint32_t slot = u + 1;
+      if (local[slot] != no_local) continue;
+      if (border_vertices_.size() < no_local) local[slot] = static_cast<std::uint8_t>(border_vertices_.size());
+      border_vertices_.push_back(u);
+      if (u != ghost_vertex) d_.vertices[u].cell = places_[i];
     }
   }
 }
@@ -175,34 +164,59 @@ void Insertion::place_new_cells() {
 namespace {
 
 /// The face of a new cell that is opposite to the k-th vertex of its border face, by where the ghost was among them (3:
-/// nowhere); see the order of vertices in `place_new_cells`.
+/// nowhere); see the order of vertices in `make_cell`.
 constexpr std::uint8_t opposite[4][3] = {{3, 1, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 2}};
-
-std::uint32_t ghost_position(const std::array<std::uint32_t, 3>& f) {
-  return f[0] == ghost_vertex ? 0 : f[1] == ghost_vertex ? 1 : f[2] == ghost_vertex ? 2 : 3;
-}
 
 }  // namespace
 
-/// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
-/// pass in opposite directions. All edges are written before any is read, so the table need not be cleared.
-void Insertion::connect_by_table() {
-  for (std::size_t i = 0; i < border_.size(); ++i) {
-    const auto& f = border_[i].vertices;
-    const std::uint32_t local[3] = {local_[f[0] + 1], local_[f[1] + 1], local_[f[2] + 1]};
-    const auto& face = opposite[ghost_position(f)];
-    table_[local[1] * table_side + local[2]] = face_code(places_[i], face[0]);
-    table_[local[2] * table_side + local[0]] = face_code(places_[i], face[1]);
-    table_[local[0] * table_side + local[1]] = face_code(places_[i], face[2]);
+/// Joins a face of the border to the new vertex.
+/// \return where the ghost was among the face's vertices, 3 if it was not
+inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t place) const {
+  Cell& cell = d_.cells[place];
+  const auto& f = face.vertices;
+  std::uint32_t ghost = 3, apex = 3;
+  if (f[0] != ghost_vertex && f[1] != ghost_vertex && f[2] != ghost_vertex) {
+    cell.vertices = {f[0], f[1], f[2], v_};
+  } else {
+    // The ghost is always vertex 3: exchanging two pairs of vertices keeps the orientation.
+    ghost = f[0] == ghost_vertex ? 0 : f[1] == ghost_vertex ? 1 : 2;
+    apex = 2;
+    if (ghost == 0)
+      cell.vertices = {f[2], f[1], v_, f[0]};
+    else if (ghost == 1)
+      cell.vertices = {f[0], f[2], v_, f[1]};
+    else
+      cell.vertices = {f[1], f[0], v_, f[2]};
   }
-  for (std::size_t i = 0; i < border_.size(); ++i) {
-    const auto& f = border_[i].vertices;
-    const std::uint32_t local[3] = {local_[f[0] + 1], local_[f[1] + 1], local_[f[2] + 1]};
-    const auto& face = opposite[ghost_position(f)];
-    auto& neighbors = d_.cells[places_[i]].neighbors;
-    neighbors[face[0]] = table_[local[2] * table_side + local[1]];
-    neighbors[face[1]] = table_[local[0] * table_side + local[2]];
-    neighbors[face[2]] = table_[local[1] * table_side + local[0]];
+  cell.neighbors[apex] = face.outside;
+  d_.cells[cell_of(face.outside)].neighbors[face_of(face.outside)] = face_code(place, apex);
+  return ghost;
+}
+
+/// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
+/// pass in opposite directions: the first to come leaves its code in the table, the second finds it.
+void Insertion::connect_by_table() {
+  Cell* const cells = d_.cells.data();
+  std::uint64_t* const table = table_.data();
+  const std::uint64_t stamp = insertions_ << 32;
+  for (std::size_t i = 0; i < border_.size; ++i) {
+    const CavityFace& face = border_.room[i];
+    const std::uint32_t place = places_[i];
+    const auto& opposite_faces = opposite[make_cell(face, place)];
+    const std::uint32_t local[3] = {local_[face.vertices[0] + 1], local_[face.vertices[1] + 1],
+                                    local_[face.vertices[2] + 1]};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = local[k == 2 ? 0 : k + 1], to = local[k == 0 ? 2 : k - 1];
+      const std::uint32_t here = face_code(place, opposite_faces[k]);
+      const std::uint64_t other = table[to * table_side + from];
+      if ((other & ~std::uint64_t{0xFFFFFFFF}) == stamp) {
+        const auto there = static_cast<std::uint32_t>(other);
+        cells[place].neighbors[opposite_faces[k]] = there;
+        cells[cell_of(there)].neighbors[face_of(there)] = here;
+      } else {
+        table[from * table_side + to] = stamp | here;
+      }
+    }
   }
 }
 
@@ -213,13 +227,13 @@ void Insertion::connect_by_search() {
     std::uint32_t code;
   };
   std::vector<Edge> edges;
-  edges.reserve(3 * border_.size());
-  for (std::size_t i = 0; i < border_.size(); ++i) {
-    const auto& f = border_[i].vertices;
-    const auto& face = opposite[ghost_position(f)];
+  edges.reserve(3 * border_.size);
+  for (std::size_t i = 0; i < border_.size; ++i) {
+    const CavityFace& face = border_.room[i];
+    const auto& opposite_faces = opposite[make_cell(face, places_[i])];
     for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = f[(k + 1) % 3], b = f[(k + 2) % 3];
-      edges.push_back({std::min(a, b) << 32 | std::max(a, b), face_code(places_[i], face[k])});
+      edges.push_back(
+          {edge_key(face.vertices[(k + 1) % 3], face.vertices[(k + 2) % 3]), face_code(places_[i], opposite_faces[k])});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key < b.key; });

@@ -20,13 +20,14 @@ class Insertion {
  public:
   explicit Insertion(Delaunay& delaunay);
 
-  /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
+  /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices` and of the greatest
+  /// rank there, is in.
   /// \param start  a cell to walk from; the nearer the quicker
   /// \return false if a vertex with this very point is in the tetrahedralization (`twin()` tells which)
   bool dig(std::uint32_t v, std::uint32_t start);
 
-  std::span<const std::uint32_t> cavity_cells() const { return cavity_; }
-  std::span<const CavityFace> cavity_faces() const { return border_; }
+  std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
+  std::span<const CavityFace> cavity_faces() const { return border_.items(); }
   std::uint32_t twin() const { return twin_; }
   bool in_cavity(std::uint32_t cell) const { return mark_[cell] == Mark::conflict; }
 
@@ -39,12 +40,27 @@ class Insertion {
  private:
   enum class Mark : std::uint8_t { unknown, conflict, outside };
 
+  /// A list whose room is looked after in steps, not at every addition.
+  template <class T>
+  struct List {
+    std::vector<T> room = std::vector<T>(256);
+    std::size_t size = 0;
+
+    void make_room(std::size_t more) {
+      if (size + more > room.size()) room.resize(2 * (size + more));
+    }
+    void add(const T& item) { room[size++] = item; }
+    std::span<const T> items() const { return {room.data(), size}; }
+  };
+
   std::uint32_t walk(const Point3& p, std::uint32_t start);
+  void spread(std::uint32_t first);
   bool conflicts(const Cell& cell) const;
   bool conflicts_exactly(const Cell& cell) const;
-  bool tie_conflicts(const Cell& cell) const;
   bool ghost_conflicts(const Cell& ghost) const;
-  void place_new_cells();
+  void number_border_vertices();
+  void choose_places();
+  std::uint32_t make_cell(const CavityFace& face, std::uint32_t place) const;
   void connect_by_table();
   void connect_by_search();
 
@@ -53,14 +69,16 @@ class Insertion {
   Point3 p_;
   unsigned turn_ = 0;
   std::vector<Mark> mark_;
-  std::vector<std::uint32_t> cavity_, outside_, places_;
-  std::vector<CavityFace> border_;
-  // Vertices of the border get small local numbers, so that the directed edges of the border are places in a small
-  // table.
-  static constexpr std::uint32_t table_side = 128;
-  std::vector<std::uint8_t> local_;  // by vertex + 1 (the ghost wraps round to 0); 0xFF: none
+  List<std::uint32_t> cavity_, outside_;
+  List<CavityFace> border_;
+  std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
+  // Vertices of the border get small local numbers, so that its directed edges are places in a small table. An entry
+  // holds the number of the insertion that wrote it, above a face code.
+  static constexpr std::uint32_t table_side = 64;
+  std::vector<std::uint8_t> local_;  // by vertex + 1 (the ghost wraps round to 0); no_local: none
   std::vector<std::uint32_t> border_vertices_;
-  std::vector<std::uint32_t> table_;
+  std::vector<std::uint64_t> table_;
+  std::uint64_t insertions_ = 0;
 };
 
 }  // namespace ccdt

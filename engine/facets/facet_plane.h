@@ -24,7 +24,8 @@ class FacetPlane {
   int orient(VertexId a, VertexId b, VertexId c) const { return orient3d(at(a), at(b), at(c), apex_); }
 
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
-    return incircle_perturbed(at(a), at(b), at(c), apex_, at(d), {a, b, c, d});
+    return incircle_perturbed(at(a), at(b), at(c), apex_, at(d),
+                              {vertices_[a].rank, vertices_[b].rank, vertices_[c].rank, vertices_[d].rank});
   }
 
  private:

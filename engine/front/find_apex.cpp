@@ -48,10 +48,15 @@ bool ApexFinder::is_better(std::uint32_t v) const {
   if (v == best_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
   const Point3 &a = d_.point(face_[0]), &b = d_.point(face_[1]), &c = d_.point(face_[2]), &p = d_.point(v);
   if (orient3d(a, b, c, p) <= 0) return false;
-  if (best_ != ghost_vertex &&
-      insphere_perturbed(a, b, c, d_.point(best_), p, {face_[0], face_[1], face_[2], best_, v}) <= 0)
-    return false;
+  if (best_ != ghost_vertex && !is_in_sphere(v)) return false;
   return is_visible(v);
+}
+
+/// Is v in the sphere of the face and the best vertex so far?
+bool ApexFinder::is_in_sphere(std::uint32_t v) const {
+  const DelaunayVertex &a = d_.vertices[face_[0]], &b = d_.vertices[face_[1]], &c = d_.vertices[face_[2]],
+                       &d = d_.vertices[best_], &e = d_.vertices[v];
+  return insphere_perturbed(a.point, b.point, c.point, d.point, e.point, {a.rank, b.rank, c.rank, d.rank, e.rank}) > 0;
 }
 
 bool ApexFinder::is_visible(std::uint32_t v) const {

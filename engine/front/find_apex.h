@@ -21,6 +21,7 @@ class ApexFinder {
 
  private:
   bool is_better(std::uint32_t v) const;
+  bool is_in_sphere(std::uint32_t v) const;
   bool is_visible(std::uint32_t v) const;
 
   const FacetMesh& facets_;

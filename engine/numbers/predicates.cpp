@@ -104,17 +104,17 @@ WideInt<256> signed_volume(const Point3& p, const Point3& q, const Point3& r, co
   return determinant3<WideInt<256>, WideInt<256>>({row(q), row(r), row(x)});
 }
 
-/// Asks `coefficient(i)` for the sign with which the height of point i acts, in ascending order of the ids, until one
-/// is not zero.
+/// Asks `coefficient(i)` for the sign with which the height of point i acts, in descending order of the ranks, until
+/// one is not zero.
 template <std::size_t n, class Coefficient>
-int first_nonzero(const std::array<std::uint32_t, n>& ids, const Coefficient& coefficient) {
-  std::uint64_t least_allowed = 0;
+int first_nonzero(const std::array<std::uint32_t, n>& ranks, const Coefficient& coefficient) {
+  std::uint64_t below = std::uint64_t{1} << 32;
   for (std::size_t round = 0; round < n; ++round) {
     std::size_t best = n;
     for (std::size_t i = 0; i < n; ++i)
-      if (ids[i] >= least_allowed && (best == n || ids[i] < ids[best])) best = i;
+      if (ranks[i] < below && (best == n || ranks[i] > ranks[best])) best = i;
     if (const int sign = coefficient(best); sign != 0) return sign;
-    least_allowed = std::uint64_t{ids[best]} + 1;
+    below = ranks[best];
   }
   return 0;
 }
@@ -134,9 +134,10 @@ int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
 // With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of a
 // corner acts with the sign of the volume in which e replaces that corner, raising that of e with the sign of minus the
 // whole volume.
-int tie_of_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
-                    const std::array<std::uint32_t, 5>& ids) {
-  return first_nonzero(ids, [&](std::size_t i) {
+int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                       const std::array<std::uint32_t, 5>& ranks) {
+  if (const int sign = insphere(a, b, c, d, e); sign != 0) return sign;
+  return first_nonzero(ranks, [&](std::size_t i) {
     switch (i) {
       case 0:
         return orient3d(e, b, c, d);
@@ -152,16 +153,10 @@ int tie_of_insphere(const Point3& a, const Point3& b, const Point3& c, const Poi
   });
 }
 
-int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
-                       const std::array<std::uint32_t, 5>& ids) {
-  const int sign = insphere(a, b, c, d, e);
-  return sign != 0 ? sign : tie_of_insphere(a, b, c, d, e, ids);
-}
-
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
-                       const std::array<std::uint32_t, 4>& ids) {
+                       const std::array<std::uint32_t, 4>& ranks) {
   if (const int sign = insphere(a, b, c, apex, d); sign != 0) return sign;
-  return first_nonzero(ids, [&](std::size_t i) {
+  return first_nonzero(ranks, [&](std::size_t i) {
     switch (i) {
       case 0:
         return orient3d(d, b, c, apex);

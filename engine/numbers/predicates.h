@@ -22,25 +22,23 @@ int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e);
 
 /// `insphere` without ties: a zero is decided by symbolic perturbation of the lifted heights. The height of the vertex
-/// with id i is raised by epsilon_i, where the epsilon of a smaller id is infinitely larger than that of a greater
-/// one. The points do not move. The result depends on nothing but points and ids, so the Delaunay tetrahedralization is
-/// unique. Zero only if all five points are coplanar.
+/// with rank i is raised by epsilon_i, where the epsilon of a greater rank is infinitely larger than that of a smaller
+/// one. The points do not move. The result depends on nothing but points and ranks, so the Delaunay tetrahedralization
+/// is unique. Zero only if all five points are coplanar.
 ///
-/// \param ids  the permanent ids of a, b, c, d, e, pairwise different
+/// Raised heights mean that of cospherical vertices the one of the greatest rank is outside the sphere of the others.
+///
+/// \param ranks  of a, b, c, d, e, pairwise different
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
-                       const std::array<std::uint32_t, 5>& ids);
-
-/// What `insphere_perturbed` says once `insphere` is known to be zero.
-int tie_of_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
-                    const std::array<std::uint32_t, 5>& ids);
+                       const std::array<std::uint32_t, 5>& ranks);
 
 /// Within a plane: for a, b, c, d exactly coplanar and `apex` off their plane with orient3d(a, b, c, apex) > 0: +1 when
 /// d is inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has
 /// none), so that the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.
 ///
-/// \param ids  the permanent ids of a, b, c, d
+/// \param ranks  of a, b, c, d, pairwise different
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
-                       const std::array<std::uint32_t, 4>& ids);
+                       const std::array<std::uint32_t, 4>& ranks);
 
 /// Sign of orient3d(p, q, r, x) for x the centroid of the triangle abc, moved within abc by an infinitesimal generic
 /// amount: zero only when the plane of p, q, r contains all of a, b, c or p, q, r are collinear.
