@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "engine/base/errors.h"
 #include "engine/delaunay/cell_star.h"
@@ -26,7 +27,12 @@ Point3 point_on_segment(const Plc& plc, std::uint32_t segment, std::uint32_t fra
   return a + fraction * ((1.0 / whole) * (b - a));
 }
 
-[[noreturn]] void refuse_further_splits(const Plc& plc, const Subsegment& piece) {
+/// More than any sound part needs; without a bound two facets that almost touch would keep a computer busy for hours.
+std::size_t most_steiner_vertices(const Plc& plc) {
+  return 10000 + 100 * plc.vertices.size();
+}
+
+[[noreturn]] void refuse_further_splits(const Plc& plc, const Subsegment& piece, const char* why) {
   Place place;
   place.file = plc.name;
   for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
@@ -91,7 +97,10 @@ void Protector::protect(std::uint32_t segment, std::vector<ChainVertex>& chain) 
 }
 
 ChainVertex Protector::split(const Subsegment& piece) {
-  if (piece.to.fraction - piece.from.fraction < 2) refuse_further_splits(plc_, piece);
+  if (piece.to.fraction - piece.from.fraction < 2)
+    refuse_further_splits(plc_, piece, "it would have to be split into more than 2^20 pieces");
+  if (segment_of_steiner_.size() > most_steiner_vertices(plc_))
+    refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
   const std::uint32_t fraction = split_fraction(piece);
   const auto id = static_cast<std::uint32_t>(d_.vertices.size());
   d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
