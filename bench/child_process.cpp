@@ -129,6 +129,7 @@ RunStatus run_status(std::string_view name) {
 ChildResult run_child(const std::vector<std::string>& command, const Limits& limits) {
   std::vector<std::string> copies = command;
   std::vector<char*> arguments;
+  arguments.reserve(copies.size() + 1);
   for (std::string& argument : copies) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
   const Descriptor null(open("/dev/null", O_RDWR | O_CLOEXEC));

@@ -98,7 +98,7 @@ std::string how(const Table1& table) {
 std::string machine(const Environment& e) {
   std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + rounded(e.load_average, 2) + "; " +
                      e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
-  for (const auto& [name, version] : e.libraries) text += "; " + name + " " + version;
+  for (const auto& [name, version] : e.libraries) text.append("; ").append(name).append(" ").append(version);
   return text;
 }
 

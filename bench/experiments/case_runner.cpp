@@ -38,7 +38,7 @@ RunRecord run_case(const std::filesystem::path& program, const Case& what, const
   // A child that has failed by itself says more in its own record than its last words do.
   const bool wrote_it = child.status == RunStatus::ok || child.status == RunStatus::failed;
   if (wrote_it && std::filesystem::exists(report)) return read_run_record(report);
-  const RunRecord record = record_of_the_dead(what, child);
+  RunRecord record = record_of_the_dead(what, child);
   write_run_record(record, report);
   return record;
 }

@@ -194,13 +194,12 @@ Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const
 std::vector<std::string> table1_definitions() {
   return {
       "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
-      "CDT: the stages Delaunay, face check, front and labelling of a run; without the check every face goes through "
-      "the front.",
+      "CDT: Delaunay, face check, front and labelling of a run. Without the check every face goes through the front.",
       "with check / Delaunay is taken within each run; the other ratios are of medians.",
-      "Same vertices: CGAL's Delaunay has all vertices of our mesh, TetGen's CDT (switch p) the input with our "
-      "interior vertices.",
-      "Its own vertices: TetGen (pYq1.414a) and Mesh_3 refine to the edge length of the surface, which TetGen keeps "
-      "and Mesh_3 replaces.",
+      "CGAL Delaunay, same vertices: all vertices of our mesh.",
+      "TetGen CDT, same vertices: switch p, the input with our interior vertices.",
+      "Its own vertices: refined to the edge length of the surface, by TetGen with pYq1.414a, which keeps the surface.",
+      "Mesh_3 replaces the surface.",
       "Meshers other than ours are timed by the call of the library alone.",
   };
 }
