@@ -87,7 +87,7 @@ TetMesh constrain(Work& w) {
     w.counts.front_tetrahedra = front.tetrahedra.size();
   }
   const Stopwatch watch(w.seconds.label);
-  const std::vector<ChamberId> chambers = label_cells(w.delaunay, front.open, codes);
+  const std::vector<ChamberId> chambers = label_cells(w.plc, w.delaunay, front.open, codes);
   return assemble_mesh(w.plc, w.chains, facets, front, chambers, w.delaunay);
 }
 

@@ -2,9 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <unordered_map>
-#include <utility>
 
 #include "engine/base/index.h"
 #include "engine/delaunay/delaunay.h"
@@ -38,8 +35,5 @@ struct FrontFace {
   ChamberId chamber;                 ///< the part of the domain above it
   std::uint32_t code = no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
 };
-
-/// The front: the faces above which the domain is not filled yet.
-using FrontFaces = std::unordered_map<OrientedFace, FrontFace, OrientedFaceHash>;
 
 }  // namespace ccdt

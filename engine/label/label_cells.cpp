@@ -13,17 +13,18 @@ bool has(const FaceBits& bits, std::uint32_t cell, std::uint32_t face) {
   return bits[cell] >> face & 1u;
 }
 
-[[noreturn]] void fail(const Delaunay& d, std::uint32_t cell) {
+[[noreturn]] void fail(const Plc& plc, const Delaunay& d, std::uint32_t cell) {
   Place place;
+  place.file = plc.name;
   for (const std::uint32_t v : d.cells[cell].vertices)
-    if (v != ghost_vertex) place.points.push_back(as_array(d.point(v)));
+    if (v != ghost_vertex) place.points.push_back(as_array(plc.grid.to_world(d.point(v))));
   throw FrontStuck("the front does not separate the inside from the outside", place,
                    "the facets near these points are almost but not quite flat: try another --flatness");
 }
 
 }  // namespace
 
-std::vector<ChamberId> label_cells(const Delaunay& d, const std::vector<FrontFace>& open,
+std::vector<ChamberId> label_cells(const Plc& plc, const Delaunay& d, const std::vector<FrontFace>& open,
                                    const std::vector<std::uint32_t>& wall_codes) {
   FaceBits is_open(d.cells.size(), 0), is_wall(d.cells.size(), 0);
   for (const std::uint32_t code : wall_codes) {
@@ -34,9 +35,9 @@ std::vector<ChamberId> label_cells(const Delaunay& d, const std::vector<FrontFac
   std::vector<ChamberId> chamber(d.cells.size());
   std::vector<std::uint32_t> stack;
   const auto label = [&](std::uint32_t cell, ChamberId its) {
-    if (d.is_ghost(cell)) fail(d, cell);
+    if (d.is_ghost(cell)) fail(plc, d, cell);
     if (!chamber[cell].is_none()) {
-      if (chamber[cell] != its) fail(d, cell);
+      if (chamber[cell] != its) fail(plc, d, cell);
       return;
     }
     chamber[cell] = its;
@@ -50,7 +51,7 @@ std::vector<ChamberId> label_cells(const Delaunay& d, const std::vector<FrontFac
       stack.pop_back();
       for (std::uint32_t f = 0; f < 4; ++f) {
         if (has(is_open, cell, f)) continue;
-        if (has(is_wall, cell, f)) fail(d, cell);
+        if (has(is_wall, cell, f)) fail(plc, d, cell);
         label(cell_of(d.cells[cell].neighbors[f]), face.chamber);
       }
     }

@@ -16,7 +16,7 @@ namespace ccdt {
 /// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are passed
 /// over \return by cell its chamber; none for cells outside and for those that the front has replaced \throw FrontStuck
 /// the flood leaks: front and tetrahedralization do not fit together
-std::vector<ChamberId> label_cells(const Delaunay& delaunay, const std::vector<FrontFace>& open,
+std::vector<ChamberId> label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,
                                    const std::vector<std::uint32_t>& wall_codes);
 
 }  // namespace ccdt

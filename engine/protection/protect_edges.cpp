@@ -37,7 +37,7 @@ std::size_t most_steiner_vertices(const Plc& plc) {
   place.file = plc.name;
   for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
   throw LimitError(
-      "a segment cannot be protected: it would have to be split into more than 2^20 pieces", place,
+      std::string("a segment cannot be protected: ") + why, place,
       "look for features at its ends that are smaller than 1e-6 of it, and remove them or split the segment");
 }
 
