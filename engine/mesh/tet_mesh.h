@@ -8,17 +8,18 @@
 
 namespace ccdt {
 
-/// A tetrahedral mesh, in the units of the input. All arrays are indexed alike by plain integers; an attribute array has one entry
-/// an element.
+/// A tetrahedral mesh, in the units of the input. All arrays are indexed alike by plain integers; an attribute array
+/// has one entry an element.
 struct TetMesh {
   std::vector<Point3> vertices;  ///< of the input (merged), then Steiner vertices, then interior vertices
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented: ((b-a) x (c-a)) . (d-a) > 0
   std::vector<int> regions;                              ///< region attribute of each tetrahedron
   std::vector<std::array<std::uint32_t, 3>> faces;       ///< faces of the mesh on boundary and interior facets
   std::vector<int> face_markers;
-  std::vector<std::array<std::uint32_t, 2>> edges;       ///< edges of the mesh on segments
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< edges of the mesh on segments
   std::vector<int> edge_markers;
-  bool constrained_delaunay = false;  ///< the mesh claims to be the constrained Delaunay tetrahedralization of its vertices
+  bool constrained_delaunay =
+      false;  ///< the mesh claims to be the constrained Delaunay tetrahedralization of its vertices
 };
 
 }  // namespace ccdt
