@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "baselines/mesher.h"
 #include "bench/experiments/table1.h"
 #include "engine/io/output_file.h"
 #include "reports/table1_report.h"
@@ -17,6 +18,7 @@ struct ReproduceCommand {
   std::vector<std::string> experiments = {"table1"};
   std::string folder;
   Table1Options table1;
+  std::vector<std::string> beside;
   double memory_gibibytes = 0;
 };
 
@@ -39,6 +41,7 @@ bool is_good(const Table1& table) {
 bool run(ReproduceCommand& command) {
   command.table1.program = std::filesystem::read_symlink("/proc/self/exe");
   command.table1.folder = command.folder;
+  if (!command.beside.empty()) command.table1.beside = command.beside;
   command.table1.limits.memory_bytes = static_cast<std::uint64_t>(command.memory_gibibytes * bytes_per_gibibyte);
   std::filesystem::create_directories(command.table1.folder);
   check_can_be_written(command.table1.folder / "table1.json");
@@ -68,6 +71,12 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
                    "factor of the models' edge lengths: more than 1 is coarser and faster")
       ->check(positive_number())
       ->capture_default_str();
+  std::vector<std::string> others;
+  for (const Mesher& m : meshers())
+    if (m.name != "ccdt") others.push_back(m.name);
+  verb->add_option("--beside", command->beside, "other meshers to measure, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(others));
   verb->add_option("--timeout", command->table1.limits.seconds, "limit of a single run, in seconds")
       ->check(positive_number())
       ->capture_default_str();

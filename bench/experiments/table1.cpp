@@ -48,10 +48,6 @@ struct MeasuredCase {
   bool failed() const { return first.status != RunStatus::ok; }
 };
 
-bool is_built_in(std::string_view name) {
-  return std::ranges::find(meshers(), name, &Mesher::name) != meshers().end();
-}
-
 class ModelExperiment {
  public:
   ModelExperiment(const Table1Options& options, const PaperModel& model)
@@ -62,7 +58,7 @@ class ModelExperiment {
     std::vector<MeasuredCase> cases;
     const auto add = [&](const char* name, const char* mesher, const std::filesystem::path& input,
                          std::vector<std::string> more) {
-      if (!is_built_in(mesher)) return;
+      if (!is_measured(mesher)) return;
       cases.push_back({name, {mesher, input, mesh_file(name), std::move(more)}, {}});
     };
     add("with_check", "ccdt", surface_file(), {"--face-protection", "on"});
@@ -101,6 +97,12 @@ class ModelExperiment {
   std::filesystem::path surface_file() const { return in_folder("models", ".poly"); }
   std::filesystem::path points_file() const { return in_folder("models", "-with-interior-vertices.poly"); }
   std::filesystem::path mesh_file(const std::string& name) const { return in_folder("meshes", "-" + name + ".node"); }
+
+  bool is_measured(std::string_view mesher) const {
+    if (options_.beside && mesher != "ccdt")
+      return std::ranges::find(*options_.beside, mesher) != options_.beside->end();
+    return std::ranges::find(meshers(), mesher, &Mesher::name) != meshers().end();
+  }
 
   InputPlc surface() const { return make_solid(model_.name, edge_length_); }
 

@@ -52,6 +52,7 @@ struct Table1Options {
   std::filesystem::path folder;                      ///< models, meshes and records go here; exists
   int runs = 5;                                      ///< counted runs a case; one more before them is not counted
   double scale = 1;                                  ///< factor of the models' edge lengths
+  std::optional<std::vector<std::string>> beside;    ///< other meshers to measure; none: all of this build
   Limits limits{.seconds = 120, .memory_bytes = 0};  ///< of each run
 };
 
