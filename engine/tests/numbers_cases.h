@@ -43,19 +43,19 @@ inline std::int64_t draw_between(Random& random, std::int64_t low, std::int64_t 
 /// Six points of a family. In every other case one of them is moved by one unit or one quantum of the grid.
 std::array<Point3, 6> draw_points(Random& random, Family family);
 
-/// Different ids in random order, the smallest and the largest possible ones among them.
+/// Different ranks in random order, the smallest and the largest possible ones among them.
 template <std::size_t n>
-std::array<std::uint32_t, n> draw_ids(Random& random) {
-  std::array<std::uint32_t, n> ids;
+std::array<std::uint32_t, n> draw_ranks(Random& random) {
+  std::array<std::uint32_t, n> ranks;
   for (std::size_t i = 0; i < n; ++i) {
     const auto spread = static_cast<std::uint32_t>(random() % 3);
     const auto k = static_cast<std::uint32_t>(i);
-    ids[i] = spread == 0   ? k
-             : spread == 1 ? 1000000 * (k + 1) + static_cast<std::uint32_t>(random() % 1000000)
-                           : 0xFFFFFFFEu - k;
+    ranks[i] = spread == 0   ? k
+               : spread == 1 ? 1000000 * (k + 1) + static_cast<std::uint32_t>(random() % 1000000)
+                             : 0xFFFFFFFEu - k;
   }
-  for (std::size_t i = n - 1; i > 0; --i) std::swap(ids[i], ids[random() % (i + 1)]);
-  return ids;
+  for (std::size_t i = n - 1; i > 0; --i) std::swap(ranks[i], ranks[random() % (i + 1)]);
+  return ranks;
 }
 
 }  // namespace ccdt::test

@@ -15,15 +15,15 @@ std::array<Point3, 5> first_five(const std::array<Point3, 6>& p) {
   return {p[0], p[1], p[2], p[3], p[4]};
 }
 
-int insphere_of(const std::array<Point3, 5>& p, const std::array<std::uint32_t, 5>& ids) {
-  return insphere_perturbed(p[0], p[1], p[2], p[3], p[4], ids);
+int insphere_of(const std::array<Point3, 5>& p, const std::array<std::uint32_t, 5>& ranks) {
+  return insphere_perturbed(p[0], p[1], p[2], p[3], p[4], ranks);
 }
 
-/// The sign of insphere plus heights times powers of epsilon, by the coefficients in the order of the ids.
-int first_coefficient(const std::array<Point3, 5>& p, const std::array<std::uint32_t, 5>& ids) {
+/// The sign of insphere plus heights times powers of epsilon, by the coefficients from the greatest rank down.
+int first_coefficient(const std::array<Point3, 5>& p, const std::array<std::uint32_t, 5>& ranks) {
   if (const int sign = reference::insphere(p[0], p[1], p[2], p[3], p[4]); sign != 0) return sign;
   std::array<std::size_t, 5> order = {0, 1, 2, 3, 4};
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ids[i] < ids[j]; });
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ranks[i] > ranks[j]; });
   for (const std::size_t i : order)
     if (const int sign = reference::height_coefficient(p, i); sign != 0) return sign;
   return 0;
@@ -40,8 +40,8 @@ TEST(PerturbedInsphere, TakesTheFirstCoefficientThatIsNotZero) {
   int disagreements = 0, ties = 0;
   for_all_families(cases(270000), [&](Random& random, const auto& six) {
     const auto p = first_five(six);
-    const auto ids = draw_ids<5>(random);
-    disagreements += insphere_of(p, ids) != first_coefficient(p, ids);
+    const auto ranks = draw_ranks<5>(random);
+    disagreements += insphere_of(p, ranks) != first_coefficient(p, ranks);
     ties += insphere(p[0], p[1], p[2], p[3], p[4]) == 0;
   });
   EXPECT_EQ(disagreements, 0);
@@ -52,8 +52,8 @@ TEST(PerturbedInsphere, EqualsTheDeterminantWithATinyEpsilon) {
   int disagreements = 0;
   for_all_families(cases(12000), [&](Random& random, const auto& six) {
     const auto p = first_five(six);
-    const auto ids = draw_ids<5>(random);
-    disagreements += insphere_of(p, ids) != reference::insphere_with_epsilon(p, ids);
+    const auto ranks = draw_ranks<5>(random);
+    disagreements += insphere_of(p, ranks) != reference::insphere_with_epsilon(p, ranks);
   });
   EXPECT_EQ(disagreements, 0);
 }
@@ -62,13 +62,13 @@ TEST(PerturbedInsphere, ChangesItsSignWithEveryExchangeOfTwoVertices) {
   int disagreements = 0;
   for_all_families(cases(100000), [&](Random& random, const auto& six) {
     const auto p = first_five(six);
-    const auto ids = draw_ids<5>(random);
+    const auto ranks = draw_ranks<5>(random);
     const std::size_t i = random() % 5, j = (i + 1 + random() % 4) % 5;
     auto q = p;
-    auto swapped_ids = ids;
+    auto swapped_ranks = ranks;
     std::swap(q[i], q[j]);
-    std::swap(swapped_ids[i], swapped_ids[j]);
-    disagreements += insphere_of(p, ids) != -insphere_of(q, swapped_ids);
+    std::swap(swapped_ranks[i], swapped_ranks[j]);
+    disagreements += insphere_of(p, ranks) != -insphere_of(q, swapped_ranks);
   });
   EXPECT_EQ(disagreements, 0);
 }
@@ -79,7 +79,7 @@ TEST(PerturbedInsphere, IsZeroOnlyForFiveCoplanarPoints) {
     const auto p = first_five(six);
     bool coplanar = true;
     for (std::size_t i = 0; i < 5; ++i) coplanar = coplanar && reference::height_coefficient(p, i) == 0;
-    const bool zero = insphere_of(p, draw_ids<5>(random)) == 0;
+    const bool zero = insphere_of(p, draw_ranks<5>(random)) == 0;
     disagreements += zero != coplanar;
     zeros += zero;
   });
@@ -87,16 +87,30 @@ TEST(PerturbedInsphere, IsZeroOnlyForFiveCoplanarPoints) {
   EXPECT_GT(zeros, cases(1000));
 }
 
-TEST(PerturbedInsphere, OrderOfTheIdsDecidesNotTheirValues) {
+TEST(PerturbedInsphere, OrderOfTheRanksDecidesNotTheirValues) {
   for_all_families(cases(5000), [&](Random& random, const auto& six) {
     const auto p = first_five(six);
-    const auto ids = draw_ids<5>(random);
-    std::array<std::uint32_t, 5> ranks;
+    const auto ranks = draw_ranks<5>(random);
+    std::array<std::uint32_t, 5> places;
     for (std::size_t i = 0; i < 5; ++i)
-      ranks[i] = static_cast<std::uint32_t>(
-          std::count_if(ids.begin(), ids.end(), [&](std::uint32_t id) { return id < ids[i]; }));
-    ASSERT_EQ(insphere_of(p, ids), insphere_of(p, ranks));
+      places[i] = static_cast<std::uint32_t>(
+          std::count_if(ranks.begin(), ranks.end(), [&](std::uint32_t other) { return other < ranks[i]; }));
+    ASSERT_EQ(insphere_of(p, ranks), insphere_of(p, places));
   });
+}
+
+/// What the Delaunay insertion relies on: a new vertex is outside every sphere that it is on.
+TEST(PerturbedInsphere, PutsTheGreatestRankOutsideTheSphereThatItIsOn) {
+  int ties = 0;
+  for_all_families(cases(20000), [&](Random& random, const auto& six) {
+    const auto p = first_five(six);
+    auto ranks = draw_ranks<5>(random);
+    std::iter_swap(std::max_element(ranks.begin(), ranks.end()), ranks.end() - 1);
+    if (orient3d(p[0], p[1], p[2], p[3]) <= 0 || insphere(p[0], p[1], p[2], p[3], p[4]) != 0) return;
+    ASSERT_EQ(insphere_of(p, ranks), -1);
+    ++ties;
+  });
+  EXPECT_GT(ties, cases(1000));
 }
 
 /// Four points of one plane, and two more above and below them; nothing if the first three are collinear.
@@ -128,8 +142,8 @@ bool draw_planar_case(Random& random, PlanarCase& result) {
   return false;
 }
 
-int incircle_of(const std::array<Point3, 4>& p, const Point3& apex, const std::array<std::uint32_t, 4>& ids) {
-  return incircle_perturbed(p[0], p[1], p[2], apex, p[3], ids);
+int incircle_of(const std::array<Point3, 4>& p, const Point3& apex, const std::array<std::uint32_t, 4>& ranks) {
+  return incircle_perturbed(p[0], p[1], p[2], apex, p[3], ranks);
 }
 
 TEST(PerturbedIncircle, EqualsThePlanarDeterminantWithATinyEpsilon) {
@@ -138,9 +152,9 @@ TEST(PerturbedIncircle, EqualsThePlanarDeterminantWithATinyEpsilon) {
   while (done < cases(150000)) {
     PlanarCase planar;
     if (!draw_planar_case(random, planar)) continue;
-    const auto ids = draw_ids<4>(random);
-    const int sign = incircle_of(planar.p, planar.above, ids);
-    disagreements += sign == 0 || sign != reference::incircle_with_epsilon(planar.p, ids);
+    const auto ranks = draw_ranks<4>(random);
+    const int sign = incircle_of(planar.p, planar.above, ranks);
+    disagreements += sign == 0 || sign != reference::incircle_with_epsilon(planar.p, ranks);
     ties += insphere(planar.p[0], planar.p[1], planar.p[2], planar.above, planar.p[3]) == 0;
     ++done;
   }
@@ -154,11 +168,13 @@ TEST(PerturbedIncircle, DependsNeitherOnTheApexNorOnTheOrderOfTheCorners) {
   while (done < cases(200000)) {
     PlanarCase planar;
     if (!draw_planar_case(random, planar)) continue;
-    const auto ids = draw_ids<4>(random);
-    const int sign = incircle_of(planar.p, planar.above, ids);
+    const auto ranks = draw_ranks<4>(random);
+    const int sign = incircle_of(planar.p, planar.above, ranks);
     const auto& p = planar.p;
-    disagreements += sign != incircle_of({p[1], p[2], p[0], p[3]}, planar.above, {ids[1], ids[2], ids[0], ids[3]});
-    disagreements += sign != incircle_of({p[0], p[2], p[1], p[3]}, planar.below, {ids[0], ids[2], ids[1], ids[3]});
+    disagreements +=
+        sign != incircle_of({p[1], p[2], p[0], p[3]}, planar.above, {ranks[1], ranks[2], ranks[0], ranks[3]});
+    disagreements +=
+        sign != incircle_of({p[0], p[2], p[1], p[3]}, planar.below, {ranks[0], ranks[2], ranks[1], ranks[3]});
     ++done;
   }
   EXPECT_EQ(disagreements, 0);
@@ -175,11 +191,11 @@ TEST(PerturbedIncircle, AQuadrilateralHasExactlyOneDelaunayDiagonal) {
     const auto& [a, b, c, d] = planar.p;
     if (orient3d(a, c, d, planar.above) <= 0) continue;
     if (orient3d(a, b, d, planar.above) <= 0 || orient3d(b, c, d, planar.above) <= 0) continue;
-    const auto ids = draw_ids<4>(random);
-    ASSERT_EQ(incircle_of({a, b, c, d}, planar.above, ids),
-              incircle_of({a, c, d, b}, planar.above, {ids[0], ids[2], ids[3], ids[1]}));
-    ASSERT_EQ(incircle_of({a, b, c, d}, planar.above, ids),
-              -incircle_of({a, b, d, c}, planar.above, {ids[0], ids[1], ids[3], ids[2]}));
+    const auto ranks = draw_ranks<4>(random);
+    ASSERT_EQ(incircle_of({a, b, c, d}, planar.above, ranks),
+              incircle_of({a, c, d, b}, planar.above, {ranks[0], ranks[2], ranks[3], ranks[1]}));
+    ASSERT_EQ(incircle_of({a, b, c, d}, planar.above, ranks),
+              -incircle_of({a, b, d, c}, planar.above, {ranks[0], ranks[1], ranks[3], ranks[2]}));
     ++done;
   }
 }

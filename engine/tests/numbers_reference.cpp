@@ -27,13 +27,14 @@ Integer power_of_two(unsigned exponent) {
 
 /// The heights of points, in units of epsilon^n.
 template <std::size_t n>
-std::array<Integer, n> raised_heights(const std::array<Point3, n>& points, const std::array<std::uint32_t, n>& ids) {
+std::array<Integer, n> raised_heights(const std::array<Point3, n>& points, const std::array<std::uint32_t, n>& ranks) {
   std::array<Integer, n> heights;
   for (std::size_t i = 0; i < n; ++i) {
     const Integer x(points[i].x), y(points[i].y), z(points[i].z);
-    const auto rank = std::count_if(ids.begin(), ids.end(), [&](std::uint32_t id) { return id < ids[i]; });
+    const auto greater =
+        std::count_if(ranks.begin(), ranks.end(), [&](std::uint32_t other) { return other > ranks[i]; });
     heights[i] = (x * x + y * y + z * z) * power_of_two(n * epsilon_bits) +
-                 power_of_two((n - 1 - static_cast<unsigned>(rank)) * epsilon_bits);
+                 power_of_two((n - 1 - static_cast<unsigned>(greater)) * epsilon_bits);
   }
   return heights;
 }
@@ -63,8 +64,8 @@ int height_coefficient(const std::array<Point3, 5>& points, std::size_t i) {
   return i % 2 == 0 ? minor : -minor;
 }
 
-int insphere_with_epsilon(const std::array<Point3, 5>& points, const std::array<std::uint32_t, 5>& ids) {
-  const auto h = raised_heights(points, ids);
+int insphere_with_epsilon(const std::array<Point3, 5>& points, const std::array<std::uint32_t, 5>& ranks) {
+  const auto h = raised_heights(points, ranks);
   const auto x = [&](int i) { return Integer(points[i].x); };
   const auto y = [&](int i) { return Integer(points[i].y); };
   const auto z = [&](int i) { return Integer(points[i].z); };
@@ -76,8 +77,8 @@ int insphere_with_epsilon(const std::array<Point3, 5>& points, const std::array<
                                        x(4), y(4), z(4), h[4], one));
 }
 
-int incircle_with_epsilon(const std::array<Point3, 4>& points, const std::array<std::uint32_t, 4>& ids) {
-  const auto h = raised_heights(points, ids);
+int incircle_with_epsilon(const std::array<Point3, 4>& points, const std::array<std::uint32_t, 4>& ranks) {
+  const auto h = raised_heights(points, ranks);
   const Integer one = 1;
   // Along an axis that is not in the plane.
   for (int axis = 0; axis < 3; ++axis) {

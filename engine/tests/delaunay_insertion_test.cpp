@@ -1,0 +1,211 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/delaunay/insertion.h"
+#include "engine/tests/delaunay_checks.h"
+#include "engine/tests/delaunay_point_sets.h"
+
+namespace ccdt {
+namespace {
+
+using namespace test;
+
+/// Adds a vertex of the greatest rank that is not yet part of the tetrahedralization.
+std::uint32_t add_vertex(Delaunay& d, const Point3& p) {
+  const auto v = static_cast<std::uint32_t>(d.vertices.size());
+  d.vertices.push_back({p, v, 0});
+  return v;
+}
+
+std::uint32_t first_living_cell(const Delaunay& d) {
+  std::uint32_t c = 0;
+  while (d.is_dead(c)) ++c;
+  return c;
+}
+
+std::set<std::uint32_t> cavity_vertices(const Insertion& insertion) {
+  std::set<std::uint32_t> vertices;
+  for (const CavityFace& face : insertion.cavity_faces()) vertices.insert(face.vertices.begin(), face.vertices.end());
+  return vertices;
+}
+
+/// The first half of the points at once, the others one by one.
+Delaunay build_in_two_steps(const std::vector<Point3>& points) {
+  Delaunay d = build_delaunay(std::span(points).first(points.size() / 2));
+  Insertion insertion(d);
+  std::uint32_t start = first_living_cell(d);
+  for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
+    EXPECT_TRUE(insertion.dig(add_vertex(d, points[i]), start));
+    start = insertion.fill();
+  }
+  return d;
+}
+
+TEST(Insertion, OneByOneGivesTheCellsOfTheDefinition) {
+  for (const NamedPoints& set : tiny_sets()) {
+    if (set.points.size() < 16) continue;
+    const Delaunay d = build_in_two_steps(set.points);
+    EXPECT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << set.name;
+  }
+}
+
+TEST(Insertion, OneByOneGivesADelaunayTetrahedralization) {
+  for (const NamedPoints& set : small_sets()) {
+    const Delaunay d = build_in_two_steps(set.points);
+    EXPECT_TRUE(is_consistent(d)) << set.name;
+    EXPECT_TRUE(has_empty_spheres(d)) << set.name;
+  }
+}
+
+TEST(Insertion, OneByOneGivesWhatBuildingAtOnceGivesWhereNoRankDecides) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto points = random_points(3000, seed);
+    EXPECT_EQ(sorted_cells(build_in_two_steps(points)), sorted_cells(build_delaunay(points)));
+  }
+}
+
+TEST(Insertion, KeepsTheStructureConsistentAfterEachVertex) {
+  for (const NamedPoints& set : tiny_sets()) {
+    const std::size_t given = set.points.size() / 2;
+    if (given < 8) continue;
+    Delaunay d = build_delaunay(std::span(set.points).first(given));
+    Insertion insertion(d);
+    for (std::size_t i = given; i < set.points.size(); ++i) {
+      const std::uint32_t far = d.vertices[i % given].cell;
+      ASSERT_TRUE(insertion.dig(add_vertex(d, set.points[i]), far)) << set.name;
+      insertion.fill();
+      ASSERT_TRUE(is_consistent(d)) << set.name << ", vertex " << i;
+      ASSERT_TRUE(has_empty_spheres(d)) << set.name << ", vertex " << i;
+    }
+  }
+}
+
+TEST(Insertion, FindsTheSameCavityFromEveryCell) {
+  Delaunay d = build_delaunay(face_centred(2, 4));
+  Insertion insertion(d);
+  for (const Point3& p : {Point3{1, 1, 1}, {3, 4, 5}, {-1, 2, 2}, {4, 4, 9}, {2, 1, 0}}) {
+    const std::uint32_t v = add_vertex(d, p);
+    std::set<std::uint32_t> expected;
+    for (std::uint32_t start = 0; start < d.cells.size(); ++start) {
+      if (d.is_dead(start)) continue;
+      ASSERT_TRUE(insertion.dig(v, start));
+      const auto cells = insertion.cavity_cells();
+      const std::set<std::uint32_t> cavity(cells.begin(), cells.end());
+      EXPECT_EQ(cavity.size(), cells.size());
+      if (expected.empty()) expected = cavity;
+      EXPECT_EQ(cavity, expected);
+      insertion.abandon();
+    }
+    d.vertices.pop_back();
+  }
+}
+
+TEST(Insertion, TheCavityIsClosedAndItsFacesLookAtTheNewVertex) {
+  for (const NamedPoints& set : small_sets()) {
+    Delaunay d = build_delaunay(std::span(set.points).first(set.points.size() - 1));
+    Insertion insertion(d);
+    ASSERT_TRUE(insertion.dig(add_vertex(d, set.points.back()), first_living_cell(d))) << set.name;
+    std::set<std::uint32_t> outside;
+    for (const CavityFace& face : insertion.cavity_faces()) {
+      const Cell& cell = d.cells[cell_of(face.outside)];
+      EXPECT_FALSE(insertion.in_cavity(cell_of(face.outside)));
+      EXPECT_TRUE(insertion.in_cavity(cell_of(cell.neighbors[face_of(face.outside)])));
+      EXPECT_TRUE(outside.insert(face.outside).second) << "a face is there twice";
+      for (const std::uint32_t v : face.vertices)
+        EXPECT_NE(std::find(cell.vertices.begin(), cell.vertices.end(), v), cell.vertices.end());
+    }
+    for (const std::uint32_t c : insertion.cavity_cells()) {
+      for (const std::uint32_t code : d.cells[c].neighbors)
+        EXPECT_NE(insertion.in_cavity(cell_of(code)), outside.contains(code)) << set.name;
+    }
+  }
+}
+
+TEST(Insertion, AbandonLeavesAllAsItWas) {
+  for (const NamedPoints& set : small_sets()) {
+    const auto most = std::span(set.points).first(set.points.size() - 10);
+    Delaunay d = build_delaunay(most);
+    Insertion insertion(d);
+    const Delaunay before = d;
+    const std::uint32_t start = first_living_cell(d);
+    for (const Point3& p : std::span(set.points).last(10)) {
+      const std::uint32_t v = add_vertex(d, p);
+      ASSERT_TRUE(insertion.dig(v, start)) << set.name;
+      EXPECT_FALSE(insertion.cavity_cells().empty());
+      insertion.abandon();
+      EXPECT_TRUE(insertion.cavity_cells().empty() && insertion.cavity_faces().empty());
+      for (std::uint32_t c = 0; c < d.cells.size(); ++c) ASSERT_FALSE(insertion.in_cavity(c));
+      d.vertices.pop_back();
+      ASSERT_TRUE(are_equal(d, before)) << set.name;
+    }
+    // The same insertion goes on as one that has never been abandoned.
+    Delaunay fresh = before;
+    Insertion never_abandoned(fresh);
+    for (const Point3& p : std::span(set.points).last(10)) {
+      ASSERT_TRUE(insertion.dig(add_vertex(d, p), d.vertices[0].cell)) << set.name;
+      ASSERT_TRUE(never_abandoned.dig(add_vertex(fresh, p), fresh.vertices[0].cell)) << set.name;
+      insertion.fill();
+      never_abandoned.fill();
+    }
+    EXPECT_TRUE(is_consistent(d)) << set.name;
+    EXPECT_EQ(sorted_cells(d), sorted_cells(fresh)) << set.name;
+  }
+}
+
+TEST(Insertion, NamesTheTwinOfAPointThatIsThere) {
+  for (const NamedPoints& set : small_sets()) {
+    Delaunay d = build_delaunay(set.points);
+    Insertion insertion(d);
+    const Delaunay before = d;
+    for (std::uint32_t v = 0; v < set.points.size(); v += 7) {
+      const std::uint32_t copy = add_vertex(d, set.points[v]);
+      EXPECT_FALSE(insertion.dig(copy, d.vertices[set.points.size() / 2].cell)) << set.name;
+      EXPECT_EQ(insertion.twin(), v) << set.name;
+      d.vertices.pop_back();
+      ASSERT_TRUE(are_equal(d, before)) << set.name;
+    }
+  }
+}
+
+/// The centre of a sphere is in the circumsphere of every cell of points on it: its cavity has all vertices. The
+/// numbers of vertices are those around which the connection of the new cells changes its ways.
+TEST(Insertion, FillsCavitiesOfManyVertices) {
+  const auto sphere = points_on_sphere(300);
+  for (const std::size_t n : {62, 63, 64, 65, 66, 127, 128, 129, 253, 254, 255, 256, 257, 300}) {
+    auto points = shuffled(sphere, n);
+    points.resize(n);
+    Delaunay d = build_delaunay(points);
+    Insertion insertion(d);
+    const std::uint32_t centre = add_vertex(d, {});
+    ASSERT_TRUE(insertion.dig(centre, first_living_cell(d)));
+    EXPECT_EQ(cavity_vertices(insertion).size(), n);
+    insertion.fill();
+    EXPECT_TRUE(is_consistent(d)) << n;
+    EXPECT_TRUE(has_empty_spheres(d)) << n;
+  }
+}
+
+/// The same with the ghost among the vertices of the border: a point so far out that it sees half of the sphere.
+TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
+  const auto sphere = points_on_sphere(900);
+  for (const std::size_t n : {100, 200, 300, 400, 500, 900}) {
+    auto points = shuffled(sphere, n);
+    points.resize(n);
+    Delaunay d = build_delaunay(points);
+    Insertion insertion(d);
+    ASSERT_TRUE(insertion.dig(add_vertex(d, {1000003, 1000, 10}), first_living_cell(d)));
+    const auto border = cavity_vertices(insertion);
+    EXPECT_TRUE(border.contains(ghost_vertex));
+    if (n == 900) {
+      EXPECT_GT(border.size(), 300u);
+    }
+    insertion.fill();
+    EXPECT_TRUE(is_consistent(d)) << n;
+    EXPECT_TRUE(has_empty_spheres(d)) << n;
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
