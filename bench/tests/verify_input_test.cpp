@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/tests/verify_cases.h"
 #include "bench/verify/verify.h"
 
@@ -175,6 +177,45 @@ TEST(Verify, AFlatTetrahedronMayLieInAnInteriorFacet) {
   m.input.polygon_facets.push_back({{{3, 2, 1, 0}}, {}, 0, 8});
   expect_ok(m);
   m.mesh.regions = {7, 9, 9, 9, 9};
+  expect_failure(m, "regions");
+}
+
+TEST(Verify, AFlatTetrahedronInAnInteriorFacetMayBelongToEitherSide) {
+  for (const bool seeds : {true, false})
+    for (const bool other_diagonal : {true, false})
+      for (const int region : {7, 9}) {
+        MeshedInput m = octahedron_with_flat_tetrahedron(1e-9);
+        m.input.triangles.push_back(other_diagonal ? std::array{1u, 2u, 3u} : std::array{0u, 1u, 2u});
+        m.input.triangles.push_back(other_diagonal ? std::array{0u, 1u, 3u} : std::array{0u, 3u, 2u});
+        if (!seeds) m.input.regions.clear();
+        m.mesh.regions.back() = region;
+        std::rotate(m.mesh.tetrahedra.begin(), m.mesh.tetrahedra.end() - 1, m.mesh.tetrahedra.end());  // it is first
+        std::rotate(m.mesh.regions.begin(), m.mesh.regions.end() - 1, m.mesh.regions.end());
+        expect_ok(m);
+        m.mesh.regions.front() = 8;
+        expect_failure(m, "regions");
+        for (std::size_t t = 1; t < 5; ++t) {
+          m.mesh.regions = {region, 7, 7, 9, 9};
+          m.mesh.regions[t] = 16 - m.mesh.regions[t];
+          expect_failure(m, "regions");
+        }
+      }
+}
+
+TEST(Verify, AThinTetrahedronBesideAFacetBelongsToItsSide) {
+  MeshedInput m = octahedron_with_flat_tetrahedron(0);
+  m.mesh.tetrahedra.pop_back();
+  m.mesh.tetrahedra[2] = {2, 0, 3, 5};
+  m.mesh.tetrahedra[3] = {0, 2, 1, 5};
+  m.input.triangles.push_back({0, 1, 2});
+  m.input.triangles.push_back({0, 3, 2});
+  // A vertex a hair above the facet makes a tetrahedron of almost no volume, but not of vertices of the facet.
+  m.mesh.vertices.push_back({0.1, 0.2, 1e-9});
+  m.mesh.tetrahedra[0] = {0, 1, 2, 6};
+  m.mesh.tetrahedra.insert(m.mesh.tetrahedra.end(), {{0, 1, 6, 4}, {1, 2, 6, 4}, {2, 0, 6, 4}});
+  m.mesh.regions = {7, 7, 9, 9, 7, 7, 7};
+  expect_ok(m);
+  m.mesh.regions[0] = 9;
   expect_failure(m, "regions");
 }
 

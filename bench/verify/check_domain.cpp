@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <unordered_set>
 
 #include "bench/verify/findings.h"
 
@@ -34,9 +36,71 @@ int region_of(const TetMesh& mesh, std::size_t t) {
   return mesh.regions.empty() ? 0 : mesh.regions[t];
 }
 
+/// The attributes that tetrahedra of each chamber may have: where there is no seed, that of the first one. (A chamber
+/// of tetrahedra within facets alone has none.)
+std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
+  auto wanted = chambers.attributes;
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::uint32_t c = rooms.chamber[t];
+    if (c != none && wanted[c].empty() && rooms.beyond.count(t) == 0) wanted[c].push_back(region_of(mesh, t));
+  }
+  return wanted;
+}
+
+/// Finds the tetrahedra between two sheets of faces that both span an interior facet: those with all four vertices on
+/// the sheet that was taken and near its plane, that a way through such connects with it.
+class FlatTetrahedra {
+ public:
+  FlatTetrahedra(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, double flat, Rooms& rooms)
+      : mesh_(mesh), topology_(topology), chambers_(chambers), flat_(flat), rooms_(rooms) {}
+
+  void find(std::span<const CoverFace> sheet, const Plane& plane) {
+    const std::uint32_t a = chambers_.of_side[2 * sheet[0].piece], b = chambers_.of_side[2 * sheet[0].piece + 1];
+    if (a == b) return;
+    on_sheet_.clear();
+    for (const CoverFace& f : sheet) on_sheet_.insert(topology_.faces[f.face].begin(), topology_.faces[f.face].end());
+    std::vector<std::uint32_t> queue;
+    const auto enter = [&](std::uint32_t tet) {
+      const std::uint32_t c = rooms_.chamber[tet];
+      if ((c != a && c != b) || !is_within(tet, plane)) return;
+      if (rooms_.beyond.try_emplace(tet, c == a ? b : a).second) queue.push_back(tet);
+    };
+    for (const CoverFace& f : sheet) {
+      enter(f.tet_above);
+      enter(f.tet_below);
+    }
+    while (!queue.empty()) {
+      const std::uint32_t t = queue.back();
+      queue.pop_back();
+      for (std::uint32_t corner = 0; corner < 4; ++corner) {
+        const std::uint32_t f = topology_.face_of[4 * t + corner];
+        if (topology_.on_boundary(f)) continue;
+        const auto& halves = topology_.half_faces[f];
+        enter(halves[0] / 4 == t ? halves[1] / 4 : halves[0] / 4);
+      }
+    }
+  }
+
+ private:
+  bool is_within(std::uint32_t tet, const Plane& plane) const {
+    const auto& corners = mesh_.tetrahedra[tet];
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+      return std::fabs(dot(plane.normal, mesh_.vertices[v] - plane.point)) <= flat_ && on_sheet_.count(v) > 0;
+    });
+  }
+
+  const TetMesh& mesh_;
+  const Topology& topology_;
+  const Chambers& chambers_;
+  double flat_;
+  Rooms& rooms_;
+  std::unordered_set<std::uint32_t> on_sheet_;
+};
+
 }  // namespace
 
-Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers) {
+Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers,
+                 double flat) {
   Rooms rooms;
   rooms.chamber.assign(mesh.tetrahedra.size(), none);
   std::vector<std::uint32_t> queue;
@@ -65,6 +129,13 @@ Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& 
   }
   std::sort(rooms.conflicts.begin(), rooms.conflicts.end());
   rooms.conflicts.erase(std::unique(rooms.conflicts.begin(), rooms.conflicts.end()), rooms.conflicts.end());
+  FlatTetrahedra flat_tetrahedra(mesh, topology, chambers, flat, rooms);
+  for (auto begin = covers.faces.begin(); begin != covers.faces.end();) {
+    const auto end =
+        std::find_if(begin, covers.faces.end(), [&](const CoverFace& f) { return f.plane != begin->plane; });
+    if (begin->plane != none) flat_tetrahedra.find({begin, end}, covers.planes[begin->plane]);
+    begin = end;
+  }
   return rooms;
 }
 
@@ -94,17 +165,19 @@ Check check_rooms(const TetMesh& mesh, const Chambers& chambers, const Rooms& ro
 Check check_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
   Check check = make_check("regions");
   check.checked = mesh.tetrahedra.size();
-  std::vector<std::uint32_t> first(chambers.count(), none);
+  const auto wanted = wanted_regions(mesh, chambers, rooms);
+  const auto is_wanted = [&](int region, std::uint32_t c) {
+    return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
+  };
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const std::uint32_t c = rooms.chamber[t];
-    if (c == none) continue;
-    if (first[c] == none) first[c] = t;
-    const auto& wanted = chambers.attributes[c];
-    const int region = region_of(mesh, t), expected = wanted.empty() ? region_of(mesh, first[c]) : wanted[0];
-    if (region == expected || std::find(wanted.begin(), wanted.end(), region) != wanted.end()) continue;
+    const int region = region_of(mesh, t);
+    if (c == none || is_wanted(region, c)) continue;
+    const auto beyond = rooms.beyond.find(t);
+    if (beyond != rooms.beyond.end() && is_wanted(region, beyond->second)) continue;
     fail(check, [&] {
       return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(region) + " instead of " +
-             std::to_string(expected);
+             std::to_string(wanted[c][0]);
     });
   }
   return check;

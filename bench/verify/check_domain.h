@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unordered_map>
+
 #include "bench/verify/covers.h"
 #include "bench/verify/verify.h"
 
@@ -9,10 +11,15 @@ namespace ccdt::verification {
 struct Rooms {
   std::vector<std::uint32_t> chamber;
   std::vector<std::uint32_t> conflicts;  ///< tetrahedra that are reached from two chambers without crossing a facet
+  /// Of each tetrahedron that lies within an interior facet, since that is flat only within the tolerance: the chamber
+  /// on the other side of the facet. It could as well be there.
+  std::unordered_map<std::uint32_t, std::uint32_t> beyond;
 };
 
 /// Floods the mesh from the faces that stand for facets.
-Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers);
+/// \param flat  how far from its plane an interior facet reaches
+Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers,
+                 double flat);
 
 /// Decides the chambers of which the input does not tell whether they are inside, by whether the mesh fills them.
 void resolve_unknown(const Rooms& rooms, Chambers& chambers);
@@ -21,6 +28,7 @@ void resolve_unknown(const Rooms& rooms, Chambers& chambers);
 Check check_rooms(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms);
 
 /// A tetrahedron has the attribute of the region seed in its chamber; without a seed, the same as all in the chamber.
+/// One that lies within an interior facet may have the attribute of either side.
 Check check_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms);
 
 /// No tetrahedron is in a chamber with a hole's point.

@@ -145,7 +145,7 @@ void match(const Topology& topology, const Boundary& boundary, const std::vector
   for (const std::uint32_t n : members) {
     const std::uint32_t tet = topology.half_faces[boundary.faces[n]][0] / 4;
     const bool above = turned != patches.flipped[p];
-    covers.faces.push_back({boundary.faces[n], p, above ? tet : none, above ? none : tet});
+    covers.faces.push_back({boundary.faces[n], p, above ? tet : none, above ? none : tet, none});
   }
 }
 

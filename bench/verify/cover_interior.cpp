@@ -122,14 +122,19 @@ class InteriorCover {
       const auto pieces = patches.pieces_of(n);
       const auto is_left = [&](std::uint32_t p) { return covers_.found[p] == Found::nothing; };
       if (!std::all_of(pieces.begin(), pieces.end(), is_left)) continue;
-      if (cover_piece_by_piece(pieces) || patches.open[n] || patches.thickness[n] > surface_.tolerances.flat) continue;
+      const bool is_flat = patches.thickness[n] <= surface_.tolerances.flat;
+      if (is_flat) covers_.planes.push_back({patches.normal[n], patches.centre[n]});
+      if (cover_piece_by_piece(pieces, is_flat) || patches.open[n] || !is_flat) continue;
       cover_by_sheet(patches, n);
     }
   }
 
  private:
+  std::uint32_t last_plane() const { return static_cast<std::uint32_t>(covers_.planes.size() - 1); }
+
   /// Each piece is a face of the mesh as it is.
-  bool cover_piece_by_piece(std::span<const std::uint32_t> pieces) {
+  /// \param is_flat  the pieces lie in the last of the planes
+  bool cover_piece_by_piece(std::span<const std::uint32_t> pieces, bool is_flat) {
     std::vector<CoverFace> faces;
     for (const std::uint32_t p : pieces) {
       if (!surface_.is_triangle(p)) return false;
@@ -142,7 +147,8 @@ class InteriorCover {
       const bool first_is_below = std::find(out.begin(), out.end(), corners[0]) - out.begin() ==
                                   (std::find(out.begin(), out.end(), corners[1]) - out.begin() + 2) % 3;
       const std::uint32_t first = topology_.half_faces[f][0] / 4, second = topology_.half_faces[f][1] / 4;
-      faces.push_back({f, p, first_is_below ? second : first, first_is_below ? first : second});
+      faces.push_back(
+          {f, p, first_is_below ? second : first, first_is_below ? first : second, is_flat ? last_plane() : none});
     }
     add(pieces, faces);
     return true;
@@ -166,7 +172,7 @@ class InteriorCover {
       const auto& halves = topology_.half_faces[f];
       std::uint32_t above = sheet.above[i], below = halves[0] / 4 == above ? halves[1] / 4 : halves[0] / 4;
       if (patches.flipped[piece]) std::swap(above, below);
-      faces.push_back({f, piece, above, below});
+      faces.push_back({f, piece, above, below, last_plane()});
     }
     add(patches.pieces_of(n), faces);
   }

@@ -9,13 +9,19 @@ namespace ccdt::verification {
 struct CoverFace {
   std::uint32_t face, piece;
   std::uint32_t tet_above, tet_below;  ///< `none` where there is no tetrahedron
+  std::uint32_t plane = none;          ///< in `Covers::planes`, if it covers an interior facet that is flat
+};
+
+struct Plane {
+  Point3 normal, point;
 };
 
 enum class Found : std::uint8_t { nothing, boundary_of_above, boundary_of_below, interior };
 
 /// Which faces of the mesh stand for which facets of the input.
 struct Covers {
-  std::vector<CoverFace> faces;
+  std::vector<CoverFace> faces;            ///< those with one plane together
+  std::vector<Plane> planes;               ///< one an interior facet that is flat within the tolerance
   std::vector<Found> found;                ///< of each piece
   std::vector<std::string> problem;        ///< of each piece: what was wrong with what looked like it
   std::vector<std::uint32_t> stray_faces;  ///< boundary faces that stand for nothing

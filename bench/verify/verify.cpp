@@ -49,7 +49,7 @@ void check_against_input(const InputPlc& input, const TetMesh& mesh, const Topol
   const Covers covers = find_covers(mesh, topology, surface, edges, features);
   report(progress, "verify domain", 0, 0);
   Chambers chambers = find_chambers(input, surface);
-  const Rooms rooms = find_rooms(mesh, topology, chambers, covers);
+  const Rooms rooms = find_rooms(mesh, topology, chambers, covers, tolerances.flat);
   resolve_unknown(rooms, chambers);
 
   const RayShooter rays(surface);
