@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "engine/io/read_plc.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "models/solids.h"
+
+// The constrained Delaunay tetrahedralization is unique, so every strategy has to find the very same tetrahedra; and
+// what they find is verified by other means than the engine's.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+struct Named {
+  const char* name;
+  InputPlc plc;
+};
+
+std::vector<Named> small_inputs() {
+  return {{"cube", unit_cube()},
+          {"L", l_shape()},
+          {"Schoenhardt's polyhedron", plc_test::schoenhardt()},
+          {"cube with a cubic hole", cube_with_cubic_hole()},
+          {"cube within a cube", cube_within_cube()},
+          {"two cubes", two_cubes()},
+          {"two cubes as a surface", two_cubes_as_surface()},
+          {"slit", cube_with_slit()},
+          {"dangling facet", cube_with_dangling_facet()},
+          {"dangling segment", cube_with_dangling_segment()},
+          {"floating segment", cube_with_floating_segment()},
+          {"turnstile", cube_with_turnstile()},
+          {"two bars", two_bars()}};
+}
+
+TEST(Agreement, SmallInputs) {
+  for (const auto& [name, plc] : small_inputs()) {
+    SCOPED_TRACE(name);
+    expect_agreement_of_all_strategies(plc);
+  }
+}
+
+TEST(Agreement, SmallInputsRotated) {
+  for (const auto& [name, plc] : small_inputs()) {
+    SCOPED_TRACE(name);
+    expect_agreement_of_all_strategies(rotated(oblique, plc));
+  }
+}
+
+TEST(Agreement, SmallInputsAreConstrainedDelaunayByBruteForce) {
+  for (const auto& [name, plc] : small_inputs()) {
+    SCOPED_TRACE(name);
+    for (const Lattice lattice : {Lattice::none, Lattice::fcc}) {
+      MeshOptions options;
+      options.lattice = lattice;
+      options.edge_length = 1;
+      expect_constrained_delaunay(mesh_plc(plc, options).mesh, 1);
+    }
+  }
+}
+
+TEST(Agreement, ModelsAtThreeDensities) {
+  for (const char* name : {"piston", "bracket", "stepping-pole"})
+    for (const double edge_length : {5.0, 7.0, 11.0}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(edge_length));
+      const InputPlc plc = make_solid(name, edge_length);
+      for (const Lattice lattice : {Lattice::none, Lattice::fcc, Lattice::bcc, Lattice::sc})
+        expect_agreement(plc, lattice);
+    }
+}
+
+TEST(Agreement, ModelsRotated) {
+  for (const char* name : {"piston", "bracket", "stepping-pole"}) {
+    SCOPED_TRACE(name);
+    const InputPlc plc = rotated(oblique, make_solid(name, 11));
+    expect_agreement(plc, Lattice::none);
+    expect_agreement(plc, Lattice::fcc);
+  }
+}
+
+TEST(Agreement, PrimitivesPlainAndRotated) {
+  for (const auto& [name, edge_length] : {std::pair{"cube", 0.2}, {"sphere", 0.25}, {"torus", 0.25}}) {
+    SCOPED_TRACE(name);
+    const InputPlc plc = make_solid(name, edge_length);
+    expect_agreement_of_all_strategies(plc);
+    expect_agreement_of_all_strategies(rotated(oblique, plc));
+  }
+}
+
+TEST(Agreement, CosphericalPrismsAndAntiprisms) {
+  for (const std::uint32_t corners : {3, 4, 5, 6, 8, 12, 32}) {
+    SCOPED_TRACE(corners);
+    for (const double turn : {0.0, -0.25, -0.5}) {
+      const InputPlc plc = twisted_prism(corners, turn);
+      expect_agreement(plc, Lattice::none);
+      expect_agreement(rotated(oblique, plc), Lattice::none);
+    }
+  }
+}
+
+TEST(Agreement, RandomVoxelsPlainRotatedAndInPerspective) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const int n = 2 + i % 3;
+    const InputPlc plc = random_voxels(n, 2 + i % 2, random);
+    const Matrix turn = random_rotation(random);
+    expect_agreement(plc, Lattice::none);
+    expect_agreement(rotated(turn, plc), Lattice::none);
+    expect_agreement(in_perspective(plc, n), Lattice::none);
+    expect_agreement(rotated(turn, in_perspective(plc, n)), Lattice::none);
+  }
+}
+
+TEST(Agreement, RandomVoxelsAreConstrainedDelaunayByBruteForce) {
+  std::mt19937 random(2);
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  for (unsigned i = 0; i < 6; ++i) {
+    SCOPED_TRACE(i);
+    expect_constrained_delaunay(mesh_plc(random_voxels(2, 2 + i % 2, random), options).mesh, i);
+  }
+}
+
+TEST(Agreement, RandomConvexAndRandomRoughSurfaces) {
+  std::mt19937 random(3);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    expect_agreement(random_convex(6 + i, random), Lattice::none);
+    const InputPlc rough = roughened(make_solid("sphere", i % 3 == 0 ? 0.35 : 0.7), i % 2 ? 0.6 : 0.2, random);
+    expect_agreement(rough, Lattice::none);
+    expect_agreement(rough, Lattice::bcc);
+  }
+}
+
+TEST(Agreement, RandomlyTwistedPrisms) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> turn(-0.95, 0.3), height(0.05, 3);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    SCOPED_TRACE(i);
+    const double t = turn(random), h = height(random);
+    expect_agreement(rotated(random_rotation(random), twisted_prism(3 + i % 6, t, h)), Lattice::none);
+  }
+}
+
+TEST(Agreement, ThinPlates) {
+  for (const double height : {0.1, 0.01, 0.001}) {
+    SCOPED_TRACE(height);
+    expect_agreement_of_all_strategies(gridded_plate(5, height));
+    expect_agreement_of_all_strategies(rotated(oblique, gridded_plate(5, height)));
+  }
+}
+
+/// Real surfaces, where there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
+std::filesystem::path folder_of_parts() {
+  const char* told = std::getenv("CCDT_PARTS");
+  return told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / "parts";
+}
+
+TEST(Agreement, SmallRealParts) {
+  if (!std::filesystem::is_directory(folder_of_parts())) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
+  for (const char* name : {"joint.off", "anchor.off", "rotor.off", "pinion.off", "handle.off", "cube-meshed.off"}) {
+    SCOPED_TRACE(name);
+    const InputPlc plc = read_plc(folder_of_parts() / name);
+    expect_agreement(plc, Lattice::none);
+    expect_agreement(plc, Lattice::fcc);
+  }
+}
+
+}  // namespace
+}  // namespace ccdt

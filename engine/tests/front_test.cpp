@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/front/advance_front.h"
+#include "engine/front/face_check.h"
+#include "engine/plc/build_plc.h"
+#include "engine/protection/protect_edges.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+using Cells = std::vector<std::array<std::uint32_t, 4>>;
+
+/// All that the front works on.
+struct Stages {
+  Plc plc;
+  Delaunay delaunay;
+  SegmentChains chains;
+  FacetMesh facets;
+  std::vector<std::uint32_t> codes;
+
+  explicit Stages(const InputPlc& input) : plc(build_plc(input)), delaunay(build_delaunay(plc.vertices)) {
+    chains = bare_chains(plc);
+    protect_edges(plc, grazeable_segments(plc), Protection::shell, delaunay, chains);
+    facets = triangulate_facets(plc, chains, delaunay);
+    codes = find_delaunay_faces(facets, delaunay);
+  }
+
+  std::size_t undelaunay() const { return std::count(codes.begin(), codes.end(), no_neighbor); }
+  FrontResult advance() const { return advance_front(plc, facets, codes, true, delaunay); }
+  /// Every face goes through the front.
+  FrontResult advance_all() const {
+    return advance_front(plc, facets, std::vector<std::uint32_t>(codes.size(), no_neighbor), false, delaunay);
+  }
+};
+
+Cells sorted(Cells cells) {
+  for (auto& cell : cells) std::sort(cell.begin(), cell.end());
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+/// A triangle and two points close above and below it. The segment between these two pierces the triangle and is a
+/// Delaunay edge.
+InputPlc flat_bipyramid() {
+  InputPlc plc;
+  plc.inside = InputPlc::Inside::seeds;
+  plc.vertices = {{4, 0, 0}, {-2, 3, 0}, {-2, -3, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const auto& [a, b] : {std::array{0u, 1u}, {1u, 2u}, {2u, 0u}}) {
+    plc.triangles.push_back({a, b, 3});
+    plc.triangles.push_back({b, a, 4});
+  }
+  return plc;
+}
+
+/// The same with the triangle as a facet.
+InputPlc divided_bipyramid() {
+  InputPlc plc = flat_bipyramid();
+  plc.triangles.push_back({0, 1, 2});
+  return plc;
+}
+
+TEST(Front, HasNothingToDoWhereAllFacesAreDelaunay) {
+  const Stages cube(unit_cube());
+  EXPECT_EQ(cube.undelaunay(), 0u);
+  const FrontResult result = cube.advance();
+  EXPECT_TRUE(result.tetrahedra.empty());
+  EXPECT_EQ(result.open.size(), 12u);  // one side of each face
+}
+
+TEST(Front, FillsATetrahedronWithItself) {
+  InputPlc input;
+  input.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  input.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const FrontResult result = Stages(input).advance_all();
+  EXPECT_EQ(sorted(result.tetrahedra), Cells({{0, 1, 2, 3}}));
+  EXPECT_TRUE(result.open.empty());
+}
+
+TEST(Front, BuildsTheDelaunayCellsWhereNoFacetIsInTheWay) {
+  const Stages bipyramid(flat_bipyramid());
+  EXPECT_EQ(bipyramid.undelaunay(), 0u);
+  EXPECT_TRUE(bipyramid.advance().tetrahedra.empty());
+  EXPECT_EQ(sorted(bipyramid.advance_all().tetrahedra), Cells({{0, 1, 3, 4}, {0, 2, 3, 4}, {1, 2, 3, 4}}));
+}
+
+TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {
+  const Stages bipyramid(divided_bipyramid());
+  EXPECT_EQ(bipyramid.undelaunay(), 1u);
+  EXPECT_EQ(bipyramid.delaunay.vertices.size(), 5u);
+  for (const FrontResult& result : {bipyramid.advance(), bipyramid.advance_all()}) {
+    EXPECT_EQ(sorted(result.tetrahedra), Cells({{0, 1, 2, 3}, {0, 1, 2, 4}}));
+    EXPECT_TRUE(result.open.empty());
+    ASSERT_EQ(result.chambers.size(), 2u);
+    EXPECT_NE(result.chambers[0], result.chambers[1]);  // the facet divides the domain
+  }
+}
+
+TEST(Front, IsNotHinderedByTheWayTheInputTurns) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    InputPlc input = rotated(random_rotation(random), divided_bipyramid());
+    std::shuffle(input.triangles.begin(), input.triangles.end(), random);
+    for (auto& t : input.triangles)
+      if (random() % 2) std::swap(t[0], t[1]);
+    EXPECT_EQ(sorted(Stages(input).advance().tetrahedra), Cells({{0, 1, 2, 3}, {0, 1, 2, 4}}));
+  }
+}
+
+TEST(Front, StopsAtDelaunayFacesAndLeavesTheRest) {
+  const Stages bars(two_bars());
+  EXPECT_GT(bars.undelaunay(), 0u);
+  const FrontResult result = bars.advance(), all = bars.advance_all();
+  EXPECT_GT(result.tetrahedra.size(), 0u);
+  EXPECT_LT(result.tetrahedra.size(), all.tetrahedra.size());
+  EXPECT_GT(result.open.size(), 0u);
+  EXPECT_TRUE(all.open.empty());
+  const Cells built = sorted(result.tetrahedra), everything = sorted(all.tetrahedra);
+  EXPECT_TRUE(std::includes(everything.begin(), everything.end(), built.begin(), built.end()));
+}
+
+TEST(Front, FillsTheWholeVolumeByItself) {
+  for (const InputPlc& input : {l_shape(), cube_with_cubic_hole(), two_bars(), cube_with_turnstile()}) {
+    const Stages stages(input);
+    double sixfold = 0;
+    for (const auto& [a, b, c, d] : stages.advance_all().tetrahedra) {
+      const Point3& origin = stages.delaunay.point(a);
+      sixfold += dot(cross(stages.delaunay.point(b) - origin, stages.delaunay.point(c) - origin),
+                     stages.delaunay.point(d) - origin);
+    }
+    const double unit = stages.plc.grid.unit;
+    EXPECT_NEAR(sixfold / 6 * unit * unit * unit, inside_volume(stages.plc), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace ccdt

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/mesher.h"
+
+namespace ccdt::mesh_test {
+
+/// The tetrahedra as sorted lists of sorted vertices.
+std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh);
+
+void expect_same_cells(const TetMesh& a, const TetMesh& b);
+
+/// The independent verification finds nothing wrong, and the mesh claims to be constrained Delaunay.
+void expect_verified(const InputPlc& input, const TetMesh& mesh);
+
+/// Meshes with one lattice, verifies, and expects the very same tetrahedra without the face protection check.
+///
+/// \return  the result with the check
+MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection protection = Protection::shell);
+
+/// The same with every lattice and both protections.
+void expect_agreement_of_all_strategies(const InputPlc& input);
+
+/// Brute force by CGAL's exact kernel: a vertex strictly inside the circumsphere of a tetrahedron is hidden by a facet
+/// from every point inside it that is tried (`seed` chooses them). Only for small meshes, of facets that are exactly
+/// flat.
+void expect_constrained_delaunay(const TetMesh& mesh, unsigned seed);
+
+}  // namespace ccdt::mesh_test

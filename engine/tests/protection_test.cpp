@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include "engine/base/errors.h"
+#include "engine/delaunay/cell_star.h"
+#include "engine/protection/protect_edges.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "models/solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+MeshResult bare_mesh(const InputPlc& input, Protection protection = Protection::shell) {
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  options.protection = protection;
+  return mesh_plc(input, options);
+}
+
+double distance_to_segment(const Point3& p, const Point3& a, const Point3& b) {
+  const Point3 along = b - a;
+  const double t = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
+  return std::sqrt(squared_length(p - (a + t * along)));
+}
+
+void expect_steiner_vertices_on_grazeable_segments(const InputPlc& input, const MeshResult& result) {
+  const Plc plc = build_plc(input);
+  for (std::size_t v = plc.vertices.size(); v < plc.vertices.size() + result.counts.steiner_vertices; ++v) {
+    double nearest = 1e300;
+    for (const Segment& s : plc.segments)
+      if (s.grazeable)
+        nearest =
+            std::min(nearest, distance_to_segment(result.mesh.vertices[v], plc.world[s.ends[0]], plc.world[s.ends[1]]));
+    EXPECT_LT(nearest, 1e-8);
+  }
+}
+
+/// Many reflex edges, some of them missing from the Delaunay tetrahedralization.
+std::vector<InputPlc> inputs_with_reflex_edges() {
+  std::mt19937 random(7);
+  std::vector<InputPlc> inputs = {plc_test::schoenhardt(), cube_with_floating_segment(), cube_with_turnstile(),
+                                  twisted_prism(6, 0.25), make_solid("bracket", 11)};
+  for (int i = 0; i < 6; ++i) inputs.push_back(random_voxels(3, 2, random));
+  for (int i = 0; i < 6; ++i) inputs.push_back(roughened(make_solid("sphere", 0.5), 0.2, random));
+  return inputs;
+}
+
+TEST(Protection, ConvexEdgesAreNeverSplit) {
+  const MeshResult bars = bare_mesh(two_bars());
+  EXPECT_GT(bars.counts.undelaunay_faces, 0u);  // the long edges are indeed no Delaunay edges
+  EXPECT_EQ(bars.counts.steiner_vertices, 0u);
+  std::size_t steiner_vertices = 0;
+  for (const Protection strategy : {Protection::shell, Protection::midpoint})
+    for (const InputPlc& input : inputs_with_reflex_edges()) {
+      const MeshResult result = bare_mesh(input, strategy);
+      expect_steiner_vertices_on_grazeable_segments(input, result);
+      steiner_vertices += result.counts.steiner_vertices;
+    }
+  EXPECT_GT(steiner_vertices, 50u);
+}
+
+TEST(Protection, ConvexPolyhedraNeedNoSteinerVertex) {
+  std::mt19937 random(8);
+  for (std::uint32_t i = 4; i < 40; ++i) EXPECT_EQ(bare_mesh(random_convex(i, random)).counts.steiner_vertices, 0u);
+}
+
+TEST(Protection, SchoenhardtPolyhedronNeedsThreeSteinerVerticesAtMidpoints) {
+  const MeshResult result = bare_mesh(plc_test::schoenhardt(), Protection::midpoint);
+  EXPECT_EQ(result.counts.steiner_vertices, 3u);  // one on each reflex edge
+}
+
+TEST(Protection, SchoenhardtPolyhedronNeedsAtMostFourSteinerVerticesOnShells) {
+  const MeshResult result = bare_mesh(plc_test::schoenhardt(), Protection::shell);
+  EXPECT_GE(result.counts.steiner_vertices, 1u);
+  EXPECT_LE(result.counts.steiner_vertices, 4u);
+}
+
+TEST(Protection, CubeWithGridsNeedsNoSteinerVertexPlainAndRotated) {
+  for (const InputPlc& cube : {gridded_cube(60), rotated(oblique, gridded_cube(60))}) {
+    const MeshResult result = bare_mesh(cube);
+    EXPECT_EQ(result.counts.steiner_vertices, 0u);
+    EXPECT_EQ(result.counts.vertices, 6u * 60 * 60 + 2);
+    expect_verified(cube, result.mesh);
+  }
+}
+
+TEST(Protection, SmallCubesWithGridsNeedNoSteinerVertexHoweverRotated) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    const InputPlc cube = rotated(random_rotation(random), gridded_cube(1 + i % 5));
+    EXPECT_EQ(expect_agreement(cube, Lattice::none).counts.steiner_vertices, 0u);
+  }
+}
+
+TEST(Protection, EveryGrazeableSegmentBecomesAChainOfDelaunayEdgesThatLieOnIt) {
+  for (const Protection strategy : {Protection::shell, Protection::midpoint})
+    for (const InputPlc& input : inputs_with_reflex_edges()) {
+      const Plc plc = build_plc(input);
+      Delaunay delaunay = build_delaunay(plc.vertices);
+      SegmentChains chains = bare_chains(plc);
+      const std::vector<bool> grazeable = grazeable_segments(plc);
+      const std::uint64_t added = protect_edges(plc, grazeable, strategy, delaunay, chains);
+      EXPECT_EQ(delaunay.vertices.size(), plc.vertices.size() + added);
+      CellStar star(delaunay);
+      for (std::size_t s = 0; s < chains.size(); ++s) {
+        const Point3 &a = plc.vertices[plc.segments[s].ends[0]], &b = plc.vertices[plc.segments[s].ends[1]];
+        EXPECT_EQ(chains[s].front().fraction, 0u);
+        EXPECT_EQ(chains[s].back().fraction, whole_segment);
+        if (!grazeable[s]) {
+          EXPECT_EQ(chains[s].size(), 2u);
+        }
+        for (std::size_t i = 0; i < chains[s].size(); ++i) {
+          const ChainVertex& v = chains[s][i];
+          EXPECT_EQ(delaunay.point(v.vertex), a + v.fraction * (1.0 / whole_segment * (b - a)));
+          if (i == 0) continue;
+          EXPECT_LT(chains[s][i - 1].fraction, v.fraction);
+          EXPECT_TRUE(!grazeable[s] || star.has_edge(chains[s][i - 1].vertex, v.vertex));
+        }
+      }
+    }
+}
+
+/// Slits like the pages of a book that is hardly open, in a cube.
+InputPlc cube_with_pages(int pages, double angle) {
+  InputPlc plc = seeded_cube();
+  plc.vertices.insert(plc.vertices.end(), {{0.5, 1.5, 1}, {0.5, 1.5, 2}});
+  for (int i = 0; i < pages; ++i) {
+    const auto tip = static_cast<std::uint32_t>(plc.vertices.size());
+    plc.vertices.push_back({0.5 + 2 * std::cos(i * angle), 1.5 + 2 * std::sin(i * angle), 1.0 + 0.3 * (i % 3)});
+    append_fan(plc, {8, tip, 9});
+  }
+  return plc;
+}
+
+TEST(Protection, ShellsTerminateWhereSegmentsMeetAtSmallAngles) {
+  for (const double angle : {0.1, 0.01, 0.001}) {
+    SCOPED_TRACE(angle);
+    const InputPlc book = cube_with_pages(5, angle);
+    EXPECT_GT(expect_agreement(book, Lattice::none).counts.steiner_vertices, 0u);
+    expect_agreement(rotated(oblique, book), Lattice::none);
+  }
+}
+
+TEST(Protection, MidpointsGiveUpWithTheSegmentWhereThePiecesWouldGetTooSmall) {
+  // Three vertices so close around a segment that it would have to be cut into pieces of 1e-8.
+  InputPlc input = seeded_cube();
+  input.vertices.insert(input.vertices.end(), {{1, 1.5, 1}, {2, 1.5, 1}});
+  for (const auto& [y, z] : {std::array{1e-8, 0.0}, {-5e-9, 9e-9}, {-5e-9, -9e-9}})
+    input.vertices.push_back({1.3, 1.5 + y, 1 + z});
+  input.segments = {{8, 9}};
+  try {
+    bare_mesh(input, Protection::midpoint);
+    FAIL() << "no error";
+  } catch (const LimitError& error) {
+    ASSERT_EQ(error.place().points.size(), 2u);
+    EXPECT_EQ(error.place().points[0], as_array(input.vertices[8]));
+    EXPECT_EQ(error.place().points[1], as_array(input.vertices[9]));
+    EXPECT_NE(error.remedy(), "");
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
