@@ -9,21 +9,29 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-Edge ascending(const Edge& e) {
-  return {std::min(e[0], e[1]), std::max(e[0], e[1])};
+/// Both ends of an edge in one number, whatever its direction.
+std::uint64_t key(const Edge& e) {
+  return (std::uint64_t{std::min(e[0], e[1])} << 32) | std::max(e[0], e[1]);
 }
 
 /// An edge of the mesh and something at it.
 struct At {
-  Edge edge;
+  std::uint64_t edge;  ///< its key
   std::uint32_t what;
+
   friend bool operator<(const At& a, const At& b) { return a.edge != b.edge ? a.edge < b.edge : a.what < b.what; }
 };
 
-std::span<const At> all_at(const std::vector<At>& sorted, const Edge& edge) {
-  const auto begin = std::lower_bound(sorted.begin(), sorted.end(), At{edge, 0});
-  const auto end = std::upper_bound(begin, sorted.end(), At{edge, none});
+std::span<const At> all_at(const std::vector<At>& sorted, std::uint64_t edge) {
+  const auto begin =
+      std::lower_bound(sorted.begin(), sorted.end(), edge, [](const At& a, std::uint64_t e) { return a.edge < e; });
+  auto end = begin;
+  while (end != sorted.end() && end->edge == edge) ++end;
   return {begin, end};
+}
+
+std::span<const At> all_at(const std::vector<At>& sorted, const Edge& edge) {
+  return all_at(sorted, key(edge));
 }
 
 /// The boundary of the mesh: faces with one tetrahedron, counterclockwise seen from outside.
@@ -42,8 +50,7 @@ Boundary find_boundary(const TetMesh& mesh, const Topology& topology) {
     boundary.faces.push_back(f);
     boundary.corners.push_back(v);
     for (int i = 0; i < 3; ++i)
-      boundary.at_edges.push_back(
-          {ascending({v[static_cast<std::size_t>(i)], v[static_cast<std::size_t>((i + 1) % 3)]}), n});
+      boundary.at_edges.push_back({key({v[static_cast<std::size_t>(i)], v[static_cast<std::size_t>((i + 1) % 3)]}), n});
   }
   std::sort(boundary.at_edges.begin(), boundary.at_edges.end());
   return boundary;
@@ -55,7 +62,7 @@ std::vector<At> find_walls(const Surface& surface, const Chains& chains, const s
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (joined[e]) continue;
     const auto chain = chains.of(e);
-    for (std::size_t k = 1; k < chain.size(); ++k) walls.push_back({ascending({chain[k - 1], chain[k]}), e});
+    for (std::size_t k = 1; k < chain.size(); ++k) walls.push_back({key({chain[k - 1], chain[k]}), e});
   }
   std::sort(walls.begin(), walls.end());
   return walls;
@@ -69,7 +76,7 @@ std::vector<bool> find_joined(const Surface& surface, const Chains& chains, cons
     const auto chain = chains.of(e);
     joined[e] = chain.empty();
     for (std::size_t k = 1; k < chain.size() && !joined[e]; ++k)
-      joined[e] = all_at(boundary.at_edges, ascending({chain[k - 1], chain[k]})).empty();
+      joined[e] = all_at(boundary.at_edges, {chain[k - 1], chain[k]}).empty();
   }
   return joined;
 }
@@ -116,8 +123,7 @@ Part make_part(const Boundary& boundary, const std::vector<std::uint32_t>& membe
     const auto& v = boundary.corners[n];
     part.faces.push_back(v);
     for (const Edge& e : {Edge{v[0], v[1]}, Edge{v[1], v[2]}, Edge{v[2], v[0]}})
-      if (all_at(boundary.at_edges, ascending(e)).size() != 2 || !all_at(walls, ascending(e)).empty())
-        part.links.push_back(e);
+      if (all_at(boundary.at_edges, e).size() != 2 || !all_at(walls, e).empty()) part.links.push_back(e);
   }
   std::sort(part.links.begin(), part.links.end());
   return part;
@@ -128,7 +134,7 @@ std::vector<std::uint32_t> candidates(const Surface& surface, const Patches& pat
                                       const Part& part) {
   std::vector<std::uint32_t> result;
   if (part.links.empty()) return result;
-  for (const At& wall : all_at(walls, ascending(part.links[0])))
+  for (const At& wall : all_at(walls, part.links[0]))
     for (std::uint32_t i = surface.use_begin[wall.what]; i < surface.use_begin[wall.what + 1]; ++i)
       result.push_back(patches.of_piece[surface.piece_of[surface.uses[i]]]);
   std::sort(result.begin(), result.end());

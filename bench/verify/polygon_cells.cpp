@@ -118,6 +118,26 @@ std::size_t smallest_around(const Drawing& drawing, const std::vector<std::vecto
 
 }  // namespace
 
+DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected, std::span<const Point3> position) {
+  const Drawing drawing = draw(normal, position);
+  DrawnLoops drawn;
+  auto& [loops, areas, cells] = drawn;
+  loops = trace_loops(drawing, undirected);
+  double largest = 0;
+  for (const auto& loop : loops) areas.push_back(area(drawing, loop));
+  for (const double a : areas) largest = std::max(largest, std::fabs(a));
+  for (double& a : areas)
+    if (std::fabs(a) < 1e-14 * largest) a = 0;  // a walk around edges that enclose nothing
+  cells = loops;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (areas[i] > 0) continue;
+    const std::size_t around = smallest_around(drawing, loops, areas, drawing.at(loops[i][0][0]),
+                                               [&](std::size_t j) { return share_a_vertex(loops[i], loops[j]); });
+    if (around < loops.size()) cells[around].insert(cells[around].end(), loops[i].begin(), loops[i].end());
+  }
+  return drawn;
+}
+
 PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
                                 std::span<const Point3> position) {
   PolygonCells result;
@@ -135,20 +155,7 @@ PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::
     for (const auto& [a, b] : polygon) undirected.insert({std::min(a, b), std::max(a, b)});
   }
   const Drawing drawing = draw(normal, position);
-  std::vector<std::vector<Edge>> loops = trace_loops(drawing, undirected);
-  std::vector<double> areas;
-  double largest = 0;
-  for (const auto& loop : loops) areas.push_back(area(drawing, loop));
-  for (const double a : areas) largest = std::max(largest, std::fabs(a));
-  for (double& a : areas)
-    if (std::fabs(a) < 1e-14 * largest) a = 0;  // a walk around edges that enclose nothing
-  std::vector<Cell> cells = loops;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (areas[i] > 0) continue;
-    const std::size_t around = smallest_around(drawing, loops, areas, drawing.at(loops[i][0][0]),
-                                               [&](std::size_t j) { return share_a_vertex(loops[i], loops[j]); });
-    if (around < loops.size()) cells[around].insert(cells[around].end(), loops[i].begin(), loops[i].end());
-  }
+  const auto [loops, areas, cells] = trace_drawing(normal, undirected, position);
   std::vector<bool> dropped(loops.size(), false);
   for (const Point3& hole : facet.holes) {
     const std::size_t around =

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <span>
+
 #include "bench/verify/sites.h"
 
 namespace ccdt::verification {
@@ -41,6 +44,16 @@ struct Surface {
   /// Does the directed edge run from the smaller site to the larger?
   bool is_forward(std::uint32_t use) const { return directed[use][0] < directed[use][1]; }
 };
+
+/// Finds what follows from the directed edges of the pieces: edges and areas.
+void index_surface(Surface& surface);
+
+/// Splits the directed edges at the sites that `within` gives for an edge, from the edge's first end to its second.
+void split_directed(const std::function<std::vector<std::uint32_t>(std::uint32_t edge)>& within, Surface& surface);
+
+/// The sites strictly within an edge out of some, in the order from its first end to its second.
+std::vector<std::uint32_t> select_within(const Surface& surface, const std::array<std::uint32_t, 2>& edge,
+                                         std::span<const std::uint32_t> sites);
 
 Surface find_surface(const InputPlc& input, Sites sites, const Tolerances& tolerances);
 

@@ -8,6 +8,7 @@
 #include "bench/verify/check_delaunay.h"
 #include "bench/verify/check_domain.h"
 #include "bench/verify/check_facets.h"
+#include "bench/verify/embed_lines.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
@@ -42,7 +43,8 @@ void check_against_input(const InputPlc& input, const TetMesh& mesh, const Topol
                          const VerifyOptions& options, const Progress& progress, Verification& result) {
   const Tolerances tolerances = find_tolerances(input, options.flatness);
   report(progress, "verify facets", 0, 0);
-  const Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances.place), tolerances);
+  Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances.place), tolerances);
+  embed_lines(surface);
   const std::vector<bool> features = find_features(surface);
   const Chains edges = find_chains(mesh, topology, surface, surface.edges);
   const Chains segments = find_chains(mesh, topology, surface, surface.segments);

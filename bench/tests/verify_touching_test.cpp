@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/tests/verify_cases.h"
+#include "bench/verify/verify.h"
+#include "engine/mesher.h"
+
+namespace ccdt {
+namespace {
+
+/// The cube [0, 3]^3: six polygons, or twelve triangles.
+InputPlc big_cube(bool triangles) {
+  InputPlc input = unit_cube();
+  input.inside = InputPlc::Inside::seeds;
+  for (Point3& p : input.vertices) p = 3 * p;
+  if (!triangles) return input;
+  for (const PolygonFacet& facet : input.polygon_facets) {
+    const auto& q = facet.polygons[0];
+    input.triangles.push_back({q[0], q[1], q[2]});
+    input.triangles.push_back({q[0], q[2], q[3]});
+  }
+  input.polygon_facets.clear();
+  return input;
+}
+
+void add_quadrilateral(InputPlc& input, const std::vector<Point3>& corners, bool triangles) {
+  std::vector<std::uint32_t> q;
+  for (const Point3& p : corners) {
+    const auto found = std::find(input.vertices.begin(), input.vertices.end(), p);
+    q.push_back(static_cast<std::uint32_t>(found - input.vertices.begin()));
+    if (found == input.vertices.end()) input.vertices.push_back(p);
+  }
+  if (triangles) {
+    input.triangles.push_back({q[0], q[1], q[2]});
+    input.triangles.push_back({q[0], q[2], q[3]});
+  } else {
+    input.polygon_facets.push_back({{q}, {}, 0, static_cast<std::uint32_t>(input.facet_count())});
+  }
+}
+
+/// Without vertices that only lattices need.
+MeshedInput mesh_with_engine(const InputPlc& input) {
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  return {input, mesh_plc(input, options).mesh};
+}
+
+/// The grid's own mesh of the cube, with another input.
+MeshedInput on_grid(const InputPlc& input) {
+  return {input, make_grid_mesh({3, 3, 3}, everywhere, false, unmoved).mesh};
+}
+
+using Foot = std::array<Point3, 2>;
+
+InputPlc cube_with_wall(const Foot& foot, const Point3& up, bool triangles) {
+  InputPlc input = big_cube(triangles);
+  add_quadrilateral(input, {foot[0], foot[1], foot[1] + up, foot[0] + up}, triangles);
+  return input;
+}
+
+TEST(VerifyTouching, AWallMayStandInTheMiddleOfAFacet) {
+  const std::vector<Foot> feet = {
+      {{{1, 1, 0}, {2, 1, 0}}},     // from the input's diagonal
+      {{{1, 1, 0}, {2, 2, 0}}},     // along a part of it
+      {{{0, 0, 0}, {2, 1, 0}}},     // from a corner
+      {{{.5, 2, 0}, {.75, 1, 0}}},  // on one side of the diagonal
+  };
+  for (const Foot& foot : feet)
+    for (const bool triangles : {false, true})
+      for (const Point3& up : {Point3{0, 0, 2}, Point3{0, 0.25, 2}}) {
+        const InputPlc input = cube_with_wall(foot, up, triangles);
+        expect_ok(mesh_with_engine(input));
+        expect_failure({input, mesh_with_engine(big_cube(triangles)).mesh}, "input facets");
+      }
+}
+
+/// The cube whose bottom has a line, meshed, but with the input where the line is not drawn.
+MeshedInput forget_line(const InputPlc& input, const Foot& foot) {
+  InputPlc drawn = input;
+  auto& polygons = drawn.polygon_facets[0].polygons;
+  std::vector<std::uint32_t> line;
+  for (const Point3& end : foot) {
+    line.push_back(static_cast<std::uint32_t>(std::find(drawn.vertices.begin(), drawn.vertices.end(), end) -
+                                              drawn.vertices.begin()));
+    if (end.x == 0) polygons[0].insert(polygons[0].begin() + 1, line.back());
+  }
+  polygons.push_back(line);
+  return {input, mesh_with_engine(drawn).mesh};
+}
+
+TEST(VerifyTouching, AFootMayCrossTheDiagonalsOfTheInput) {
+  const std::vector<Foot> feet = {
+      {{{1, 2, 0}, {2, 1, 0}}},
+      {{{0, 1, 0}, {2, 1, 0}}},  // from an edge
+      {{{0, 3, 0}, {3, 0, 0}}},  // from corner to corner
+  };
+  for (const Foot& foot : feet) {
+    const Point3 up{0, 0, 0.5};
+    const MeshedInput m = forget_line(cube_with_wall(foot, up, false), foot);
+    expect_ok(m);
+    expect_ok({cube_with_wall(foot, up, true), m.mesh});
+  }
+}
+
+TEST(VerifyTouching, AFootThatTheMeshDoesNotHaveIsFound) {
+  for (const bool triangles : {false, true}) {
+    InputPlc input = big_cube(triangles);
+    add_quadrilateral(input, {{1, 1, 0}, {2, 1, 0}, {2, 1, 2}, {1, 1, 2}}, triangles);
+    expect_ok(on_grid(input));
+    input = big_cube(triangles);
+    add_quadrilateral(input, {{1, 2, 0}, {2, 1, 0}, {2, 1, 2}, {1, 2, 2}}, triangles);  // the grid's other diagonal
+    expect_failure(on_grid(input), "input facets");
+    expect_failure(on_grid(input), "input segments");
+  }
+}
+
+TEST(VerifyTouching, TwoWallsMayStandOnOneFoot) {
+  for (const bool triangles : {false, true}) {
+    InputPlc input = big_cube(triangles);
+    add_quadrilateral(input, {{1, 1, 0}, {2, 1, 0}, {2, 1, 1}, {1, 1, 1}}, triangles);
+    add_quadrilateral(input, {{1, 1, 0}, {2, 1, 0}, {2, 2, 1}, {1, 2, 1}}, triangles);
+    expect_ok(on_grid(input));
+    expect_ok(mesh_with_engine(input));
+  }
+}
+
+TEST(VerifyTouching, AWallWhoseLinesAreNotDrawnDividesTheDomain) {
+  for (const bool triangles : {false, true}) {
+    InputPlc input = big_cube(triangles);
+    add_quadrilateral(input, {{1, 0, 0}, {1, 3, 0}, {1, 3, 3}, {1, 0, 3}}, triangles);
+    input.regions = {{{0.3, 0.4, 0.6}, 1, 0}, {{2.3, 0.4, 0.6}, 2, 0}};
+    MeshedInput m = on_grid(input);
+    m.mesh.regions.clear();
+    for (const auto& tet : m.mesh.tetrahedra) {
+      double x = 0;
+      for (const std::uint32_t v : tet) x += m.mesh.vertices[v].x / 4;
+      m.mesh.regions.push_back(x < 1 ? 1 : 2);
+    }
+    expect_ok(m);
+    m.mesh.regions[7] = 3 - m.mesh.regions[7];
+    expect_failure(m, "regions");
+  }
+}
+
+/// A box on the bottom of the cube, without a bottom of its own.
+InputPlc cube_with_bell(bool triangles) {
+  InputPlc input = big_cube(triangles);
+  const std::vector<Point3> ring = {{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
+  const Point3 up{0, 0, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Point3 a = ring[i], b = ring[(i + 1) % 4];
+    add_quadrilateral(input, {a, b, b + up, a + up}, triangles);
+  }
+  add_quadrilateral(input, {ring[0] + up, ring[1] + up, ring[2] + up, ring[3] + up}, triangles);
+  return input;
+}
+
+TEST(VerifyTouching, ABoxMayUseAPartOfAFacetAsItsBottom) {
+  for (const bool triangles : {false, true}) {
+    InputPlc input = cube_with_bell(triangles);
+    input.regions = {{{0.3, 0.4, 0.6}, 1, 0}, {{1.3, 1.4, 0.6}, 2, 0}};
+    MeshedInput m = mesh_with_engine(input);
+    expect_ok(m);
+    for (int& r : m.mesh.regions) r = 1;
+    expect_failure(m, "regions");
+    m = on_grid(input);
+    expect_failure(m, "regions");
+    input.regions.clear();
+    expect_ok({input, m.mesh});
+
+    input.holes = {{1.3, 1.4, 0.6}};
+    expect_failure({input, m.mesh}, "holes");
+    expect_failure({input, m.mesh}, "input facets");
+    m = mesh_with_engine(input);
+    expect_ok(m);
+    EXPECT_NEAR(verify(m.input, m.mesh).input_volume, 26, 1e-12);
+  }
+}
+
+TEST(VerifyTouching, AVertexMayTouchAFacetOrAnEdge) {
+  for (const Point3& tip : {Point3{1, 1, 0}, Point3{2, 1, 0}, Point3{1, 0, 0}, Point3{1, 0, 1}})
+    for (const bool triangles : {false, true}) {
+      InputPlc input = big_cube(triangles);
+      const auto n = static_cast<std::uint32_t>(input.vertices.size());
+      input.vertices.insert(input.vertices.end(), {tip, {1, 1, 1}, {2, 2, 2}});
+      input.triangles.push_back({n, n + 1, n + 2});
+      expect_ok(mesh_with_engine(input));
+    }
+}
+
+}  // namespace
+}  // namespace ccdt
