@@ -1,0 +1,162 @@
+#include <cstring>
+
+#include "engine/io/write_plc.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "tools/tests/program.h"
+
+// From a file to a mesh that is verified, and from a bad file to one message, through the program alone.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+class WholeRun : public Program {
+ protected:
+  void expect_meshed_and_verified(const std::string& file, const std::string& options, const std::string& output) {
+    SCOPED_TRACE(file + " " + options + " " + output);
+    const Outcome mesh = run("mesh " + file + " -o " + output + " " + options);
+    ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
+    EXPECT_EQ(mesh.err, "");
+    const Outcome verify = run("verify " + file + " " + output);
+    EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+  }
+
+  void expect_verified_plain_and_rotated(const InputPlc& plc, const std::string& ending) {
+    write_plc(plc, work() / ("plain" + ending));
+    write_plc(rotated(oblique, plc), work() / ("rotated" + ending));
+    for (const std::string name : {"plain", "rotated"})
+      for (const std::string lattice : {"none", "fcc", "bcc", "sc"})
+        expect_meshed_and_verified(name + ending, "--lattice " + lattice, "mesh.vtu");
+  }
+
+  /// Exit code 3, one message that names the file and all of `words`, and nothing written.
+  void expect_refused(const std::string& file, const std::vector<std::string>& words) {
+    SCOPED_TRACE(file);
+    const std::size_t before = file_count();
+    const Outcome outcome = run("mesh " + file + " -o out.vtu");
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("ccdt: " + file, 0), 0u) << outcome.err;
+    EXPECT_EQ(outcome.err.find("ccdt:", 1), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("\n  "), std::string::npos) << "no remedy: " << outcome.err;
+    for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << word << outcome.err;
+    EXPECT_EQ(file_count(), before);
+  }
+
+  void expect_surface_refused(const InputPlc& plc, const std::vector<std::string>& words) {
+    write_plc(plc, work() / "surface.off");
+    expect_refused("surface.off", words);
+  }
+};
+
+TEST_F(WholeRun, SurfacesOfEveryFormat) {
+  const InputPlc surface = cube_with_cubic_hole();
+  for (const std::string ending : {".off", ".obj", ".ply", ".stl"}) {
+    write_plc(surface, work() / ("part" + ending));
+    for (const std::string output : {"mesh.vtu", "mesh.mesh", "mesh.msh", "mesh.node"})
+      expect_meshed_and_verified("part" + ending, "--lattice none", output);
+  }
+}
+
+TEST_F(WholeRun, Surfaces) {
+  for (const InputPlc& plc : {plc_test::schoenhardt(), cube_with_cubic_hole(), two_cubes_as_surface(), two_bars()})
+    expect_verified_plain_and_rotated(plc, ".off");
+}
+
+TEST_F(WholeRun, ComplexesWithRegionsSlitsAndDanglingParts) {
+  for (const InputPlc& plc : {two_cubes(), cube_within_cube(), cube_with_slit(), cube_with_dangling_facet(),
+                              cube_with_dangling_segment(), cube_with_turnstile()})
+    expect_verified_plain_and_rotated(plc, ".poly");
+}
+
+TEST_F(WholeRun, CubeWithAFineGridPlainAndRotatedNeedsNoSteinerVertex) {
+  for (const InputPlc& plc : {gridded_cube(60), rotated(oblique, gridded_cube(60))}) {
+    write_plc(plc, work() / "cube.off");
+    expect_meshed_and_verified("cube.off", "--lattice none --report report.json", "mesh.vtu");
+    EXPECT_NE(text_of(work() / "report.json").find("\"steiner_vertices\": 0,"), std::string::npos);
+  }
+}
+
+TEST_F(WholeRun, ModelsOfTheProgramItself) {
+  for (const std::string name : {"piston", "bracket", "stepping-pole"}) {
+    const std::string file = name == "bracket" ? "model.poly" : "model.off";
+    ASSERT_EQ(run("model " + name + " --edge-length 8 -o " + file).exit_code, 0);
+    for (const std::string lattice : {"none", "fcc", "bcc", "sc"})
+      expect_meshed_and_verified(file, "--lattice " + lattice, "mesh.vtu");
+    expect_meshed_and_verified(file, "--face-protection off", "mesh.vtu");
+  }
+}
+
+TEST_F(WholeRun, OpenSurfaceIsRefusedWithItsBoundary) {
+  InputPlc cube = unit_cube();
+  cube.triangles.pop_back();
+  expect_surface_refused(cube, {"1 boundary loop, of 3 edges", "(1, 0, 0)"});
+}
+
+TEST_F(WholeRun, SelfIntersectingSurfaceIsRefusedWithBothFacets) {
+  InputPlc pierced = box({0, 0, 0}, {4, 4, 4});
+  const auto tip = static_cast<std::uint32_t>(pierced.vertices.size());
+  pierced.vertices.insert(pierced.vertices.end(), {{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1.5, 1.25, 5}});
+  const std::uint32_t corner[4] = {tip, tip + 1, tip + 2, tip + 3};
+  for (const auto& t : {Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+    pierced.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
+  // The top is of the facets 2 and 3, and the sides of the tetrahedron, 13 to 15, go through it.
+  write_plc(pierced, work() / "surface.off");
+  expect_refused("surface.off", {"cross", "facets 2, 13"});
+}
+
+TEST_F(WholeRun, FacetsThatCoverEachOtherAreRefusedWithTheirPlace) {
+  InputPlc doubled = unit_cube();
+  append(doubled, box({0.25, 0.25, 1}, {0.75, 0.75, 2}));  // stands on the top, which goes on below it
+  expect_surface_refused(doubled, {"cover", "facets", "1)"});
+}
+
+TEST_F(WholeRun, BrokenFilesAreRefused) {
+  write("empty.off", "");
+  expect_refused("empty.off", {});
+  write("nan.off", "OFF\n4 4 0\n0 0 0\n1 nan 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  expect_refused("nan.off", {":4"});
+  std::filesystem::create_directory(work() / "folder.stl");
+  expect_refused("folder.stl", {"director"});
+  write_plc(unit_cube(), work() / "cube.stl");
+  const std::string whole = text_of(work() / "cube.stl");
+  for (const std::size_t size : {std::size_t{90}, whole.size() / 2, whole.size() - 1}) {
+    write("truncated.stl", whole.substr(0, size));
+    expect_refused("truncated.stl", {});
+  }
+}
+
+TEST_F(WholeRun, HeadersThatClaimGigabytesAreRefused) {
+  std::string stl(84 + 50, '\0');
+  const std::uint32_t claimed = 2147483648u / 50;
+  std::memcpy(stl.data() + 80, &claimed, sizeof claimed);
+  write("claims.stl", stl);
+  expect_refused("claims.stl", {});
+  write("claims.off", "OFF\n89478485 178956970 0\n0 0 0\n");
+  expect_refused("claims.off", {});
+  write("claims.poly", "89478485 3 0 0\n1 0 0 0\n");
+  expect_refused("claims.poly", {});
+  write("claims.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n89478485\n0 0 0 0\n");
+  expect_refused("claims.mesh", {});
+  write("claims.ply",
+        "ply\nformat binary_little_endian 1.0\nelement vertex 178956970\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 178956970\nproperty list uchar int vertex_indices\nend_header\nabcd");
+  expect_refused("claims.ply", {});
+}
+
+TEST_F(WholeRun, SegmentThatCannotBeProtectedExitsWithFour) {
+  InputPlc input = seeded_cube();
+  input.vertices.insert(input.vertices.end(), {{1, 1.5, 1}, {2, 1.5, 1}});
+  for (const auto& [y, z] : {std::array{1e-8, 0.0}, {-5e-9, 9e-9}, {-5e-9, -9e-9}})
+    input.vertices.push_back({1.3, 1.5 + y, 1 + z});
+  input.segments = {{8, 9}};
+  write_plc(input, work() / "segment.poly");
+  const Outcome outcome = run("mesh segment.poly -o out.vtu --protection midpoint");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("(1, 1.5, 1)"), std::string::npos) << outcome.err;
+  EXPECT_EQ(file_count(), 1u);
+}
+
+}  // namespace
+}  // namespace ccdt
