@@ -189,8 +189,8 @@ TEST(Insertion, FillsCavitiesOfManyVertices) {
 
 /// The same with the ghost among the vertices of the border: a point so far out that it sees half of the sphere.
 TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
-  const auto sphere = points_on_sphere(900);
-  for (const std::size_t n : {100, 200, 300, 400, 500, 900}) {
+  const auto sphere = points_on_sphere(500);
+  for (const std::size_t n : {100, 200, 300, 500}) {
     auto points = shuffled(sphere, n);
     points.resize(n);
     Delaunay d = build_delaunay(points);
@@ -198,8 +198,8 @@ TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
     ASSERT_TRUE(insertion.dig(add_vertex(d, {1000003, 1000, 10}), first_living_cell(d)));
     const auto border = cavity_vertices(insertion);
     EXPECT_TRUE(border.contains(ghost_vertex));
-    if (n == 900) {
-      EXPECT_GT(border.size(), 300u);
+    if (n == 500) {
+      EXPECT_GT(border.size(), 200u);
     }
     insertion.fill();
     EXPECT_TRUE(is_consistent(d)) << n;
