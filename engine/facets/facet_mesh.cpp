@@ -32,8 +32,11 @@ class FacetMesher {
                                           const std::vector<FacetSegment>& segments) const;
   FacetPlane flatten(const Facet& facet, const std::vector<FacetSegment>& segments);
   void take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t);
-  bool is_flat_cell(std::uint32_t cell) const;
-  std::uint32_t cell_on_domain_side(const Facet& facet, const Triangle& triangle);
+  std::vector<PlanarEdge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices);
+  bool is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const;
+  bool is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const;
+  std::uint32_t cell_on_domain_side(const Triangle& triangle);
 
   const Plc& plc_;
   const SegmentChains& chains_;
@@ -43,6 +46,7 @@ class FacetMesher {
   std::vector<Point3> flattened_;        // by vertex, of the facet at hand
   std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
   std::uint32_t here_ = 0;
+  int domain_side_ = 1;  // of the facet at hand, +1: above
 };
 
 FacetMesher::FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
@@ -141,22 +145,72 @@ PlanarTriangulation FacetMesher::split_triangulation(const Facet& facet, const F
   return t;
 }
 
-bool FacetMesher::is_flat_cell(std::uint32_t cell) const {
+/// Are the three vertices on one line, up to the tolerance? So are vertices along an edge of a rotated part.
+bool FacetMesher::is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  const Point3 u = d_.point(b) - d_.point(a), v = d_.point(c) - d_.point(a), w = d_.point(c) - d_.point(b);
+  const double longest = std::max({squared_length(u), squared_length(v), squared_length(w)});
+  return squared_length(cross(u, v)) < 1e-12 * longest * longest;
+}
+
+/// Has the cell all vertices in the facet at hand, and may it be left out? Not if it is all that joins the middle one
+/// of three vertices along the border of the facet, which sticks out a little, to the domain.
+bool FacetMesher::is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
   const auto& v = d_.cells[cell].vertices;
-  return std::all_of(v.begin(), v.end(), [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; });
+  if (std::any_of(v.begin(), v.end(), [&](std::uint32_t u) { return u == ghost_vertex || in_facet_[u] != here_; }))
+    return false;
+  for (const auto& corner : face_corners) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t middle = v[corner[i]], a = v[corner[(i + 1) % 3]], b = v[corner[(i + 2) % 3]];
+      if (!is_chain(a, middle, b) || dot(d_.point(a) - d_.point(middle), d_.point(b) - d_.point(middle)) > 0) continue;
+      const std::uint32_t apex = v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b ^ middle;
+      const int turn = plane.orient(VertexId(a), VertexId(middle), VertexId(apex));
+      return turn * domain_side_ * orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) <= 0;
+    }
+  }
+  return true;
+}
+
+/// Has the cell all vertices in the facet at hand, but may not be left out?
+bool FacetMesher::is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const {
+  const auto& v = d_.cells[cell].vertices;
+  const auto in_facet = [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; };
+  return std::all_of(v.begin(), v.end(), in_facet) && !is_flat_cell(cell, plane);
 }
 
 /// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
-std::uint32_t FacetMesher::cell_on_domain_side(const Facet& facet, const Triangle& triangle) {
+std::uint32_t FacetMesher::cell_on_domain_side(const Triangle& triangle) {
   const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
   if (code == no_neighbor) return no_neighbor;
   const std::uint32_t cell = cell_of(code);
-  return plc_.chambers[facet.above].inside ? cell : cell_of(d_.cells[cell].neighbors[face_of(code)]);
+  return domain_side_ > 0 ? cell : cell_of(d_.cells[cell].neighbors[face_of(code)]);
+}
+
+/// The edges of the Delaunay faces of the facet that have no flat cell towards the domain.
+std::vector<PlanarEdge> FacetMesher::edges_towards_domain(const FacetPlane& plane,
+                                                          const std::vector<VertexId>& vertices) {
+  std::vector<PlanarEdge> edges;
+  for (const VertexId v : vertices) {
+    for (const std::uint32_t c : star_.around(v)) {
+      if (d_.is_ghost(c) || is_flat_cell(c, plane)) continue;
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const auto& corner = face_corners[f];
+        Triangle face;
+        for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
+        if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
+        if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
+        if (plane.orient(face[0], face[1], face[2]) != domain_side_ || is_chain(face[0], face[1], face[2])) continue;
+        if (is_kept_cell(cell_of(d_.cells[c].neighbors[f]), plane)) continue;
+        for (int i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
+      }
+    }
+  }
+  return edges;
 }
 
 /// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
 void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
   ++here_;
+  domain_side_ = plc_.chambers[facet.above].inside ? 1 : -1;
   std::vector<VertexId> vertices;
   for (const Triangle& triangle : t.triangles) {
     for (const VertexId v : triangle) {
@@ -165,33 +219,17 @@ void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane
     }
   }
   const auto is_right = [&](const Triangle& triangle) {
-    const std::uint32_t cell = cell_on_domain_side(facet, triangle);
-    return cell != no_neighbor && !is_flat_cell(cell);
+    const std::uint32_t cell = cell_on_domain_side(triangle);
+    return cell != no_neighbor && !is_flat_cell(cell, plane);
   };
   if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
-  const int domain_side = plc_.chambers[facet.above].inside ? 1 : -1;
-  std::vector<PlanarEdge> forced;
-  for (const VertexId v : vertices) {
-    for (const std::uint32_t c : star_.around(v)) {
-      if (d_.is_ghost(c) || is_flat_cell(c)) continue;
-      for (std::uint32_t f = 0; f < 4; ++f) {
-        const auto& corner = face_corners[f];
-        Triangle face;
-        for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
-        if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
-        if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
-        if (plane.orient(face[0], face[1], face[2]) != domain_side) continue;
-        for (int i = 0; i < 3; ++i) forced.push_back({face[i], face[(i + 1) % 3]});
-      }
-    }
-  }
-  for (const PlanarEdge& edge : forced) {
+  for (const PlanarEdge& edge : edges_towards_domain(plane, vertices)) {
     const auto side = planar_find_edge(t, edge[0], edge[1]);
     if (!side || !t.constrained[side->triangle][side->corner]) planar_insert_constraint(t, edge[0], edge[1], plane);
   }
   // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
   const bool on_both_sides = plc_.chambers[facet.above].inside && plc_.chambers[facet.below].inside;
-  if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side));
+  if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side_));
 }
 
 void FacetMesher::triangulate(FacetId id, FacetMesh& result) {

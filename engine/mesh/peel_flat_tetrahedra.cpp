@@ -105,6 +105,13 @@ void Peeler::peel() {
   std::vector<std::size_t> flat;
   for (std::size_t i = 0; i < mesh_.tetrahedra.size(); ++i)
     if (lies_within_facet(mesh_.tetrahedra[i])) flat.push_back(i);
+  // In an order that does not depend on how the tetrahedra were found.
+  const auto corners = [&](std::size_t i) {
+    std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  std::sort(flat.begin(), flat.end(), [&](std::size_t i, std::size_t j) { return corners(i) < corners(j); });
   std::vector<bool> gone(mesh_.tetrahedra.size(), false);
   for (bool changed = true; changed;) {
     changed = false;
