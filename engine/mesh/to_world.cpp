@@ -37,6 +37,14 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
   return is_positive_exactly({&world[t[0]], &world[t[1]], &world[t[2]], &world[t[3]]});
 }
 
+[[noreturn]] void refuse_rounding(const Plc& plc, const std::vector<Point3>& world, const Tetrahedron& t) {
+  Place place;
+  place.file = plc.name;
+  for (const std::uint32_t v : t) place.points.push_back(as_array(world[v]));
+  throw MeshError("a tetrahedron is so thin that the rounding of its coordinates inverts it", place,
+                  "move the part near to the origin, where coordinates are finer");
+}
+
 }  // namespace
 
 std::vector<Point3> to_world(const Plc& plc, const std::vector<DelaunayVertex>& vertices,
@@ -44,29 +52,24 @@ std::vector<Point3> to_world(const Plc& plc, const std::vector<DelaunayVertex>& 
   std::vector<Point3> world(vertices.size());
   for (std::size_t v = 0; v < world.size(); ++v)
     world[v] = v < plc.world.size() ? plc.world[v] : plc.grid.to_world(vertices[v].point);
-  // A vertex that goes back to the grid may invert a tetrahedron of another: look again until all are right.
+  // A vertex that goes back to the grid may invert a tetrahedron of another: look again until all are right. All
+  // inverted ones are found before any vertex moves, so that their order does not matter.
   std::vector<bool> on_grid(plc.world.size(), false);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Tetrahedron& t : tetrahedra) {
-      if (is_positive(world, t)) continue;
-      bool moved = false;
+  while (true) {
+    std::vector<Tetrahedron> inverted;
+    for (const Tetrahedron& t : tetrahedra)
+      if (!is_positive(world, t)) inverted.push_back(t);
+    if (inverted.empty()) return world;
+    bool moved = false;
+    for (const Tetrahedron& t : inverted) {
       for (const std::uint32_t v : t) {
         if (v >= on_grid.size() || on_grid[v]) continue;
         on_grid[v] = moved = true;
         world[v] = plc.grid.to_world(vertices[v].point);
       }
-      if (!moved) {
-        Place place;
-        place.file = plc.name;
-        for (const std::uint32_t v : t) place.points.push_back(as_array(world[v]));
-        throw MeshError("a tetrahedron is so thin that the rounding of its coordinates inverts it", place,
-                        "move the part near to the origin, where coordinates are finer");
-      }
-      changed = true;
     }
+    if (!moved) refuse_rounding(plc, world, inverted.front());
   }
-  return world;
 }
 
 }  // namespace ccdt
