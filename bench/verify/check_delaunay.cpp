@@ -10,9 +10,13 @@ namespace ccdt::verification {
 
 namespace {
 
-/// Value of the in-sphere determinant, and a bound on how much it changes when every coordinate moves by one unit.
+/// Value of the in-sphere determinant, and bounds on how much it changes when every coordinate moves: to first order by
+/// `change` times the move, to second order by `bend` times its square. Between five points that are almost in one
+/// plane and almost on one circle the second is the larger.
 struct Sensitivity {
-  double value, change;
+  double value, change, bend;
+
+  double explained_by(double move) const { return 1.01 * change * move + bend * move * move; }
 };
 
 double norm1(const Point3& p) {
@@ -47,7 +51,10 @@ Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
     of_origin = of_origin - g;
     change += norm1(g);
   }
-  return {value, change + norm1(of_origin)};
+  // 72 monomials of degree 5 in differences up to `largest`, each of which moves by two units: 72 * 10 pairs * 2 * 2.
+  double largest = 0;
+  for (const Point3& q : p) largest = std::max({largest, std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
+  return {value, change + norm1(of_origin), 2880 * largest * largest * largest};
 }
 
 std::string describe(const TetMesh& mesh, const std::array<std::uint32_t, 3>& face, std::uint32_t before,
@@ -76,7 +83,7 @@ DelaunayChecks check_delaunay(const TetMesh& mesh, const Topology& topology, con
     ++checks.explained.checked;
     if (side_of_sphere(points[0], points[1], points[2], points[3], points[4]) <= 0) continue;
     const Sensitivity sensitivity = in_sphere_sensitivity(points);
-    const double ratio = std::fabs(sensitivity.value) / (1.01 * sensitivity.change * rounding);
+    const double ratio = std::fabs(sensitivity.value) / sensitivity.explained_by(rounding);
     fail(ratio > 1 ? checks.local : checks.explained,
          [&] { return describe(mesh, topology.faces[f], before, behind, ratio); });
   }
