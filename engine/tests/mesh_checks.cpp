@@ -38,7 +38,7 @@ std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh) {
 }
 
 void expect_same_cells(const TetMesh& a, const TetMesh& b) {
-  EXPECT_EQ(a.vertices.size(), b.vertices.size());
+  EXPECT_TRUE(a.vertices == b.vertices);
   const auto cells_of_a = sorted_cells(a), cells_of_b = sorted_cells(b);
   EXPECT_EQ(cells_of_a.size(), cells_of_b.size());
   EXPECT_TRUE(cells_of_a == cells_of_b);
