@@ -45,6 +45,7 @@ void protect(Work& w) {
 std::vector<Point3> lattice_points(const Work& w) {
   const FacetMesh facets = triangulate_facets(w.plc, w.chains, w.delaunay);
   std::vector<Point3> vertices;
+  vertices.reserve(w.delaunay.vertices.size());
   for (const DelaunayVertex& v : w.delaunay.vertices) vertices.push_back(v.point);
   std::vector<SurfaceTriangle> triangles;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {

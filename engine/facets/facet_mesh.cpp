@@ -19,7 +19,7 @@ class FacetMesher {
  public:
   FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay);
 
-  void triangulate(FacetId facet, FacetMesh& result);
+  void triangulate(FacetId id, FacetMesh& result);
 
  private:
   struct FacetSegment {
@@ -134,6 +134,7 @@ FacetPlane FacetMesher::flatten(const Facet& facet, const std::vector<FacetSegme
 PlanarTriangulation FacetMesher::split_triangulation(const Facet& facet, const FacetPlane& plane,
                                                      const std::vector<FacetSegment>& segments) const {
   std::vector<PlanarEdge> constrained;
+  constrained.reserve(segments.size());
   for (const FacetSegment& s : segments) constrained.push_back({s.a, s.b});
   PlanarTriangulation t = planar_from_triangles(facet.triangles, constrained);
   planar_legalize(t, plane);
