@@ -157,6 +157,7 @@ Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperModel& paper)
   Table1Ratio ratio{
       "with_check/delaunay", "with check / Delaunay", {}, paper.with_check_seconds / paper.delaunay_seconds};
   std::vector<double> ratios;
+  ratios.reserve(with_check.counted.size());
   for (const RunRecord& record : with_check.counted) ratios.push_back(cdt_seconds(record) / delaunay_seconds(record));
   if (!with_check.failed()) ratio.value = median_estimate(ratios);
   return ratio;
