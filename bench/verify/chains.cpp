@@ -58,7 +58,7 @@ class EdgeWalk {
         const double along = v == ends_[1] ? length_ : dot(p, axis_);
         if (along <= from || along > length_) continue;
         if (v != ends_[1] && squared_length(p - along * axis_) > tolerance_ * tolerance_) continue;
-        ahead.push_back({along, v});
+        ahead.emplace_back(along, v);
       }
     std::sort(ahead.rbegin(), ahead.rend());
     ahead.erase(std::unique(ahead.begin(), ahead.end()), ahead.end());

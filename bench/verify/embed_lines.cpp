@@ -46,7 +46,7 @@ class PieceTree {
         low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
         high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
       }
-      items.push_back({Box(Corner(low.x, low.y, low.z), Corner(high.x, high.y, high.z)), p});
+      items.emplace_back(Box(Corner(low.x, low.y, low.z), Corner(high.x, high.y, high.z)), p);
     }
     return items;
   }
