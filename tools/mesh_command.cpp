@@ -21,6 +21,7 @@ struct MeshCommand {
   std::string mesher = "ccdt";
   MeshOptions options;
   std::string only_value;  ///< of options that have a single value so far
+  unsigned most_threads = 1;
 };
 
 class Stopwatch {
@@ -149,7 +150,9 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
   only("--delaunay", "insert", "how the Delaunay tetrahedralization is made");
   only("--improve", "none", "improvement of the finished mesh");
   only("--surface", "keep", "what happens to the triangles of the surface");
-  only("--threads", "1", "how many threads work");
+  verb.add_option("--threads", command.most_threads, "at most so many threads work; so far one does all")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 void add_numbers(CLI::App& verb, MeshOptions& options) {

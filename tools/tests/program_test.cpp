@@ -46,15 +46,21 @@ TEST_F(Program, WrongUsageExitsWithTwoAndWritesNothing) {
 
 TEST_F(Program, StrategyThatThisBuildLacksIsRefusedWithTheOnesThatThereAre) {
   write("cube.off", cube_off);
-  for (const auto& [option, missing, there] : std::vector<std::array<std::string, 3>>{{"--locator", "octree", "grid"},
-                                                                                      {"--delaunay", "wrap", "insert"},
-                                                                                      {"--improve", "swap", "none"},
-                                                                                      {"--surface", "remesh", "keep"},
-                                                                                      {"--threads", "8", "1"}}) {
+  for (const auto& [option, missing, there] :
+       std::vector<std::array<std::string, 3>>{{"--locator", "octree", "grid"},
+                                               {"--delaunay", "wrap", "insert"},
+                                               {"--improve", "swap", "none"},
+                                               {"--surface", "remesh", "keep"}}) {
     const Outcome outcome = run("mesh cube.off -o a.vtu " + option + " " + missing);
     EXPECT_EQ(outcome.exit_code, 2) << option;
     EXPECT_NE(outcome.err.find(there), std::string::npos) << outcome.err;
   }
+}
+
+TEST_F(Program, AnyNumberOfThreadsIsALimitThatCanBeKept) {
+  write("cube.off", cube_off);
+  EXPECT_EQ(run("mesh cube.off -o a.vtu --threads 8").exit_code, 0);
+  EXPECT_EQ(run("mesh cube.off -o a.vtu --threads 0").exit_code, 2);
 }
 
 TEST_F(Program, BadInputExitsWithThreeOneMessageAndNothingWritten) {
