@@ -105,7 +105,8 @@ void add_sides(Surface& surface, const Outline& lower, const Outline& upper, dou
 
 void add_grip(Surface& surface, const Outline& lower, const Outline& upper, double edge_length) {
   const auto chart_and_marker = [&](std::size_t i) -> std::pair<Chart, Marker> {
-    const double middle = 360.0 / teeth * static_cast<double>(i / 4);
+    const std::size_t tooth_number = i / 4;
+    const double middle = 360.0 / teeth * static_cast<double>(tooth_number);
     if (i % 4 == 0) return {cylinder_chart(Axis::z, {}, tooth_radius, middle, Facing::outward), tooth};
     if (i % 4 == 2) return {cylinder_chart(Axis::z, {}, root_radius, middle + 15, Facing::outward), root};
     const Chain& piece = lower.pieces[i];

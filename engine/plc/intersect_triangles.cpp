@@ -74,7 +74,8 @@ std::optional<Contact> meet_with_signs(const Point3& p, const Point3& q, int p_s
   if (p_sign * q_sign > 0) return std::nullopt;
   if (p_sign == 0 && q_sign == 0) return meet_coplanar(p, q, t);
   const int u = orient3d(p, q, t[0], t[1]), v = orient3d(p, q, t[1], t[2]), w = orient3d(p, q, t[2], t[0]);
-  if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) return std::nullopt;
+  const bool same_turn = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+  if (!same_turn) return std::nullopt;
   const Point3 normal = cross(t[1] - t[0], t[2] - t[0]);
   const double from = std::fabs(dot(normal, p - t[0])), to = std::fabs(dot(normal, q - t[0]));
   return Contact{p_sign == 0 ? p : q_sign == 0 ? q : p + (from / (from + to)) * (q - p), false};

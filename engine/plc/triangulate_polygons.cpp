@@ -102,7 +102,8 @@ class FacetTriangulator {
         const VertexId a = plc_.vertex_of_input[polygon[i]];
         const VertexId b = plc_.vertex_of_input[polygon[(i + 1) % polygon.size()]];
         vertices_.push_back(a);
-        if (a != b && !(polygon.size() == 2 && i == 1)) edges_.push_back({a, b});
+        const bool way_back = polygon.size() == 2 && i == 1;
+        if (a != b && !way_back) edges_.push_back({a, b});
       }
       if (polygon.size() == 2) segments_.add(plc_.vertex_of_input[polygon[0]], plc_.vertex_of_input[polygon[1]], 0);
     }
