@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -6,6 +5,7 @@
 #include "bench/run_record.h"
 #include "bench/sha256.h"
 #include "engine/base/errors.h"
+#include "engine/base/stopwatch.h"
 #include "engine/io/read_plc.h"
 #include "engine/io/tet_mesh_files.h"
 #include "reports/run_summary.h"
@@ -22,14 +22,6 @@ struct MeshCommand {
   MeshOptions options;
   std::string only_value;  ///< of options that have a single value so far
   unsigned most_threads = 1;
-};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 void check_files(const MeshCommand& command) {
@@ -53,9 +45,11 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
   const Mesher& chosen = mesher(command.mesher);
 
   report(progress, "read", 0, 0);
-  const Stopwatch reading;
-  const InputPlc input = read_plc(command.input);
-  const double read_seconds = reading.seconds();
+  double read_seconds = 0;
+  const InputPlc input = [&] {
+    const Stopwatch watch(read_seconds);
+    return read_plc(command.input);
+  }();
   record = start_record(chosen, input, command.options);
   record.input.sha256 = sha256_of_file(command.input);
   record.read_seconds = read_seconds;
@@ -70,9 +64,8 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
   record.quality = measure_quality(run.result.mesh);
 
   report(progress, "write", 0, 0);
-  const Stopwatch writing;
+  const Stopwatch watch(record.write_seconds);
   write_tet_mesh(run.result.mesh, command.output);
-  record.write_seconds = writing.seconds();
 }
 
 void record_failure(const MeshCommand& command, RunRecord& record, const std::exception& error) {
