@@ -10,12 +10,22 @@ namespace ccdt {
 
 enum class Lattice { none, fcc, bcc, sc };
 enum class Protection { shell, midpoint };
+/// Who finds vertices near a face and faces near an edge, for the front.
+enum class LocatorKind { grid, octree, cavity };
+/// How the Delaunay tetrahedralization is made; the result is the same.
+enum class DelaunayMethod {
+  insert,  ///< vertex by vertex along a Hilbert curve (Bowyer, Watson)
+  wrap     ///< face by face with a uniform grid (paper, section 5; Fang and Piegl 1993)
+};
 
 /// The strategies of the engine and their parameters.
 struct MeshOptions {
   bool face_protection = true;  ///< check which faces are Delaunay first; off: every face goes through the front
   Lattice lattice = Lattice::fcc;
   Protection protection = Protection::shell;
+  LocatorKind locator = LocatorKind::grid;
+  DelaunayMethod delaunay = DelaunayMethod::insert;
+  double grid_scale = 1;   ///< factor of the cell size that the paper gives its uniform grids (section 4)
   double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
   double flatness = 1e-8;  ///< see PlcOptions

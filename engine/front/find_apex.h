@@ -7,7 +7,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/front_faces.h"
-#include "engine/front/grid_locator.h"
+#include "engine/locate/grid_locator.h"
 
 namespace ccdt {
 

@@ -46,8 +46,10 @@ struct UniformGrid {
   }
 };
 
-/// The grid of the paper: cubes, as many as there are vertices or faces, whichever are more.
-UniformGrid make_uniform_grid(const Point3& low, const Point3& high, std::size_t items);
+/// The grid of the paper: about as many cubes as there are vertices or faces, whichever are more.
+///
+/// \param scale  factor of the paper's cell size; a tenth of it means a thousand times the cells
+UniformGrid make_uniform_grid(const Point3& low, const Point3& high, std::size_t items, double scale = 1);
 
 /// Lists by cell in two flat arrays: the items of cell c are items[first[c] .. first[c + 1]).
 struct CellLists {

@@ -8,7 +8,7 @@
 
 #include "engine/base/index.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/front/uniform_grid.h"
+#include "engine/locate/uniform_grid.h"
 
 namespace ccdt {
 

@@ -1,4 +1,4 @@
-#include "engine/front/grid_locator.h"
+#include "engine/locate/grid_locator.h"
 
 #include <algorithm>
 #include <cmath>
