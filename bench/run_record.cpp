@@ -30,10 +30,10 @@ Json options_json(const RunRecord& record) {
 
 Json seconds_json(const RunRecord& r) {
   const StageSeconds& s = r.seconds;
-  return {{"read", r.read_seconds},   {"plc", s.plc},           {"protect", s.protect},
-          {"lattice", s.lattice},     {"delaunay", s.delaunay}, {"face_check", s.face_check},
-          {"front", s.front},         {"label", s.label},       {"improve", s.improve},
-          {"write", r.write_seconds}, {"mesh", s.mesh}};
+  return {{"read", r.read_seconds}, {"plc", s.plc},           {"protect", s.protect},       {"facets", s.facets},
+          {"lattice", s.lattice},   {"delaunay", s.delaunay}, {"face_check", s.face_check}, {"front", s.front},
+          {"label", s.label},       {"finish", s.finish},     {"improve", s.improve},       {"write", r.write_seconds},
+          {"mesh", s.mesh}};
 }
 
 Json histogram_json(const Histogram& h) {
@@ -96,11 +96,13 @@ void seconds_from(const Json& j, RunRecord& r) {
   r.read_seconds = j.at("read");
   s.plc = j.at("plc");
   s.protect = j.at("protect");
+  s.facets = j.at("facets");
   s.lattice = j.at("lattice");
   s.delaunay = j.at("delaunay");
   s.face_check = j.at("face_check");
   s.front = j.at("front");
   s.label = j.at("label");
+  s.finish = j.at("finish");
   s.improve = j.at("improve");
   r.write_seconds = j.at("write");
   s.mesh = j.at("mesh");

@@ -25,6 +25,7 @@ struct Work {
   std::vector<bool> must_be_chain;  ///< by segment
   Delaunay delaunay;
   SegmentChains chains;
+  FacetMesh facets;
   MeshCounts& counts;
   StageSeconds& seconds;
 };
@@ -41,16 +42,21 @@ void protect(Work& w) {
       protect_edges(w.plc, w.must_be_chain, w.options.protection, w.delaunay, w.chains, w.progress);
 }
 
+void triangulate(Work& w) {
+  const Stopwatch watch(w.seconds.facets);
+  w.facets = triangulate_facets(w.plc, w.chains, w.delaunay, w.progress);
+}
+
 /// The faces and subsegments that the lattice keeps away from.
 std::vector<Point3> lattice_points(const Work& w) {
-  const FacetMesh facets = triangulate_facets(w.plc, w.chains, w.delaunay);
   std::vector<Point3> vertices;
   vertices.reserve(w.delaunay.vertices.size());
   for (const DelaunayVertex& v : w.delaunay.vertices) vertices.push_back(v.point);
   std::vector<SurfaceTriangle> triangles;
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    const Facet& facet = w.plc.facets[facets.facet[i]];
-    triangles.push_back({facets.triangles[i], w.plc.chambers[facet.above].inside, w.plc.chambers[facet.below].inside});
+  for (std::size_t i = 0; i < w.facets.triangles.size(); ++i) {
+    const Facet& facet = w.plc.facets[w.facets.facet[i]];
+    triangles.push_back(
+        {w.facets.triangles[i], w.plc.chambers[facet.above].inside, w.plc.chambers[facet.below].inside});
   }
   std::vector<std::array<VertexId, 2>> subsegments;
   for (const auto& chain : w.chains)
@@ -66,35 +72,44 @@ void fill_inside(Work& w) {
     const Stopwatch watch(w.seconds.lattice);
     points = lattice_points(w);
   }
-  const Stopwatch watch(w.seconds.delaunay);
-  w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
+  {
+    const Stopwatch watch(w.seconds.delaunay);
+    w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
+  }
+  const Stopwatch watch(w.seconds.face_check);
+  follow_interior_vertices(w.plc, w.chains, w.delaunay, w.facets);
 }
 
 TetMesh constrain(Work& w) {
-  FacetMesh facets;
   std::vector<std::uint32_t> codes;
   {
     const Stopwatch watch(w.seconds.face_check);
-    facets = triangulate_facets(w.plc, w.chains, w.delaunay, w.progress);
-    codes = find_delaunay_faces(facets, w.delaunay);
-    w.counts.faces = facets.triangles.size();
+    codes = find_delaunay_faces(w.facets, w.delaunay);
+    w.counts.faces = w.facets.triangles.size();
     w.counts.undelaunay_faces = static_cast<std::uint64_t>(std::count(codes.begin(), codes.end(), no_neighbor));
     if (!w.options.face_protection) std::fill(codes.begin(), codes.end(), no_neighbor);
   }
   FrontResult front;
   {
     const Stopwatch watch(w.seconds.front);
-    front = advance_front(w.plc, facets, codes, w.options.face_protection, w.delaunay, w.progress);
+    front = advance_front(w.plc, w.facets, codes, w.options.face_protection, w.delaunay, w.progress);
     w.counts.front_tetrahedra = front.tetrahedra.size();
   }
-  const Stopwatch watch(w.seconds.label);
-  const std::vector<ChamberId> chambers = label_cells(w.plc, w.delaunay, front.open, codes);
-  return assemble_mesh(w.plc, w.chains, facets, front, chambers, w.delaunay);
+  TetMesh mesh;
+  {
+    const Stopwatch watch(w.seconds.label);
+    const std::vector<ChamberId> chambers = label_cells(w.plc, w.delaunay, front.open, codes);
+    mesh = collect_tetrahedra(w.plc, front, chambers, w.delaunay);
+  }
+  const Stopwatch watch(w.seconds.finish);
+  finish_mesh(w.plc, w.chains, std::move(w.facets), w.delaunay, mesh);
+  return mesh;
 }
 
 TetMesh mesh_with(Work& w) {
   tetrahedralize_input(w);
   protect(w);
+  triangulate(w);
   fill_inside(w);
   return constrain(w);
 }
@@ -111,7 +126,7 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
       plc = build_plc(input, {flatness}, progress);
     }
     result.largest_rounding = plc.largest_rounding;
-    Work work{plc, options, progress, grazeable_segments(plc), {}, {}, result.counts, s};
+    Work work{plc, options, progress, grazeable_segments(plc), {}, {}, {}, result.counts, s};
     result.mesh = mesh_with(work);
   };
   try {
@@ -126,7 +141,8 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
   }
   result.counts.vertices = result.mesh.vertices.size();
   result.counts.tetrahedra = result.mesh.tetrahedra.size();
-  s.mesh = s.plc + s.protect + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.improve;
+  s.mesh =
+      s.plc + s.protect + s.facets + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.finish + s.improve;
   return result;
 }
 

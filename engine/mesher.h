@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "engine/base/progress.h"
+#include "engine/lattice/background_sizes.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 
@@ -18,6 +19,10 @@ enum class DelaunayMethod {
   wrap     ///< face by face with a uniform grid (paper, section 5; Fang and Piegl 1993)
 };
 
+/// Lattice points nearer to the surface than this times the edge length of the lattice are dropped. See the table in
+/// clear_surface.cpp.
+inline constexpr double usual_clearance = 0.55;
+
 /// The strategies of the engine and their parameters.
 struct MeshOptions {
   bool face_protection = true;  ///< check which faces are Delaunay first; off: every face goes through the front
@@ -25,15 +30,20 @@ struct MeshOptions {
   Protection protection = Protection::shell;
   LocatorKind locator = LocatorKind::grid;
   DelaunayMethod delaunay = DelaunayMethod::insert;
-  double grid_scale = 1;   ///< factor of the cell size that the paper gives its uniform grids (section 4)
-  double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it
-  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  double flatness = 1e-8;  ///< see PlcOptions
+  double grid_scale = 1;               ///< factor of the cell size that the paper gives its uniform grids (section 4)
+  double edge_length = 0;              ///< target edge length in the units of the input; 0: as the surface has it
+  double grading = 0.5;                ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  double flatness = 1e-8;              ///< see PlcOptions
+  double sphere_factor = 1;            ///< see LatticeOptions
+  double clearance = usual_clearance;  ///< see LatticeOptions
+  BackgroundSizes background;  ///< a size function, in the units of the input; with one, the lengths of the surface's
+                               ///< own edges do not matter
 };
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
 struct StageSeconds {
-  double plc = 0, protect = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0, label = 0, improve = 0;
+  double plc = 0, protect = 0, facets = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0, label = 0, finish = 0,
+         improve = 0;
   double mesh = 0;  ///< meshing alone: all of the above
 };
 
@@ -45,6 +55,9 @@ struct MeshCounts {
   std::uint64_t faces = 0;             ///< triangles on facets
   std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
   std::uint64_t front_tetrahedra = 0;  ///< tetrahedra built by the front
+  /// Steiner vertices on segments, by level from 1: how many splits led to the piece that they split, and one more.
+  std::vector<std::uint64_t> splits_by_level;
+  std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
 };
 
 struct MeshResult {

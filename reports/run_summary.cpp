@@ -9,14 +9,16 @@ namespace ccdt {
 namespace {
 
 std::string stages(const StageSeconds& s) {
-  const std::array<std::pair<const char*, double>, 8> all = {{{"plc", s.plc},
-                                                              {"protect", s.protect},
-                                                              {"lattice", s.lattice},
-                                                              {"delaunay", s.delaunay},
-                                                              {"face check", s.face_check},
-                                                              {"front", s.front},
-                                                              {"label", s.label},
-                                                              {"improve", s.improve}}};
+  const std::array<std::pair<const char*, double>, 10> all = {{{"plc", s.plc},
+                                                               {"protect", s.protect},
+                                                               {"facets", s.facets},
+                                                               {"lattice", s.lattice},
+                                                               {"delaunay", s.delaunay},
+                                                               {"face check", s.face_check},
+                                                               {"front", s.front},
+                                                               {"label", s.label},
+                                                               {"finish", s.finish},
+                                                               {"improve", s.improve}}};
   std::string text;
   for (const auto& [name, seconds] : all)
     if (seconds > 0) text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds)));

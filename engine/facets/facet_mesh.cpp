@@ -263,4 +263,25 @@ FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const 
   return result;
 }
 
+void follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
+                              FacetMesh& facets) {
+  if (std::ranges::all_of(plc.facets, &Facet::exactly_flat)) return;
+  FacetMesher mesher(plc, chains, delaunay);
+  FacetMesh result;
+  std::size_t next = 0;
+  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
+    const std::size_t first = next;
+    while (next < facets.facet.size() && facets.facet[next] == f) ++next;
+    if (!plc.facets[f].exactly_flat) {
+      mesher.triangulate(FacetId(f), result);
+      continue;
+    }
+    const auto begin = facets.triangles.begin();
+    result.triangles.insert(result.triangles.end(), begin + static_cast<std::ptrdiff_t>(first),
+                            begin + static_cast<std::ptrdiff_t>(next));
+    result.facet.resize(result.triangles.size(), FacetId(f));
+  }
+  facets = std::move(result);
+}
+
 }  // namespace ccdt

@@ -27,4 +27,8 @@ struct FacetMesh {
 FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
                              const Progress& progress = {});
 
+/// Brings the triangulation up to date when interior vertices have joined the tetrahedralization. Facets that are
+/// exactly flat stay as they are: their triangulation depends on their own vertices alone. The others are done again.
+void follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay, FacetMesh& facets);
+
 }  // namespace ccdt

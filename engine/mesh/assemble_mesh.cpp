@@ -1,5 +1,6 @@
 #include "engine/mesh/assemble_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/mesh/peel_flat_tetrahedra.h"
@@ -39,17 +40,6 @@ void check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& d, co
                    "some facets are almost but not quite flat: try another --flatness");
 }
 
-void add_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
-                    const Delaunay& d, TetMesh& mesh) {
-  mesh.tetrahedra = front.tetrahedra;
-  for (const ChamberId chamber : front.chambers) mesh.regions.push_back(plc.chambers[chamber].region);
-  for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
-    if (chamber_of_cell[c].is_none()) continue;
-    mesh.tetrahedra.push_back(d.cells[c].vertices);
-    mesh.regions.push_back(plc.chambers[chamber_of_cell[c]].region);
-  }
-}
-
 void add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets, TetMesh& mesh) {
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const Facet& facet = plc.facets[facets.facet[i]];
@@ -68,16 +58,30 @@ void add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const Face
 
 }  // namespace
 
-TetMesh assemble_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const FrontResult& front,
-                      const std::vector<ChamberId>& chamber_of_cell, const Delaunay& delaunay) {
+TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
+                           const Delaunay& delaunay) {
   TetMesh mesh;
-  add_tetrahedra(plc, front, chamber_of_cell, delaunay, mesh);
+  const auto outside = std::ranges::count(chamber_of_cell, ChamberId());
+  const std::size_t size = front.tetrahedra.size() + chamber_of_cell.size() - static_cast<std::size_t>(outside);
+  mesh.tetrahedra.reserve(size);
+  mesh.regions.reserve(size);
+  mesh.tetrahedra = front.tetrahedra;
+  for (const ChamberId chamber : front.chambers) mesh.regions.push_back(plc.chambers[chamber].region);
+  for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
+    if (chamber_of_cell[c].is_none()) continue;
+    mesh.tetrahedra.push_back(delaunay.cells[c].vertices);
+    mesh.regions.push_back(plc.chambers[chamber_of_cell[c]].region);
+  }
+  return mesh;
+}
+
+void finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const Delaunay& delaunay,
+                 TetMesh& mesh) {
   check_volume(plc, facets, delaunay, mesh);
   peel_flat_tetrahedra(plc, chains, facets, mesh);
   add_faces_and_edges(plc, chains, facets, mesh);
   mesh.vertices = to_world(plc, delaunay.vertices, mesh.tetrahedra);
   mesh.constrained_delaunay = true;
-  return mesh;
 }
 
 }  // namespace ccdt

@@ -9,12 +9,17 @@
 
 namespace ccdt {
 
-/// Puts the tetrahedra of the front and the labelled cells together to one mesh, in the units of the input, less the
-/// flat ones on its boundary.
+/// The tetrahedra of the front and the labelled cells, with their regions: the constrained Delaunay tetrahedralization.
+/// The mesh has nothing else yet.
+TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
+                           const Delaunay& delaunay);
+
+/// Makes the mesh whole: takes the flat tetrahedra on its boundary off, gives it the faces of the facets, the edges of
+/// the segments, and the vertices in the units of the input.
 ///
 /// \throw FrontStuck  the tetrahedra do not fill the domain
 /// \throw MeshError   of `to_world`
-TetMesh assemble_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const FrontResult& front,
-                      const std::vector<ChamberId>& chamber_of_cell, const Delaunay& delaunay);
+void finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const Delaunay& delaunay,
+                 TetMesh& mesh);
 
 }  // namespace ccdt
