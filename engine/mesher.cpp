@@ -40,11 +40,18 @@ void protect(Work& w) {
   w.chains = bare_chains(w.plc);
   w.counts.steiner_vertices =
       protect_edges(w.plc, w.must_be_chain, w.options.protection, w.delaunay, w.chains, w.progress);
+  w.counts.splits_by_level = count_splits_by_level(w.chains);
 }
 
 void triangulate(Work& w) {
   const Stopwatch watch(w.seconds.facets);
   w.facets = triangulate_facets(w.plc, w.chains, w.delaunay, w.progress);
+}
+
+BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
+  for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
+  for (double& size : background.sizes) size /= grid.unit;
+  return background;
 }
 
 /// The faces and subsegments that the lattice keeps away from.
@@ -61,7 +68,10 @@ std::vector<Point3> lattice_points(const Work& w) {
   std::vector<std::array<VertexId, 2>> subsegments;
   for (const auto& chain : w.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
-  const LatticeOptions options{w.options.lattice, w.options.edge_length / w.plc.grid.unit, w.options.grading};
+  const BackgroundSizes background = in_grid_units(w.options.background, w.plc.grid);
+  const LatticeOptions options{w.options.lattice,   w.options.edge_length / w.plc.grid.unit,
+                               w.options.grading,   w.options.sphere_factor,
+                               w.options.clearance, &background};
   return place_lattice_points(vertices, triangles, subsegments, options, w.progress);
 }
 
@@ -75,6 +85,7 @@ void fill_inside(Work& w) {
   {
     const Stopwatch watch(w.seconds.delaunay);
     w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
+    w.counts.dropped_interior_vertices = points.size() - w.counts.interior_vertices;
   }
   const Stopwatch watch(w.seconds.face_check);
   follow_interior_vertices(w.plc, w.chains, w.delaunay, w.facets);

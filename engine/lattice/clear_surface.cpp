@@ -7,10 +7,10 @@
 
 namespace ccdt {
 
-// Measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of 5120 triangles, uniform;
-// in per cent the cells with a dihedral angle below 20 degrees, and the mean of the paper's r:
+// The usual clearance was measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of
+// 5120 triangles, uniform; in per cent the cells with a dihedral angle below 20 degrees, and the mean of the paper's r:
 //
-//     factor       0      0.4    0.5    0.55   0.6    0.65   0.7    0.8
+//     clearance    0      0.4    0.5    0.55   0.6    0.65   0.7    0.8
 //     fcc, < 20    1.18   1.18   0.97   0.73   0.75   0.73   0.93   1.03
 //     fcc, r       1.236  1.236  1.228  1.222  1.223  1.228  1.247  1.255
 //     bcc, < 20    0.97   0.56   0.39   0.39   0.43   0.52   0.65   0.76
@@ -18,7 +18,6 @@ namespace ccdt {
 //
 // A scanned surface of uneven triangles has its best values from 0.55 to 0.65, a cube with a grid on its faces does not
 // care.
-const double least_distance_to_surface = 0.55;
 
 namespace {
 
@@ -34,7 +33,7 @@ struct NodeSites {
 
 class Clearing {
  public:
-  Clearing(const Octree& tree, const std::vector<Site>& sites, Lattice kind)
+  Clearing(const Octree& tree, const std::vector<Site>& sites, const LatticeOptions& options)
       : tree_(tree),
         sites_(sites),
         stays_(sites.size(), true),
@@ -42,7 +41,7 @@ class Clearing {
         radius_of_level_(tree.depth + 1) {
     for (unsigned level = 0; level <= tree.depth; ++level)
       radius_of_level_[level] =
-          least_distance_to_surface * edge_length_of_cell(kind, tree.length(2u << (tree.depth - level)));
+          options.clearance * edge_length_of_cell(options.kind, tree.length(2u << (tree.depth - level)));
     find_sites(0, 0, static_cast<std::uint32_t>(sites.size()));
   }
 
@@ -76,7 +75,7 @@ class Clearing {
         },
         [&](std::uint32_t leaf, const Point3& p) {
           const double radius = radius_of_level_[tree_.nodes[leaf].level];
-          return squared_distance(triangle, p) < radius * radius;
+          return squared_distance(triangle, p) <= radius * radius;
         });
   }
 
@@ -167,15 +166,20 @@ Ball smallest_ball(const Corners& triangle) {
 }
 
 std::vector<bool> find_clear_sites(const Octree& tree, const Surface& surface, const std::vector<Site>& sites,
-                                   Lattice kind) {
-  Clearing clearing(tree, sites, kind);
+                                   const LatticeOptions& options) {
+  Clearing clearing(tree, sites, options);
   std::vector<Ball> balls;
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) balls.push_back(smallest_ball(surface.corners(t)));
-  for (const auto& [a, b] : surface.subsegments)
-    balls.push_back(smallest_ball(surface.vertices[a], surface.vertices[b]));
+  if (options.sphere_factor > 0) {
+    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) balls.push_back(smallest_ball(surface.corners(t)));
+    for (const auto& [a, b] : surface.subsegments)
+      balls.push_back(smallest_ball(surface.vertices[a], surface.vertices[b]));
+  }
   // The large ones first: they empty whole nodes, which no other needs to enter then.
   std::ranges::sort(balls, std::ranges::greater{}, &Ball::radius);
-  for (const Ball& ball : balls) clearing.clear(ball);
+  for (Ball& ball : balls) {
+    ball.radius *= options.sphere_factor;
+    clearing.clear(ball);
+  }
 
   std::vector<bool> in_triangle(surface.vertices.size(), false);
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {

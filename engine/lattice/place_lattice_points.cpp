@@ -18,7 +18,7 @@ constexpr double most_vertices = 4294967295.0;  ///< ids of 32 bits, of which on
 
 [[noreturn]] void throw_too_many_points() {
   throw LimitError("the edge length asks for more than 2^32 - 1 vertices", {},
-                   "ask for a greater edge length; it is in the units of the input");
+                   "ask for a greater edge length, or greater sizes; they are in the units of the input");
 }
 
 /// By the divergence theorem, as if each triangle told of the sides that are inside.
@@ -35,10 +35,9 @@ double volume_inside(const Surface& surface) {
   return volume;
 }
 
-/// Before memory is asked for. The lattice is nowhere coarser than the edge length, if there is one.
-void check_number(const Surface& surface, const LatticeOptions& options, const SizeField& size) {
-  if (options.edge_length <= 0 && options.grading != 0) return;
-  const double points = std::sqrt(2.0) * volume_inside(surface) / std::pow(size.reference(), 3);
+/// Before memory is asked for. The lattice is nowhere coarser than the greatest target.
+void check_number(const Surface& surface, const SizeField& size) {
+  const double points = std::sqrt(2.0) * volume_inside(surface) / std::pow(size.largest(), 3);
   if (points > most_vertices) throw_too_many_points();
 }
 
@@ -51,13 +50,13 @@ std::vector<Point3> place_lattice_points(std::span<const Point3> vertices, std::
   const Surface surface{vertices, triangles, subsegments};
   constexpr std::uint64_t steps = 4;
   report(progress, stage, 0, steps);
-  const SizeField size(surface, options.edge_length, options.grading);
-  check_number(surface, options, size);
+  const SizeField size(surface, options.edge_length, options.grading, options.background);
+  check_number(surface, size);
   const Octree tree = build_octree(surface, size, options.kind);
   report(progress, stage, 1, steps);
   const std::vector<Site> sites = list_sites(tree, options.kind);
   report(progress, stage, 2, steps);
-  const std::vector<bool> stays = find_clear_sites(tree, surface, sites, options.kind);
+  const std::vector<bool> stays = find_clear_sites(tree, surface, sites, options);
   report(progress, stage, 3, steps);
 
   std::vector<Point3> points;

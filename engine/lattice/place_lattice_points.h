@@ -21,17 +21,26 @@ struct LatticeOptions {
   Lattice kind = Lattice::fcc;
   double edge_length = 0;  ///< target edge length in grid units; 0: as the surface has it
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  /// Factor of the radii of the smallest spheres through surface triangles and subsegments, which no point may be in; 1
+  /// is the paper's rule, 0 switches it off.
+  double sphere_factor = 1;
+  double clearance = usual_clearance;           ///< least distance to the surface, in edge lengths of the lattice there
+  const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
 };
 
 /// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
 /// pairwise different, strictly inside the domain, outside the smallest sphere through any surface triangle and any
-/// subsegment, and at least about half an edge length away from all triangles, subsegments and vertices. In Morton
-/// order of the octree; the same for any order of the triangles.
+/// subsegment, and at least about half an edge length away from all triangles, subsegments and vertices (the two
+/// distances are options). In Morton order of the octree; the same for any order of the triangles.
 ///
 /// With a grading, the target edge length at x is the least of `edge_length` (if any) and, over the surface, of
 /// (mean edge length there + grading * distance). Leaves halve from level to level, so the lattice has it within a
 /// factor of sqrt(2), and within 0.4 per cent where it is `edge_length` or, if that is 0, the mean edge length of the
 /// surface. Without a grading all leaves are of that one size. For the constants of the lattices see cell_size.h.
+///
+/// With a background its sizes take the place of the surface's edge lengths. If it has tetrahedra, the target is linear
+/// in each, and outside that of the nearest vertex; the grading plays no part. If it has vertices alone, the target is
+/// the least over these of (size + grading * distance). Either way `edge_length`, if given, is an upper bound.
 ///
 /// \param vertices     grid units
 /// \param subsegments  edges that protect the segments, also those that no triangle has

@@ -1,7 +1,6 @@
 #include "engine/lattice/size_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace ccdt {
@@ -14,14 +13,47 @@ struct Mean {
   double value() const { return sum / count; }
 };
 
-/// Where half of the samples [begin, end) go to the first child: the same rule must hold for boxes and queries.
-std::size_t middle(std::size_t begin, std::size_t end) {
-  return begin + (end - begin) / 2;
+struct Weighted {
+  double size, weight;
+};
+
+/// How many points ask for each size, up to a factor: those of a tetrahedron, or one a vertex.
+std::vector<Weighted> weigh_sizes(const BackgroundSizes& background, double largest) {
+  std::vector<Weighted> sizes;
+  for (const auto& [a, b, c, d] : background.tetrahedra) {
+    const auto& v = background.vertices;
+    const auto& s = background.sizes;
+    const double size = std::min((s[a] + s[b] + s[c] + s[d]) / 4, largest);
+    sizes.push_back({size, std::abs(dot(cross(v[b] - v[a], v[c] - v[a]), v[d] - v[a])) / (size * size * size)});
+  }
+  if (background.tetrahedra.empty())
+    for (const double size : background.sizes) sizes.push_back({std::min(size, largest), 1});
+  return sizes;
+}
+
+double median(std::vector<Weighted> sizes) {
+  std::ranges::sort(sizes, {}, &Weighted::size);
+  double rest = 0;
+  for (const Weighted& s : sizes) rest += s.weight / 2;
+  for (const Weighted& s : sizes)
+    if ((rest -= s.weight) <= 0) return s.size;
+  return sizes.back().size;
 }
 
 }  // namespace
 
-SizeField::SizeField(const Surface& surface, double edge_length, double grading) : grading_(grading) {
+SizeField::SizeField(const Surface& surface, double edge_length, double grading, const BackgroundSizes* background)
+    : grading_(grading) {
+  if (background != nullptr && !background->empty()) {
+    sample(*background, edge_length);
+  } else {
+    sample(surface, edge_length);
+  }
+}
+
+void SizeField::sample(const Surface& surface, double edge_length) {
+  std::vector<SizeTree::Item> samples;
+  const auto add_sample = [&](const Point3& p, double size) { samples.push_back({{p, p}, size, 0}); };
   std::vector<Mean> at_vertex(surface.vertices.size());
   Mean everywhere;
   const auto add_edge = [&](VertexId a, VertexId b) {
@@ -35,77 +67,38 @@ SizeField::SizeField(const Surface& surface, double edge_length, double grading)
     const auto& v = surface.triangles[t].vertices;
     const double mean = (add_edge(v[0], v[1]) + add_edge(v[1], v[2]) + add_edge(v[2], v[0])) / 3;
     const Corners corners = surface.corners(t);
-    samples_.push_back({(1.0 / 3) * (corners[0] + corners[1] + corners[2]), mean});
+    add_sample((1.0 / 3) * (corners[0] + corners[1] + corners[2]), mean);
   }
   for (const auto& s : surface.subsegments) add_edge(s[0], s[1]);
   for (std::size_t v = 0; v < at_vertex.size(); ++v) {
-    if (at_vertex[v].count > 0) samples_.push_back({surface.vertices[v], at_vertex[v].value()});
+    if (at_vertex[v].count > 0) add_sample(surface.vertices[v], at_vertex[v].value());
   }
-
   reference_ = edge_length > 0 || everywhere.count == 0 ? edge_length : everywhere.value();
-  largest_ = edge_length > 0 || grading == 0 ? reference_ : HUGE_VAL;
-  if (grading == 0) samples_.clear();
-  if (samples_.empty()) return;
-
-  constexpr std::size_t samples_a_leaf = 8;
-  std::size_t leaves = 1;
-  while (leaves * samples_a_leaf < samples_.size()) leaves *= 2;
-  first_leaf_ = leaves - 1;
-  groups_.resize(2 * leaves - 1);
-  sort_samples(0, samples_.size(), 0);
+  largest_ = edge_length > 0 || grading_ == 0 ? reference_ : HUGE_VAL;
+  if (grading_ > 0) samples_ = SizeTree(std::move(samples));
 }
 
-void SizeField::sort_samples(std::size_t begin, std::size_t end, std::size_t group) {
-  Box box{samples_[begin].place, samples_[begin].place};
-  double shortest = HUGE_VAL;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Box both = bounding_box(std::array{samples_[i].place, box.low, box.high});
-    box = both;
-    shortest = std::min(shortest, samples_[i].edge_length);
+void SizeField::sample(const BackgroundSizes& background, double edge_length) {
+  largest_ = edge_length > 0 ? edge_length : HUGE_VAL;
+  reference_ = median(weigh_sizes(background, largest_));
+  if (!background.tetrahedra.empty()) {
+    largest_ = std::min(largest_, std::ranges::max(background.sizes));
+    interpolated_.emplace(background);
+    return;
   }
-  groups_[group] = {box, shortest};
-  if (group >= first_leaf_) return;
-  const auto extent = as_array(box.high - box.low);
-  const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
-  const std::size_t half = middle(begin, end);
-  const auto at = [this](std::size_t i) { return samples_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(half), at(end), [axis](const Sample& a, const Sample& b) {
-    return as_array(a.place)[axis] < as_array(b.place)[axis];
-  });
-  sort_samples(begin, half, 2 * group + 1);
-  sort_samples(half, end, 2 * group + 2);
-}
-
-/// A lower bound of the edge length that the samples of a group allow in the box.
-double SizeField::reach(std::size_t group, const Box& box) const {
-  return groups_[group].shortest + grading_ * std::sqrt(squared_distance(groups_[group].box, box));
+  std::vector<SizeTree::Item> samples;
+  for (std::size_t v = 0; v < background.vertices.size(); ++v)
+    samples.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], 0});
+  samples_ = SizeTree(std::move(samples));
 }
 
 bool SizeField::is_below(const Box& box, double bound) const {
   if (largest_ < bound) return true;
-  if (samples_.empty() || reach(0, box) >= bound) return false;
-  struct Visit {
-    std::size_t group, begin, end;
+  if (interpolated_) return interpolated_->is_below(box, bound);
+  const auto reach = [&](const Box& place, double size) {
+    return size + grading_ * std::sqrt(squared_distance(place, box));
   };
-  std::array<Visit, 64> stack;  // two a level of the tree at most
-  std::size_t height = 0;
-  stack[height++] = {0, 0, samples_.size()};
-  while (height > 0) {
-    const auto [group, begin, end] = stack[--height];
-    if (group >= first_leaf_) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const double here = std::sqrt(squared_distance(box, samples_[i].place));
-        if (samples_[i].edge_length + grading_ * here < bound) return true;
-      }
-      continue;
-    }
-    Visit near{2 * group + 1, begin, middle(begin, end)}, far{2 * group + 2, middle(begin, end), end};
-    double near_reach = reach(near.group, box), far_reach = reach(far.group, box);
-    if (far_reach < near_reach) std::swap(near, far), std::swap(near_reach, far_reach);
-    if (far_reach < bound) stack[height++] = far;
-    if (near_reach < bound) stack[height++] = near;
-  }
-  return false;
+  return samples_.any(bound, reach, [](const SizeTree::Item&) { return true; });
 }
 
 }  // namespace ccdt

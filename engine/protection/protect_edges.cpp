@@ -107,7 +107,7 @@ ChainVertex Protector::split(const Subsegment& piece) {
   insertion_.dig(id, d_.vertices[piece.from.vertex].cell);
   insertion_.fill();
   segment_of_steiner_.push_back(piece.segment);
-  return {VertexId(id), fraction};
+  return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
 }
 
 /// A fraction strictly between the ends of the piece.
@@ -136,7 +136,8 @@ std::optional<std::uint32_t> Protector::encroaching_vertex(const Subsegment& pie
       if (v == ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
       const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
       const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
-      if (cosine >= least_cosine) continue;
+      // Of equals the first, whatever the order of the cells.
+      if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
       least_cosine = cosine;
       worst = v;
     }
@@ -190,6 +191,16 @@ SegmentChains bare_chains(const Plc& plc) {
   for (std::size_t s = 0; s < chains.size(); ++s)
     chains[s] = {{plc.segments[s].ends[0], 0}, {plc.segments[s].ends[1], whole}};
   return chains;
+}
+
+std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
+  std::vector<std::uint64_t> splits;
+  for (const auto& chain : chains)
+    for (const ChainVertex& v : chain) {
+      if (v.level > splits.size()) splits.resize(v.level, 0);
+      if (v.level > 0) ++splits[v.level - 1];
+    }
+  return splits;
 }
 
 std::vector<bool> grazeable_segments(const Plc& plc) {

@@ -30,6 +30,10 @@ std::uint64_t protect_edges(const Plc& plc, const std::vector<bool>& must_be_cha
 /// The segments before any split.
 SegmentChains bare_chains(const Plc& plc);
 
+/// How many vertices were put on segments at each level, from level 1; for `midpoint` that is the depth of the
+/// bisection.
+std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains);
+
 /// Which segments need protection: the grazeable ones.
 std::vector<bool> grazeable_segments(const Plc& plc);
 

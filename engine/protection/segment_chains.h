@@ -11,6 +11,7 @@ namespace ccdt {
 struct ChainVertex {
   VertexId vertex;
   std::uint32_t fraction = 0;  ///< where: multiples of 1 / whole_segment from the segment's first end
+  std::uint32_t level = 0;     ///< one more than the greater of the two ends of the piece that it split; 0: an end
 };
 
 inline constexpr std::uint32_t whole_segment = 1u << 20;

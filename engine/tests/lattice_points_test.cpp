@@ -117,7 +117,7 @@ TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
         const bool near = std::ranges::any_of(shape.triangles, [&](const SurfaceTriangle& t) {
           const Corners c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]], shape.vertices[t.vertices[2]]};
           return in_smallest_sphere(c[0], c[1], c[2], q) ||
-                 std::sqrt(squared_distance(c, q)) < 1.01 * least_distance_to_surface * edge_length;
+                 std::sqrt(squared_distance(c, q)) < 1.01 * usual_clearance * edge_length;
         });
         ASSERT_TRUE(near) << q.x << " " << q.y << " " << q.z;
       }
@@ -195,7 +195,7 @@ TEST(LatticePoints, KeepTheirDistanceFromTheSurface) {
     for (const Point3& p : shape.place({kind, edge_length, 0})) {
       for (double c : as_array(p)) least = std::min(least, 5 * shape.unit - std::abs(c));
     }
-    EXPECT_GE(least, 0.99 * least_distance_to_surface * edge_length);
+    EXPECT_GE(least, 0.99 * usual_clearance * edge_length);
     EXPECT_LE(least, 1.5 * edge_length);
   }
 }
@@ -247,7 +247,7 @@ TEST(LatticePoints, StayClearOfDanglingFacetsSegmentsAndVertices) {
   expect_outside_of_smallest_spheres(shape, points);
   double least = HUGE_VAL;
   for (const Point3& p : points) least = std::min(least, std::sqrt(squared_length(p - shape.vertices[alone])));
-  EXPECT_GE(least, 0.99 * least_distance_to_surface * edge_length);
+  EXPECT_GE(least, 0.99 * usual_clearance * edge_length);
   EXPECT_LE(least, 1.5 * edge_length);
 }
 
