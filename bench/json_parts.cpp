@@ -23,7 +23,9 @@ Json counts_json(const MeshCounts& c) {
           {"tetrahedra", c.tetrahedra},
           {"faces", c.faces},
           {"undelaunay_faces", c.undelaunay_faces},
-          {"front_tetrahedra", c.front_tetrahedra}};
+          {"front_tetrahedra", c.front_tetrahedra},
+          {"splits_by_level", c.splits_by_level},
+          {"dropped_interior_vertices", c.dropped_interior_vertices}};
 }
 
 std::string to_text(const Json& json) {

@@ -88,6 +88,8 @@ MeshCounts counts_from(const Json& j) {
   c.faces = j.at("faces");
   c.undelaunay_faces = j.at("undelaunay_faces");
   c.front_tetrahedra = j.at("front_tetrahedra");
+  c.splits_by_level = j.value("splits_by_level", c.splits_by_level);
+  c.dropped_interior_vertices = j.value("dropped_interior_vertices", c.dropped_interior_vertices);
   return c;
 }
 
@@ -187,6 +189,9 @@ RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOp
                     {"edge_length", options.edge_length},
                     {"grading", options.grading},
                     {"flatness", options.flatness},
+                    {"sizes", options.background.name},
+                    {"sphere_factor", options.sphere_factor},
+                    {"clearance", options.clearance},
                     {"threads", 1.0}};
   return record;
 }

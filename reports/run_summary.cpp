@@ -25,6 +25,17 @@ std::string stages(const StageSeconds& s) {
   return text.empty() ? "" : " (" + text + ")";
 }
 
+/// Nothing if no edge was in danger.
+std::string protection(const MeshCounts& c) {
+  std::string text;
+  for (const std::uint64_t splits : c.splits_by_level)
+    text += (text.empty() ? "splits by level " : ", ") + with_separators(splits);
+  if (c.dropped_interior_vertices > 0)
+    text += (text.empty() ? "" : "; ") + with_separators(c.dropped_interior_vertices) +
+            " interior dropped for the sake of edges";
+  return text.empty() ? "" : "protection  " + text + "\n";
+}
+
 }  // namespace
 
 std::string summarize(const RunRecord& r) {
@@ -32,6 +43,7 @@ std::string summarize(const RunRecord& r) {
   const Quality& q = r.quality;
   std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
+  text += protection(c);
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(q.volume, 6) + "\n";
   text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
           mebibytes(r.peak_rss_bytes) + "\n";

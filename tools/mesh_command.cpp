@@ -7,6 +7,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/read_plc.h"
+#include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
 #include "reports/run_summary.h"
 #include "tools/commands.h"
@@ -32,9 +33,11 @@ void check_files(const MeshCommand& command) {
   }
   check_can_be_written(command.output);
   check_are_different(command.input, command.output);
+  check_are_different(command.options.background.name, command.output);
   if (command.report.empty()) return;
   check_can_be_written(command.report);
   check_are_different(command.input, command.report);
+  check_are_different(command.options.background.name, command.report);
   check_are_different(command.output, command.report);
 }
 
@@ -52,15 +55,23 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
   }();
   record = start_record(chosen, input, command.options);
   record.input.sha256 = sha256_of_file(command.input);
+  MeshOptions options = command.options;
+  if (!options.background.name.empty()) {
+    const Stopwatch watch(read_seconds);
+    options.background = read_sizes(options.background.name);
+    check_are_different(options.background.mesh_name, command.output);
+  }
   record.read_seconds = read_seconds;
 
-  MesherRun run = chosen.run(input, command.options, progress);
+  MesherRun run = chosen.run(input, options, progress);
   record.peak_rss_bytes = peak_rss_bytes();  // of the mesher, not of what measures it
   record.counts = run.result.counts;
   record.seconds = run.result.seconds;
   record.largest_rounding = run.result.largest_rounding;
   record.mesher_settings = std::move(run.settings);
   record.notes = std::move(run.notes);
+  if (!options.background.empty() && chosen.name != "ccdt")
+    record.notes.push_back("only ccdt knows size functions: " + options.background.name + " was not used");
   record.quality = measure_quality(run.result.mesh);
 
   report(progress, "write", 0, 0);
@@ -103,6 +114,8 @@ std::string footer() {
   return text +
          "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"
          "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
+         "Example: edges inside as the size function part.sol says, which belongs to the mesh part.mesh\n"
+         "  ccdt mesh part.stl -o part.vtu --sizes part.sol\n"
          "Example: the constrained Delaunay tetrahedralization of the input alone\n"
          "  ccdt mesh part.stl -o part.mesh --lattice none\n";
 }
@@ -154,6 +167,16 @@ void add_numbers(CLI::App& verb, MeshOptions& options) {
       ->check(positive_number());
   verb.add_option("--grading", options.grading,
                   "growth of the edge length per unit of distance from the surface; 0: uniform")
+      ->check(non_negative_number())
+      ->capture_default_str();
+  verb.add_option("--sizes", options.background.name,
+                  "edge lengths inside from a file: .sol beside its .mesh, .mtr beside its .node or .poly");
+  verb.add_option("--sphere-factor", options.sphere_factor,
+                  "no interior point is in the smallest sphere of a surface triangle, its radius times this")
+      ->check(non_negative_number())
+      ->capture_default_str();
+  verb.add_option("--clearance", options.clearance,
+                  "no interior point is nearer to the surface than this times the edge length there")
       ->check(non_negative_number())
       ->capture_default_str();
   verb.add_option("--flatness", options.flatness,

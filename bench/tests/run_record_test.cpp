@@ -22,7 +22,7 @@ RunRecord example() {
   record.environment.cpu = "a cpu";
   record.environment.cores = 4;
   record.environment.libraries = {{"tetgen", "1.5.0"}};
-  record.counts = {10, 1, 1, 30, 12, 2, 3};
+  record.counts = {10, 3, 1, 30, 12, 2, 3, {2, 1}, 4};
   record.seconds.delaunay = 0.5;
   record.seconds.mesh = 0.75;
   record.read_seconds = 0.125;
@@ -61,6 +61,8 @@ TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
                               "/counts/faces",
                               "/counts/undelaunay_faces",
                               "/counts/front_tetrahedra",
+                              "/counts/splits_by_level",
+                              "/counts/dropped_interior_vertices",
                               "/seconds/read",
                               "/seconds/protect",
                               "/seconds/lattice",
@@ -95,6 +97,19 @@ TEST(RunRecord, ReadsBackBitForBit) {
   EXPECT_EQ(back.quality.volume, 1.0 / 3);
   EXPECT_TRUE(std::isinf(back.quality.r.max));
   EXPECT_EQ(back.samples.at("mesh").size(), 2u);
+}
+
+TEST(RunRecord, KeepsTheSplitsOfEachLevelAndTheDroppedPoints) {
+  const RunRecord back = run_record_from_json(to_json(example()));
+  EXPECT_EQ(back.counts.splits_by_level, (std::vector<std::uint64_t>{2, 1}));
+  EXPECT_EQ(back.counts.dropped_interior_vertices, 4u);
+}
+
+TEST(RunRecord, OfOlderProgramsMayLackTheCountsOfSplits) {
+  Json json = Json::parse(to_json(example()));
+  json["counts"].erase("splits_by_level");
+  json["counts"].erase("dropped_interior_vertices");
+  EXPECT_TRUE(run_record_from_json(json.dump()).counts.splits_by_level.empty());
 }
 
 TEST(RunRecord, OfAFailureKeepsStatusAndReason) {

@@ -77,6 +77,7 @@ BackgroundSizes read_sol(const std::filesystem::path& file) {
   if (!is_there(beside)) fail_without_background(file, ".mesh");
   MeditFile mesh = read_medit(read_whole_file(beside), true);
   BackgroundSizes result;
+  result.mesh_name = beside.string();
   result.sizes = read_values(in, count, mesh.vertices.size(), beside);
   result.vertices = std::move(mesh.vertices);
   result.tetrahedra = std::move(mesh.tetrahedra.corners);
@@ -98,6 +99,7 @@ BackgroundSizes read_mtr(const std::filesystem::path& file) {
   in.skip_line();
   const std::filesystem::path beside = background_of_mtr(file);
   BackgroundSizes result;
+  result.mesh_name = beside.string();
   const std::filesystem::path cells = sibling(file, ".ele");
   if (beside.extension() == ".node" && is_there(cells)) {
     TetMesh mesh = read_tetgen_mesh(cells);
@@ -117,9 +119,11 @@ BackgroundSizes read_mtr(const std::filesystem::path& file) {
 BackgroundSizes read_sizes(const std::filesystem::path& file) {
   const std::string ending = lower_ending(file);
   check_is_file(file);
-  if (ending == ".sol") return read_sol(file);
-  if (ending == ".mtr") return read_mtr(file);
-  throw InputError("no format of size functions has this ending", place_in(file.string()), "use one of .sol .mtr");
+  if (ending != ".sol" && ending != ".mtr")
+    throw InputError("no format of size functions has this ending", place_in(file.string()), "use one of .sol .mtr");
+  BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
+  sizes.name = file.string();
+  return sizes;
 }
 
 }  // namespace ccdt

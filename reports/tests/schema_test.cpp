@@ -59,6 +59,7 @@ TEST(RunSchema, AcceptsTheRecordOfARun) {
   record.quality = measure_quality({});
   record.notes = {"a note"};
   record.samples = {{"mesh", {1, 2}}};
+  record.counts.splits_by_level = {2, 1};
   EXPECT_EQ(faults_of(Json::parse(to_json(record))), std::vector<std::string>());
 }
 
@@ -74,6 +75,9 @@ TEST(RunSchema, RefusesARecordThatLacksAFixedNameOrHasAWrongType) {
   Json text = good;
   text["seconds"]["mesh"] = "fast";
   EXPECT_EQ(faults_of(text).size(), 1u);
+  Json negative = good;
+  negative["counts"]["splits_by_level"] = {1, -1};
+  EXPECT_EQ(faults_of(negative).size(), 1u);
 }
 
 }  // namespace
