@@ -21,8 +21,7 @@ void put_simplex_first(std::span<const Point3> points, std::vector<std::uint32_t
         return;
       }
     }
-    throw MeshError("the vertices are all in one plane, or fewer than four", {},
-                    "a tetrahedral mesh needs a body: check that the input is not flat");
+    refuse_flat_points();
   };
   const auto at = [&](std::size_t i) -> const Point3& { return points[order[i]]; };
   bring(0, [](const Point3&) { return true; });
@@ -30,6 +29,13 @@ void put_simplex_first(std::span<const Point3> points, std::vector<std::uint32_t
   bring(2, [&](const Point3& p) { return !collinear(at(0), at(1), p); });
   bring(3, [&](const Point3& p) { return orient3d(at(0), at(1), at(2), p) != 0; });
   if (orient3d(at(0), at(1), at(2), at(3)) < 0) std::swap(order[0], order[1]);
+}
+
+/// The indices of the points in the order of insertion.
+std::vector<std::uint32_t> insertion_order(std::span<const Point3> points) {
+  std::vector<std::uint32_t> order = hilbert_order(points);
+  put_simplex_first(points, order);
+  return order;
 }
 
 /// The tetrahedron of vertices 0 to 3 with its four ghosts.
@@ -66,9 +72,20 @@ void renumber(Delaunay& d, const std::vector<std::uint32_t>& order) {
 
 }  // namespace
 
+void refuse_flat_points() {
+  throw MeshError("the vertices are all in one plane, or fewer than four", {},
+                  "a tetrahedral mesh needs a body: check that the input is not flat");
+}
+
+std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points) {
+  const std::vector<std::uint32_t> order = insertion_order(points);
+  std::vector<std::uint32_t> ranks(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) ranks[order[i]] = static_cast<std::uint32_t>(i);
+  return ranks;
+}
+
 Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress) {
-  std::vector<std::uint32_t> order = hilbert_order(points);
-  put_simplex_first(points, order);
+  const std::vector<std::uint32_t> order = insertion_order(points);
   Delaunay d;
   d.vertices.resize(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i), 0};

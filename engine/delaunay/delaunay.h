@@ -65,4 +65,12 @@ struct Delaunay {
 /// \throw MeshError  fewer than four points, or all in one plane; carries no place
 Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress = {});
 
+/// The ranks, by id, that `build_delaunay` gives: the order of its insertions.
+///
+/// \throw MeshError  as build_delaunay
+std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points);
+
+/// Throws what `build_delaunay` throws for points without a body.
+[[noreturn]] void refuse_flat_points();
+
 }  // namespace ccdt

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/locate/uniform_grid.h"
+
+namespace ccdt {
+
+/// A vertex as the searches in the grid see it.
+struct GridVertex {
+  Point3 point;  ///< relative to the low corner of all points, exactly
+  std::uint32_t rank = 0;
+  std::uint32_t id = 0;
+};
+
+/// Vertices in the order of the cells of a uniform grid (paper, section 4), so that those of a row of cells lie side by
+/// side: those of cell c are first[c] .. first[c + 1]. In what follows a vertex is named by its place in this order.
+struct VertexGrid {
+  UniformGrid grid;
+  Point3 extent;  ///< of the points
+  std::vector<std::uint32_t> first;
+  std::vector<GridVertex> vertices;
+};
+
+/// \param scale  factor of the paper's cell size
+VertexGrid make_vertex_grid(std::span<const DelaunayVertex> vertices, double scale);
+
+}  // namespace ccdt
