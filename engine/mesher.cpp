@@ -103,7 +103,8 @@ TetMesh constrain(Work& w) {
   FrontResult front;
   {
     const Stopwatch watch(w.seconds.front);
-    front = advance_front(w.plc, w.facets, codes, w.options.face_protection, w.delaunay, w.progress);
+    front = advance_front(w.plc, w.facets, codes, w.options.face_protection, w.delaunay,
+                          {w.options.locator, w.options.grid_scale}, w.progress);
     w.counts.front_tetrahedra = front.tetrahedra.size();
   }
   TetMesh mesh;

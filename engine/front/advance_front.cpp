@@ -2,70 +2,82 @@
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 
+#include "engine/base/flat_table.h"
 #include "engine/delaunay/cell_star.h"
-#include "engine/front/find_apex.h"
+#include "engine/front/apex_finders.h"
 
 namespace ccdt {
 namespace {
 
-/// The front: sides of PLC faces in arrays by triangle, because most of them are Delaunay and never looked at again,
-/// and the faces that the front makes in a table.
+enum Side : std::size_t { above = 0, below = 1 };
+
+/// What is above a side (2 * triangle + Side) of a face of the PLC.
+FrontFace state_of(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes, const Delaunay& d,
+                   std::size_t side) {
+  const Facet& facet = plc.facets[facets.facet[side / 2]];
+  const std::uint32_t code = codes[side / 2];
+  if (side % 2 == above) return {facet.above, code};
+  return {facet.below, code == no_neighbor ? no_neighbor : d.cells[cell_of(code)].neighbors[face_of(code)]};
+}
+
+/// The sides of the PLC's faces that the domain is on.
+std::vector<std::uint8_t> sides_within(const Plc& plc, const FacetMesh& facets) {
+  std::vector<std::uint8_t> is_within(2 * facets.triangles.size());
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const Facet& facet = plc.facets[facets.facet[i]];
+    is_within[2 * i + above] = plc.chambers[facet.above].inside;
+    is_within[2 * i + below] = plc.chambers[facet.below].inside;
+  }
+  return is_within;
+}
+
+/// The front: sides of PLC faces as bits, because most of them are Delaunay and never looked at again; a table for
+/// those that the front may meet and for the faces that it makes.
 class Front {
  public:
   Front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool face_protection,
-        const Delaunay& delaunay);
+        const Delaunay& delaunay, CellStar& star)
+      : plc_(plc),
+        facets_(facets),
+        codes_(codes),
+        face_protection_(face_protection),
+        d_(delaunay),
+        star_(star),
+        plc_open_(sides_within(plc, facets)) {}
 
-  void advance(const Progress& progress);
+  template <class Finder>
+  void advance(Finder&& finder, const Progress& progress);
   FrontResult finish();
 
  private:
-  enum Side : std::size_t { above = 0, below = 1 };
+  static constexpr std::uint32_t no_side = 0xFFFFFFFFu;
+
+  struct State {
+    FrontFace face;
+    std::uint32_t cavity = CavityLocator::no_cavity;  // of the tetrahedron below, or of the missing face
+    std::uint32_t side = no_side;                     // of the PLC, if any: such entries stay when they are closed
+  };
 
   [[noreturn]] void fail(const OrientedFace& face, const char* what) const;
-  std::optional<std::size_t> plc_side(const OrientedFace& face) const;
-  FrontFace state_of(std::size_t side) const;
-  std::optional<FrontFace> close(const OrientedFace& face);
-  void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, ChamberId chamber);
-  void pass(const OrientedFace& inner, ChamberId chamber);
+  template <class Finder>
+  void add_plc_faces(const Finder& finder);
+  std::optional<State> close(const OrientedFace& face);
+  void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state);
+  void pass(const OrientedFace& inner, const State& state);
 
   const Plc& plc_;
   const FacetMesh& facets_;
   const std::vector<std::uint32_t>& codes_;
   bool face_protection_;
   const Delaunay& d_;
-  CellStar star_;
-  std::vector<bool> plc_open_;  // by 2 * triangle + side
-  std::unordered_map<OrientedFace, std::size_t, OrientedFaceHash> plc_sides_;
-  std::unordered_map<OrientedFace, FrontFace, OrientedFaceHash> faces_;
-  std::vector<OrientedFace> undelaunay_;  // some may be closed meanwhile
+  CellStar& star_;
+  std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
+  FlatTable<OrientedFace, State, OrientedFaceTraits> faces_;
+  std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
   FrontResult result_;
 };
-
-Front::Front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool face_protection,
-             const Delaunay& delaunay)
-    : plc_(plc),
-      facets_(facets),
-      codes_(codes),
-      face_protection_(face_protection),
-      d_(delaunay),
-      star_(delaunay),
-      plc_open_(2 * facets.triangles.size(), false) {
-  const bool any_undelaunay = std::find(codes.begin(), codes.end(), no_neighbor) != codes.end();
-  if (any_undelaunay) plc_sides_.reserve(2 * facets.triangles.size());
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    const auto& t = facets.triangles[i];
-    const Facet& facet = plc.facets[facets.facet[i]];
-    for (const Side side : {above, below}) {
-      plc_open_[2 * i + side] = plc.chambers[side == above ? facet.above : facet.below].inside;
-      if (!any_undelaunay) continue;
-      const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
-      plc_sides_.emplace(face, 2 * i + side);
-      if (plc_open_[2 * i + side] && codes[i] == no_neighbor) undelaunay_.push_back(face);
-    }
-  }
-}
 
 void Front::fail(const OrientedFace& face, const char* what) const {
   Place place;
@@ -74,84 +86,107 @@ void Front::fail(const OrientedFace& face, const char* what) const {
   throw FrontStuck(what, place, "the facets near these points are almost but not quite flat: try another --flatness");
 }
 
-std::optional<std::size_t> Front::plc_side(const OrientedFace& face) const {
-  const auto found = plc_sides_.find(face);
-  if (found == plc_sides_.end()) return std::nullopt;
-  return found->second;
-}
-
-FrontFace Front::state_of(std::size_t side) const {
-  const std::size_t triangle = side / 2;
-  const Facet& facet = plc_.facets[facets_.facet[triangle]];
-  const std::uint32_t code = codes_[triangle];
-  if (side % 2 == above) return {facet.above, code};
-  return {facet.below, code == no_neighbor ? no_neighbor : d_.cells[cell_of(code)].neighbors[face_of(code)]};
+template <class Finder>
+void Front::add_plc_faces(const Finder& finder) {
+  const std::vector<std::uint32_t> triangles = finder.triangles();
+  faces_.reserve(2 * triangles.size());
+  for (const std::uint32_t i : triangles) {
+    const auto& t = facets_.triangles[i];
+    const std::uint32_t cavity = finder.cavity_of_triangle(i);
+    for (const Side side : {above, below}) {
+      const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
+      const auto number = static_cast<std::uint32_t>(2 * i + side);
+      faces_.insert(face, {state_of(plc_, facets_, codes_, d_, number), cavity, number});
+      if (plc_open_[number] && codes_[i] == no_neighbor) undelaunay_.push_back(face);
+    }
+  }
+  result_.undelaunay_faces = undelaunay_.size();
 }
 
 /// Takes a face from the front; nothing if it is not there.
-std::optional<FrontFace> Front::close(const OrientedFace& face) {
-  if (const auto side = plc_side(face)) {
-    if (!plc_open_[*side]) return std::nullopt;
-    plc_open_[*side] = false;
-    return state_of(*side);
+std::optional<Front::State> Front::close(const OrientedFace& face) {
+  State* found = faces_.find(face);
+  if (found == nullptr) return std::nullopt;
+  const State state = *found;
+  if (state.side == no_side) {
+    faces_.erase(found);
+  } else {
+    if (!plc_open_[state.side]) return std::nullopt;
+    plc_open_[state.side] = false;
   }
-  const auto found = faces_.find(face);
-  if (found == faces_.end()) return std::nullopt;
-  const FrontFace state = found->second;
-  faces_.erase(found);
   return state;
 }
 
-void Front::advance(const Progress& progress) {
-  if (undelaunay_.empty()) return;
-  ApexFinder finder(facets_, d_);
+template <class Finder>
+void Front::advance(Finder&& finder, const Progress& progress) {
+  add_plc_faces(finder);
   std::uint64_t done = 0;
   while (!undelaunay_.empty()) {
     const OrientedFace face = undelaunay_.back();
     undelaunay_.pop_back();
-    const auto state = close(face);
+    auto state = close(face);
     if (!state) continue;
-    const auto apex = finder.find(face);
+    const auto apex = finder.find(face, state->cavity);
     if (!apex) fail(face, "the front found no vertex that is visible from a face");
-    add_tetrahedron(face, *apex, state->chamber);
+    add_tetrahedron(face, *apex, *state);
     if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
   }
 }
 
-void Front::add_tetrahedron(const OrientedFace& base, std::uint32_t apex, ChamberId chamber) {
+void Front::add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state) {
   const auto& [a, b, c] = base.corners;
   result_.tetrahedra.push_back({a, b, c, apex});
-  result_.chambers.push_back(chamber);
+  result_.chambers.push_back(state.face.chamber);
   // The other faces, with the tetrahedron above them.
-  pass({a, c, apex}, chamber);
-  pass({c, b, apex}, chamber);
-  pass({b, a, apex}, chamber);
+  pass({a, c, apex}, state);
+  pass({c, b, apex}, state);
+  pass({b, a, apex}, state);
 }
 
 /// Closes a face that waited for this tetrahedron, or opens its other side (paper, section 5.3).
-void Front::pass(const OrientedFace& inner, ChamberId chamber) {
+void Front::pass(const OrientedFace& inner, const State& state) {
   if (close(inner)) return;
-  if (plc_side(inner)) fail(inner, "the front passed a facet");
+  if (faces_.find(inner) != nullptr) fail(inner, "the front passed a facet");
   const OrientedFace outer = inner.reversed();
   const std::uint32_t code =
       face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
-  if (!faces_.emplace(outer, FrontFace{chamber, code}).second) fail(outer, "two tetrahedra of the front overlap");
-  if (code == no_neighbor) undelaunay_.push_back(outer);
+  if (!faces_.insert(outer, {{state.face.chamber, code}, state.cavity, no_side}).second)
+    fail(outer, "two tetrahedra of the front overlap");
+  if (code != no_neighbor) return;
+  undelaunay_.push_back(outer);
+  ++result_.undelaunay_faces;
 }
 
 FrontResult Front::finish() {
   for (std::size_t side = 0; side < plc_open_.size(); ++side)
-    if (plc_open_[side]) result_.open.push_back(state_of(side));
-  for (const auto& entry : faces_) result_.open.push_back(entry.second);
+    if (plc_open_[side]) result_.open.push_back(state_of(plc_, facets_, codes_, d_, side));
+  faces_.for_each([&](const OrientedFace&, const State& state) {
+    if (state.side == no_side) result_.open.push_back(state.face);
+  });
   return std::move(result_);
 }
 
 }  // namespace
 
 FrontResult advance_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
-                          bool face_protection, const Delaunay& delaunay, const Progress& progress) {
-  Front front(plc, facets, codes, face_protection, delaunay);
-  front.advance(progress);
+                          bool face_protection, const Delaunay& delaunay, const FrontLocator& locator,
+                          const Progress& progress) {
+  CellStar star(delaunay);
+  Front front(plc, facets, codes, face_protection, delaunay, star);
+  if (std::find(codes.begin(), codes.end(), no_neighbor) == codes.end()) return front.finish();
+  switch (locator.kind) {
+    case LocatorKind::grid:
+      front.advance(
+          WholeModelFinder(facets, delaunay, GridLocator(delaunay.vertices, facets.triangles, locator.grid_scale)),
+          progress);
+      break;
+    case LocatorKind::octree:
+      front.advance(WholeModelFinder(facets, delaunay, OctreeLocator(delaunay.vertices, facets.triangles)), progress);
+      break;
+    case LocatorKind::cavity:
+      front.advance(CavityFinder(facets, codes, !face_protection, delaunay, star), progress);
+      break;
+  }
   return front.finish();
 }
 

@@ -9,6 +9,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/front_faces.h"
+#include "engine/mesher.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {
@@ -18,6 +19,14 @@ struct FrontResult {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented
   std::vector<ChamberId> chambers;                       ///< of each tetrahedron
   std::vector<FrontFace> open;  ///< the Delaunay faces above which the domain is left to the labelling
+  /// Undelaunay faces that have been in the front: those of the PLC (by their sides within the domain) and new ones.
+  std::uint64_t undelaunay_faces = 0;
+};
+
+/// Who finds the vertices and the faces in their way.
+struct FrontLocator {
+  LocatorKind kind = LocatorKind::grid;
+  double grid_scale = 1;  ///< of the grid: factor of the paper's cell size
 };
 
 /// The front found no vertex for a face, or met itself: the vertices have no constrained Delaunay tetrahedralization,
@@ -38,6 +47,7 @@ class FrontStuck : public MeshError {
 /// \param face_protection  are new faces looked up in the tetrahedralization?
 /// \throw FrontStuck
 FrontResult advance_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
-                          bool face_protection, const Delaunay& delaunay, const Progress& progress = {});
+                          bool face_protection, const Delaunay& delaunay, const FrontLocator& locator = {},
+                          const Progress& progress = {});
 
 }  // namespace ccdt

@@ -1,71 +1,108 @@
 #include "engine/front/find_apex.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/front/visibility.h"
+#include "engine/locate/grid_locator.h"
+#include "engine/locate/octree_locator.h"
+#include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt {
 namespace {
 
-constexpr double everywhere = 0x1p60;
-
-/// The circumsphere in floating point, a little too large; endless where the four points are too flat to tell.
-Ball circumsphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+/// The circumsphere in floating point, a little too large; the cap stays as it is where the four points are too flat to
+/// tell.
+void shrink(Cap& cap, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
-  const Point3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
-  const double volume = dot(u, vw);
-  const double size = std::sqrt(squared_length(u) * squared_length(v) * squared_length(w));
-  if (std::fabs(volume) < 1e-9 * size) return {a, everywhere};
-  const Point3 to_centre = (0.5 / volume) * (squared_length(u) * vw + squared_length(v) * wu + squared_length(w) * uv);
-  const double radius = std::sqrt(squared_length(to_centre)) * (1 + 1e-6);
-  return {a + to_centre, radius};
+  const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
+  const Point3 uv = cross(u, v);
+  const double volume = dot(w, uv);
+  if (volume * volume < 1e-18 * uu * vv * ww) return;
+  const Point3 to_centre = (0.5 / volume) * (uu * cross(v, w) + vv * cross(w, u) + ww * uv);
+  cap.shrink_to(a + to_centre, std::sqrt(squared_length(to_centre)) * (1 + 1e-6));
 }
+
+/// The search for the apex of one face.
+template <class Locator>
+class ApexSearch {
+ public:
+  ApexSearch(const Locator& locator, const FacetMesh& facets, const Delaunay& d, const OrientedFace& face)
+      : locator_(locator),
+        facets_(facets),
+        d_(d),
+        face_(face.corners),
+        a_(d.vertices[face_[0]]),
+        b_(d.vertices[face_[1]]),
+        c_(d.vertices[face_[2]]) {}
+
+  std::optional<std::uint32_t> find() const {
+    const LocatedVertex any = best([](const LocatedVertex&) { return true; });
+    if (any.id == ghost_vertex) return std::nullopt;
+    if (is_visible(any)) return any.id;
+    const LocatedVertex seen = best([&](const LocatedVertex& v) { return v.id != any.id && is_visible(v); });
+    if (seen.id == ghost_vertex) return std::nullopt;
+    return seen.id;
+  }
+
+ private:
+  /// The vertex above the face with the emptiest sphere among those that satisfy; `ghost_vertex` if there is none.
+  template <class Satisfies>
+  LocatedVertex best(const Satisfies& satisfies) const {
+    const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
+    Cap cap(a, b, c);
+    LocatedVertex best{{}, 0, ghost_vertex};
+    // What is above the face and in a later, smaller sphere is in the earlier one too: one spiral is enough.
+    locator_.spiral(approximate_centroid(a, b, c), cap, [&](const LocatedVertex& v) {
+      if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2]) return;
+      if (!is_above(v.point) || (best.id != ghost_vertex && !is_in_sphere(best, v)) || !satisfies(v)) return;
+      best = v;
+      shrink(cap, a, b, c, v.point);
+    });
+    return best;
+  }
+
+  bool is_above(const Point3& p) const {
+    const Sign sign = orient3d_filter(a_.point, b_.point, c_.point, p);
+    return sign == Sign::unknown ? orient3d(a_.point, b_.point, c_.point, p) > 0 : sign == Sign::plus;
+  }
+
+  /// Is v in the sphere of the face and the best vertex so far?
+  bool is_in_sphere(const LocatedVertex& best, const LocatedVertex& v) const {
+    const Sign sign = insphere_filter(a_.point, b_.point, c_.point, best.point, v.point);
+    if (sign == Sign::plus || sign == Sign::minus) return sign == Sign::plus;
+    return insphere_perturbed(a_.point, b_.point, c_.point, best.point, v.point,
+                              {a_.rank, b_.rank, c_.rank, best.rank, v.rank}) > 0;
+  }
+
+  bool is_visible(const LocatedVertex& v) const {
+    const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
+    return !locator_.any_near_edge(approximate_centroid(a, b, c), v.point, [&](std::uint32_t f) {
+      const auto& t = facets_.triangles[f];
+      if (t[0] == v.id || t[1] == v.id || t[2] == v.id) return false;
+      return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, v.point, a, b, c);
+    });
+  }
+
+  const Locator& locator_;
+  const FacetMesh& facets_;
+  const Delaunay& d_;
+  const std::array<std::uint32_t, 3>& face_;
+  const DelaunayVertex &a_, &b_, &c_;
+};
 
 }  // namespace
 
-ApexFinder::ApexFinder(const FacetMesh& facets, const Delaunay& delaunay)
-    : facets_(facets), d_(delaunay), locator_(delaunay.vertices, facets.triangles) {}
-
-std::optional<std::uint32_t> ApexFinder::find(const OrientedFace& face) {
-  face_ = face.corners;
-  best_ = ghost_vertex;
-  const Point3 &a = d_.point(face_[0]), &b = d_.point(face_[1]), &c = d_.point(face_[2]);
-  Ball ball{a, everywhere};
-  const auto consider = [&](std::uint32_t v) {
-    if (!is_better(v)) return;
-    best_ = v;
-    ball = circumsphere(a, b, c, d_.point(v));
-  };
-  // What is above the face and in a later, smaller sphere is in the earlier one too: one spiral is enough.
-  locator_.spiral(approximate_centroid(a, b, c), consider, [&] { return ball; });
-  if (best_ == ghost_vertex) return std::nullopt;
-  return best_;
+template <class Locator>
+std::optional<std::uint32_t> find_apex(const Locator& locator, const FacetMesh& facets, const Delaunay& delaunay,
+                                       const OrientedFace& face) {
+  return ApexSearch<Locator>(locator, facets, delaunay, face).find();
 }
 
-bool ApexFinder::is_better(std::uint32_t v) const {
-  if (v == best_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
-  const Point3 &a = d_.point(face_[0]), &b = d_.point(face_[1]), &c = d_.point(face_[2]), &p = d_.point(v);
-  if (orient3d(a, b, c, p) <= 0) return false;
-  if (best_ != ghost_vertex && !is_in_sphere(v)) return false;
-  return is_visible(v);
-}
-
-/// Is v in the sphere of the face and the best vertex so far?
-bool ApexFinder::is_in_sphere(std::uint32_t v) const {
-  const DelaunayVertex &a = d_.vertices[face_[0]], &b = d_.vertices[face_[1]], &c = d_.vertices[face_[2]],
-                       &d = d_.vertices[best_], &e = d_.vertices[v];
-  return insphere_perturbed(a.point, b.point, c.point, d.point, e.point, {a.rank, b.rank, c.rank, d.rank, e.rank}) > 0;
-}
-
-bool ApexFinder::is_visible(std::uint32_t v) const {
-  const Point3 &a = d_.point(face_[0]), &b = d_.point(face_[1]), &c = d_.point(face_[2]), &p = d_.point(v);
-  return !locator_.any_near_edge(approximate_centroid(a, b, c), p, [&](std::uint32_t f) {
-    const auto& t = facets_.triangles[f];
-    if (t[0] == v || t[1] == v || t[2] == v) return false;
-    return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, p, a, b, c);
-  });
-}
+template std::optional<std::uint32_t> find_apex(const GridLocator&, const FacetMesh&, const Delaunay&,
+                                                const OrientedFace&);
+template std::optional<std::uint32_t> find_apex(const OctreeLocator&, const FacetMesh&, const Delaunay&,
+                                                const OrientedFace&);
 
 }  // namespace ccdt

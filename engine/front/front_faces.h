@@ -21,12 +21,15 @@ struct OrientedFace {
   friend bool operator==(const OrientedFace&, const OrientedFace&) = default;
 };
 
-struct OrientedFaceHash {
-  std::size_t operator()(const OrientedFace& f) const {
+/// For tables.
+struct OrientedFaceTraits {
+  static OrientedFace none() { return {ghost_vertex, ghost_vertex, ghost_vertex}; }
+  static std::size_t hash(const OrientedFace& f) {
     std::uint64_t h =
         f.corners[0] * 0x9E3779B97F4A7C15u ^ f.corners[1] * 0xC2B2AE3D27D4EB4Fu ^ f.corners[2] * 0x165667B19E3779F9u;
     h ^= h >> 32;
-    return h * 0xD6E8FEB86659FD93u;
+    h *= 0xD6E8FEB86659FD93u;
+    return static_cast<std::size_t>(h ^ h >> 32);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ccdt {
 namespace {
@@ -14,14 +15,14 @@ Point3 componentwise_max(const Point3& a, const Point3& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-UniformGrid grid_of(std::span<const DelaunayVertex> vertices, std::size_t faces) {
+UniformGrid grid_of(std::span<const DelaunayVertex> vertices, std::size_t faces, double scale) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Point3 low{inf, inf, inf}, high{-inf, -inf, -inf};
   for (const DelaunayVertex& v : vertices) {
     low = componentwise_min(low, v.point);
     high = componentwise_max(high, v.point);
   }
-  return make_uniform_grid(low, high, std::max(vertices.size(), faces));
+  return make_uniform_grid(low, high, std::max(vertices.size(), faces), scale);
 }
 
 /// Calls visit(cell) for every cell of the triangle's box that its plane comes near.
@@ -43,11 +44,14 @@ void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const P
 
 }  // namespace
 
-GridLocator::GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces)
-    : grid_(grid_of(vertices, faces.size())) {
-  vertices_ = make_cell_lists(grid_.size(), [&](const auto& emit) {
+GridLocator::GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
+                         double scale)
+    : grid_(grid_of(vertices, faces.size(), scale)) {
+  CellLists by_cell = make_cell_lists(grid_.size(), [&](const auto& emit) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(grid_.number(grid_.cell_at(vertices[v].point)), v);
   });
+  for (const std::uint32_t v : by_cell.items) vertices_.push_back({vertices[v].point, vertices[v].rank, v});
+  first_vertex_ = std::move(by_cell.first);
   faces_ = make_cell_lists(grid_.size(), [&](const auto& emit) {
     for (std::uint32_t f = 0; f < faces.size(); ++f)
       for_each_cell_of_triangle(grid_, vertices[faces[f][0]].point, vertices[faces[f][1]].point,

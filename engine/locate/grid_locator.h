@@ -1,31 +1,30 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "engine/base/index.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/locate/cap.h"
 #include "engine/locate/uniform_grid.h"
 
 namespace ccdt {
 
-struct Ball {
-  Point3 centre;
-  double radius;
-};
-
-/// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4).
+/// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4). Good where the density
+/// is even.
 class GridLocator {
  public:
-  GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
+  /// \param scale  factor of the paper's cell size
+  GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
+              double scale = 1);
 
-  /// Calls visit(vertex) for vertices in growing distance from `centre`, ring of cells by ring. Cells outside the ball
-  /// that `reach()` gives are passed over; when all that is left is outside, it ends.
-  template <class Visit, class Reach>
-  void spiral(const Point3& centre, const Visit& visit, const Reach& reach) const;
+  /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, in growing distance from
+  /// `start`, ring of cells by ring. The cap may shrink meanwhile.
+  template <class Visit>
+  void spiral(const Point3& start, const Cap& cap, const Visit& visit) const;
 
   /// Calls visit(face) for every face that the straight edge from p to q may meet, some more than once, until it
   /// returns true. \return did some call?
@@ -33,37 +32,55 @@ class GridLocator {
   bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const;
 
  private:
+  template <class Visit>
+  void visit_ring(const UniformGrid::CellIndex& middle, int ring, const Cap& cap, const Visit& visit) const;
+  template <class Visit>
+  void visit_cell(const UniformGrid::CellIndex& cell, const Cap& cap, const Visit& visit) const;
+
   UniformGrid grid_;
-  CellLists vertices_, faces_;
+  std::vector<LocatedVertex> vertices_;      // by cell
+  std::vector<std::uint32_t> first_vertex_;  // of each cell, and one more
+  CellLists faces_;
 };
 
-template <class Visit, class Reach>
-void GridLocator::spiral(const Point3& centre, const Visit& visit, const Reach& reach) const {
-  const UniformGrid::CellIndex middle = grid_.cell_at(centre);
+template <class Visit>
+void GridLocator::spiral(const Point3& start, const Cap& cap, const Visit& visit) const {
+  const UniformGrid::CellIndex middle = grid_.cell_at(start);
   int rings = 0;
   for (int i = 0; i < 3; ++i) rings = std::max({rings, middle[i], grid_.cells[i] - 1 - middle[i]});
   for (int ring = 0; ring <= rings; ++ring) {
-    const Ball ball = reach();
-    const double farthest = std::sqrt(squared_length(ball.centre - centre)) + ball.radius;
+    const double farthest = std::sqrt(squared_length(cap.centre() - start)) + cap.radius();
     if ((ring - 1) * grid_.cell_size > farthest) return;
-    const Point3 r{ball.radius, ball.radius, ball.radius};
-    UniformGrid::CellIndex from = grid_.cell_at(ball.centre - r), to = grid_.cell_at(ball.centre + r);
-    for (int i = 0; i < 3; ++i) {
-      from[i] = std::max(from[i], middle[i] - ring);
-      to[i] = std::min(to[i], middle[i] + ring);
-    }
-    for (int z = from[2]; z <= to[2]; ++z) {
-      for (int y = from[1]; y <= to[1]; ++y) {
-        // Within a row only the two ends are on the ring, unless the whole row is.
-        const bool whole = std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
-        const int step = whole ? 1 : std::max(1, 2 * ring);
-        for (int x = whole ? from[0] : middle[0] - ring; x <= to[0]; x += step) {
-          if (x < from[0]) continue;
-          for (const std::uint32_t v : vertices_.of(grid_.number({x, y, z}))) visit(v);
-        }
-      }
+    visit_ring(middle, ring, cap, visit);
+  }
+}
+
+template <class Visit>
+void GridLocator::visit_ring(const UniformGrid::CellIndex& middle, int ring, const Cap& cap, const Visit& visit) const {
+  const Point3 r{cap.radius(), cap.radius(), cap.radius()};
+  UniformGrid::CellIndex from = grid_.cell_at(cap.centre() - r), to = grid_.cell_at(cap.centre() + r);
+  for (int i = 0; i < 3; ++i) {
+    from[i] = std::max(from[i], middle[i] - ring);
+    to[i] = std::min(to[i], middle[i] + ring);
+  }
+  for (int z = from[2]; z <= to[2]; ++z) {
+    for (int y = from[1]; y <= to[1]; ++y) {
+      // Within a row only the two ends are on the ring, unless the whole row is.
+      const bool whole = std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
+      const int step = whole ? 1 : std::max(1, 2 * ring);
+      for (int x = whole ? from[0] : middle[0] - ring; x <= to[0]; x += step)
+        if (x >= from[0]) visit_cell({x, y, z}, cap, visit);
     }
   }
+}
+
+template <class Visit>
+void GridLocator::visit_cell(const UniformGrid::CellIndex& cell, const Cap& cap, const Visit& visit) const {
+  const std::size_t number = grid_.number(cell);
+  const std::uint32_t first = first_vertex_[number], last = first_vertex_[number + 1];
+  if (first == last) return;
+  if (cap.misses(grid_.box(cell))) return;
+  for (std::uint32_t i = first; i < last; ++i) visit(vertices_[i]);
 }
 
 template <class Visit>

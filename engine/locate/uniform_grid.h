@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/numbers/point.h"
+#include "engine/plc/box_tree.h"
 
 namespace ccdt {
 
@@ -29,6 +30,13 @@ struct UniformGrid {
   std::size_t size() const { return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]; }
   Point3 centre(const CellIndex& c) const {
     return {low.x + (c[0] + 0.5) * cell_size, low.y + (c[1] + 0.5) * cell_size, low.z + (c[2] + 0.5) * cell_size};
+  }
+  /// A little larger than the cell, for the roundings of `cell_at`.
+  ClosedBox box(const CellIndex& c) const {
+    const double slack = 1e-6 * cell_size, side = cell_size + 2 * slack;
+    const Point3 corner{low.x + c[0] * cell_size - slack, low.y + c[1] * cell_size - slack,
+                        low.z + c[2] * cell_size - slack};
+    return {corner, corner + Point3{side, side, side}};
   }
 
   /// Calls visit(cell) for all cells from `from` to `to`, both included.

@@ -1,0 +1,96 @@
+#include "engine/locate/box_octree.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace ccdt {
+namespace {
+
+/// The 21 low bits of x, two free places after each.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x1F00000000FFFFu;
+  x = (x | x << 16) & 0x1F0000FF0000FFu;
+  x = (x | x << 8) & 0x100F00F00F00F00Fu;
+  x = (x | x << 4) & 0x10C30C30C30C30C3u;
+  x = (x | x << 2) & 0x1249249249249249u;
+  return x;
+}
+
+Point3 middle_of(const ClosedBox& box) {
+  return 0.5 * (box.low + box.high);
+}
+
+/// The numbers of the boxes' middles in a cube around all of them.
+std::vector<std::uint64_t> morton_numbers(std::span<const ClosedBox> boxes, unsigned bits) {
+  ClosedBox all = box_of(middle_of(boxes[0]));
+  for (const ClosedBox& box : boxes) all = hull(all, box_of(middle_of(box)));
+  const Point3 extent = all.high - all.low;
+  const double steps = static_cast<double>(1u << bits);
+  const double scale = (1 - 1e-9) * steps / std::max({extent.x, extent.y, extent.z, 1.0});
+  std::vector<std::uint64_t> numbers;
+  numbers.reserve(boxes.size());
+  for (const ClosedBox& box : boxes) {
+    const Point3 p = scale * (middle_of(box) - all.low);
+    numbers.push_back(spread(static_cast<std::uint64_t>(p.x)) | spread(static_cast<std::uint64_t>(p.y)) << 1 |
+                      spread(static_cast<std::uint64_t>(p.z)) << 2);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+BoxOctree::BoxOctree(std::span<const ClosedBox> boxes, std::uint32_t leaf_size) {
+  if (boxes.empty()) return;
+  std::vector<std::uint64_t> keys;
+  order_.resize(boxes.size());
+  if (boxes.size() > leaf_size) {
+    keys = morton_numbers(boxes, deepest);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;
+    sorted.reserve(boxes.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) sorted.emplace_back(keys[i], i);
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 0; i < sorted.size(); ++i) std::tie(keys[i], order_[i]) = sorted[i];
+  } else {
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) order_[i] = i;
+  }
+  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(boxes.size()), 0, 0});
+  std::vector<unsigned> levels = {0};
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node)
+    if (nodes_[node].last - nodes_[node].first > leaf_size) split(node, keys, levels);
+  // Children come after their parents.
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    if (node.child_count == 0) {
+      node.box = boxes[order_[node.first]];
+      for (std::uint32_t j = node.first + 1; j < node.last; ++j) node.box = hull(node.box, boxes[order_[j]]);
+    } else {
+      node.box = nodes_[node.children].box;
+      for (std::uint32_t j = 1; j < node.child_count; ++j) node.box = hull(node.box, nodes_[node.children + j].box);
+    }
+  }
+}
+
+/// Appends the octants of a node as its children; `levels` are those of the nodes.
+void BoxOctree::split(std::uint32_t node, const std::vector<std::uint64_t>& keys, std::vector<unsigned>& levels) {
+  const std::uint32_t first = nodes_[node].first, last = nodes_[node].last;
+  // Octants with everything in them are passed over.
+  unsigned level = levels[node];
+  const auto octant = [&](std::uint32_t i) { return keys[i] >> 3 * (deepest - 1 - level) & 7u; };
+  while (level < deepest && octant(first) == octant(last - 1)) ++level;
+  if (level == deepest) return;
+  nodes_[node].children = static_cast<std::uint32_t>(nodes_.size());
+  for (std::uint32_t begin = first; begin < last;) {
+    const std::uint64_t here = octant(begin);
+    const auto end = std::partition_point(keys.begin() + begin, keys.begin() + last, [&](std::uint64_t key) {
+      return (key >> 3 * (deepest - 1 - level) & 7u) == here;
+    });
+    const auto next = static_cast<std::uint32_t>(end - keys.begin());
+    nodes_.push_back({{}, begin, next, 0, 0});
+    levels.push_back(level + 1);
+    ++nodes_[node].child_count;
+    begin = next;
+  }
+}
+
+}  // namespace ccdt

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "engine/numbers/point.h"
+#include "engine/plc/box_tree.h"
+
+namespace ccdt {
+
+/// A vertex as a locator holds it: copied, so that those near each other are near each other in memory.
+struct LocatedVertex {
+  Point3 point;
+  std::uint32_t rank, id;
+};
+
+inline double squared_distance(const Point3& p, const ClosedBox& box) {
+  const double x = std::max(std::max(box.low.x - p.x, p.x - box.high.x), 0.0),
+               y = std::max(std::max(box.low.y - p.y, p.y - box.high.y), 0.0),
+               z = std::max(std::max(box.low.z - p.z, p.z - box.high.z), 0.0);
+  return x * x + y * y + z * z;
+}
+
+/// What a search for the apex of a face still wants: points above the plane of the face and in a ball that shrinks with
+/// every better vertex. In floating point, a little too large, never too small.
+class Cap {
+ public:
+  /// Everything above the triangle abc.
+  Cap(const Point3& a, const Point3& b, const Point3& c) : foot_(a) {
+    const Point3 u = b - a, v = c - a;
+    normal_ = cross(u, v);
+    // The roundings of the height of a point, times the length of the normal: 16 * 2^-53 * |u| |v| times its distance,
+    // which is below 2^53 grid units, rounded up.
+    slack_ = 32 * std::sqrt(squared_length(u) * squared_length(v));
+  }
+
+  void shrink_to(const Point3& centre, double radius) {
+    centre_ = centre;
+    radius_ = radius;
+    squared_radius_ = radius * radius;
+  }
+
+  const Point3& centre() const { return centre_; }
+  double radius() const { return radius_; }
+
+  bool may_hold(const Point3& p) const {
+    return dot(normal_, p - foot_) >= -slack_ && squared_length(p - centre_) <= squared_radius_;
+  }
+
+  /// Is the box outside for sure?
+  bool misses(const ClosedBox& box) const {
+    const Point3 top{(normal_.x > 0 ? box.high.x : box.low.x) - foot_.x,
+                     (normal_.y > 0 ? box.high.y : box.low.y) - foot_.y,
+                     (normal_.z > 0 ? box.high.z : box.low.z) - foot_.z};
+    return dot(normal_, top) < -slack_ || squared_distance(centre_, box) > squared_radius_;
+  }
+
+ private:
+  Point3 foot_, normal_;
+  double slack_;
+  Point3 centre_;
+  double radius_ = std::numeric_limits<double>::infinity(), squared_radius_ = radius_;
+};
+
+}  // namespace ccdt

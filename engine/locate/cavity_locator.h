@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_mesh.h"
+#include "engine/locate/octree_locator.h"
+#include "engine/locate/pierced_cells.h"
+
+namespace ccdt {
+
+/// Finds vertices near a face and PLC faces near an edge within the *cavity* of the face alone: a connected part of the
+/// Delaunay cells that missing faces go through. All other cells of the domain are constrained Delaunay as they are, so
+/// what is made anew is inside the cavities, and the cost depends on them, not on the model.
+///
+/// Why a cavity is enough. Let t be the constrained Delaunay cell above a face f in a cavity, and p a vertex in the
+/// sphere of t. Follow the straight line from f to p. Each face that it passes before it meets a facet is locally
+/// Delaunay, so if p is in the sphere before such a face, p is in the sphere behind it or is a corner of the cell there
+/// (of the powers to the two spheres, the one behind is the smaller beyond the face). If the line left the cavity
+/// before it met a facet, it would be in a cell outside that is Delaunay in truth, whose sphere is empty, and could not
+/// get to p: a contradiction. So p is hidden, and by a face that is missing in this cavity or is a face of its cells.
+/// Vertices outside the sphere of t do no harm, whether hidden or not; and the apex of t is itself a corner of the
+/// cavity, since t is within it. More cells than needed do no harm either.
+class CavityLocator {
+ public:
+  static constexpr std::uint32_t no_cavity = 0xFFFFFFFFu;
+
+  /// \param codes  the Delaunay faces as the cell above calls them; what is `no_neighbor` there is looked for again
+  CavityLocator(const FacetMesh& facets, std::span<const std::uint32_t> codes, const Delaunay& delaunay,
+                CellStar& star);
+
+  /// By its number.
+  const OctreeLocator& cavity(std::uint32_t number) const { return cavities_[number]; }
+  std::size_t cavity_count() const { return cavities_.size(); }
+
+  /// The cavity that a Delaunay cell is in, if any.
+  std::uint32_t cavity_of_cell(std::uint32_t cell) const;
+  /// The cavity that a missing face of the PLC is in; none for Delaunay faces.
+  std::uint32_t cavity_of_triangle(std::uint32_t triangle) const;
+
+  /// The triangles that a front within the cavities can meet: the missing ones, and the faces of the cavities' cells.
+  const std::vector<std::uint32_t>& triangles() const { return triangles_; }
+
+ private:
+  std::vector<std::uint32_t> missing_;  // ascending
+  PiercedCells pierced_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<OctreeLocator> cavities_;
+};
+
+}  // namespace ccdt
