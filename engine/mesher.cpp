@@ -82,24 +82,25 @@ void fill_inside(Work& w) {
     const Stopwatch watch(w.seconds.lattice);
     points = lattice_points(w);
   }
-  {
-    const Stopwatch watch(w.seconds.delaunay);
-    w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
-    w.counts.dropped_interior_vertices = points.size() - w.counts.interior_vertices;
-  }
+  const Stopwatch watch(w.seconds.delaunay);
+  w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
+  w.counts.dropped_interior_vertices = points.size() - w.counts.interior_vertices;
+}
+
+/// The codes of the faces that are Delaunay; none of them is told apart when the check is off.
+std::vector<std::uint32_t> check_faces(Work& w) {
   const Stopwatch watch(w.seconds.face_check);
-  follow_interior_vertices(w.plc, w.chains, w.delaunay, w.facets);
+  std::vector<std::uint32_t> codes = find_delaunay_faces(w.facets, w.delaunay);
+  if (w.counts.interior_vertices > 0 && follow_interior_vertices(w.plc, w.chains, w.delaunay, codes, w.facets))
+    codes = find_delaunay_faces(w.facets, w.delaunay);
+  w.counts.faces = w.facets.triangles.size();
+  w.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, no_neighbor));
+  if (!w.options.face_protection) std::ranges::fill(codes, no_neighbor);
+  return codes;
 }
 
 TetMesh constrain(Work& w) {
-  std::vector<std::uint32_t> codes;
-  {
-    const Stopwatch watch(w.seconds.face_check);
-    codes = find_delaunay_faces(w.facets, w.delaunay);
-    w.counts.faces = w.facets.triangles.size();
-    w.counts.undelaunay_faces = static_cast<std::uint64_t>(std::count(codes.begin(), codes.end(), no_neighbor));
-    if (!w.options.face_protection) std::fill(codes.begin(), codes.end(), no_neighbor);
-  }
+  const std::vector<std::uint32_t> codes = check_faces(w);
   FrontResult front;
   {
     const Stopwatch watch(w.seconds.front);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <unordered_map>
 
 #include "engine/base/edge_key.h"
@@ -20,6 +22,8 @@ class FacetMesher {
   FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay);
 
   void triangulate(FacetId id, FacetMesh& result);
+  /// Are these triangles of a facet Delaunay faces that bound no flat cell towards the domain?
+  bool face_domain(const Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes);
 
  private:
   struct FacetSegment {
@@ -27,13 +31,15 @@ class FacetMesher {
     std::uint32_t segment;
   };
 
-  std::vector<FacetSegment> segments_of(const Facet& facet) const;
+  std::vector<FacetSegment> segments_of(const Facet& facet);
   PlanarTriangulation split_triangulation(const Facet& facet, const FacetPlane& plane,
                                           const std::vector<FacetSegment>& segments) const;
   FacetPlane flatten(const Facet& facet, const std::vector<FacetSegment>& segments);
+  std::vector<VertexId> enter(const Facet& facet, std::span<const Triangle> triangles);
   void take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t);
   std::vector<PlanarEdge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices);
   bool is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  bool has_all_vertices_here(std::uint32_t cell) const;
   bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const;
   bool is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const;
   std::uint32_t cell_on_domain_side(const Triangle& triangle);
@@ -50,13 +56,14 @@ class FacetMesher {
 };
 
 FacetMesher::FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
-    : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
-  segment_of_edge_.reserve(plc.segments.size());
-  for (std::uint32_t s = 0; s < plc.segments.size(); ++s)
-    segment_of_edge_[edge_key(plc.segments[s].ends[0], plc.segments[s].ends[1])] = s;
-}
+    : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {}
 
-std::vector<FacetMesher::FacetSegment> FacetMesher::segments_of(const Facet& facet) const {
+std::vector<FacetMesher::FacetSegment> FacetMesher::segments_of(const Facet& facet) {
+  if (segment_of_edge_.empty()) {
+    segment_of_edge_.reserve(plc_.segments.size());
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s)
+      segment_of_edge_[edge_key(plc_.segments[s].ends[0], plc_.segments[s].ends[1])] = s;
+  }
   std::vector<FacetSegment> segments;
   for (const Triangle& t : facet.triangles) {
     for (int i = 0; i < 3; ++i) {
@@ -153,12 +160,17 @@ bool FacetMesher::is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) co
   return squared_length(cross(u, v)) < 1e-12 * longest * longest;
 }
 
+/// Has the cell all vertices in the facet at hand?
+bool FacetMesher::has_all_vertices_here(std::uint32_t cell) const {
+  return std::ranges::all_of(d_.cells[cell].vertices,
+                             [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; });
+}
+
 /// Has the cell all vertices in the facet at hand, and may it be left out? Not if it is all that joins the middle one
 /// of three vertices along the border of the facet, which sticks out a little, to the domain.
 bool FacetMesher::is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
+  if (!has_all_vertices_here(cell)) return false;
   const auto& v = d_.cells[cell].vertices;
-  if (std::any_of(v.begin(), v.end(), [&](std::uint32_t u) { return u == ghost_vertex || in_facet_[u] != here_; }))
-    return false;
   for (const auto& corner : face_corners) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t middle = v[corner[i]], a = v[corner[(i + 1) % 3]], b = v[corner[(i + 2) % 3]];
@@ -173,9 +185,7 @@ bool FacetMesher::is_flat_cell(std::uint32_t cell, const FacetPlane& plane) cons
 
 /// Has the cell all vertices in the facet at hand, but may not be left out?
 bool FacetMesher::is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const {
-  const auto& v = d_.cells[cell].vertices;
-  const auto in_facet = [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; };
-  return std::all_of(v.begin(), v.end(), in_facet) && !is_flat_cell(cell, plane);
+  return has_all_vertices_here(cell) && !is_flat_cell(cell, plane);
 }
 
 /// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
@@ -208,17 +218,37 @@ std::vector<PlanarEdge> FacetMesher::edges_towards_domain(const FacetPlane& plan
   return edges;
 }
 
-/// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
-void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
+/// Makes the facet the one at hand. \return its vertices
+std::vector<VertexId> FacetMesher::enter(const Facet& facet, std::span<const Triangle> triangles) {
   ++here_;
   domain_side_ = plc_.chambers[facet.above].inside ? 1 : -1;
   std::vector<VertexId> vertices;
-  for (const Triangle& triangle : t.triangles) {
+  for (const Triangle& triangle : triangles) {
     for (const VertexId v : triangle) {
       if (in_facet_[v] != here_) vertices.push_back(v);
       in_facet_[v] = here_;
     }
   }
+  return vertices;
+}
+
+bool FacetMesher::face_domain(const Facet& facet, std::span<const Triangle> triangles,
+                              std::span<const std::uint32_t> codes) {
+  if (std::ranges::find(codes, no_neighbor) != codes.end()) return false;
+  enter(facet, triangles);
+  std::optional<FacetPlane> plane;  // hardly ever needed
+  return std::ranges::none_of(codes, [&](std::uint32_t code) {
+    const std::uint32_t cell =
+        domain_side_ > 0 ? cell_of(code) : cell_of(d_.cells[cell_of(code)].neighbors[face_of(code)]);
+    if (!has_all_vertices_here(cell)) return false;
+    if (!plane) plane.emplace(flatten(facet, segments_of(facet)));
+    return is_flat_cell(cell, *plane);
+  });
+}
+
+/// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
+void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
+  const std::vector<VertexId> vertices = enter(facet, t.triangles);
   const auto is_right = [&](const Triangle& triangle) {
     const std::uint32_t cell = cell_on_domain_side(triangle);
     return cell != no_neighbor && !is_flat_cell(cell, plane);
@@ -263,25 +293,27 @@ FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const 
   return result;
 }
 
-void follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
-                              FacetMesh& facets) {
-  if (std::ranges::all_of(plc.facets, &Facet::exactly_flat)) return;
+bool follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
+                              const std::vector<std::uint32_t>& codes, FacetMesh& facets) {
+  if (std::ranges::all_of(plc.facets, &Facet::exactly_flat)) return false;
   FacetMesher mesher(plc, chains, delaunay);
-  FacetMesh result;
-  std::size_t next = 0;
-  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
-    const std::size_t first = next;
-    while (next < facets.facet.size() && facets.facet[next] == f) ++next;
-    if (!plc.facets[f].exactly_flat) {
-      mesher.triangulate(FacetId(f), result);
-      continue;
+  const FacetMesh old = std::move(facets);
+  facets = {};
+  bool changed = false;
+  for (std::size_t first = 0, end = 0; first < old.facet.size(); first = end) {
+    const FacetId id = old.facet[first];
+    while (end < old.facet.size() && old.facet[end] == id) ++end;
+    const auto triangles = std::span(old.triangles).subspan(first, end - first);
+    const Facet& facet = plc.facets[id];
+    if (facet.exactly_flat || mesher.face_domain(facet, triangles, std::span(codes).subspan(first, end - first))) {
+      facets.triangles.insert(facets.triangles.end(), triangles.begin(), triangles.end());
+      facets.facet.resize(facets.triangles.size(), id);
+    } else {
+      mesher.triangulate(id, facets);
+      changed = true;
     }
-    const auto begin = facets.triangles.begin();
-    result.triangles.insert(result.triangles.end(), begin + static_cast<std::ptrdiff_t>(first),
-                            begin + static_cast<std::ptrdiff_t>(next));
-    result.facet.resize(result.triangles.size(), FacetId(f));
   }
-  facets = std::move(result);
+  return changed;
 }
 
 }  // namespace ccdt

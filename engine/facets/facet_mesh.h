@@ -27,8 +27,13 @@ struct FacetMesh {
 FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
                              const Progress& progress = {});
 
-/// Brings the triangulation up to date when interior vertices have joined the tetrahedralization. Facets that are
-/// exactly flat stay as they are: their triangulation depends on their own vertices alone. The others are done again.
-void follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay, FacetMesh& facets);
+/// Brings the triangulation up to date when interior vertices have joined the tetrahedralization. A facet that is
+/// exactly flat stays as it is: its triangulation depends on its own vertices alone. One that is flat within the
+/// tolerance is done again unless all its triangles are Delaunay and towards the domain.
+///
+/// \param codes  for every triangle its code in the cell above it, `no_neighbor` if it is no Delaunay face
+/// \return       has any triangle changed?
+bool follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
+                              const std::vector<std::uint32_t>& codes, FacetMesh& facets);
 
 }  // namespace ccdt

@@ -1,23 +1,12 @@
 #include "engine/label/label_cells.h"
 
+#include <numeric>
+
 namespace ccdt {
 namespace {
 
-/// Eight bits a cell: faces where the flood of a chamber starts or ends, and faces that it must not reach at all.
+/// Eight bits a cell: the faces that separate, set on both sides, and above them those that are open on this side.
 using FaceBits = std::vector<std::uint8_t>;
-
-void set_open(FaceBits& bits, std::uint32_t code) {
-  bits[cell_of(code)] |= static_cast<std::uint8_t>(1u << face_of(code));
-}
-void set_wall(FaceBits& bits, std::uint32_t code) {
-  bits[cell_of(code)] |= static_cast<std::uint8_t>(0x10u << face_of(code));
-}
-bool is_open(std::uint8_t bits, std::uint32_t face) {
-  return bits >> face & 1u;
-}
-bool is_wall(std::uint8_t bits, std::uint32_t face) {
-  return bits >> face & 0x10u;
-}
 
 [[noreturn]] void fail(const Plc& plc, const Delaunay& d, std::uint32_t cell) {
   Place place;
@@ -28,44 +17,87 @@ bool is_wall(std::uint8_t bits, std::uint32_t face) {
                    "the facets near these points are almost but not quite flat: try another --flatness");
 }
 
-FaceBits mark_faces(const Delaunay& d, const std::vector<FrontFace>& open,
+std::uint32_t across(const Delaunay& d, std::uint32_t code) {
+  return d.cells[cell_of(code)].neighbors[face_of(code)];
+}
+
+FaceBits mark_walls(const Delaunay& d, const std::vector<FrontFace>& open,
                     const std::vector<std::uint32_t>& wall_codes) {
   FaceBits bits(d.cells.size(), 0);
+  const auto mark = [&](std::uint32_t code, unsigned what) {
+    bits[cell_of(code)] |= static_cast<std::uint8_t>(what << face_of(code));
+  };
   for (const std::uint32_t code : wall_codes) {
     if (code == no_neighbor) continue;
-    set_wall(bits, code);
-    set_wall(bits, d.cells[cell_of(code)].neighbors[face_of(code)]);
+    mark(code, 0x01);
+    mark(across(d, code), 0x01);
   }
-  for (const FrontFace& face : open) set_open(bits, face.code);
+  for (const FrontFace& face : open) {
+    mark(face.code, 0x11);
+    mark(across(d, face.code), 0x01);
+  }
   return bits;
+}
+
+/// The parts of the tetrahedralization between the walls: for every cell the first one of its part. A disjoint-set
+/// forest in which parents have smaller numbers than their children, grown in the order of the cells, which follows
+/// the memory; a flood would jump about in it.
+std::vector<std::uint32_t> join_cells(const Delaunay& d, const FaceBits& bits) {
+  std::vector<std::uint32_t> parent(d.cells.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto first_of = [&](std::uint32_t cell) {
+    while (parent[cell] != cell) cell = parent[cell] = parent[parent[cell]];
+    return cell;
+  };
+  for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
+    if (d.is_dead(cell)) continue;
+    const Cell& its = d.cells[cell];
+    std::uint32_t first = cell;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t neighbor = cell_of(its.neighbors[f]);
+      if (neighbor >= cell || (bits[cell] >> f & 1u)) continue;
+      const std::uint32_t other = first_of(neighbor);
+      if (other < first)
+        first = parent[first] = other;
+      else
+        parent[other] = first;
+    }
+    parent[cell] = first;
+  }
+  for (std::uint32_t& its_parent : parent) its_parent = parent[its_parent];
+  return parent;
+}
+
+/// A face of the PLC whose side towards a labelled cell was not open: the front has filled that side, so the labelled
+/// part leaks into what the front has replaced.
+void refuse_leaks(const Plc& plc, const Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
+                  const std::vector<ChamberId>& chamber) {
+  for (const std::uint32_t code : wall_codes) {
+    if (code == no_neighbor) continue;
+    for (const std::uint32_t side : {code, across(d, code)}) {
+      const std::uint32_t cell = cell_of(side);
+      if (!chamber[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u)) fail(plc, d, cell);
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<ChamberId> label_cells(const Plc& plc, const Delaunay& d, const std::vector<FrontFace>& open,
                                    const std::vector<std::uint32_t>& wall_codes) {
-  const FaceBits bits = mark_faces(d, open, wall_codes);
+  const FaceBits bits = mark_walls(d, open, wall_codes);
+  const std::vector<std::uint32_t> first = join_cells(d, bits);
   std::vector<ChamberId> chamber(d.cells.size());
-  std::vector<std::uint32_t> waiting(d.cells.size());  // a stack; every cell waits once at most
-  std::size_t height = 0;
-  const auto label = [&](std::uint32_t cell, ChamberId its) {
-    if (chamber[cell] == its) return;
-    if (!chamber[cell].is_none() || d.is_ghost(cell)) fail(plc, d, cell);
-    chamber[cell] = its;
-    waiting[height++] = cell;
-  };
   for (const FrontFace& face : open) {
-    label(cell_of(face.code), face.chamber);
-    while (height > 0) {
-      const std::uint32_t cell = waiting[--height];
-      const Cell& its = d.cells[cell];
-      for (std::uint32_t f = 0; f < 4; ++f) {
-        if (is_open(bits[cell], f)) continue;
-        if (is_wall(bits[cell], f)) fail(plc, d, cell);
-        label(cell_of(its.neighbors[f]), face.chamber);
-      }
-    }
+    ChamberId& its = chamber[first[cell_of(face.code)]];
+    if (!its.is_none() && its != face.chamber) fail(plc, d, cell_of(face.code));
+    its = face.chamber;
   }
+  for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
+    chamber[cell] = chamber[first[cell]];
+    if (!chamber[cell].is_none() && d.is_ghost(cell)) fail(plc, d, cell);
+  }
+  refuse_leaks(plc, d, bits, wall_codes, chamber);
   return chamber;
 }
 
