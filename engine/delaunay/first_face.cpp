@@ -9,6 +9,8 @@ namespace ccdt {
 namespace {
 
 constexpr std::uint32_t none = VertexId::none_value;
+// Straight up, about as far as points can be apart, so that the filters of the predicates work as for any points.
+constexpr Point3 upwards = {0, 0, 0x1p51};
 
 /// Wraps the hull; every function passes over all vertices once and is exact.
 class Wrapping {
@@ -43,7 +45,7 @@ class Wrapping {
 
   /// The upright plane through a and the result, which is not straight above a, has no vertices on its outer side.
   std::uint32_t beside(std::uint32_t a) const {
-    const Point3 up = at(a) + Point3{0, 0, 1};
+    const Point3 up = at(a) + upwards;
     std::uint32_t b = none;
     for (std::uint32_t e = 0; e < v_.size(); ++e) {
       if (at(e).x == at(a).x && at(e).y == at(a).y) continue;
@@ -54,7 +56,7 @@ class Wrapping {
 
   /// A vertex of the upright plane through a and b that is not on the line of a and b.
   std::uint32_t on_upright_plane(std::uint32_t a, std::uint32_t b) const {
-    const Point3 up = at(a) + Point3{0, 0, 1};
+    const Point3 up = at(a) + upwards;
     for (std::uint32_t e = 0; e < v_.size(); ++e)
       if (orient3d(at(a), up, at(b), at(e)) == 0 && !collinear(at(a), at(b), at(e))) return e;
     return none;

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
+#include "engine/delaunay/sphere_pencil.h"
 
 namespace ccdt {
 namespace {
@@ -13,111 +12,11 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 using CellIndex = UniformGrid::CellIndex;
 
-constexpr double unit = 0x1p-53;  // of roundings
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double sum(const Point3& p) {
-  return p.x + p.y + p.z;
+double sum_of_magnitudes(const Point3& p) {
+  return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
 }
-
-Point3 magnitudes(const Point3& p) {
-  return {std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
-}
-
-double largest(const Point3& p) {
-  return std::max({p.x, p.y, p.z});
-}
-
-/// The sums of magnitudes whose differences a cross product is.
-Point3 cross_magnitudes(const Point3& p, const Point3& q) {
-  return {std::fabs(p.y * q.z) + std::fabs(p.z * q.y), std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
-          std::fabs(p.x * q.y) + std::fabs(p.y * q.x)};
-}
-
-/// The spheres through the corners of a face, of which the current candidate picks one; with floating-point tests of
-/// certified error in front of the exact ones. For a vertex e relative to corner a (an exact difference):
-///   normal . e > 0                      e is above the face
-///   weight . e - volume * e^2 > 0       e is inside the sphere
-class Pencil {
- public:
-  Pencil(std::span<const GridVertex> vertices, const Face& face)
-      : v_(vertices),
-        face_(face),
-        origin_(vertices[face[0]].point),
-        b_(vertices[face[1]].point - origin_),
-        c_(vertices[face[2]].point - origin_),
-        normal_(cross(b_, c_)),
-        normal_terms_(cross_magnitudes(b_, c_)),
-        normal_error_(8 * unit * largest(normal_terms_)) {}
-
-  std::uint32_t apex() const { return apex_; }
-  const Point3& origin() const { return origin_; }
-  const Point3& normal() const { return normal_; }
-  /// Error of normal . e for an e whose coordinates' magnitudes sum to 1.
-  double normal_error() const { return normal_error_; }
-  /// Of the largest distance of a corner from the first, in an axis.
-  double size() const { return std::max(largest(magnitudes(b_)), largest(magnitudes(c_))); }
-
-  /// The sphere; the part of it above the face is in the ball of this centre and radius (infinite: not known).
-  const Point3& centre() const { return centre_; }
-  double radius() const { return radius_; }
-
-  /// Makes the vertex the candidate if there is none yet that is better.
-  CCDT_ALWAYS_INLINE void consider(std::uint32_t v) {
-    const Point3 e = v_[v].point - origin_;
-    const double length = std::fabs(e.x) + std::fabs(e.y) + std::fabs(e.z), square = squared_length(e);
-    if (dot(weight_, e) - volume_ * square < -(weight_error_ * length + volume_error_ * square)) return;
-    if (dot(normal_, e) < -normal_error_ * length) return;
-    if (is_better(v)) accept(v);
-  }
-
-  /// Makes a vertex strictly above the face the candidate.
-  void accept(std::uint32_t v) {
-    apex_ = v;
-    const Point3 d = v_[v].point - origin_;
-    const double bb = squared_length(b_), cc = squared_length(c_), dd = squared_length(d);
-    weight_ = bb * cross(c_, d) + cc * cross(d, b_) + dd * normal_;
-    volume_ = dot(normal_, d);
-    // Each product has at most eleven roundings.
-    weight_error_ =
-        16 * unit * largest(bb * cross_magnitudes(c_, d) + cc * cross_magnitudes(d, b_) + dd * normal_terms_);
-    volume_error_ = 16 * unit * dot(normal_terms_, magnitudes(d));
-    find_ball();
-  }
-
- private:
-  bool is_better(std::uint32_t v) const {
-    if (v == apex_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
-    const GridVertex &a = v_[face_[0]], &b = v_[face_[1]], &c = v_[face_[2]], &e = v_[v];
-    if (orient3d(a.point, b.point, c.point, e.point) <= 0) return false;
-    if (apex_ == ghost_vertex) return true;
-    const GridVertex& d = v_[apex_];
-    return insphere_perturbed(a.point, b.point, c.point, d.point, e.point, {a.rank, b.rank, c.rank, d.rank, e.rank}) >
-           0;
-  }
-
-  void find_ball() {
-    radius_ = infinity;
-    if (!(volume_ > 64 * volume_error_)) return;
-    const double half = 0.5 / volume_;
-    const Point3 to_centre = half * weight_;
-    const double error = 1.1 * half * (weight_error_ + largest(magnitudes(weight_)) * volume_error_ / volume_);
-    const double radius = std::sqrt(squared_length(to_centre));
-    if (!(error < radius)) return;
-    centre_ = origin_ + to_centre;
-    // The error of the centre, in each of three axes, acts on where the ball is and on its radius.
-    radius_ = radius * (1 + 1e-12) + 4 * error;
-  }
-
-  std::span<const GridVertex> v_;
-  Face face_;
-  Point3 origin_, b_, c_, normal_, normal_terms_;
-  double normal_error_;
-  std::uint32_t apex_ = ghost_vertex;
-  // Without a candidate all vertices are inside.
-  Point3 weight_, centre_;
-  double volume_ = 0, weight_error_ = 0, volume_error_ = 0, radius_ = infinity;
-};
 
 /// A box of cells, both ends included.
 struct CellBox {
@@ -130,34 +29,69 @@ struct CellBox {
   }
 };
 
+CellBox meet(const CellBox& a, const CellBox& b) {
+  CellBox box;
+  for (int i = 0; i < 3; ++i) box.from[i] = std::max(a.from[i], b.from[i]), box.to[i] = std::min(a.to[i], b.to[i]);
+  return box;
+}
+
+/// The search above one face.
 class Search {
  public:
-  Search(const VertexGrid& grid, const Face& face)
+  Search(const VertexGrid& grid, BlockTops& tops, const Face& face)
       : g_(grid),
+        tops_(tops),
         cell_size_(grid.grid.cell_size),
+        per_cell_(1 / cell_size_),
         half_((0.5 + 1e-6) * cell_size_),
         pencil_(grid.vertices, face),
-        normal_(pencil_.normal()) {
+        normal_(pencil_.normal()),
+        per_normal_x_(1 / normal_.x) {
     const auto& v = grid.vertices;
-    middle_ = grid.grid.cell_at((1.0 / 3) * (v[face[0]].point + v[face[1]].point + v[face[2]].point));
-    plane_slack_ = 1e-6 * cell_size_ * sum(magnitudes(normal_)) + 2 * pencil_.normal_error() * sum(grid.extent);
+    // The vertex is to be expected half a cell above the face.
+    const double lift = 0.5 * cell_size_ / pencil_.normal_length();
+    middle_ =
+        cell_at((1.0 / 3) * (v[face[0]].point + v[face[1]].point + v[face[2]].point) + std::min(lift, 1e300) * normal_);
+    plane_slack_ =
+        1e-6 * cell_size_ * sum_of_magnitudes(normal_) + 2 * pencil_.normal_error() * sum_of_magnitudes(grid.extent);
   }
 
   std::uint32_t run(std::uint32_t candidate, Reach reach) {
-    if (candidate != ghost_vertex) pencil_.accept(candidate);
-    const double size = 2 * pencil_.size() / cell_size_;
-    const int near = std::max(2, size < 1e9 ? static_cast<int>(size) + 1 : 1000000000);
-    const CellBox all{{0, 0, 0}, {g_.grid.cells[0] - 1, g_.grid.cells[1] - 1, g_.grid.cells[2] - 1}};
-    for (int width = 1;; width = next_width(width)) {
+    if (candidate != ghost_vertex) accept(candidate);
+    const double size = 2 * pencil_.size() * per_cell_;
+    const int near = size < 5 ? std::max(2, static_cast<int>(size) + 1) : 6;
+    for (int width = 1;; width = std::min(near, 2 * width)) {
       const CellBox window = around(width);
-      visit(meet(window, box_of_ball()));
+      if (width == 1)
+        visit_inside_out(window);
+      else
+        visit(meet(window, box_of_cap()));
+      if (window.contains(box_of_cap())) return pencil_.apex();
       seen_ = window;
-      if (window.contains(pencil_.apex() == ghost_vertex ? all : box_of_ball())) return pencil_.apex();
-      if (pencil_.apex() == ghost_vertex && reach == Reach::near && width >= near) return ghost_vertex;
+      if (width < near) continue;
+      if (pencil_.apex() == ghost_vertex && reach == Reach::near) return ghost_vertex;
+      visit_blocks();
+      return pencil_.apex();
     }
   }
 
  private:
+  void accept(std::uint32_t v) {
+    pencil_.accept(v);
+    cap_ = pencil_.cap();
+  }
+
+  int column(double offset, int axis) const {
+    const double c = offset * per_cell_;
+    const int last = g_.grid.cells[axis] - 1;
+    return c <= 0 ? 0 : c >= last ? last : static_cast<int>(c);
+  }
+
+  CellIndex cell_at(const Point3& p) const {
+    const Point3& low = g_.grid.low;
+    return {column(p.x - low.x, 0), column(p.y - low.y, 1), column(p.z - low.z, 2)};
+  }
+
   CellBox around(int width) const {
     CellBox box;
     for (int i = 0; i < 3; ++i) {
@@ -167,25 +101,21 @@ class Search {
     return box;
   }
 
-  static CellBox meet(const CellBox& a, const CellBox& b) {
-    CellBox box;
-    for (int i = 0; i < 3; ++i) box.from[i] = std::max(a.from[i], b.from[i]), box.to[i] = std::min(a.to[i], b.to[i]);
-    return box;
-  }
-
-  CellBox box_of_ball() const {
-    const double r = pencil_.radius() + 1e-6 * cell_size_;
+  CellBox box_of_cap() const {
+    const double r = cap_.radius + 1e-6 * cell_size_;
     const Point3 reach{r, r, r};
-    return {g_.grid.cell_at(pencil_.centre() - reach), g_.grid.cell_at(pencil_.centre() + reach)};
+    return {cell_at(cap_.centre - reach), cell_at(cap_.centre + reach)};
   }
 
-  /// As wide as the ball needs, but not much wider than now: what is found on the way makes it smaller.
-  int next_width(int width) const {
-    if (pencil_.apex() == ghost_vertex) return 2 * width;
-    const CellBox ball = box_of_ball();
-    int needed = 0;
-    for (int i = 0; i < 3; ++i) needed = std::max({needed, middle_[i] - ball.from[i], ball.to[i] - middle_[i]});
-    return std::min(needed, 2 * width);
+  /// The nine rows of the first window, the nearest first: what is found there makes the others shorter.
+  void visit_inside_out(const CellBox& window) {
+    static constexpr int order[9][2] = {{0, 0}, {0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    for (const auto& [dy, dz] : order) {
+      const int y = middle_[1] + dy, z = middle_[2] + dz;
+      if (y < window.from[1] || y > window.to[1] || z < window.from[2] || z > window.to[2]) continue;
+      int from = window.from[0], to = window.to[0];
+      if (shorten(y, z, from, to)) visit_row(y, z, from, to);
+    }
   }
 
   /// Considers the vertices of the cells of the box that have not been seen, within the ball and above the face.
@@ -208,54 +138,92 @@ class Search {
   void visit_row(int y, int z, int from, int to) {
     if (from > to) return;
     const std::size_t row = g_.grid.number({0, y, z});
-    const std::uint32_t end = g_.first[row + to + 1];
+    const std::uint32_t apex = pencil_.apex(), end = g_.first[row + to + 1];
     for (std::uint32_t v = g_.first[row + from]; v < end; ++v) pencil_.consider(v);
+    if (pencil_.apex() != apex) cap_ = pencil_.cap();
   }
 
   /// Leaves of a row of cells what is within the ball and above the face. \return is there anything left?
   bool shorten(int y, int z, int& from, int& to) const {
     const double row_y = g_.grid.low.y + (y + 0.5) * cell_size_, row_z = g_.grid.low.z + (z + 0.5) * cell_size_;
     double low = -infinity, high = infinity;
-    if (pencil_.radius() < infinity) {
-      const Point3& centre = pencil_.centre();
-      const double dy = std::max(0.0, std::fabs(centre.y - row_y) - half_);
-      const double dz = std::max(0.0, std::fabs(centre.z - row_z) - half_);
-      const double square = pencil_.radius() * pencil_.radius() - dy * dy - dz * dz;
+    if (cap_.radius < infinity) {
+      const double dy = std::max(0.0, std::fabs(cap_.centre.y - row_y) - half_);
+      const double dz = std::max(0.0, std::fabs(cap_.centre.z - row_z) - half_);
+      const double square = cap_.radius * cap_.radius - dy * dy - dz * dz;
       if (square < 0) return false;
       const double reach = std::sqrt(square) + 1e-6 * cell_size_;
-      low = centre.x - reach, high = centre.x + reach;
+      low = cap_.centre.x - reach, high = cap_.centre.x + reach;
     }
     // The highest that the row's cross-section reaches above the plane of the face, at x = origin.x.
     const Point3& origin = pencil_.origin();
     const double height = normal_.y * (row_y - origin.y) + normal_.z * (row_z - origin.z) +
                           (std::fabs(normal_.y) + std::fabs(normal_.z)) * half_ + plane_slack_;
     if (normal_.x > 0)
-      low = std::max(low, origin.x - height / normal_.x);
+      low = std::max(low, origin.x - height * per_normal_x_);
     else if (normal_.x < 0)
-      high = std::min(high, origin.x - height / normal_.x);
+      high = std::min(high, origin.x - height * per_normal_x_);
     else if (height < 0)
       return false;
-    from = std::max(from, column(low)), to = std::min(to, column(high));
+    from = std::max(from, column(low - g_.grid.low.x, 0)), to = std::min(to, column(high - g_.grid.low.x, 0));
     return from <= to;
   }
 
-  int column(double x) const {
-    const double c = (x - g_.grid.low.x) / cell_size_;
-    return c <= 0 ? 0 : c >= g_.grid.cells[0] - 1 ? g_.grid.cells[0] - 1 : static_cast<int>(c);
+  /// Considers the vertices of all blocks that may have one in the sphere above the face.
+  void visit_blocks() {
+    const double length = pencil_.normal_length();
+    const Point3 up = (1 / length) * normal_;
+    const double tilt = 1e-15 + 2 * pencil_.normal_error() / length;
+    BlockTops::Direction* direction = nullptr;
+    double turn = 0;  // from its normal to ours
+    for (std::size_t i = 0; i < g_.blocks.size(); ++i) {
+      const GridBlock& block = g_.blocks[i];
+      const Point3 to_block = block.centre - pencil_.origin();
+      const double farthest = sum_of_magnitudes(to_block) + sum_of_magnitudes(block.half);
+      const double slack = tilt * farthest;
+      double top = dot(up, to_block) + std::fabs(up.x) * block.half.x + std::fabs(up.y) * block.half.y +
+                   std::fabs(up.z) * block.half.z + slack;
+      if (top < 0 || is_outside(block, top, farthest)) continue;
+      if (!direction) {
+        direction = &tops_.direction(up);
+        turn = std::sqrt(squared_length(direction->normal - up)) + 1e-15;
+      }
+      const double known =
+          tops_.top(*direction, i) - dot(direction->normal, pencil_.origin()) + turn * farthest + slack;
+      if (known < 0 || is_outside(block, std::min(known, top), farthest)) continue;
+      visit(meet({block.from, block.to}, box_of_cap()));
+    }
+  }
+
+  /// Is all of the block up to a height above the face outside the sphere? With c the centre of the circle of the face
+  /// and r its radius, e is inside when |e - c|^2 < r^2 + 2 lift * (height of e): in a narrow cap even if lift is
+  /// large.
+  bool is_outside(const GridBlock& block, double top, double farthest) const {
+    const SpherePencil::Circle& circle = pencil_.circle();
+    if (circle.radius == infinity || cap_.lift == infinity) return false;
+    const Point3 from_c = block.centre - circle.centre;
+    const double dx = std::max(0.0, std::fabs(from_c.x) - block.half.x),
+                 dy = std::max(0.0, std::fabs(from_c.y) - block.half.y),
+                 dz = std::max(0.0, std::fabs(from_c.z) - block.half.z);
+    const double inside = circle.radius * circle.radius + 2 * cap_.lift * top;
+    return dx * dx + dy * dy + dz * dz > inside * (1 + 1e-9) + 8 * circle.error * (farthest + circle.radius);
   }
 
   const VertexGrid& g_;
-  double cell_size_, half_, plane_slack_;
-  Pencil pencil_;
+  BlockTops& tops_;
+  double cell_size_, per_cell_, half_, plane_slack_;
+  SpherePencil pencil_;
+  SpherePencil::Cap cap_;
   Point3 normal_;
+  double per_normal_x_;
   CellIndex middle_;
   CellBox seen_;
 };
 
 }  // namespace
 
-std::uint32_t find_fourth_vertex(const VertexGrid& grid, const Face& face, std::uint32_t candidate, Reach reach) {
-  return Search(grid, face).run(candidate, reach);
+std::uint32_t FourthVertexSearch::find(const Face& face, std::uint32_t candidate, Reach reach) {
+  return Search(grid_, tops_, face).run(candidate, reach);
 }
 
 }  // namespace ccdt

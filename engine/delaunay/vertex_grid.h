@@ -16,6 +16,14 @@ struct GridVertex {
   std::uint32_t id = 0;
 };
 
+/// A cube of cells that has vertices.
+struct GridBlock {
+  static constexpr int side = 8;
+
+  UniformGrid::CellIndex from{}, to{};  ///< its cells, both ends included
+  Point3 centre, half;                  ///< of the box of its vertices; a hair larger
+};
+
 /// Vertices in the order of the cells of a uniform grid (paper, section 4), so that those of a row of cells lie side by
 /// side: those of cell c are first[c] .. first[c + 1]. In what follows a vertex is named by its place in this order.
 struct VertexGrid {
@@ -23,6 +31,7 @@ struct VertexGrid {
   Point3 extent;  ///< of the points
   std::vector<std::uint32_t> first;
   std::vector<GridVertex> vertices;
+  std::vector<GridBlock> blocks;
 };
 
 /// \param scale  factor of the paper's cell size

@@ -15,14 +15,14 @@ namespace {
 /// cell have no neighbor.
 class Wrap {
  public:
-  Wrap(const VertexGrid& grid, const Progress& progress) : grid_(grid), progress_(progress) {
+  Wrap(const VertexGrid& grid, const Progress& progress) : grid_(grid), search_(grid), progress_(progress) {
     cells_.reserve(7 * grid.vertices.size() + 64);
   }
 
   /// \param hull_face  the outside above it
   std::vector<Cell> run(const std::array<std::uint32_t, 3>& hull_face) {
     const std::array<std::uint32_t, 3> inward = {hull_face[0], hull_face[2], hull_face[1]};
-    add_cell(inward, find_fourth_vertex(grid_, inward, ghost_vertex, Reach::everywhere));
+    add_cell(inward, search_.find(inward, ghost_vertex, Reach::everywhere));
     advance();
     for (auto rest = unfinished(); !rest.empty(); rest = unfinished()) {
       for (const Unfinished& u : rest)
@@ -54,7 +54,7 @@ class Wrap {
 
   bool add_cell_at(std::uint32_t code, std::uint32_t candidate, Reach reach) {
     const auto face = outward_corners(cells_, code);
-    const std::uint32_t apex = find_fourth_vertex(grid_, face, candidate, reach);
+    const std::uint32_t apex = search_.find(face, candidate, reach);
     if (apex == ghost_vertex) return false;
     add_cell(face, apex);
     return true;
@@ -70,6 +70,7 @@ class Wrap {
   }
 
   const VertexGrid& grid_;
+  FourthVertexSearch search_;
   const Progress& progress_;
   std::vector<Cell> cells_;
   OpenFaces open_;

@@ -1,0 +1,90 @@
+#include "engine/delaunay/sphere_pencil.h"
+
+#include "engine/numbers/predicates.h"
+
+namespace ccdt {
+namespace {
+
+constexpr double unit = 0x1p-53;  // of roundings
+
+Point3 magnitudes(const Point3& p) {
+  return {std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
+}
+
+double largest(const Point3& p) {
+  return filter::larger(filter::larger(p.x, p.y), p.z);
+}
+
+/// The sums of magnitudes whose differences a cross product is.
+Point3 cross_magnitudes(const Point3& p, const Point3& q) {
+  return {std::fabs(p.y * q.z) + std::fabs(p.z * q.y), std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
+          std::fabs(p.x * q.y) + std::fabs(p.y * q.x)};
+}
+
+}  // namespace
+
+SpherePencil::SpherePencil(std::span<const GridVertex> vertices, const std::array<std::uint32_t, 3>& face)
+    : v_(vertices),
+      face_(face),
+      origin_(vertices[face[0]].point),
+      b_(vertices[face[1]].point - origin_),
+      c_(vertices[face[2]].point - origin_),
+      normal_(cross(b_, c_)),
+      normal_terms_(cross_magnitudes(b_, c_)),
+      bb_(squared_length(b_)),
+      cc_(squared_length(c_)),
+      size_(filter::larger(largest(magnitudes(b_)), largest(magnitudes(c_)))),
+      normal_error_(8 * unit * largest(normal_terms_)),
+      normal_length_(std::sqrt(squared_length(normal_))) {
+  find_circle();
+}
+
+void SpherePencil::find_circle() {
+  if (!(normal_length_ > 64 * normal_error_)) return;
+  const double relative_error = normal_error_ / normal_length_;
+  const double half = 0.5 / (normal_length_ * normal_length_);
+  const Point3 to_centre = half * (bb_ * cross(c_, normal_) + cc_ * cross(normal_, b_));
+  const double radius = std::sqrt(squared_length(to_centre));
+  const double terms = half * normal_length_ * (bb_ * std::sqrt(cc_) + cc_ * std::sqrt(bb_));
+  circle_ = {origin_ + to_centre, radius, 4 * (relative_error + 16 * unit) * (terms + radius)};
+}
+
+void SpherePencil::accept(std::uint32_t v) {
+  apex_ = v;
+  const Point3 d = v_[v].point - origin_;
+  const double dd = squared_length(d);
+  weight_ = bb_ * cross(c_, d) + cc_ * cross(d, b_) + dd * normal_;
+  volume_ = dot(normal_, d);
+  // Each product has at most eleven roundings.
+  weight_error_ =
+      16 * unit * largest(bb_ * cross_magnitudes(c_, d) + cc_ * cross_magnitudes(d, b_) + dd * normal_terms_);
+  volume_error_ = 16 * unit * dot(normal_terms_, magnitudes(d));
+}
+
+bool SpherePencil::is_better(std::uint32_t v) const {
+  if (v == apex_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
+  const GridVertex &a = v_[face_[0]], &b = v_[face_[1]], &c = v_[face_[2]], &e = v_[v];
+  if (orient3d(a.point, b.point, c.point, e.point) <= 0) return false;
+  if (apex_ == ghost_vertex) return true;
+  const GridVertex& d = v_[apex_];
+  return insphere_perturbed(a.point, b.point, c.point, d.point, e.point, {a.rank, b.rank, c.rank, d.rank, e.rank}) > 0;
+}
+
+SpherePencil::Cap SpherePencil::cap() const {
+  if (!(volume_ > 64 * volume_error_)) return {};
+  const double half = 0.5 / volume_;
+  const Point3 to_centre = half * weight_;
+  const double error = 1.1 * half * (weight_error_ + largest(magnitudes(weight_)) * volume_error_ / volume_);
+  const double radius = std::sqrt(squared_length(to_centre));
+  double lift = std::numeric_limits<double>::infinity();
+  if (circle_.radius < lift) {
+    const double lift_error = 2 * error + (16 * unit + 2 * normal_error_ / normal_length_) * radius;
+    lift = std::max(0.0, dot(normal_, to_centre) / normal_length_ + lift_error);
+    // Of a sphere whose centre is below the face, all that is above is in the ball of the circle.
+    if (lift == 0) return {circle_.centre, circle_.radius * (1 + 1e-12) + 2 * circle_.error, lift};
+  }
+  // The error of the centre, in each of three axes, acts on where the ball is and on its radius.
+  return {origin_ + to_centre, radius * (1 + 1e-12) + 4 * error, lift};
+}
+
+}  // namespace ccdt

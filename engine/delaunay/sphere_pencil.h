@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "engine/delaunay/vertex_grid.h"
+#include "engine/numbers/filters.h"
+
+namespace ccdt {
+
+/// The spheres through the corners of a face, of which the candidate for the fourth vertex picks one; with
+/// floating-point tests of certified error in front of the exact ones. For a vertex e relative to the first corner (an
+/// exact difference):
+///   normal . e > 0                      e is above the face
+///   weight . e - volume * e^2 > 0       e is inside the sphere
+class SpherePencil {
+ public:
+  SpherePencil(std::span<const GridVertex> vertices, const std::array<std::uint32_t, 3>& face);
+
+  /// The candidate; `ghost_vertex` if there is none yet.
+  std::uint32_t apex() const { return apex_; }
+  const Point3& origin() const { return origin_; }
+  const Point3& normal() const { return normal_; }
+  double normal_length() const { return normal_length_; }
+  /// Error of normal . e for an e whose coordinates' magnitudes sum to 1.
+  double normal_error() const { return normal_error_; }
+  /// How far corners are from the first one, in an axis.
+  double size() const { return size_; }
+
+  /// Makes the vertex the candidate if it is above the face and inside the sphere.
+  CCDT_ALWAYS_INLINE void consider(std::uint32_t v) {
+    const Point3 e = v_[v].point - origin_;
+    const double length = std::fabs(e.x) + std::fabs(e.y) + std::fabs(e.z), square = squared_length(e);
+    const double power = dot(weight_, e) - volume_ * square,
+                 power_error = weight_error_ * length + volume_error_ * square;
+    if (power < -power_error) return;
+    const double height = dot(normal_, e), height_error = normal_error_ * length;
+    if (height < -height_error) return;
+    if ((power > power_error && height > height_error) || is_better(v)) accept(v);
+  }
+
+  /// Makes a vertex strictly above the face the candidate.
+  void accept(std::uint32_t v);
+
+  /// The circle through the corners, in their plane.
+  struct Circle {
+    Point3 centre;
+    double radius = std::numeric_limits<double>::infinity();  ///< infinite: not known
+    double error = 0;                                         ///< at most, of centre and radius
+  };
+  const Circle& circle() const { return circle_; }
+
+  /// The part of the sphere that is above the face.
+  struct Cap {
+    Point3 centre;  ///< of a ball that holds it
+    double radius = std::numeric_limits<double>::infinity();
+    /// How far the centre of the sphere is above the face at the most, not less than zero.
+    double lift = std::numeric_limits<double>::infinity();
+  };
+  Cap cap() const;
+
+ private:
+  bool is_better(std::uint32_t v) const;
+  void find_circle();
+
+  std::span<const GridVertex> v_;
+  std::array<std::uint32_t, 3> face_;
+  Point3 origin_, b_, c_, normal_, normal_terms_;
+  double bb_, cc_, size_, normal_error_, normal_length_;
+  Circle circle_;
+  std::uint32_t apex_ = ghost_vertex;
+  // Without a candidate every vertex is inside.
+  Point3 weight_;
+  double volume_ = 0, weight_error_ = 0, volume_error_ = 0;
+};
+
+}  // namespace ccdt
