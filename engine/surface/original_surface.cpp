@@ -1,0 +1,243 @@
+#include "engine/surface/original_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "engine/base/edge_key.h"
+#include "engine/plc/box_tree.h"
+#include "engine/plc/edge_table.h"
+#include "engine/plc/union_find.h"
+#include "engine/surface/declared_segments.h"
+#include "engine/surface/vector_math.h"
+
+namespace ccdt {
+namespace {
+
+constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key
+
+std::uint32_t place_in(const Corners& corners, std::uint32_t point) {
+  return corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
+}
+
+class SurfaceCutter {
+ public:
+  SurfaceCutter(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness)
+      : plc_(plc), cosine_(std::cos(radians(sharp_angle + 1e-6))) {
+    surface_.points = plc.world;
+    surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
+    ClosedBox box = box_of(plc.vertices.front());
+    for (const Point3& p : plc.vertices) box = hull(box, box_of(p));
+    const Point3 size = box.high - box.low;
+    segments_ = declared_segments(input, plc, flatness * std::max({size.x, size.y, size.z}));
+    collect_triangles();
+  }
+
+  OriginalSurface cut() {
+    do {
+      edges_ = make_edge_table(corners_);
+      find_features();
+      join_patches();
+      join_wedges();
+    } while (split_features_that_do_not_cut());
+    collect_features();
+    measure_normals();
+    return std::move(surface_);
+  }
+
+ private:
+  void collect_triangles() {
+    for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
+      Point3 area;
+      for (const auto& [a, b, c] : plc_.facets[f].triangles)
+        area = area + area_vector({plc_.world[a], plc_.world[b], plc_.world[c]});
+      for (const auto& t : plc_.facets[f].triangles) {
+        corners_.push_back(t);
+        surface_.facet_of.push_back(f);
+        surface_.triangle_normals.push_back(unit(area));
+      }
+    }
+  }
+
+  void turn(std::uint32_t t) {
+    std::swap(corners_[t][1], corners_[t][2]);
+    surface_.triangle_normals[t] = -1 * surface_.triangle_normals[t];
+  }
+
+  bool oriented_alike(std::uint32_t e) const {
+    const auto around = edges_.around(e);
+    const auto [a, b] = edges_.ends[e];
+    return runs_along(corners_[around[0]], a, b) != runs_along(corners_[around[1]], a, b);
+  }
+
+  bool is_sharp(std::uint32_t e) const {
+    const auto around = edges_.around(e);
+    const double cosine = dot(surface_.triangle_normals[around[0]], surface_.triangle_normals[around[1]]);
+    return (oriented_alike(e) ? cosine : -cosine) < cosine_;
+  }
+
+  void find_features() {
+    segment_markers_.clear();
+    for (std::uint32_t s = 0; s < segments_.size(); ++s)
+      segment_markers_.emplace(edge_key(segments_.ends[s][0], segments_.ends[s][1]), segments_.markers[s]);
+    is_feature_.assign(edges_.size(), 0);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      const auto around = edges_.around(e);
+      is_feature_[e] = around.size() != 2 ||
+                       segment_markers_.contains(edge_key(edges_.ends[e][0], edges_.ends[e][1])) ||
+                       marker_of(around[0]) != marker_of(around[1]) || is_sharp(e);
+    }
+  }
+
+  int marker_of(std::uint32_t t) const { return plc_.facets[surface_.facet_of[t]].marker; }
+
+  // Orients each patch as its first triangle is. Where that is impossible (a Moebius strip), it is cut.
+  void join_patches() {
+    const auto count = static_cast<std::uint32_t>(corners_.size());
+    surface_.patch_of.assign(count, none);
+    surface_.patch_markers.clear();
+    surface_.patch_is_flat.clear();
+    std::vector<std::uint32_t> stack;
+    for (std::uint32_t seed = 0; seed < count; ++seed) {
+      if (surface_.patch_of[seed] != none) continue;
+      const auto patch = static_cast<std::uint32_t>(surface_.patch_markers.size());
+      surface_.patch_markers.push_back(marker_of(seed));
+      surface_.patch_is_flat.push_back(1);
+      surface_.patch_of[seed] = patch;
+      for (stack = {seed}; !stack.empty();) {
+        const std::uint32_t t = stack.back();
+        stack.pop_back();
+        if (surface_.facet_of[t] != surface_.facet_of[seed]) surface_.patch_is_flat[patch] = 0;
+        for (const std::uint32_t e : edges_.edges_of[t]) {
+          if (is_feature_[e]) continue;
+          const std::uint32_t other = edges_.around(e)[edges_.around(e)[0] == t ? 1 : 0];
+          if (surface_.patch_of[other] == none) {
+            if (!oriented_alike(e)) turn(other);
+            surface_.patch_of[other] = patch;
+            stack.push_back(other);
+          } else if (!oriented_alike(e)) {
+            is_feature_[e] = 1;
+          }
+        }
+      }
+    }
+  }
+
+  void join_wedges() {
+    UnionFind corners(3 * corners_.size());
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (is_feature_[e]) continue;
+      const std::uint32_t s = edges_.around(e)[0], t = edges_.around(e)[1];
+      for (const VertexId v : edges_.ends[e])
+        corners.join(3 * s + place_in(corners_[s], v), 3 * t + place_in(corners_[t], v));
+    }
+    surface_.wedge_points.clear();
+    surface_.wedge_patches.clear();
+    surface_.wedges.assign(corners_.size(), {});
+    std::vector<std::uint32_t> number(3 * corners_.size(), none);
+    for (std::uint32_t c = 0; c < number.size(); ++c) {
+      std::uint32_t& n = number[corners.find(c)];
+      if (n == none) {
+        n = static_cast<std::uint32_t>(surface_.wedge_points.size());
+        surface_.wedge_points.push_back(corners_[c / 3][c % 3]);
+        surface_.wedge_patches.push_back(surface_.patch_of[c / 3]);
+      }
+      surface_.wedges[c / 3][c % 3] = n;
+    }
+  }
+
+  // A feature that is a single edge within a patch does not cut it: both sides have the same wedges at its ends. In the
+  // middle of it they have not.
+  bool split_features_that_do_not_cut() {
+    std::vector<char> is_split(corners_.size(), 0);
+    bool any = false;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!is_feature_[e] || edges_.around(e).size() < 2) continue;
+      const auto [a, b] = edges_.ends[e];
+      std::vector<std::array<std::uint32_t, 2>> wedges;
+      bool untouched = true;
+      for (const std::uint32_t t : edges_.around(e)) {
+        wedges.push_back({surface_.wedges[t][place_in(corners_[t], a)], surface_.wedges[t][place_in(corners_[t], b)]});
+        untouched = untouched && !is_split[t];
+      }
+      std::sort(wedges.begin(), wedges.end());
+      if (std::adjacent_find(wedges.begin(), wedges.end()) == wedges.end()) continue;
+      any = true;
+      if (!untouched) continue;  // in the next round
+      for (const std::uint32_t t : edges_.around(e)) is_split[t] = 1;
+      split_edge(e);
+    }
+    return any;
+  }
+
+  void split_edge(std::uint32_t e) {
+    const auto [a, b] = edges_.ends[e];
+    const VertexId middle(surface_.points.size());
+    surface_.points.push_back(surface_.points[a] + 0.5 * (surface_.points[b] - surface_.points[a]));
+    surface_.is_listed_alone.push_back(0);
+    for (const std::uint32_t t : edges_.around(e)) {
+      Corners half = corners_[t];
+      half[place_in(half, a)] = middle;
+      corners_[t][place_in(corners_[t], b)] = middle;
+      corners_.push_back(half);
+      surface_.facet_of.push_back(surface_.facet_of[t]);
+      surface_.triangle_normals.push_back(surface_.triangle_normals[t]);
+    }
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+      if (edge_key(segments_.ends[s][0], segments_.ends[s][1]) != edge_key(a, b)) continue;
+      segments_.ends[s] = {a, middle};
+      segments_.add(middle, b, segments_.markers[s]);
+      break;
+    }
+  }
+
+  void collect_features() {
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!is_feature_[e]) continue;
+      FeatureEdge feature;
+      feature.ends = {edges_.ends[e][0], edges_.ends[e][1]};
+      feature.triangles.assign(edges_.around(e).begin(), edges_.around(e).end());
+      const auto segment = segment_markers_.find(edge_key(feature.ends[0], feature.ends[1]));
+      feature.is_segment = segment != segment_markers_.end();
+      if (feature.is_segment) feature.marker = segment->second;
+      surface_.features.push_back(std::move(feature));
+    }
+    for (std::uint32_t s = 0; s < segments_.size(); ++s)
+      if (edges_.find(segments_.ends[s][0], segments_.ends[s][1]) == EdgeTable::none)
+        surface_.features.push_back({{segments_.ends[s][0], segments_.ends[s][1]}, {}, true, segments_.markers[s]});
+  }
+
+  void measure_normals() {
+    surface_.wedge_normals.assign(surface_.wedge_points.size(), {});
+    for (std::uint32_t t = 0; t < corners_.size(); ++t) {
+      const auto [a, b, c] = corners_[t];
+      surface_.triangles.push_back({a, b, c});
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const double angle = angle_at(surface_.points[corners_[t][k]], surface_.points[corners_[t][(k + 1) % 3]],
+                                      surface_.points[corners_[t][(k + 2) % 3]]);
+        Point3& normal = surface_.wedge_normals[surface_.wedges[t][k]];
+        normal = normal + angle * surface_.triangle_normals[t];
+      }
+    }
+    for (Point3& normal : surface_.wedge_normals) normal = unit(normal);
+  }
+
+  const Plc& plc_;
+  double cosine_;
+  SegmentSet segments_;
+  SegmentMarkers segment_markers_;
+  std::vector<Corners> corners_;
+  EdgeTable edges_;
+  std::vector<char> is_feature_;
+  OriginalSurface surface_;
+};
+
+}  // namespace
+
+OriginalSurface cut_surface(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness) {
+  return SurfaceCutter(input, plc, sharp_angle, flatness).cut();
+}
+
+}  // namespace ccdt

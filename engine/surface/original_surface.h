@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/numbers/point.h"
+#include "engine/plc/input.h"
+#include "engine/plc/plc.h"
+
+namespace ccdt {
+
+/// An edge that remeshing keeps as a shape.
+struct FeatureEdge {
+  std::array<std::uint32_t, 2> ends;     ///< points
+  std::vector<std::uint32_t> triangles;  ///< around it; none if no facet has this segment
+  bool is_segment = false;               ///< the input names it
+  int marker = 0;                        ///< of the segment
+};
+
+/// The surface as it was before remeshing, cut along its features.
+///
+/// A *patch* is a set of triangles that are joined through edges that are no features; all of them are oriented alike.
+/// A *wedge* (Hoppe 1998) is a patch's part at a point: the triangles around the point that are joined through edges at
+/// the point that are no features.
+///
+///      \ w0 /        two features cross at the point in the middle:
+///       \  /         four wedges
+///    w1  ()  w3
+///       /  \                                                                                                      .
+///      / w2 \                                                                                                     .
+struct OriginalSurface {
+  std::vector<Point3> points;                           ///< in the units of the input; those of the PLC come first
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< points
+  std::vector<std::array<std::uint32_t, 3>> wedges;     ///< of the same corners
+  std::vector<Point3> triangle_normals;                 ///< of length one; of the whole facet where that is flat
+  std::vector<std::uint32_t> facet_of;                  ///< of each triangle, in the PLC
+  std::vector<std::uint32_t> patch_of;                  ///< of each triangle
+  std::vector<int> patch_markers;
+  std::vector<char> patch_is_flat;
+  std::vector<std::uint32_t> wedge_points;
+  std::vector<std::uint32_t> wedge_patches;
+  std::vector<Point3> wedge_normals;  ///< of length one, mean of the triangles in the wedge by their angles
+  std::vector<FeatureEdge> features;
+  std::vector<char> is_listed_alone;  ///< of each point: the input has it, but no facet or segment of the input uses it
+};
+
+/// \param plc          of that input, built with the same flatness
+/// \param sharp_angle  see RemeshOptions, as is the flatness
+OriginalSurface cut_surface(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness);
+
+}  // namespace ccdt

@@ -1,0 +1,138 @@
+#include "engine/surface/remesh_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "engine/base/errors.h"
+#include "engine/plc/build_plc.h"
+#include "engine/surface/find_crossings.h"
+#include "engine/surface/remesh_steps.h"
+
+namespace ccdt {
+namespace {
+
+// Where triangles cross, the edge length is halved some times; then the old triangles stay, ever farther around.
+constexpr int halvings = 3;
+constexpr int most_attempts = 10;
+
+void refuse_bad_options(const InputPlc& input, const RemeshOptions& options) {
+  Place place;
+  place.file = input.name;
+  if (!(options.edge_length > 0) || !std::isfinite(options.edge_length))
+    throw InputError("the edge length for remeshing is not a positive number", place,
+                     "give the edge length that the surface shall have, in the units of the input");
+  if (!(options.sharp_angle > 0 && options.sharp_angle < 180))
+    throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place, "give one, 30 say");
+  if (options.iterations < 1)
+    throw InputError("remeshing needs at least one iteration", place, "give a greater number, 8 say");
+}
+
+/// What must be the same before and after: the chambers, whatever their order.
+std::vector<std::pair<bool, int>> chambers_of(const Plc& plc) {
+  std::vector<std::pair<bool, int>> chambers;
+  for (const Chamber& c : plc.chambers) chambers.emplace_back(c.inside, c.region);
+  std::sort(chambers.begin(), chambers.end());
+  return chambers;
+}
+
+InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& features, const ClosestPoint& closest,
+                     const EdgeLengths& lengths, const std::vector<char>& frozen, const InputPlc& input, int iterations,
+                     const Progress& progress) {
+  WorkingMesh m = make_working_mesh(original, features, closest, lengths, frozen);
+  for (int i = 0; i < iterations; ++i) {
+    report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
+    split_long_edges(m);
+    collapse_short_edges(m);
+    flip_edges_for_valence(m);
+    relax_vertices(m);
+  }
+  flip_edges_for_quality(m);
+  relax_vertices(m);
+  flip_edges_for_quality(m);
+  report(progress, "remesh", static_cast<std::uint64_t>(iterations), static_cast<std::uint64_t>(iterations));
+  return to_plc(m, input);
+}
+
+/// Places that hinder the result from being built, and the words for them if there is nothing that can be done there.
+struct Verdict {
+  std::vector<Point3> places;
+  std::string complaint;
+};
+
+Verdict judge(const InputPlc& result, const Plc& before, const RemeshOptions& options) {
+  Verdict verdict{find_crossings(result, options.flatness), "triangles of the new surface cross each other"};
+  if (!verdict.places.empty()) return verdict;
+  try {
+    const Plc after = build_plc(result, {options.flatness});
+    if (chambers_of(after) == chambers_of(before)) return {};
+    verdict.complaint = "the new surface divides space otherwise than the old one";
+    for (const InputPlc::Region& region : result.regions) verdict.places.push_back(region.seed);
+    verdict.places.insert(verdict.places.end(), result.holes.begin(), result.holes.end());
+  } catch (const InputError& error) {
+    verdict.complaint = std::string("the new surface is not valid: ") + error.what();
+    for (const auto& [x, y, z] : error.place().points) verdict.places.push_back({x, y, z});
+  }
+  if (verdict.places.empty()) verdict.places.push_back(result.vertices.front());
+  return verdict;
+}
+
+/// One place for many that are near to each other.
+std::vector<Point3> thinned(std::vector<Point3> places, double distance) {
+  std::vector<Point3> kept;
+  for (const Point3& p : places)
+    if (std::none_of(kept.begin(), kept.end(), [&](const Point3& q) { return length(p - q) < distance; }))
+      kept.push_back(p);
+  return kept;
+}
+
+void freeze(const OriginalSurface& original, const std::vector<Point3>& places, double radius,
+            std::vector<char>& frozen) {
+  std::vector<ClosedBox> boxes;
+  for (const Point3& p : places)
+    boxes.push_back({p - Point3{radius, radius, radius}, p + Point3{radius, radius, radius}});
+  const BoxTree tree(std::move(boxes));
+  for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
+    ClosedBox box = box_of(original.points[original.triangles[t][0]]);
+    for (const std::uint32_t p : original.triangles[t]) box = hull(box, box_of(original.points[p]));
+    tree.for_each_meeting(box, [&](std::uint32_t) { frozen[t] = 1; });
+  }
+}
+
+[[noreturn]] void refuse(const InputPlc& input, const Verdict& verdict, double edge_length) {
+  Place place;
+  place.file = input.name;
+  place.points.push_back(as_array(verdict.places.front()));
+  throw MeshError(
+      "the surface could not be remeshed to edges of length " + std::to_string(edge_length) + ": " + verdict.complaint,
+      place, "give a smaller edge length, or mesh the surface as it is");
+}
+
+}  // namespace
+
+InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, const Progress& progress) {
+  refuse_bad_options(input, options);
+  const Plc plc = build_plc(input, {options.flatness}, progress);
+  const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
+  const FeatureCurves features = chain_features(original, options.sharp_angle);
+  const ClosestPoint closest(original);
+  EdgeLengths lengths(options.edge_length);
+  std::vector<char> frozen(original.triangles.size(), 0);
+  for (int attempt = 0;; ++attempt) {
+    InputPlc result = remesh_once(original, features, closest, lengths, frozen, input, options.iterations, progress);
+    const Verdict verdict = judge(result, plc, options);
+    if (verdict.places.empty()) return result;
+    if (attempt == most_attempts) refuse(input, verdict, options.edge_length);
+    if (attempt < halvings) {
+      for (const Point3& p : thinned(verdict.places, options.edge_length)) {
+        const double wanted = 0.5 * lengths.at(p);
+        lengths.limit(p, 2 * options.edge_length, wanted);
+      }
+    } else {
+      freeze(original, verdict.places, std::ldexp(options.edge_length, attempt - halvings), frozen);
+    }
+  }
+}
+
+}  // namespace ccdt

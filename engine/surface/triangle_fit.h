@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "engine/surface/vector_math.h"
+
+namespace ccdt {
+
+/// How well shaped a triangle is, and how well it stands for the original surface at its corners.
+struct TriangleFit {
+  double quality;    ///< area by squared edges: 1 for the equilateral triangle, 0 for a degenerate one
+  double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners
+};
+
+inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point3, 3>& normals) {
+  constexpr double two_root_three = 3.4641016151377544;
+  const Point3 area = area_vector(p);
+  const double size = length(area);
+  const double squares = squared_length(p[1] - p[0]) + squared_length(p[2] - p[1]) + squared_length(p[0] - p[2]);
+  if (size == 0) return {0, -1};
+  return {two_root_three * size / squares,
+          std::min({dot(area, normals[0]), dot(area, normals[1]), dot(area, normals[2])}) / size};
+}
+
+/// The worst of several triangles.
+struct WorstFit {
+  TriangleFit worst = {1, 1};
+
+  void add(const TriangleFit& fit) {
+    worst.quality = std::min(worst.quality, fit.quality);
+    worst.agreement = std::min(worst.agreement, fit.agreement);
+  }
+};
+
+/// May triangles of the fit `after` replace those of the fit `before`? They have to be good, or no worse; but they may
+/// never be turned away from the original surface.
+inline bool may_replace(const TriangleFit& before, const TriangleFit& after, double good_quality) {
+  constexpr double good_agreement = 0.65;  // 50 degrees: an equilateral triangle on a circle's hexagon has 40
+  constexpr double least_agreement = 0.2;
+  return after.quality >= std::min(good_quality, before.quality) &&
+         after.agreement >= std::max(least_agreement, std::min(good_agreement, before.agreement));
+}
+
+}  // namespace ccdt

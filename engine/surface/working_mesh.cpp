@@ -1,0 +1,143 @@
+#include "engine/surface/working_mesh.h"
+
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+constexpr std::uint32_t none = WorkingMesh::none;
+
+// By point; `none` for those that are in the middle of one patch and may move.
+std::vector<std::uint32_t> add_knots(WorkingMesh& m) {
+  const OriginalSurface& original = m.original;
+  std::vector<char> has_feature(original.points.size(), 0);
+  for (const FeatureEdge& f : original.features) has_feature[f.ends[0]] = has_feature[f.ends[1]] = 1;
+  std::vector<std::uint32_t> knot_of(original.points.size(), none);
+  for (std::uint32_t p = 0; p < original.points.size(); ++p) {
+    if (!has_feature[p] && !m.features.is_corner[p]) continue;
+    knot_of[p] = static_cast<std::uint32_t>(m.knots.size());
+    m.knots.push_back({original.points[p], m.features.is_corner[p] != 0, {}, {}});
+  }
+  return knot_of;
+}
+
+void add_links(WorkingMesh& m, const std::vector<std::uint32_t>& knot_of) {
+  for (std::uint32_t f = 0; f < m.original.features.size(); ++f) {
+    const auto [a, b] = m.original.features[f].ends;
+    const CurvePiece& piece = m.features.piece_of[f];
+    for (const std::uint32_t p : {a, b})
+      m.knots[knot_of[p]].links.push_back(static_cast<std::uint32_t>(m.links.size()));
+    m.links.push_back({{knot_of[a], knot_of[b]}, piece.curve, piece.arc});
+  }
+}
+
+void add_vertices(WorkingMesh& m, const std::vector<std::uint32_t>& knot_of) {
+  for (std::uint32_t w = 0; w < m.original.wedge_points.size(); ++w) {
+    const std::uint32_t p = m.original.wedge_points[w];
+    const auto [x, y, z] = m.original.points[p];
+    const VertexHandle v = m.mesh.add_vertex({x, y, z});
+    m.vertices.push_back({knot_of[p], m.original.wedge_patches[w], none, m.original.wedge_normals[w]});
+    if (knot_of[p] != none) m.knots[knot_of[p]].copies.push_back(v);
+  }
+}
+
+void add_faces(WorkingMesh& m, const std::vector<char>& frozen) {
+  for (std::uint32_t t = 0; t < m.original.triangles.size(); ++t) {
+    std::array<VertexHandle, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = VertexHandle(static_cast<int>(m.original.wedges[t][k]));
+      m.at(corners[k]).near = t;
+      if (frozen[t]) m.at(corners[k]).is_frozen = true;
+    }
+    if (m.mesh.add_face(corners[0], corners[1], corners[2]).is_valid()) continue;
+    Place place;
+    for (const std::uint32_t p : m.original.triangles[t]) place.points.push_back(as_array(m.original.points[p]));
+    throw MeshError("the surface cannot be remeshed: around a facet it is no manifold even between its features", place,
+                    "mesh the surface as it is");
+  }
+  m.face_is_frozen = frozen;
+}
+
+}  // namespace
+
+WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
+                              const ClosestPoint& closest, const EdgeLengths& lengths,
+                              const std::vector<char>& frozen) {
+  WorkingMesh m{original, features, closest, lengths, {}, {}, {}, {}, {}};
+  const std::vector<std::uint32_t> knot_of = add_knots(m);
+  add_links(m, knot_of);
+  add_vertices(m, knot_of);
+  add_faces(m, frozen);
+  return m;
+}
+
+VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot) {
+  const VertexHandle v = m.mesh.add_vertex({foot.point.x, foot.point.y, foot.point.z});
+  m.vertices.push_back({none, patch, foot.triangle, m.closest.normal_at(foot)});
+  return v;
+}
+
+VertexHandle add_copy(WorkingMesh& m, std::uint32_t patch, std::uint32_t knot, std::uint32_t near) {
+  const Point3& position = m.knots[knot].position;
+  const VertexHandle v = add_vertex(m, patch, m.closest.on_patch(patch, position, near));
+  m.move(v, position);
+  m.at(v).knot = knot;
+  m.knots[knot].copies.push_back(v);
+  return v;
+}
+
+bool are_joined(const WorkingMesh& m, std::uint32_t knot, std::uint32_t other) {
+  for (const std::uint32_t l : m.knots[knot].links)
+    if (m.links[l].ends[0] == other || m.links[l].ends[1] == other) return true;
+  for (const VertexHandle copy : m.knots[knot].copies)
+    for (auto n = m.mesh.cvv_iter(copy); n.is_valid(); ++n)
+      if (m.at(*n).knot == other) return true;
+  return false;
+}
+
+std::vector<EdgeHandle> copies_of_link(const WorkingMesh& m, std::uint32_t link) {
+  std::vector<EdgeHandle> edges;
+  const auto [a, b] = m.links[link].ends;
+  for (const VertexHandle copy : m.knots[a].copies)
+    for (auto h = m.mesh.cvoh_iter(copy); h.is_valid(); ++h) {
+      const EdgeHandle e = m.mesh.edge_handle(*h);
+      if (m.at(m.mesh.to_vertex_handle(*h)).knot == b && m.mesh.is_boundary(e)) edges.push_back(e);
+    }
+  return edges;
+}
+
+InputPlc to_plc(const WorkingMesh& m, const InputPlc& input) {
+  InputPlc plc;
+  plc.name = input.name;
+  plc.inside = input.inside;
+  plc.holes = input.holes;
+  plc.regions = input.regions;
+  std::vector<std::uint32_t> of_knot(m.knots.size(), none), of_vertex(m.vertices.size(), none);
+  const auto add = [&](const Point3& p) {
+    plc.vertices.push_back(p);
+    return static_cast<std::uint32_t>(plc.vertices.size() - 1);
+  };
+  for (std::uint32_t k = 0; k < m.knots.size(); ++k)
+    if (m.knots[k].is_alive) of_knot[k] = add(m.knots[k].position);
+  const auto number = [&](VertexHandle v) {
+    if (m.at(v).knot != none) return of_knot[m.at(v).knot];
+    std::uint32_t& n = of_vertex[static_cast<std::size_t>(v.idx())];
+    if (n == none) n = add(m.point(v));
+    return n;
+  };
+  for (const FaceHandle f : m.mesh.faces()) {
+    const HalfedgeHandle h = m.mesh.halfedge_handle(f);
+    const VertexHandle a = m.mesh.from_vertex_handle(h), b = m.mesh.to_vertex_handle(h);
+    const VertexHandle c = m.mesh.to_vertex_handle(m.mesh.next_halfedge_handle(h));
+    plc.triangles.push_back({number(a), number(b), number(c)});
+    plc.triangle_markers.push_back(m.original.patch_markers[m.at(a).patch]);
+  }
+  for (const WorkingMesh::Link& link : m.links) {
+    if (!link.is_alive || !m.features.curves[link.curve].is_segment) continue;
+    plc.segments.push_back({of_knot[link.ends[0]], of_knot[link.ends[1]]});
+    plc.segment_markers.push_back(m.features.curves[link.curve].marker);
+  }
+  return plc;
+}
+
+}  // namespace ccdt
