@@ -1,7 +1,6 @@
 #include "engine/front/advance_front.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "engine/base/flat_table.h"
@@ -63,7 +62,7 @@ class Front {
   [[noreturn]] void fail(const OrientedFace& face, const char* what) const;
   template <class Finder>
   void add_plc_faces(const Finder& finder);
-  std::optional<State> close(const OrientedFace& face);
+  bool close(State* found, State& state);
   void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state);
   void pass(const OrientedFace& inner, const State& state);
 
@@ -103,18 +102,15 @@ void Front::add_plc_faces(const Finder& finder) {
   result_.undelaunay_faces = undelaunay_.size();
 }
 
-/// Takes a face from the front; nothing if it is not there.
-std::optional<Front::State> Front::close(const OrientedFace& face) {
-  State* found = faces_.find(face);
-  if (found == nullptr) return std::nullopt;
-  const State state = *found;
+/// Takes a face from the front, if it is there.
+bool Front::close(State* found, State& state) {
+  if (found == nullptr) return false;
+  state = *found;
   if (state.side == no_side) {
     faces_.erase(found);
-  } else {
-    if (!plc_open_[state.side]) return std::nullopt;
-    plc_open_[state.side] = false;
+    return true;
   }
-  return state;
+  return std::exchange(plc_open_[state.side], false) != 0;
 }
 
 template <class Finder>
@@ -124,11 +120,11 @@ void Front::advance(Finder&& finder, const Progress& progress) {
   while (!undelaunay_.empty()) {
     const OrientedFace face = undelaunay_.back();
     undelaunay_.pop_back();
-    auto state = close(face);
-    if (!state) continue;
-    const auto apex = finder.find(face, state->cavity);
+    State state;
+    if (!close(faces_.find(face), state)) continue;
+    const auto apex = finder.find(face, state.cavity);
     if (!apex) fail(face, "the front found no vertex that is visible from a face");
-    add_tetrahedron(face, *apex, *state);
+    add_tetrahedron(face, *apex, state);
     if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
   }
 }
@@ -145,8 +141,9 @@ void Front::add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const 
 
 /// Closes a face that waited for this tetrahedron, or opens its other side (paper, section 5.3).
 void Front::pass(const OrientedFace& inner, const State& state) {
-  if (close(inner)) return;
-  if (faces_.find(inner) != nullptr) fail(inner, "the front passed a facet");
+  State* waiting = faces_.find(inner);
+  if (State closed; close(waiting, closed)) return;
+  if (waiting != nullptr) fail(inner, "the front passed a facet");
   const OrientedFace outer = inner.reversed();
   const std::uint32_t code =
       face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
@@ -157,6 +154,7 @@ void Front::pass(const OrientedFace& inner, const State& state) {
   ++result_.undelaunay_faces;
 }
 
+/// What is left of the front: faces of the PLC and of its own.
 FrontResult Front::finish() {
   for (std::size_t side = 0; side < plc_open_.size(); ++side)
     if (plc_open_[side]) result_.open.push_back(state_of(plc_, facets_, codes_, d_, side));
@@ -166,14 +164,28 @@ FrontResult Front::finish() {
   return std::move(result_);
 }
 
+/// The front that need not advance: all faces of the PLC.
+FrontResult standing_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
+                           const Delaunay& d) {
+  FrontResult result;
+  result.open.reserve(2 * codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const Facet& facet = plc.facets[facets.facet[i]];
+    if (plc.chambers[facet.above].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + above));
+    if (plc.chambers[facet.below].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + below));
+  }
+  return result;
+}
+
 }  // namespace
 
 FrontResult advance_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
                           bool face_protection, const Delaunay& delaunay, const FrontLocator& locator,
                           const Progress& progress) {
+  if (std::find(codes.begin(), codes.end(), no_neighbor) == codes.end())
+    return standing_front(plc, facets, codes, delaunay);
   CellStar star(delaunay);
   Front front(plc, facets, codes, face_protection, delaunay, star);
-  if (std::find(codes.begin(), codes.end(), no_neighbor) == codes.end()) return front.finish();
   switch (locator.kind) {
     case LocatorKind::grid:
       front.advance(

@@ -18,7 +18,10 @@ struct OrientedFace {
                                : std::array{c, a, b}) {}
 
   OrientedFace reversed() const { return {corners[0], corners[2], corners[1]}; }
-  friend bool operator==(const OrientedFace&, const OrientedFace&) = default;
+  // Inline; that of std::array calls memcmp.
+  friend bool operator==(const OrientedFace& f, const OrientedFace& g) {
+    return f.corners[0] == g.corners[0] && f.corners[1] == g.corners[1] && f.corners[2] == g.corners[2];
+  }
 };
 
 /// For tables.

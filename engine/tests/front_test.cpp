@@ -2,48 +2,13 @@
 
 #include <algorithm>
 
-#include "engine/front/advance_front.h"
-#include "engine/front/face_check.h"
-#include "engine/plc/build_plc.h"
-#include "engine/protection/protect_edges.h"
-#include "engine/tests/mesh_checks.h"
+#include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"
 
 namespace ccdt {
 namespace {
 
 using namespace mesh_test;
-
-using Cells = std::vector<std::array<std::uint32_t, 4>>;
-
-/// All that the front works on.
-struct Stages {
-  Plc plc;
-  Delaunay delaunay;
-  SegmentChains chains;
-  FacetMesh facets;
-  std::vector<std::uint32_t> codes;
-
-  explicit Stages(const InputPlc& input) : plc(build_plc(input)), delaunay(build_delaunay(plc.vertices)) {
-    chains = bare_chains(plc);
-    protect_edges(plc, grazeable_segments(plc), Protection::shell, delaunay, chains);
-    facets = triangulate_facets(plc, chains, delaunay);
-    codes = find_delaunay_faces(facets, delaunay);
-  }
-
-  std::size_t undelaunay() const { return std::count(codes.begin(), codes.end(), no_neighbor); }
-  FrontResult advance() const { return advance_front(plc, facets, codes, true, delaunay); }
-  /// Every face goes through the front.
-  FrontResult advance_all() const {
-    return advance_front(plc, facets, std::vector<std::uint32_t>(codes.size(), no_neighbor), false, delaunay);
-  }
-};
-
-Cells sorted(Cells cells) {
-  for (auto& cell : cells) std::sort(cell.begin(), cell.end());
-  std::sort(cells.begin(), cells.end());
-  return cells;
-}
 
 /// A triangle and two points close above and below it. The segment between these two pierces the triangle and is a
 /// Delaunay edge.
@@ -71,6 +36,7 @@ TEST(Front, HasNothingToDoWhereAllFacesAreDelaunay) {
   const FrontResult result = cube.advance();
   EXPECT_TRUE(result.tetrahedra.empty());
   EXPECT_EQ(result.open.size(), 12u);  // one side of each face
+  EXPECT_EQ(result.undelaunay_faces, 0u);
 }
 
 TEST(Front, FillsATetrahedronWithItself) {
@@ -99,6 +65,15 @@ TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {
     ASSERT_EQ(result.chambers.size(), 2u);
     EXPECT_NE(result.chambers[0], result.chambers[1]);  // the facet divides the domain
   }
+}
+
+/// Section 5.3 of the paper: the faces of the PLC that are undelaunay, by their sides within the domain, and new ones.
+TEST(Front, CountsTheUndelaunayFacesThatItMeets) {
+  const Stages bipyramid(divided_bipyramid());
+  EXPECT_EQ(bipyramid.advance().undelaunay_faces, 2u);      // both sides of the facet; all others are Delaunay
+  EXPECT_EQ(bipyramid.advance_all().undelaunay_faces, 8u);  // nothing is checked: all are as if they were not
+  const Stages bars(two_bars());
+  EXPECT_GE(bars.advance().undelaunay_faces, bars.undelaunay());
 }
 
 TEST(Front, IsNotHinderedByTheWayTheInputTurns) {

@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include "engine/io/read_plc.h"
+#include "engine/locate/cavity_locator.h"
+#include "engine/tests/front_stages.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "models/solids.h"
+
+// The front makes the same tetrahedra whoever finds its vertices, with the check and without.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+void expect_same_tetrahedra(const Stages& stages) {
+  const FrontResult checked = stages.advance({LocatorKind::grid}), all = stages.advance_all({LocatorKind::grid});
+  for (const FrontLocator& locator : {FrontLocator{LocatorKind::grid, 0.5}, FrontLocator{LocatorKind::grid, 2},
+                                      FrontLocator{LocatorKind::octree}, FrontLocator{LocatorKind::cavity}}) {
+    SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.kind)));
+    const FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
+    EXPECT_EQ(sorted(checked.tetrahedra), sorted(other.tetrahedra));
+    EXPECT_EQ(sorted(all.tetrahedra), sorted(all_by_other.tetrahedra));
+    EXPECT_EQ(checked.undelaunay_faces, other.undelaunay_faces);
+    EXPECT_EQ(checked.open.size(), other.open.size());
+    EXPECT_TRUE(all_by_other.open.empty());
+  }
+}
+
+void expect_same_tetrahedra(const InputPlc& input) {
+  expect_same_tetrahedra(Stages(input));
+}
+
+TEST(FrontLocators, AgreeOnSmallInputs) {
+  for (const InputPlc& input :
+       {unit_cube(), l_shape(), plc_test::schoenhardt(), cube_with_cubic_hole(), cube_within_cube(), two_cubes(),
+        two_cubes_as_surface(), cube_with_slit(), cube_with_dangling_facet(), cube_with_dangling_segment(),
+        cube_with_floating_segment(), cube_with_turnstile(), two_bars()})
+    for (const InputPlc& plc : {input, rotated(oblique, input)}) expect_same_tetrahedra(plc);
+}
+
+TEST(FrontLocators, AgreeOnModels) {
+  for (const char* name : {"piston", "bracket", "stepping-pole"})
+    for (const double edge_length : {7.0, 11.0}) {
+      SCOPED_TRACE(name);
+      expect_same_tetrahedra(rotated(oblique, make_solid(name, edge_length)));
+    }
+}
+
+TEST(FrontLocators, AgreeOnRandomVoxelsInPerspective) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const int n = 2 + i % 3;
+    const InputPlc plc = in_perspective(random_voxels(n, 2 + i % 2, random), n);
+    expect_same_tetrahedra(plc);
+    expect_same_tetrahedra(rotated(random_rotation(random), plc));
+  }
+}
+
+TEST(FrontLocators, AgreeOnRandomRoughSurfaces) {
+  std::mt19937 random(2);
+  std::size_t undelaunay = 0;
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const Stages stages(roughened(make_solid("sphere", i % 3 == 0 ? 0.35 : 0.7), i % 2 ? 0.6 : 0.2, random));
+    undelaunay += stages.undelaunay();
+    expect_same_tetrahedra(stages);
+  }
+  EXPECT_GT(undelaunay, 100u);
+}
+
+TEST(FrontLocators, AgreeOnRandomlyTwistedPrismsAndThinPlates) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> turn(-0.95, 0.3), height(0.05, 3);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const double t = turn(random), h = height(random);
+    expect_same_tetrahedra(rotated(random_rotation(random), twisted_prism(3 + i % 6, t, h)));
+  }
+  for (const double thickness : {0.1, 0.001}) expect_same_tetrahedra(rotated(oblique, gridded_plate(5, thickness)));
+}
+
+/// Real surfaces, where there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
+TEST(FrontLocators, AgreeOnRealParts) {
+  const char* told = std::getenv("CCDT_PARTS");
+  const auto folder =
+      told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / "parts";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
+  for (const char* name : {"joint.off", "anchor.off", "fandisk.off"}) {
+    SCOPED_TRACE(name);
+    const Stages stages(read_plc(folder / name));
+    EXPECT_GT(stages.undelaunay(), 0u);
+    expect_same_tetrahedra(stages);
+  }
+}
+
+/// Weights of a point in a cell, times the cell's sixfold volume, in floating point.
+std::array<double, 4> weights(const std::array<Point3, 4>& cell, const Point3& p) {
+  const auto volume = [](const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+    return dot(cross(b - a, c - a), d - a);
+  };
+  const auto& [a, b, c, d] = cell;
+  return {volume(p, b, c, d), volume(a, p, c, d), volume(a, b, p, d), volume(a, b, c, p)};
+}
+
+/// Brute force: where random points of the missing faces are.
+void expect_cells_of_missing_faces(const Stages& stages, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> part(0, 1);
+  const Delaunay& d = stages.delaunay;
+  CellStar star(d);
+  const CavityLocator locator(stages.facets, stages.codes, d, star);
+  std::size_t inside = 0;
+  for (std::uint32_t f = 0; f < stages.codes.size(); ++f) {
+    const std::uint32_t cavity = locator.cavity_of_triangle(f);
+    EXPECT_EQ(cavity == CavityLocator::no_cavity, stages.codes[f] != no_neighbor);
+    if (cavity == CavityLocator::no_cavity) continue;
+    const auto& t = stages.facets.triangles[f];
+    const double s = part(random), r = part(random) * (1 - s);
+    const Point3 p = s * d.point(t[0]) + r * d.point(t[1]) + (1 - s - r) * d.point(t[2]);
+    for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
+      if (!d.is_finite(cell)) continue;
+      const auto& v = d.cells[cell].vertices;
+      const auto w = weights({d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3])}, p);
+      const double sum = w[0] + w[1] + w[2] + w[3];
+      if (std::any_of(w.begin(), w.end(), [&](double x) { return x < 1e-6 * sum; })) continue;
+      EXPECT_EQ(locator.cavity_of_cell(cell), cavity);
+      ++inside;
+    }
+  }
+  EXPECT_GT(inside, 0u);
+}
+
+TEST(CavityLocator, HasTheCellsThatMissingFacesGoThrough) {
+  expect_cells_of_missing_faces(Stages(two_bars()), 1);
+  std::mt19937 random(4);
+  for (unsigned i = 0; i < 5; ++i)
+    expect_cells_of_missing_faces(Stages(roughened(make_solid("sphere", 0.35), 0.2, random)), i);
+}
+
+TEST(CavityLocator, HasNoCavityWhereNothingIsMissing) {
+  const Stages cube(unit_cube());
+  CellStar star(cube.delaunay);
+  const CavityLocator locator(cube.facets, cube.codes, cube.delaunay, star);
+  EXPECT_EQ(locator.cavity_count(), 0u);
+  EXPECT_TRUE(locator.triangles().empty());
+}
+
+TEST(CavityLocator, LooksForFacesWhoseCodesAreNotTold) {
+  const Stages bars(two_bars());
+  CellStar star(bars.delaunay);
+  const CavityLocator told(bars.facets, bars.codes, bars.delaunay, star);
+  const CavityLocator untold(bars.facets, std::vector<std::uint32_t>(bars.codes.size(), no_neighbor), bars.delaunay,
+                             star);
+  EXPECT_GT(told.cavity_count(), 0u);
+  EXPECT_EQ(told.cavity_count(), untold.cavity_count());
+  EXPECT_EQ(told.triangles(), untold.triangles());
+  for (std::uint32_t cell = 0; cell < bars.delaunay.cells.size(); ++cell)
+    EXPECT_EQ(told.cavity_of_cell(cell), untold.cavity_of_cell(cell));
+}
+
+}  // namespace
+}  // namespace ccdt

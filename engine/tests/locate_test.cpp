@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/locate/grid_locator.h"
+#include "engine/locate/octree_locator.h"
+#include "engine/numbers/predicates.h"
+
+namespace ccdt {
+namespace {
+
+constexpr double side = 0x1p40;
+
+/// Vertices and small triangles of them; graded: their distances to a corner of the box range over many powers of two.
+struct Scene {
+  std::vector<DelaunayVertex> vertices;
+  std::vector<std::array<VertexId, 3>> triangles;
+
+  Scene(std::uint32_t count, bool graded, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> part(-1, 1), power(0, 25);
+    std::vector<Point3> centres;
+    while (vertices.size() + 3 <= count) {
+      const double scale = side * (graded ? std::exp2(-power(random)) : 1);
+      const Point3 centre{scale * part(random), scale * part(random), scale * part(random)};
+      for (int i = 0; i < 3; ++i) {
+        const Point3 p = centre + (0.3 * scale) * Point3{part(random), part(random), part(random)};
+        vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0, 0});
+      }
+      const auto n = static_cast<std::uint32_t>(vertices.size());
+      triangles.push_back({VertexId(n - 3), VertexId(n - 2), VertexId(n - 1)});
+    }
+  }
+
+  const Point3& corner(std::size_t triangle, int i) const { return vertices[triangles[triangle][i]].point; }
+};
+
+/// Have the closed segment and the closed triangle a point in common? (Touching in one plane may count as well.)
+bool passes(const Point3& p, const Point3& q, const Point3& a, const Point3& b, const Point3& c) {
+  if (orient3d(a, b, c, p) * orient3d(a, b, c, q) > 0) return false;
+  const std::array turns = {orient3d(p, q, a, b), orient3d(p, q, b, c), orient3d(p, q, c, a)};
+  return std::none_of(turns.begin(), turns.end(), [](int t) { return t < 0; }) ||
+         std::none_of(turns.begin(), turns.end(), [](int t) { return t > 0; });
+}
+
+bool is_corner(const Scene& scene, std::size_t triangle, const Point3& p) {
+  return scene.corner(triangle, 0) == p || scene.corner(triangle, 1) == p || scene.corner(triangle, 2) == p;
+}
+
+template <class Locator>
+void expect_vertices_of_caps(const Scene& scene, const Locator& locator, unsigned seed) {
+  std::mt19937 random(seed);
+  for (int round = 0; round < 40; ++round) {
+    const std::size_t t = random() % scene.triangles.size();
+    const Point3 &a = scene.corner(t, 0), &b = scene.corner(t, 1), &c = scene.corner(t, 2);
+    Cap cap(a, b, c);
+    // It shrinks to a ball around a vertex after some visits, as it does when a candidate is found.
+    const Point3 centre = scene.vertices[random() % scene.vertices.size()].point;
+    const double radius = std::sqrt(squared_length(centre - a)) * (round % 4 + 1) / 4;
+    const unsigned visits_before = random() % 3 == 0 ? 1000000 : random() % 20;
+    std::vector<int> visits(scene.vertices.size(), 0);
+    unsigned count = 0;
+    locator.spiral(a, cap, [&](const LocatedVertex& v) {
+      EXPECT_TRUE(v.point == scene.vertices[v.id].point);
+      ++visits[v.id];
+      if (count++ == visits_before) cap.shrink_to(centre, radius);
+    });
+    for (std::size_t v = 0; v < visits.size(); ++v) {
+      EXPECT_LE(visits[v], 1);
+      EXPECT_TRUE(visits[v] == 1 || !cap.may_hold(scene.vertices[v].point));
+    }
+  }
+}
+
+template <class Locator>
+void expect_faces_of_edges(const Scene& scene, const Locator& locator, unsigned seed) {
+  std::mt19937 random(seed);
+  std::size_t passed = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Point3 p = scene.vertices[random() % scene.vertices.size()].point,
+                 q = scene.vertices[random() % scene.vertices.size()].point;
+    if (p == q) continue;
+    std::set<std::uint32_t> visited;
+    EXPECT_FALSE(locator.any_near_edge(p, q, [&](std::uint32_t f) {
+      visited.insert(f);
+      return false;
+    }));
+    for (std::uint32_t f = 0; f < scene.triangles.size(); ++f) {
+      if (!passes(p, q, scene.corner(f, 0), scene.corner(f, 1), scene.corner(f, 2))) continue;
+      passed += !is_corner(scene, f, p) && !is_corner(scene, f, q);
+      EXPECT_TRUE(visited.count(f));
+      int calls_after = 0;
+      bool found = false;
+      EXPECT_TRUE(locator.any_near_edge(p, q, [&](std::uint32_t g) {
+        calls_after += found;
+        found = found || g == f;
+        return found;
+      }));
+      EXPECT_EQ(calls_after, 0);
+    }
+  }
+  EXPECT_TRUE(passed > 200 || scene.triangles.size() < 1000) << passed;  // not only the triangles at the ends
+}
+
+/// \param make  makes a locator of a scene
+template <class Make>
+void expect_finds_everything(const Make& make) {
+  for (const bool graded : {false, true})
+    for (const std::uint32_t count : {3u, 30u, 3000u}) {
+      SCOPED_TRACE(std::to_string(count) + (graded ? " graded" : " even"));
+      const Scene scene(count, graded, count);
+      const auto locator = make(scene);
+      expect_vertices_of_caps(scene, locator, 1);
+      if (count > 3) expect_faces_of_edges(scene, locator, 2);
+    }
+}
+
+TEST(GridLocator, FindsAllVerticesAndFacesAtAnyScale) {
+  for (const double scale : {0.5, 1.0, 3.0})
+    expect_finds_everything([&](const Scene& s) { return GridLocator(s.vertices, s.triangles, scale); });
+}
+
+TEST(OctreeLocator, FindsAllVerticesAndFaces) {
+  expect_finds_everything([](const Scene& s) { return OctreeLocator(s.vertices, s.triangles); });
+}
+
+TEST(OctreeLocator, OfSomeFindsTheseAlone) {
+  const Scene scene(3000, true, 5);
+  std::vector<std::uint32_t> some_vertices, some_faces;
+  for (std::uint32_t v = 0; v < scene.vertices.size(); v += 7) some_vertices.push_back(v);
+  for (std::uint32_t f = 0; f < scene.triangles.size(); f += 5) some_faces.push_back(f);
+  const OctreeLocator locator(scene.vertices, some_vertices, scene.triangles, some_faces);
+  const Cap cap(scene.corner(0, 0), scene.corner(0, 1), scene.corner(0, 2));
+  locator.spiral({}, cap, [](const LocatedVertex& v) { EXPECT_EQ(v.id % 7, 0u); });
+  int faces = 0;
+  locator.any_near_edge({-side, -side, -side}, {side, side, side}, [&](std::uint32_t f) {
+    EXPECT_EQ(f % 5, 0u);
+    ++faces;
+    return false;
+  });
+  EXPECT_GT(faces, 0);
+}
+
+TEST(OctreeLocator, HoldsManyVerticesInOnePlace) {
+  Scene scene(30, false, 6);
+  for (std::uint32_t i = 0; i < 100; ++i) scene.vertices.push_back({{side + i % 3, 0, 0}, 0, 0});
+  expect_vertices_of_caps(scene, OctreeLocator(scene.vertices, scene.triangles), 7);
+}
+
+TEST(OctreeLocator, OfNothingFindsNothing) {
+  const OctreeLocator locator({}, {});
+  locator.spiral({}, Cap({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), [](const LocatedVertex&) { ADD_FAILURE(); });
+  EXPECT_FALSE(locator.any_near_edge({0, 0, 0}, {1, 1, 1}, [](std::uint32_t) { return true; }));
+}
+
+/// With a coarse grid or an octree, few vertices are visited when the cap is small: that is what locators are for.
+TEST(Locators, VisitFewVerticesWhereTheCapIsSmall) {
+  const Scene scene(30000, false, 8);
+  const auto visits_of = [&](const auto& locator) {
+    std::size_t visits = 0;
+    for (std::size_t t = 0; t < 100; ++t) {
+      Cap cap(scene.corner(t, 0), scene.corner(t, 1), scene.corner(t, 2));
+      cap.shrink_to(scene.corner(t, 0), side / 16);
+      locator.spiral(scene.corner(t, 0), cap, [&](const LocatedVertex&) { ++visits; });
+    }
+    return visits / 100;
+  };
+  EXPECT_LT(visits_of(GridLocator(scene.vertices, scene.triangles)), 200u);
+  EXPECT_LT(visits_of(OctreeLocator(scene.vertices, scene.triangles)), 200u);
+}
+
+}  // namespace
+}  // namespace ccdt
