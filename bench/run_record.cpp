@@ -171,6 +171,22 @@ std::string_view name_of(Protection protection) {
   return protection == Protection::shell ? "shell" : "midpoint";
 }
 
+std::string_view name_of(LocatorKind locator) {
+  switch (locator) {
+    case LocatorKind::grid:
+      return "grid";
+    case LocatorKind::octree:
+      return "octree";
+    case LocatorKind::cavity:
+      return "cavity";
+  }
+  return {};
+}
+
+std::string_view name_of(DelaunayMethod method) {
+  return method == DelaunayMethod::insert ? "insert" : "wrap";
+}
+
 RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
   RunRecord record;
   record.environment = capture_environment();
@@ -181,13 +197,14 @@ RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOp
   record.input.segments = input.segments.size();
   record.options = {{"face_protection", options.face_protection},
                     {"lattice", std::string(name_of(options.lattice))},
-                    {"locator", "grid"},
-                    {"delaunay", "insert"},
+                    {"locator", std::string(name_of(options.locator))},
+                    {"delaunay", std::string(name_of(options.delaunay))},
                     {"protection", std::string(name_of(options.protection))},
                     {"improve", "none"},
                     {"surface", "keep"},
                     {"edge_length", options.edge_length},
                     {"grading", options.grading},
+                    {"grid_scale", options.grid_scale},
                     {"flatness", options.flatness},
                     {"sizes", options.background.name},
                     {"sphere_factor", options.sphere_factor},

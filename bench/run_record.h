@@ -46,6 +46,8 @@ RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOp
 
 std::string_view name_of(Lattice lattice);
 std::string_view name_of(Protection protection);
+std::string_view name_of(LocatorKind locator);
+std::string_view name_of(DelaunayMethod method);
 
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);

@@ -4,6 +4,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/delaunay/wrap_delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/face_check.h"
@@ -30,8 +31,11 @@ struct Work {
   StageSeconds& seconds;
 };
 
+/// Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
+/// whatever the method is. With another method it is there for the sake of protection alone.
 void tetrahedralize_input(Work& w) {
-  const Stopwatch watch(w.seconds.delaunay);
+  const bool stays = w.options.delaunay == DelaunayMethod::insert;
+  const Stopwatch watch(stays ? w.seconds.delaunay : w.seconds.protect);
   w.delaunay = build_delaunay(w.plc.vertices, w.progress);
 }
 
@@ -76,14 +80,16 @@ std::vector<Point3> lattice_points(const Work& w) {
 }
 
 void fill_inside(Work& w) {
-  if (w.options.lattice == Lattice::none) return;
   std::vector<Point3> points;
-  {
+  if (w.options.lattice != Lattice::none) {
     const Stopwatch watch(w.seconds.lattice);
     points = lattice_points(w);
   }
   const Stopwatch watch(w.seconds.delaunay);
-  w.counts.interior_vertices = insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress);
+  w.counts.interior_vertices =
+      w.options.delaunay == DelaunayMethod::insert
+          ? insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress)
+          : wrap_interior(points, w.must_be_chain, w.chains, w.options.grid_scale, w.delaunay, w.progress);
   w.counts.dropped_interior_vertices = points.size() - w.counts.interior_vertices;
 }
 

@@ -149,11 +149,19 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
       std::vector<std::pair<std::string, Protection>>{{"shell", Protection::shell}, {"midpoint", Protection::midpoint}},
       "shell, midpoint: where a segment is split", "shell");
 
+  choice("--locator", command.options.locator,
+         std::vector<std::pair<std::string, LocatorKind>>{
+             {"grid", LocatorKind::grid}, {"octree", LocatorKind::octree}, {"cavity", LocatorKind::cavity}},
+         "grid, octree, cavity: who finds the vertices near a face and the faces near an edge", "grid");
+  choice("--delaunay", command.options.delaunay,
+         std::vector<std::pair<std::string, DelaunayMethod>>{{"insert", DelaunayMethod::insert},
+                                                             {"wrap", DelaunayMethod::wrap}},
+         "insert, wrap: vertex by vertex along a space-filling curve, or the paper's: face by face in a grid",
+         "insert");
+
   const auto only = [&](const char* name, const char* value, const char* what) {
     verb.add_option(name, command.only_value, what)->check(CLI::IsMember({value}))->default_str(value);
   };
-  only("--locator", "grid", "who finds vertices near a face");
-  only("--delaunay", "insert", "how the Delaunay tetrahedralization is made");
   only("--improve", "none", "improvement of the finished mesh");
   only("--surface", "keep", "what happens to the triangles of the surface");
   verb.add_option("--threads", command.most_threads, "at most so many threads work; so far one does all")
@@ -178,6 +186,9 @@ void add_numbers(CLI::App& verb, MeshOptions& options) {
   verb.add_option("--clearance", options.clearance,
                   "no interior point is nearer to the surface than this times the edge length there")
       ->check(non_negative_number())
+      ->capture_default_str();
+  verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size that the paper gives its uniform grids")
+      ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   verb.add_option("--flatness", options.flatness,
                   "a patch this near to one plane is one facet; fraction of the bounding box")

@@ -1,11 +1,14 @@
 #include "engine/protection/insert_interior.h"
 
 #include <algorithm>
+#include <tuple>
 #include <unordered_set>
 
 #include "engine/base/edge_key.h"
+#include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
+#include "engine/delaunay/wrap_delaunay.h"
 
 namespace ccdt {
 namespace {
@@ -53,6 +56,27 @@ bool destroys_edge(const Delaunay& d, const Insertion& insertion, const Protecte
                      [&](std::uint64_t edge) { return std::find(border.begin(), border.end(), edge) == border.end(); });
 }
 
+bool has_all_edges(const Delaunay& d, const std::vector<bool>& must_be_chain, const SegmentChains& chains) {
+  CellStar star(d);
+  for (std::size_t s = 0; s < chains.size(); ++s)
+    for (std::size_t i = 0; must_be_chain[s] && i + 1 < chains[s].size(); ++i)
+      if (!star.has_edge(chains[s][i].vertex, chains[s][i + 1].vertex)) return false;
+  return true;
+}
+
+/// The vertices with the points that are not among them, ranked as they would be inserted.
+std::vector<DelaunayVertex> with_points(std::vector<DelaunayVertex> vertices, std::span<const Point3> points) {
+  const auto less = [](const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::vector<Point3> taken;
+  taken.reserve(vertices.size());
+  for (const DelaunayVertex& v : vertices) taken.push_back(v.point);
+  std::ranges::sort(taken, less);
+  for (const std::uint32_t i : hilbert_order(points))
+    if (!std::ranges::binary_search(taken, points[i], less))
+      vertices.push_back({points[i], static_cast<std::uint32_t>(vertices.size()), 0});
+  return vertices;
+}
+
 }  // namespace
 
 std::uint64_t insert_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
@@ -75,6 +99,21 @@ std::uint64_t insert_interior(std::span<const Point3> points, const std::vector<
       insertion.abandon();
       delaunay.vertices.pop_back();
     }
+  }
+  return delaunay.vertices.size() - before;
+}
+
+std::uint64_t wrap_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
+                            const SegmentChains& chains, double grid_scale, Delaunay& delaunay,
+                            const Progress& progress) {
+  const std::size_t before = delaunay.vertices.size();
+  Delaunay all = wrap_delaunay(with_points(delaunay.vertices, points), grid_scale, progress);
+  // Edges that are there with all points were there with any part of them: then insertion would drop none.
+  if (has_all_edges(all, must_be_chain, chains)) {
+    delaunay = std::move(all);
+  } else {
+    insert_interior(points, must_be_chain, chains, delaunay, progress);
+    delaunay = wrap_delaunay(std::move(delaunay.vertices), grid_scale, progress);
   }
   return delaunay.vertices.size() - before;
 }

@@ -18,4 +18,10 @@ namespace ccdt {
 std::uint64_t insert_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
                               const SegmentChains& chains, Delaunay& delaunay, const Progress& progress = {});
 
+/// The same with the same result, but all vertices are tetrahedralized anew by `wrap_delaunay`. Only if edges are
+/// missing then, the points to drop are found by insertion.
+std::uint64_t wrap_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
+                            const SegmentChains& chains, double grid_scale, Delaunay& delaunay,
+                            const Progress& progress = {});
+
 }  // namespace ccdt

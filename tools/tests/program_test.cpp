@@ -47,8 +47,8 @@ TEST_F(Program, WrongUsageExitsWithTwoAndWritesNothing) {
 TEST_F(Program, StrategyThatThisBuildLacksIsRefusedWithTheOnesThatThereAre) {
   write("cube.off", cube_off);
   for (const auto& [option, missing, there] :
-       std::vector<std::array<std::string, 3>>{{"--locator", "octree", "grid"},
-                                               {"--delaunay", "wrap", "insert"},
+       std::vector<std::array<std::string, 3>>{{"--locator", "tree", "octree"},
+                                               {"--delaunay", "sweep", "insert"},
                                                {"--improve", "swap", "none"},
                                                {"--surface", "remesh", "keep"}}) {
     const Outcome outcome = run("mesh cube.off -o a.vtu " + option + " " + missing);
