@@ -1,0 +1,228 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/delaunay/cell_star.h"
+#include "engine/front/advance_front.h"
+#include "engine/front/face_check.h"
+#include "engine/lattice/clear_surface.h"
+#include "engine/numbers/predicates.h"
+#include "engine/plc/build_plc.h"
+#include "engine/protection/insert_interior.h"
+#include "engine/protection/protect_edges.h"
+#include "engine/tests/exhaustive_tetrahedralizations.h"
+#include "engine/tests/mesh_test_solids.h"
+
+// The paper: "Insertion of interior points does not affect CDT existence". It does: an edge of the PLC that is a
+// Delaunay edge need not have an empty diametral sphere, and then an interior point outside that sphere can still be in
+// every empty sphere that shows the edge to be Delaunay. The examples are the smallest that a random search among
+// points of small whole coordinates has found.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+using test::Polyhedron;
+
+/// A tetrahedron, and in it a segment from its first corner to vertex 4. Vertex 1 is in the diametral sphere of the
+/// segment; still it is a Delaunay edge.
+InputPlc tetrahedron_with_segment() {
+  InputPlc plc;
+  plc.inside = InputPlc::Inside::seeds;
+  plc.vertices = {{0, 6, 6}, {1, 3, 2}, {2, 5, 1}, {6, 0, 2}, {3, 2, 2}};
+  plc.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  plc.segments = {{0, 4}};
+  return plc;
+}
+constexpr Point3 beside_segment{4, 2, 3};
+
+/// A tetrahedron with a dent: vertex 4 is where its face 0 2 3 was pushed in. The dent's three edges are reflex.
+InputPlc dented_tetrahedron() {
+  InputPlc plc;
+  plc.vertices = {{2, 7, 0}, {5, 2, 2}, {0, 0, 5}, {1, 5, 4}, {1, 4, 4}};
+  plc.triangles = {{4, 0, 2}, {2, 0, 1}, {3, 0, 4}, {3, 1, 0}, {3, 4, 2}, {3, 2, 1}};
+  return plc;
+}
+constexpr Point3 below_dent{1, 3, 3};
+
+/// A cube around a tetrahedron of loose vertices with the segment. Its faces have a vertex in the middle, so that no
+/// smallest sphere of a face reaches the middle of the cube.
+InputPlc segment_in_large_cube() {
+  InputPlc plc = tetrahedron_with_segment();
+  plc.triangles.clear();
+  constexpr double half = 16;
+  const Point3 centre{3, 3, 3};
+  const auto corner = static_cast<std::uint32_t>(plc.vertices.size());
+  for (int i = 0; i < 8; ++i)
+    plc.vertices.push_back(centre + half * Point3{i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
+  for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    const auto middle = static_cast<std::uint32_t>(plc.vertices.size());
+    plc.vertices.push_back(0.5 * (plc.vertices[corner + q[0]] + plc.vertices[corner + q[2]]));
+    for (int i = 0; i < 4; ++i) plc.triangles.push_back({corner + q[i], corner + q[(i + 1) % 4], middle});
+  }
+  return plc;
+}
+
+/// An input with its edges protected, and an interior point that is yet to come.
+struct Protected {
+  Plc plc;
+  Delaunay delaunay;
+  SegmentChains chains;
+  std::vector<bool> grazeable;
+  std::uint64_t splits;
+  Point3 point;
+
+  Protected(const InputPlc& input, const Point3& interior)
+      : plc(build_plc(input, {0})), delaunay(build_delaunay(plc.vertices)), chains(bare_chains(plc)) {
+    grazeable = grazeable_segments(plc);
+    splits = protect_edges(plc, grazeable, Protection::midpoint, delaunay, chains);
+    point = (1 / plc.grid.unit) * (interior - plc.grid.origin);
+  }
+
+  bool has_edge(std::uint32_t a, std::uint32_t b) { return CellStar(delaunay).has_edge(a, b); }
+  /// With regard to edges, or without.
+  std::uint64_t insert(bool with_regard) {
+    const std::vector<bool> kept = with_regard ? grazeable : std::vector<bool>(grazeable.size(), false);
+    return insert_interior(std::vector{point}, kept, chains, delaunay);
+  }
+  FrontResult advance() const {
+    const FacetMesh facets = triangulate_facets(plc, chains, delaunay);
+    return advance_front(plc, facets, find_delaunay_faces(facets, delaunay), true, delaunay);
+  }
+};
+
+bool is_in_ball(const Ball& ball, const Point3& p) {
+  return std::sqrt(squared_length(p - ball.centre)) <= ball.radius;
+}
+
+Polyhedron polyhedron_of(const InputPlc& input, const std::vector<Point3>& interior = {}) {
+  Polyhedron result{input.vertices, input.triangles, input.segments};
+  result.vertices.insert(result.vertices.end(), interior.begin(), interior.end());
+  return result;
+}
+
+TEST(ExhaustiveTetrahedralizations, FindBothOfFivePointsAndNoneOfSchoenhardtsPolyhedron) {
+  Polyhedron bipyramid{{{0, 0, 0}, {9, 0, 1}, {1, 8, 0}, {3, 2, 5}, {4, 3, -6}}, {}, {}};
+  bipyramid.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
+  ASSERT_TRUE(is_generic(bipyramid));
+  EXPECT_EQ(count_tetrahedralizations(bipyramid).all, 2u);
+  EXPECT_EQ(count_tetrahedralizations(bipyramid).constrained_delaunay, 1u);
+  Polyhedron schoenhardt = polyhedron_of(plc_test::schoenhardt());
+  for (Point3& p : schoenhardt.vertices) p = {std::round(1000 * p.x), std::round(1003 * p.y), std::round(1005 * p.z)};
+  schoenhardt.vertices[0].z += 7;
+  schoenhardt.vertices[4].x += 3;
+  ASSERT_TRUE(is_generic(schoenhardt));
+  EXPECT_EQ(count_tetrahedralizations(schoenhardt).all, 0u);
+}
+
+TEST(InteriorPoints, OnePointOutsideTheDiametralSphereKnocksOutAProtectedEdge) {
+  Protected p(tetrahedron_with_segment(), beside_segment);
+  EXPECT_EQ(p.splits, 0u);  // it is a Delaunay edge as it is
+  EXPECT_FALSE(is_in_ball(smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
+  EXPECT_TRUE(p.has_edge(0, 4));
+  EXPECT_EQ(p.insert(false), 1u);
+  EXPECT_FALSE(p.has_edge(0, 4));
+}
+
+TEST(InteriorPoints, OnePointOutsideTheDiametralSphereEndsExistenceForASegment) {
+  const InputPlc input = tetrahedron_with_segment();
+  const auto before = count_tetrahedralizations(polyhedron_of(input));
+  EXPECT_EQ(before.constrained_delaunay, 1u);
+  const Polyhedron with_point = polyhedron_of(input, {beside_segment});
+  ASSERT_TRUE(is_generic(with_point));
+  const auto after = count_tetrahedralizations(with_point);
+  EXPECT_GT(after.all, 0u);  // there are tetrahedralizations with the segment, but
+  EXPECT_EQ(after.constrained_delaunay, 0u);
+}
+
+TEST(InteriorPoints, OnePointEndsExistenceForASolidOfFiveVertices) {
+  const InputPlc input = dented_tetrahedron();
+  EXPECT_EQ(count_tetrahedralizations(polyhedron_of(input)).constrained_delaunay, 1u);
+  const Polyhedron with_point = polyhedron_of(input, {below_dent});
+  ASSERT_TRUE(is_generic(with_point));
+  const auto after = count_tetrahedralizations(with_point);
+  EXPECT_GT(after.all, 0u);
+  EXPECT_EQ(after.constrained_delaunay, 0u);
+}
+
+/// Does the front get to its end, and are its tetrahedra locally Delaunay where two of them meet?
+bool finds_constrained_delaunay(const Protected& p) {
+  FrontResult front;
+  try {
+    front = p.advance();
+  } catch (const FrontStuck&) {
+    return false;
+  }
+  for (const auto& s : front.tetrahedra)
+    for (const auto& t : front.tetrahedra) {
+      std::vector<std::uint32_t> others;
+      std::ranges::copy_if(t, std::back_inserter(others), [&](auto v) { return std::ranges::find(s, v) == s.end(); });
+      const auto at = [&](std::uint32_t v) { return p.delaunay.point(v); };
+      if (others.size() == 1 && insphere(at(s[0]), at(s[1]), at(s[2]), at(s[3]), at(others[0])) > 0) return false;
+    }
+  return true;
+}
+
+TEST(InteriorPoints, TheFrontFindsNoConstrainedDelaunayTetrahedraWhereExistenceHasEnded) {
+  Protected p(dented_tetrahedron(), below_dent);
+  EXPECT_EQ(p.splits, 0u);
+  EXPECT_FALSE(is_in_ball(smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
+  EXPECT_TRUE(p.has_edge(0, 4));
+  EXPECT_TRUE(finds_constrained_delaunay(p));
+  EXPECT_EQ(p.insert(false), 1u);
+  EXPECT_FALSE(p.has_edge(0, 4));
+  EXPECT_FALSE(finds_constrained_delaunay(p));
+}
+
+TEST(InteriorPoints, ThePaperSphereRuleDoesNotSaveTheEdge) {
+  Protected p(segment_in_large_cube(), beside_segment);
+  EXPECT_EQ(p.splits, 0u);
+  const FacetMesh facets = triangulate_facets(p.plc, p.chains, p.delaunay);
+  const auto& v = p.plc.vertices;
+  for (const auto& [a, b, c] : facets.triangles)
+    EXPECT_FALSE(is_in_ball(smallest_ball(Corners{v[a], v[b], v[c]}), p.point));
+  for (const Segment& s : p.plc.segments) EXPECT_FALSE(is_in_ball(smallest_ball(v[s.ends[0]], v[s.ends[1]]), p.point));
+  EXPECT_TRUE(p.has_edge(0, 4));
+  EXPECT_EQ(p.insert(false), 1u);
+  EXPECT_FALSE(p.has_edge(0, 4));
+}
+
+TEST(InteriorPoints, ThatWouldDestroyAProtectedEdgeAreDroppedAndTheEdgeStays) {
+  Protected all[] = {{tetrahedron_with_segment(), beside_segment},
+                     {dented_tetrahedron(), below_dent},
+                     {segment_in_large_cube(), beside_segment}};
+  for (Protected& p : all) {
+    EXPECT_EQ(p.insert(true), 0u);
+    EXPECT_EQ(p.delaunay.vertices.size(), p.plc.vertices.size());
+    EXPECT_TRUE(p.has_edge(0, 4));
+    EXPECT_TRUE(finds_constrained_delaunay(p));
+  }
+}
+
+TEST(InteriorPoints, ProtectionAfterInsertionBringsExistenceBack) {
+  for (const Protection strategy : {Protection::midpoint, Protection::shell}) {
+    Protected p(dented_tetrahedron(), below_dent);
+    p.insert(false);
+    EXPECT_GT(protect_edges(p.plc, p.grazeable, strategy, p.delaunay, p.chains), 0u);
+    EXPECT_TRUE(finds_constrained_delaunay(p));
+  }
+}
+
+TEST(InteriorPoints, ThatWereDroppedAreCounted) {
+  // Without the sphere rule and close to the surface, some of the lattice's points harm reflex edges.
+  MeshOptions options;
+  options.sphere_factor = 0;
+  options.clearance = 0.01;
+  options.edge_length = 0.3;
+  const MeshResult mesh = mesh_plc(cube_with_turnstile(), options);
+  EXPECT_GT(mesh.counts.dropped_interior_vertices, 0u);
+  options.sphere_factor = 1;
+  options.clearance = usual_clearance;
+  EXPECT_EQ(mesh_plc(cube_with_turnstile(), options).counts.dropped_interior_vertices, 0u);
+}
+
+}  // namespace
+}  // namespace ccdt
