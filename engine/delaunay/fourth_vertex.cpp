@@ -12,6 +12,7 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 using CellIndex = UniformGrid::CellIndex;
 
+constexpr double huge = 100;  // in cells: the spheres of faces at the hull, and of those over a hair's breadth
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double sum_of_magnitudes(const Point3& p) {
@@ -69,7 +70,7 @@ class Search {
       if (window.contains(box_of_cap())) return pencil_.apex();
       seen_ = window;
       if (width < near) continue;
-      if (pencil_.apex() == ghost_vertex && reach == Reach::near) return ghost_vertex;
+      if (reach == Reach::near && cap_.radius > huge * cell_size_) return ghost_vertex;
       visit_blocks();
       return pencil_.apex();
     }
@@ -184,13 +185,15 @@ class Search {
       double top = dot(up, to_block) + std::fabs(up.x) * block.half.x + std::fabs(up.y) * block.half.y +
                    std::fabs(up.z) * block.half.z + slack;
       if (top < 0 || is_outside(block, top, farthest)) continue;
-      if (!direction) {
-        direction = &tops_.direction(up);
-        turn = std::sqrt(squared_length(direction->normal - up)) + 1e-15;
+      if (cap_.lift > huge * cell_size_) {
+        if (!direction) {
+          direction = &tops_.direction(up);
+          turn = std::sqrt(squared_length(direction->normal - up)) + 1e-15;
+        }
+        const double known =
+            tops_.top(*direction, i) - dot(direction->normal, pencil_.origin()) + turn * farthest + slack;
+        if (known < 0 || is_outside(block, std::min(known, top), farthest)) continue;
       }
-      const double known =
-          tops_.top(*direction, i) - dot(direction->normal, pencil_.origin()) + turn * farthest + slack;
-      if (known < 0 || is_outside(block, std::min(known, top), farthest)) continue;
       visit(meet({block.from, block.to}, box_of_cap()));
     }
   }

@@ -8,9 +8,9 @@
 
 namespace ccdt {
 
-/// How far to look for a first candidate.
+/// How much to search.
 enum class Reach {
-  near,       ///< a few cells, or twice the size of the face: less than all where the face is one of the hull
+  near,       ///< not what is above a face of the hull, nor a huge sphere, which is nearly a half-space as well
   everywhere  ///< all that is above the face
 };
 
@@ -25,7 +25,7 @@ class FourthVertexSearch {
 
   /// \param face       of the Delaunay tetrahedralization; the search is above it
   /// \param candidate  a vertex strictly above the face, to start with; `ghost_vertex` to search for one
-  /// \return  `ghost_vertex` if there is no vertex strictly above the face within reach
+  /// \return  `ghost_vertex` if there is no vertex strictly above the face, or none has been found within reach
   std::uint32_t find(const std::array<std::uint32_t, 3>& face, std::uint32_t candidate, Reach reach);
 
  private:
