@@ -1,11 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "engine/io/read_plc.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/real_parts.h"
 #include "models/solids.h"
 
 // The constrained Delaunay tetrahedralization is unique, so every strategy has to find the very same tetrahedra; and
@@ -155,14 +153,8 @@ TEST(Agreement, ThinPlates) {
   }
 }
 
-/// Real surfaces, where there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
-std::filesystem::path folder_of_parts() {
-  const char* told = std::getenv("CCDT_PARTS");
-  return told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / "parts";
-}
-
 TEST(Agreement, SmallRealParts) {
-  if (!std::filesystem::is_directory(folder_of_parts())) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
+  if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const char* name : {"joint.off", "anchor.off", "rotor.off", "pinion.off", "handle.off", "cube-meshed.off"}) {
     SCOPED_TRACE(name);
     const InputPlc plc = read_plc(folder_of_parts() / name);

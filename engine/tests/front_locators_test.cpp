@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <random>
 
 #include "engine/io/read_plc.h"
 #include "engine/locate/cavity_locator.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/real_parts.h"
 #include "models/solids.h"
 
 // The front makes the same tetrahedra whoever finds its vertices, with the check and without.
@@ -85,15 +84,11 @@ TEST(FrontLocators, AgreeOnRandomlyTwistedPrismsAndThinPlates) {
   for (const double thickness : {0.1, 0.001}) expect_same_tetrahedra(rotated(oblique, gridded_plate(5, thickness)));
 }
 
-/// Real surfaces, where there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
 TEST(FrontLocators, AgreeOnRealParts) {
-  const char* told = std::getenv("CCDT_PARTS");
-  const auto folder =
-      told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / "parts";
-  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
+  if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const char* name : {"joint.off", "anchor.off", "fandisk.off"}) {
     SCOPED_TRACE(name);
-    const Stages stages(read_plc(folder / name));
+    const Stages stages(read_plc(folder_of_parts() / name));
     EXPECT_GT(stages.undelaunay(), 0u);
     expect_same_tetrahedra(stages);
   }

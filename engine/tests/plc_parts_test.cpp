@@ -1,29 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 
 #include "engine/io/read_plc.h"
 #include "engine/tests/plc_test_solids.h"
+#include "engine/tests/real_parts.h"
 
 namespace ccdt {
 namespace {
 
 using namespace plc_test;
-
-/// Real surfaces, where there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
-std::vector<std::filesystem::path> parts() {
-  const char* told = std::getenv("CCDT_PARTS");
-  const std::filesystem::path folder =
-      told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / "parts";
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(folder)) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".off") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 double surface_volume(const InputPlc& input) {
   double sixfold = 0;
@@ -33,7 +19,7 @@ double surface_volume(const InputPlc& input) {
 }
 
 TEST(PlcParts, RealSurfacesAreValidAndKeepTheirVolume) {
-  const auto files = parts();
+  const auto files = real_parts();
   if (files.empty()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const auto& file : files) {
     SCOPED_TRACE(file.filename().string());

@@ -1,0 +1,186 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <functional>
+#include <numeric>
+#include <optional>
+
+#include "engine/io/read_plc.h"
+#include "engine/numbers/predicates.h"
+#include "engine/tests/front_stages.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/real_parts.h"
+#include "models/solids.h"
+
+// All ways to the constrained Delaunay tetrahedralization lead to the same one: two ways to the Delaunay
+// tetrahedralization, three locators, the check on and off. One test that prints a line for each input.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+struct Case {
+  std::string name;
+  InputPlc plc;
+  Lattice lattice = Lattice::none;
+  double edge_length = 0;
+};
+
+/// A cube whose surface and inside are the points of a cubic lattice: all cells have eight cospherical vertices.
+InputPlc cube_of_lattice_points(std::uint32_t n) {
+  InputPlc plc = gridded_cube(n);
+  for (std::uint32_t i = 1; i < n; ++i)
+    for (std::uint32_t j = 1; j < n; ++j)
+      for (std::uint32_t k = 1; k < n; ++k)
+        plc.vertices.push_back((1.0 / n) *
+                               Point3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+  return plc;
+}
+
+std::vector<Case> small_cases() {
+  std::vector<Case> cases;
+  const auto add = [&](const char* name, const InputPlc& plc) {
+    cases.push_back({name, plc});
+    cases.push_back({std::string(name) + ", rotated", rotated(oblique, plc), Lattice::fcc});
+  };
+  add("Schoenhardt's polyhedron", plc_test::schoenhardt());
+  add("cube with a cubic hole", cube_with_cubic_hole());
+  add("cube within a cube", cube_within_cube());
+  add("two cubes", two_cubes());
+  add("slit", cube_with_slit());
+  add("dangling facet", cube_with_dangling_facet());
+  add("dangling segment", cube_with_dangling_segment());
+  add("floating segment", cube_with_floating_segment());
+  add("turnstile", cube_with_turnstile());
+  add("two bars", two_bars());
+  add("gridded plate", gridded_plate(5, 0.01));
+  cases.push_back({"cubic lattice in a cube", cube_of_lattice_points(6)});
+  cases.push_back({"gridded cube filled with fcc", gridded_cube(8), Lattice::fcc});
+  cases.push_back({"gridded cube filled with sc", gridded_cube(8), Lattice::sc});
+  cases.push_back({"antiprism on a sphere", twisted_prism(12, -0.5)});
+  return cases;
+}
+
+std::vector<Case> random_cases() {
+  std::vector<Case> cases;
+  std::mt19937 random(5);
+  for (int i = 0; i < 3; ++i) {
+    const std::string number = " " + std::to_string(i);
+    const InputPlc voxels = random_voxels(3, 2 + i % 2, random);
+    cases.push_back({"random voxels" + number, voxels, Lattice::bcc, 0.5});
+    cases.push_back({"random voxels in perspective" + number, in_perspective(voxels, 3)});
+    cases.push_back({"random convex" + number, random_convex(24, random)});
+    cases.push_back({"rough sphere" + number, roughened(make_solid("sphere", 0.35), 0.3, random), Lattice::fcc});
+  }
+  return cases;
+}
+
+/// The models of the paper, and real surfaces where there are any.
+std::vector<Case> part_cases() {
+  std::vector<Case> cases;
+  for (const char* name : {"piston", "bracket", "stepping-pole"}) {
+    cases.push_back({name, make_solid(name, 6), Lattice::fcc});
+    cases.push_back({std::string(name) + ", surface alone", make_solid(name, 8)});
+  }
+  if (!there_are_parts()) return cases;
+  for (const char* name : {"anchor", "cube-meshed", "fandisk", "handle", "joint", "pinion", "rotor"})
+    cases.push_back({name, read_plc(folder_of_parts() / (std::string(name) + ".off")), Lattice::none});
+  for (const char* name : {"anchor", "joint", "elephant"})
+    cases.push_back(
+        {std::string(name) + ", filled", read_plc(folder_of_parts() / (std::string(name) + ".off")), Lattice::fcc});
+  return cases;
+}
+
+/// Brute force over all vertices: the cell above a face (below it, if `side` is -1) is made with the vertex whose
+/// sphere holds no other vertex of that side.
+std::optional<std::uint32_t> apex_of(const std::array<VertexId, 3>& face, int side, const Delaunay& d) {
+  const auto& [a, b, c] = face;
+  std::optional<std::uint32_t> best;
+  for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
+    if (v == a || v == b || v == c || orient3d(d.point(a), d.point(b), d.point(c), d.point(v)) != side) continue;
+    if (best && insphere_perturbed(d.point(a), d.point(b), d.point(c), d.point(*best), d.point(v),
+                                   {d.vertices[a].rank, d.vertices[b].rank, d.vertices[c].rank, d.vertices[*best].rank,
+                                    d.vertices[v].rank}) != side)
+      continue;
+    best = v;
+  }
+  return best;
+}
+
+/// Is the face Delaunay? It is if the sphere of the cell on one side of it holds no vertex of the other side, nor one
+/// in its plane. Asks no tetrahedralization.
+bool is_delaunay_by_brute_force(const std::array<VertexId, 3>& face, const Delaunay& d) {
+  const auto& [a, b, c] = face;
+  const int side = apex_of(face, 1, d) ? 1 : -1;
+  const std::uint32_t apex = *apex_of(face, side, d);
+  for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
+    if (v == a || v == b || v == c || v == apex) continue;
+    if (insphere_perturbed(d.point(a), d.point(b), d.point(c), d.point(apex), d.point(v),
+                           {d.vertices[a].rank, d.vertices[b].rank, d.vertices[c].rank, d.vertices[apex].rank,
+                            d.vertices[v].rank}) == side)
+      return false;
+  }
+  return true;
+}
+
+/// The reported numbers of faces against those of a count that knows nothing of the engine's way to find them.
+void expect_right_face_counts(const Case& c, const MeshCounts& counts) {
+  if (c.lattice != Lattice::none) return;  // without interior vertices the stages are made again in three lines
+  const Stages stages(c.plc);
+  std::uint64_t undelaunay = 0;
+  for (std::size_t i = 0; i < stages.facets.triangles.size(); ++i) {
+    const bool is_delaunay = is_delaunay_by_brute_force(stages.facets.triangles[i], stages.delaunay);
+    EXPECT_EQ(stages.codes[i] != no_neighbor, is_delaunay) << "face " << i;
+    undelaunay += !is_delaunay;
+  }
+  EXPECT_EQ(counts.faces, stages.facets.triangles.size());
+  EXPECT_EQ(counts.undelaunay_faces, undelaunay);
+}
+
+MeshResult expect_one_set_of_tetrahedra(const Case& c) {
+  std::optional<MeshResult> first;
+  for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::wrap}) {
+    for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
+      for (const bool check : {true, false}) {
+        SCOPED_TRACE("wrap " + std::to_string(method == DelaunayMethod::wrap) + ", locator " +
+                     std::to_string(static_cast<int>(locator)) + ", check " + std::to_string(check));
+        MeshOptions options;
+        options.delaunay = method;
+        options.locator = locator;
+        options.face_protection = check;
+        options.lattice = c.lattice;
+        options.edge_length = c.edge_length;
+        MeshResult result = mesh_plc(c.plc, options);
+        if (!first) {
+          first = std::move(result);
+          continue;
+        }
+        expect_same_cells(first->mesh, result.mesh);
+        EXPECT_EQ(first->counts.faces, result.counts.faces);
+        EXPECT_EQ(first->counts.undelaunay_faces, result.counts.undelaunay_faces);
+      }
+    }
+  }
+  return std::move(*first);
+}
+
+TEST(Strategies, FindOneSetOfTetrahedraAndTheRightNumbersOfFaces) {
+  std::vector<Case> cases = small_cases();
+  for (const auto& more : {random_cases(), part_cases()}) cases.insert(cases.end(), more.begin(), more.end());
+  ASSERT_GE(cases.size(), 25u);
+  std::printf("%-38s %9s %11s %7s %11s\n", "input", "vertices", "tetrahedra", "faces", "undelaunay");
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.name);
+    const MeshResult result = expect_one_set_of_tetrahedra(c);
+    expect_verified(c.plc, result.mesh);
+    expect_right_face_counts(c, result.counts);
+    std::printf("%-38s %9zu %11zu %7zu %11zu\n", c.name.c_str(), result.mesh.vertices.size(),
+                result.mesh.tetrahedra.size(), static_cast<std::size_t>(result.counts.faces),
+                static_cast<std::size_t>(result.counts.undelaunay_faces));
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
