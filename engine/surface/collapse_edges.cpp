@@ -42,8 +42,7 @@ bool has_good_result(const WorkingMesh& m, HalfedgeHandle h) {
   for (auto out = m.mesh.cvoh_iter(from); out.is_valid(); ++out) {
     const VertexHandle n = m.mesh.to_vertex_handle(*out);
     if (n != to && !is_apex(m, h, n)) {
-      const Point3 p = m.point(n), q = m.point(to);
-      if (length(q - p) > too_long * m.wanted_length(p, q) || !runs_along_surface(m, n, to)) return false;
+      if (m.edge_length(n, to) > too_long * m.wanted_length(n, to) || !runs_along_surface(m, n, to)) return false;
     }
     if (m.mesh.is_boundary(*out)) continue;
     if (m.is_frozen(m.mesh.face_handle(*out))) return false;
@@ -112,7 +111,7 @@ Passage passage(const WorkingMesh& m, std::uint32_t knot, std::uint32_t link) {
 bool may_become_straight(const WorkingMesh& m, const Passage& p) {
   const Point3 a = m.knots[p.previous].position, b = m.knots[p.next].position;
   const double size = length(b - a);
-  if (p.previous == p.next || size > too_long * m.wanted_length(a, b)) return false;
+  if (p.previous == p.next || size > too_long * m.wanted_length(p.previous, p.next)) return false;
   if (m.features.curves[m.links[p.to_next].curve].deviation(p.previous_arc, p.next_arc) > most_deviation * size)
     return false;
   return !are_joined(m, p.previous, p.next);
@@ -144,15 +143,12 @@ bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link) {
   return true;
 }
 
-bool is_too_short(const WorkingMesh& m, const Point3& a, const Point3& b) {
-  return length(b - a) < too_short * m.wanted_length(a, b);
-}
-
 std::size_t collapse_links(WorkingMesh& m) {
   std::size_t done = 0;
   for (std::uint32_t l = 0; l < m.links.size(); ++l) {
     const auto [a, b] = m.links[l].ends;
-    if (!m.links[l].is_alive || !is_too_short(m, m.knots[a].position, m.knots[b].position)) continue;
+    if (!m.links[l].is_alive) continue;
+    if (length(m.knots[b].position - m.knots[a].position) >= too_short * m.wanted_length(a, b)) continue;
     done += try_collapse_knot(m, a, l) || try_collapse_knot(m, b, l);
   }
   return done;
@@ -164,7 +160,8 @@ std::size_t collapse_edges(WorkingMesh& m) {
     const EdgeHandle e(static_cast<int>(i));
     if (m.mesh.status(e).deleted() || m.mesh.is_boundary(e)) continue;
     const HalfedgeHandle h = m.mesh.halfedge_handle(e, 0), back = m.mesh.halfedge_handle(e, 1);
-    if (!is_too_short(m, m.point(m.mesh.from_vertex_handle(h)), m.point(m.mesh.to_vertex_handle(h)))) continue;
+    const VertexHandle a = m.mesh.from_vertex_handle(h), b = m.mesh.to_vertex_handle(h);
+    if (m.edge_length(a, b) >= too_short * m.wanted_length(a, b)) continue;
     done += try_collapse(m, h) || try_collapse(m, back);
   }
   return done;

@@ -113,6 +113,18 @@ Point3 FeatureCurve::at(double arc_length) const {
   return points[i - 1] + t * (points[i] - points[i - 1]);
 }
 
+double FeatureCurve::at_bend(double arc_length, double reach) const {
+  constexpr double least_turn = 0.01;  // radians; less is rounding, or does not matter
+  double best = arc_length;
+  for (auto i = static_cast<std::size_t>(std::lower_bound(arc.begin(), arc.end(), arc_length - reach) - arc.begin());
+       i < arc.size() && arc[i] <= arc_length + reach; ++i) {
+    if (i == 0 || i + 1 == arc.size()) continue;
+    if (std::acos(-1.0) - angle_at(points[i], points[i - 1], points[i + 1]) < least_turn) continue;
+    if (best == arc_length || std::fabs(arc[i] - arc_length) < std::fabs(best - arc_length)) best = arc[i];
+  }
+  return best;
+}
+
 double FeatureCurve::deviation(double from, double to) const {
   if (from > to) std::swap(from, to);
   const Point3 a = at(from), along = unit(at(to) - a);

@@ -17,6 +17,10 @@ struct FeatureCurve {
   /// The point at an arc length, exactly on the chain where that is parallel to an axis.
   Point3 at(double arc_length) const;
 
+  /// The arc length of the bend of the chain that is nearest to another arc length, if it is within reach; else that
+  /// one itself. A chain that runs through its bends does not shrink.
+  double at_bend(double arc_length, double reach) const;
+
   /// The largest distance of the chain between two arc lengths from the straight line between these.
   double deviation(double from, double to) const;
 };

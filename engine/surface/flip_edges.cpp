@@ -37,7 +37,8 @@ bool may_flip(const WorkingMesh& m, EdgeHandle e, const Flip& f) {
   if (!may_replace(f.before.worst, f.after.worst, good_quality)) return false;
   if (!runs_along_surface(m, f.c, f.d) || !m.mesh.is_flip_ok(e)) return false;
   const std::uint32_t c = m.at(f.c).knot, d = m.at(f.d).knot;
-  return c == none || d == none || (c != d && !are_joined(m, c, d));
+  if (c != none && d != none && (c == d || are_joined(m, c, d))) return false;
+  return is_near_surface(m, f.c, f.d) || !is_near_surface(m, f.a, f.b);
 }
 
 // How many neighbours a vertex on a feature should have: its wedge in equal parts near to 60 degrees.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "engine/surface/remesh_steps.h"
 #include "engine/surface/surface_limits.h"
 
@@ -6,6 +8,7 @@ namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
 constexpr double good_quality = 0.5;
+constexpr double bend_reach = 0.3;  // of the new edges' length
 
 // May a vertex move to a point where the surface has that normal?
 bool may_move(const WorkingMesh& m, VertexHandle v, const Point3& p, const Point3& normal) {
@@ -19,6 +22,13 @@ bool may_move(const WorkingMesh& m, VertexHandle v, const Point3& p, const Point
   return may_replace(before.worst, after.worst, good_quality);
 }
 
+bool edges_would_stay_near(const WorkingMesh& m, VertexHandle v, const Point3& p) {
+  if (m.is_flat(v)) return true;
+  for (auto n = m.mesh.cvv_iter(v); n.is_valid(); ++n)
+    if (!is_near_surface(m, *n, p) && is_near_surface(m, *n, m.point(v))) return false;
+  return true;
+}
+
 // The centre of the triangles around, by their areas in units of the wanted edge length.
 Point3 centre_around(const WorkingMesh& m, VertexHandle v) {
   Point3 sum;
@@ -26,7 +36,7 @@ Point3 centre_around(const WorkingMesh& m, VertexHandle v) {
   for (auto h = m.mesh.cvoh_iter(v); h.is_valid(); ++h) {
     const auto [a, b, c] = corners_of(m, *h);
     const Point3 centre = (1.0 / 3) * (m.point(a) + m.point(b) + m.point(c));
-    const double wanted = m.lengths.at(centre);
+    const double wanted = m.at(a).wanted + m.at(b).wanted + m.at(c).wanted;
     const double weight = length(area_vector({m.point(a), m.point(b), m.point(c)})) / (wanted * wanted);
     sum = sum + weight * centre;
     weights += weight;
@@ -43,7 +53,7 @@ void relax_vertex(WorkingMesh& m, VertexHandle v) {
     // A foot beyond the step is on another sheet of the surface.
     if (foot.squared_distance > squared_length(step * tangential)) continue;
     const Point3 there = m.closest.normal_at(foot);
-    if (!may_move(m, v, foot.point, there)) continue;
+    if (!may_move(m, v, foot.point, there) || !edges_would_stay_near(m, v, foot.point)) continue;
     m.move(v, foot.point);
     m.at(v).near = foot.triangle;
     m.at(v).normal = there;
@@ -60,8 +70,10 @@ void relax_knot(WorkingMesh& m, std::uint32_t k) {
   WorkingMesh::Knot& knot = m.knots[k];
   WorkingMesh::Link &one = m.links[knot.links[0]], &other = m.links[knot.links[1]];
   const int i = one.side_of(k), j = other.side_of(k);
-  const double arc = 0.5 * (one.arc[1 - i] + other.arc[1 - j]);
-  const Point3 p = m.features.curves[one.curve].at(arc);
+  const FeatureCurve& curve = m.features.curves[one.curve];
+  const double reach = bend_reach * 0.5 * std::fabs(other.arc[1 - j] - one.arc[1 - i]);
+  const double arc = curve.at_bend(0.5 * (one.arc[1 - i] + other.arc[1 - j]), reach);
+  const Point3 p = curve.at(arc);
   std::vector<NewCopy> copies;
   for (const VertexHandle v : knot.copies) {
     const Foot foot = m.closest.on_patch(m.at(v).patch, p, m.at(v).near);

@@ -9,6 +9,7 @@
 #include "engine/plc/build_plc.h"
 #include "engine/surface/find_crossings.h"
 #include "engine/surface/remesh_steps.h"
+#include "engine/surface/wanted_lengths.h"
 
 namespace ccdt {
 namespace {
@@ -43,6 +44,7 @@ InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& featu
   WorkingMesh m = make_working_mesh(original, features, closest, lengths, frozen);
   for (int i = 0; i < iterations; ++i) {
     report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
+    if (i > 0) find_wanted_lengths(m);
     split_long_edges(m);
     collapse_short_edges(m);
     flip_edges_for_valence(m);

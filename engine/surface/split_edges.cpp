@@ -52,7 +52,7 @@ void try_split(WorkingMesh& m, EdgeHandle e) {
     if (!may_split(m, e, middle, normal)) return;
     foot.point = middle;
   }
-  split(m, e, add_vertex(m, patch, foot));
+  split(m, e, add_vertex(m, patch, foot, m.wanted_length(a, b)));
 }
 
 void try_split_link(WorkingMesh& m, std::uint32_t l) {
@@ -67,7 +67,7 @@ void try_split_link(WorkingMesh& m, std::uint32_t l) {
   }
   const auto knot = static_cast<std::uint32_t>(m.knots.size());
   const auto new_link = static_cast<std::uint32_t>(m.links.size());
-  m.knots.push_back({p, false, {l, new_link}, {}});
+  m.knots.push_back({p, false, {l, new_link}, {}, m.wanted_length(link.ends[0], link.ends[1])});
   m.links.push_back({{knot, link.ends[1]}, link.curve, {arc, link.arc[1]}});
   m.links[l].ends[1] = knot;
   m.links[l].arc[1] = arc;
@@ -82,17 +82,14 @@ void try_split_link(WorkingMesh& m, std::uint32_t l) {
   }
 }
 
-bool is_too_long(const WorkingMesh& m, const Point3& a, const Point3& b) {
-  return length(b - a) > too_long * m.wanted_length(a, b);
-}
-
 // The longest first: what is split then is the longest edge of its triangles, which keeps their angles (Rivara 1984).
 std::vector<EdgeHandle> long_edges(const WorkingMesh& m) {
   std::vector<std::pair<double, int>> found;
   for (const EdgeHandle e : m.mesh.edges()) {
     if (m.mesh.is_boundary(e) || touches_frozen_face(m, e)) continue;
-    const Point3 a = m.point(any_end(m, e)), b = m.point(m.mesh.to_vertex_handle(m.mesh.halfedge_handle(e, 1)));
-    if (is_too_long(m, a, b)) found.emplace_back(-length(b - a), e.idx());
+    const VertexHandle a = any_end(m, e), b = m.mesh.to_vertex_handle(m.mesh.halfedge_handle(e, 1));
+    const double edge = m.edge_length(a, b);
+    if (edge > too_long * m.wanted_length(a, b)) found.emplace_back(-edge, e.idx());
   }
   std::sort(found.begin(), found.end());
   std::vector<EdgeHandle> edges;
@@ -110,7 +107,8 @@ void split_long_edges(WorkingMesh& m) {
     count = m.links.size();
     for (std::uint32_t l = 0; l < count; ++l) {
       const auto [a, b] = m.links[l].ends;
-      if (m.links[l].is_alive && is_too_long(m, m.knots[a].position, m.knots[b].position)) try_split_link(m, l);
+      const double edge = length(m.knots[b].position - m.knots[a].position);
+      if (m.links[l].is_alive && edge > too_long * m.wanted_length(a, b)) try_split_link(m, l);
     }
   }
   count = 0;

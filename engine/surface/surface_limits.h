@@ -7,7 +7,7 @@ namespace ccdt {
 
 /// How far an edge may be from the original surface or feature in its middle, as a fraction of its length: a circle
 /// stays a hexagon at least.
-inline constexpr double most_deviation = 0.15;
+inline constexpr double most_deviation = 0.044;
 
 /// Edges are split above and collapsed below these multiples of the wanted length (Botsch and Kobbelt 2004).
 inline constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
@@ -16,8 +16,11 @@ inline constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
 /// half the angle a has a sagitta of tan(a/2)/2 of its chord, and its ends turn by a away from the chord.
 bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
 
-/// Is the middle of an edge between two vertices of a patch within the bound?
-bool is_near_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
+/// Is the middle of an edge between two vertices of a patch, or one and a place for another, within the bound?
+bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& b);
+inline bool is_near_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
+  return is_near_surface(m, a, m.point(b));
+}
 
 /// The triangle over a halfedge: its corners, from the start of the halfedge.
 inline std::array<VertexHandle, 3> corners_of(const WorkingMesh& m, HalfedgeHandle h) {

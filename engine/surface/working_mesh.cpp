@@ -16,7 +16,8 @@ std::vector<std::uint32_t> add_knots(WorkingMesh& m) {
   for (std::uint32_t p = 0; p < original.points.size(); ++p) {
     if (!has_feature[p] && !m.features.is_corner[p]) continue;
     knot_of[p] = static_cast<std::uint32_t>(m.knots.size());
-    m.knots.push_back({original.points[p], m.features.is_corner[p] != 0, {}, {}});
+    const Point3& position = original.points[p];
+    m.knots.push_back({position, m.features.is_corner[p] != 0, {}, {}, m.lengths.at(position)});
   }
   return knot_of;
 }
@@ -34,9 +35,10 @@ void add_links(WorkingMesh& m, const std::vector<std::uint32_t>& knot_of) {
 void add_vertices(WorkingMesh& m, const std::vector<std::uint32_t>& knot_of) {
   for (std::uint32_t w = 0; w < m.original.wedge_points.size(); ++w) {
     const std::uint32_t p = m.original.wedge_points[w];
-    const auto [x, y, z] = m.original.points[p];
-    const VertexHandle v = m.mesh.add_vertex({x, y, z});
-    m.vertices.push_back({knot_of[p], m.original.wedge_patches[w], none, m.original.wedge_normals[w]});
+    const Point3& position = m.original.points[p];
+    const VertexHandle v = m.mesh.add_vertex({position.x, position.y, position.z});
+    m.vertices.push_back(
+        {knot_of[p], m.original.wedge_patches[w], none, m.original.wedge_normals[w], m.lengths.at(position)});
     if (knot_of[p] != none) m.knots[knot_of[p]].copies.push_back(v);
   }
 }
@@ -71,15 +73,15 @@ WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurv
   return m;
 }
 
-VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot) {
+VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted) {
   const VertexHandle v = m.mesh.add_vertex({foot.point.x, foot.point.y, foot.point.z});
-  m.vertices.push_back({none, patch, foot.triangle, m.closest.normal_at(foot)});
+  m.vertices.push_back({none, patch, foot.triangle, m.closest.normal_at(foot), wanted});
   return v;
 }
 
 VertexHandle add_copy(WorkingMesh& m, std::uint32_t patch, std::uint32_t knot, std::uint32_t near) {
   const Point3& position = m.knots[knot].position;
-  const VertexHandle v = add_vertex(m, patch, m.closest.on_patch(patch, position, near));
+  const VertexHandle v = add_vertex(m, patch, m.closest.on_patch(patch, position, near), m.knots[knot].wanted);
   m.move(v, position);
   m.at(v).knot = knot;
   m.knots[knot].copies.push_back(v);

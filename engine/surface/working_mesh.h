@@ -42,6 +42,7 @@ struct WorkingMesh {
     std::uint32_t patch = none;
     std::uint32_t near = none;  ///< a triangle of the original surface near to it
     Point3 normal;              ///< of the original surface, in its patch; of length one
+    double wanted = 0;          ///< length of edges there
     bool is_frozen = false;     ///< a corner of a frozen face
   };
 
@@ -50,6 +51,7 @@ struct WorkingMesh {
     bool is_fixed = false;             ///< must neither move nor go
     std::vector<std::uint32_t> links;  ///< two if it is not fixed
     std::vector<VertexHandle> copies;
+    double wanted = 0;  ///< length of edges there
     bool is_alive = true;
   };
 
@@ -83,7 +85,10 @@ struct WorkingMesh {
   bool is_frozen(FaceHandle f) const { return face_is_frozen[static_cast<std::size_t>(f.idx())] != 0; }
   bool is_flat(VertexHandle v) const { return original.patch_is_flat[at(v).patch] != 0; }
   double edge_length(VertexHandle a, VertexHandle b) const { return length(point(b) - point(a)); }
-  double wanted_length(const Point3& a, const Point3& b) const { return lengths.at(0.5 * (a + b)); }
+  double wanted_length(VertexHandle a, VertexHandle b) const { return 0.5 * (at(a).wanted + at(b).wanted); }
+  double wanted_length(std::uint32_t knot, std::uint32_t other) const {
+    return 0.5 * (knots[knot].wanted + knots[other].wanted);
+  }
 };
 
 /// \param frozen  by triangle of the original surface: must stay as it is
@@ -91,7 +96,7 @@ WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurv
                               const ClosestPoint& closest, const EdgeLengths& lengths, const std::vector<char>& frozen);
 
 /// A new vertex of the halfedge mesh in a patch, at the foot of the given point or, on a knot, at its position.
-VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot);
+VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);
 VertexHandle add_copy(WorkingMesh& m, std::uint32_t patch, std::uint32_t knot, std::uint32_t near);
 
 /// Is there an edge between any copies of two knots, or a link?
