@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/delaunay/sphere_pencil.h"
-
 namespace ccdt {
 namespace {
 
@@ -39,9 +37,10 @@ CellBox meet(const CellBox& a, const CellBox& b) {
 /// The search above one face.
 class Search {
  public:
-  Search(const VertexGrid& grid, BlockTops& tops, const Face& face)
+  Search(const VertexGrid& grid, BlockTops& tops, VertexBatch& batch, const Face& face)
       : g_(grid),
         tops_(tops),
+        batch_(batch),
         cell_size_(grid.grid.cell_size),
         per_cell_(1 / cell_size_),
         half_((0.5 + 1e-6) * cell_size_),
@@ -53,8 +52,10 @@ class Search {
     const double lift = 0.5 * cell_size_ / pencil_.normal_length();
     middle_ =
         cell_at((1.0 / 3) * (v[face[0]].point + v[face[1]].point + v[face[2]].point) + std::min(lift, 1e300) * normal_);
+    reach_of_row_ = (1.5 * std::fabs(normal_.x) + 0.5 * (std::fabs(normal_.y) + std::fabs(normal_.z))) * cell_size_;
     plane_slack_ =
         1e-6 * cell_size_ * sum_of_magnitudes(normal_) + 2 * pencil_.normal_error() * sum_of_magnitudes(grid.extent);
+    reach_of_row_ += plane_slack_;
   }
 
   std::uint32_t run(std::uint32_t candidate, Reach reach) {
@@ -63,8 +64,8 @@ class Search {
     const int near = size < 5 ? std::max(2, static_cast<int>(size) + 1) : 6;
     for (int width = 1;; width = std::min(near, 2 * width)) {
       const CellBox window = around(width);
-      if (width == 1)
-        visit_inside_out(window);
+      if (width == 1 && candidate == ghost_vertex && pencil_.circle().radius < infinity)
+        visit_first(window);
       else
         visit(meet(window, box_of_cap()));
       if (window.contains(box_of_cap())) return pencil_.apex();
@@ -108,15 +109,32 @@ class Search {
     return {cell_at(cap_.centre - reach), cell_at(cap_.centre + reach)};
   }
 
-  /// The nine rows of the first window, the nearest first: what is found there makes the others shorter.
-  void visit_inside_out(const CellBox& window) {
-    static constexpr int order[9][2] = {{0, 0}, {0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-    for (const auto& [dy, dz] : order) {
-      const int y = middle_[1] + dy, z = middle_[2] + dz;
-      if (y < window.from[1] || y > window.to[1] || z < window.from[2] || z > window.to[2]) continue;
-      int from = window.from[0], to = window.to[0];
-      if (shorten(y, z, from, to)) visit_row(y, z, from, to);
+  /// Considers all vertices of the first window together.
+  void visit_first(const CellBox& window) {
+    batch_.size = 0;
+    const Point3& origin = pencil_.origin();
+    for (int z = window.from[2]; z <= window.to[2]; ++z) {
+      for (int y = window.from[1]; y <= window.to[1]; ++y) {
+        if (is_below(y, z)) continue;
+        const std::size_t row = g_.grid.number({0, y, z});
+        const std::uint32_t end = g_.first[row + window.to[0] + 1];
+        std::uint32_t v = g_.first[row + window.from[0]];
+        if (batch_.size + (end - v) > VertexBatch::room) return visit(window);
+        for (; v < end; ++v) {
+          const Point3 e = g_.vertices[v].point - origin;
+          batch_.x[batch_.size] = e.x, batch_.y[batch_.size] = e.y, batch_.z[batch_.size] = e.z;
+          batch_.vertices[batch_.size++] = v;
+        }
+      }
     }
+    pencil_.consider_first(batch_);
+    cap_ = pencil_.cap();
+  }
+
+  /// Is the row of three cells around the middle below the face?
+  bool is_below(int y, int z) const {
+    const Point3 to_row = g_.grid.centre({middle_[0], y, z}) - pencil_.origin();
+    return dot(normal_, to_row) + reach_of_row_ < 0;
   }
 
   /// Considers the vertices of the cells of the box that have not been seen, within the ball and above the face.
@@ -214,7 +232,8 @@ class Search {
 
   const VertexGrid& g_;
   BlockTops& tops_;
-  double cell_size_, per_cell_, half_, plane_slack_;
+  VertexBatch& batch_;
+  double cell_size_, per_cell_, half_, plane_slack_, reach_of_row_;
   SpherePencil pencil_;
   SpherePencil::Cap cap_;
   Point3 normal_;
@@ -226,7 +245,7 @@ class Search {
 }  // namespace
 
 std::uint32_t FourthVertexSearch::find(const Face& face, std::uint32_t candidate, Reach reach) {
-  return Search(grid_, tops_, face).run(candidate, reach);
+  return Search(grid_, tops_, batch_, face).run(candidate, reach);
 }
 
 }  // namespace ccdt

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/delaunay/block_tops.h"
+#include "engine/delaunay/sphere_pencil.h"
 #include "engine/delaunay/vertex_grid.h"
 
 namespace ccdt {
@@ -31,6 +32,7 @@ class FourthVertexSearch {
  private:
   const VertexGrid& grid_;
   BlockTops tops_;
+  VertexBatch batch_;
 };
 
 }  // namespace ccdt

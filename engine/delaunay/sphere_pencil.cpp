@@ -6,6 +6,7 @@ namespace ccdt {
 namespace {
 
 constexpr double unit = 0x1p-53;  // of roundings
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Point3 magnitudes(const Point3& p) {
   return {std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
@@ -19,6 +20,30 @@ double largest(const Point3& p) {
 Point3 cross_magnitudes(const Point3& p, const Point3& q) {
   return {std::fabs(p.y * q.z) + std::fabs(p.z * q.y), std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
           std::fabs(p.x * q.y) + std::fabs(p.y * q.x)};
+}
+
+/// Heights that are positive for vertices certainly above the face, and for these values that grow with how far the
+/// sphere's centre is above the face. (No choice is made here: it would be a branch, and the lanes would be lost.)
+CCDT_WIDE_LANES void find_lifts(VertexBatch& batch, Point3 normal, double normal_error, Point3 twice_to_centre) {
+  const std::size_t size = batch.size;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = batch.x[i], y = batch.y[i], z = batch.z[i];
+    const double height = normal.x * x + normal.y * y + normal.z * z;
+    batch.height[i] = height - normal_error * (std::fabs(x) + std::fabs(y) + std::fabs(z));
+    batch.value[i] = (x * (x - twice_to_centre.x) + y * (y - twice_to_centre.y) + z * (z - twice_to_centre.z)) / height;
+  }
+}
+
+/// Values that are negative for vertices certainly outside the sphere.
+CCDT_WIDE_LANES void find_powers(VertexBatch& batch, Point3 weight, double volume, double weight_error,
+                                 double volume_error) {
+  const std::size_t size = batch.size;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = batch.x[i], y = batch.y[i], z = batch.z[i];
+    const double length = std::fabs(x) + std::fabs(y) + std::fabs(z), square = x * x + y * y + z * z;
+    batch.value[i] = (weight.x * x + weight.y * y + weight.z * z) - volume * square +
+                     2 * (weight_error * length + volume_error * square);
+  }
 }
 
 }  // namespace
@@ -61,6 +86,23 @@ void SpherePencil::accept(std::uint32_t v) {
   volume_error_ = 16 * unit * dot(normal_terms_, magnitudes(d));
 }
 
+void SpherePencil::consider_first(VertexBatch& batch) {
+  find_lifts(batch, normal_, normal_error_, 2.0 * (circle_.centre - origin_));
+  std::size_t best = batch.size;
+  double lowest = infinity;
+  for (std::size_t i = 0; i < batch.size; ++i)
+    if (batch.height[i] > 0 && batch.value[i] < lowest) best = i, lowest = batch.value[i];
+  if (best < batch.size) {
+    accept(batch.vertices[best]);
+    find_powers(batch, weight_, volume_, weight_error_, volume_error_);
+  } else {
+    batch.value.fill(0);
+  }
+  // What has passed the others may still be a hair better.
+  for (std::size_t i = 0; i < batch.size; ++i)
+    if (batch.value[i] >= 0) consider(batch.vertices[i]);
+}
+
 bool SpherePencil::is_better(std::uint32_t v) const {
   if (v == apex_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
   const GridVertex &a = v_[face_[0]], &b = v_[face_[1]], &c = v_[face_[2]], &e = v_[v];
@@ -76,7 +118,7 @@ SpherePencil::Cap SpherePencil::cap() const {
   const Point3 to_centre = half * weight_;
   const double error = 1.1 * half * (weight_error_ + largest(magnitudes(weight_)) * volume_error_ / volume_);
   const double radius = std::sqrt(squared_length(to_centre));
-  double lift = std::numeric_limits<double>::infinity();
+  double lift = infinity;
   if (circle_.radius < lift) {
     const double lift_error = 2 * error + (16 * unit + 2 * normal_error_ / normal_length_) * radius;
     lift = std::max(0.0, dot(normal_, to_centre) / normal_length_ + lift_error);

@@ -12,6 +12,15 @@
 
 namespace ccdt {
 
+/// Vertices that are looked at together, in lanes: relative to the first corner of the face.
+struct VertexBatch {
+  static constexpr std::size_t room = 256;
+
+  std::size_t size = 0;
+  std::array<double, room> x, y, z, height, value;
+  std::array<std::uint32_t, room> vertices;
+};
+
 /// The spheres through the corners of a face, of which the candidate for the fourth vertex picks one; with
 /// floating-point tests of certified error in front of the exact ones. For a vertex e relative to the first corner (an
 /// exact difference):
@@ -42,6 +51,9 @@ class SpherePencil {
     if (height < -height_error) return;
     if ((power > power_error && height > height_error) || is_better(v)) accept(v);
   }
+
+  /// Considers all at once, when there is no candidate yet and the circle is known. Overwrites the values.
+  void consider_first(VertexBatch& batch);
 
   /// Makes a vertex strictly above the face the candidate.
   void accept(std::uint32_t v);
