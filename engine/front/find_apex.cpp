@@ -37,7 +37,7 @@ class ApexSearch {
         b_(d.vertices[face_[1]]),
         c_(d.vertices[face_[2]]) {}
 
-  std::optional<std::uint32_t> find() const {
+  std::optional<std::uint32_t> find() {
     const LocatedVertex any = best([](const LocatedVertex&) { return true; });
     if (any.id == ghost_vertex) return std::nullopt;
     if (is_visible(any)) return any.id;
@@ -49,7 +49,7 @@ class ApexSearch {
  private:
   /// The vertex above the face with the emptiest sphere among those that satisfy; `ghost_vertex` if there is none.
   template <class Satisfies>
-  LocatedVertex best(const Satisfies& satisfies) const {
+  LocatedVertex best(const Satisfies& satisfies) {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
     Cap cap(a, b, c);
     LocatedVertex best{{}, 0, ghost_vertex};
@@ -76,20 +76,30 @@ class ApexSearch {
                               {a_.rank, b_.rank, c_.rank, best.rank, v.rank}) > 0;
   }
 
-  bool is_visible(const LocatedVertex& v) const {
-    const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
-    return !locator_.any_near_edge(approximate_centroid(a, b, c), v.point, [&](std::uint32_t f) {
-      const auto& t = facets_.triangles[f];
-      if (t[0] == v.id || t[1] == v.id || t[2] == v.id) return false;
-      return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, v.point, a, b, c);
+  bool is_visible(const LocatedVertex& v) {
+    // What hid the last vertex is likely to hide this one.
+    if (last_occluder_ != none && is_hidden_by(last_occluder_, v)) return false;
+    return !locator_.any_near_edge(approximate_centroid(a_.point, b_.point, c_.point), v.point, [&](std::uint32_t f) {
+      if (!is_hidden_by(f, v)) return false;
+      last_occluder_ = f;
+      return true;
     });
   }
+
+  bool is_hidden_by(std::uint32_t f, const LocatedVertex& v) const {
+    const auto& t = facets_.triangles[f];
+    if (t[0] == v.id || t[1] == v.id || t[2] == v.id) return false;
+    return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, v.point, a_.point, b_.point, c_.point);
+  }
+
+  static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
   const Locator& locator_;
   const FacetMesh& facets_;
   const Delaunay& d_;
   const std::array<std::uint32_t, 3>& face_;
   const DelaunayVertex &a_, &b_, &c_;
+  std::uint32_t last_occluder_ = none;
 };
 
 }  // namespace

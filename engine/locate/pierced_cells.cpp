@@ -9,62 +9,66 @@
 namespace ccdt {
 namespace {
 
-using Corners = std::array<const Point3*, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+using Corners = std::array<std::uint32_t, 4>;
 
-/// The sides of the four vertices of a cell to a plane.
-struct Sides {
-  std::array<int, 4> of;
-  int above = 0, on = 0, below = 0;
-
-  Sides(const Corners& t, const std::array<const Point3*, 4>& cell) {
+/// How a triangle and a cell, closed, lie to each other; vertices by id.
+class Encounter {
+ public:
+  Encounter(const Delaunay& d, const Triangle& t, const Corners& cell) : d_(d), t_(t), cell_(cell) {
     for (int i = 0; i < 4; ++i) {
-      of[i] = orient3d(*t[0], *t[1], *t[2], *cell[i]);
-      ++(of[i] > 0 ? above : of[i] < 0 ? below : on);
+      side_[i] = orient(t[0], t[1], t[2], cell[i]);
+      ++(side_[i] > 0 ? above_ : side_[i] < 0 ? below_ : on_);
     }
   }
+
+  /// Do the cell and the inside of the triangle meet? Exact, but for a corner of the cell alone: the inside of a face
+  /// of the mesh has no vertices.
+  bool meets() const {
+    if ((above_ == 0 || below_ == 0) && on_ < 2) return false;
+    if (is_beyond_a_face()) return false;
+    for (int i = 0; i < 3; ++i)
+      if (section_is_beyond_edge(t_[i], t_[(i + 1) % 3])) return false;
+    return true;
+  }
+
+ private:
+  int orient(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+    // Cells and triangles share many corners.
+    if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
+    return orient3d(d_.point(a), d_.point(b), d_.point(c), d_.point(d));
+  }
+
+  /// Is the triangle on the outer side of a face of the cell, or on the face's plane in part?
+  bool is_beyond_a_face() const {
+    return std::any_of(face_corners.begin(), face_corners.end(), [&](const auto& f) {
+      int outside = 0;
+      for (const std::uint32_t v : t_) {
+        const int side = orient(cell_[f[0]], cell_[f[1]], cell_[f[2]], v);
+        if (side > 0) return false;
+        if (side < 0) ++outside;
+      }
+      return outside > 0;
+    });
+  }
+
+  /// Is the section of the cell with the triangle's plane beyond the edge ab of the triangle, or on its line in part?
+  bool section_is_beyond_edge(std::uint32_t a, std::uint32_t b) const {
+    // The edge of the cell from i, above or below, to j on the other side, or the corner j of the section, passes the
+    // line ab on the triangle's side. Without corners above those below tell of the corners of the section.
+    const int from = above_ > 0 ? 1 : -1;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        if (side_[i] == from && side_[j] != from && orient(a, b, cell_[j], cell_[i]) == from) return false;
+    return true;
+  }
+
+  const Delaunay& d_;
+  const Triangle& t_;
+  const Corners& cell_;
+  std::array<int, 4> side_{};  // of the corners of the cell to the plane of the triangle
+  int above_ = 0, on_ = 0, below_ = 0;
 };
-
-/// Is the triangle on the outer side of a face of the cell, or on the face's plane in part?
-bool is_beyond_a_face(const Corners& t, const std::array<const Point3*, 4>& cell) {
-  return std::any_of(face_corners.begin(), face_corners.end(), [&](const auto& f) {
-    int outside = 0;
-    for (const Point3* p : t) {
-      const int side = orient3d(*cell[f[0]], *cell[f[1]], *cell[f[2]], *p);
-      if (side > 0) return false;
-      if (side < 0) ++outside;
-    }
-    return outside > 0;
-  });
-}
-
-/// Is the section of the cell with the triangle's plane beyond the edge ab of the triangle, or on its line in part?
-bool section_is_beyond_edge(const Point3& a, const Point3& b, const std::array<const Point3*, 4>& cell,
-                            const Sides& side) {
-  for (int i = 0; i < 4; ++i) {
-    if (side.of[i] <= 0) continue;
-    // The edge from i above to j below, or to the corner j of the section, passes the line ab on the triangle's side.
-    for (int j = 0; j < 4; ++j)
-      if (side.of[j] <= 0 && orient3d(a, b, *cell[j], *cell[i]) > 0) return false;
-  }
-  if (side.above > 0) return true;
-  for (int i = 0; i < 4; ++i) {
-    if (side.of[i] >= 0) continue;
-    for (int j = 0; j < 4; ++j)
-      if (side.of[j] == 0 && orient3d(a, b, *cell[j], *cell[i]) < 0) return false;
-  }
-  return true;
-}
-
-/// Do the cell, closed, and the inside of the triangle meet? Exact, but for a corner of the cell alone: the inside of a
-/// face of the mesh has no vertices.
-bool meets(const Corners& t, const std::array<const Point3*, 4>& cell) {
-  const Sides side(t, cell);
-  if (side.above + (side.on < 2 ? side.on : 0) == 4 || side.below + (side.on < 2 ? side.on : 0) == 4) return false;
-  if (is_beyond_a_face(t, cell)) return false;
-  for (int i = 0; i < 3; ++i)
-    if (section_is_beyond_edge(*t[i], *t[(i + 1) % 3], cell, side)) return false;
-  return true;
-}
 
 class Piercing {
  public:
@@ -90,24 +94,23 @@ class Piercing {
 
   /// Finds the cells that missing face i meets, from those around one of its corners.
   void flood(std::uint32_t i) {
-    const auto& t = facets_.triangles[missing_[i]];
-    const Corners corners = {&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])};
+    const auto& [a, b, c] = facets_.triangles[missing_[i]];
+    const Triangle t = {a, b, c};
     stack_.clear();
-    for (const std::uint32_t cell : star_.around(t[0])) look_at(cell, i, corners);
+    for (const std::uint32_t cell : star_.around(a)) look_at(cell, i, t);
     while (!stack_.empty()) {
       const std::uint32_t cell = stack_.back();
       stack_.pop_back();
-      for (const std::uint32_t code : d_.cells[cell].neighbors) look_at(cell_of(code), i, corners);
+      for (const std::uint32_t code : d_.cells[cell].neighbors) look_at(cell_of(code), i, t);
     }
   }
 
-  void look_at(std::uint32_t cell, std::uint32_t i, const Corners& t) {
+  void look_at(std::uint32_t cell, std::uint32_t i, const Triangle& t) {
     if (d_.is_ghost(cell)) return;
     Visit& visit = *visits_.insert(cell, {}).first;
     if (visit.last == i) return;
     visit.last = i;
-    const auto& v = d_.cells[cell].vertices;
-    if (!meets(t, {&d_.point(v[0]), &d_.point(v[1]), &d_.point(v[2]), &d_.point(v[3])})) return;
+    if (!Encounter(d_, t, d_.cells[cell].vertices).meets()) return;
     if (visit.owner == nobody) {
       visit.owner = i;
       owned_.emplace_back(cell, i);
