@@ -1,5 +1,6 @@
 #include "bench/run_record.h"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -30,9 +31,19 @@ Json options_json(const RunRecord& record) {
 
 Json seconds_json(const RunRecord& r) {
   const StageSeconds& s = r.seconds;
-  return {{"read", r.read_seconds}, {"plc", s.plc},           {"protect", s.protect},       {"facets", s.facets},
-          {"lattice", s.lattice},   {"delaunay", s.delaunay}, {"face_check", s.face_check}, {"front", s.front},
-          {"label", s.label},       {"finish", s.finish},     {"improve", s.improve},       {"write", r.write_seconds},
+  return {{"read", r.read_seconds},
+          {"remesh", r.remesh_seconds},
+          {"plc", s.plc},
+          {"protect", s.protect},
+          {"facets", s.facets},
+          {"lattice", s.lattice},
+          {"delaunay", s.delaunay},
+          {"face_check", s.face_check},
+          {"front", s.front},
+          {"label", s.label},
+          {"finish", s.finish},
+          {"improve", s.improve},
+          {"write", r.write_seconds},
           {"mesh", s.mesh}};
 }
 
@@ -96,6 +107,7 @@ MeshCounts counts_from(const Json& j) {
 void seconds_from(const Json& j, RunRecord& r) {
   StageSeconds& s = r.seconds;
   r.read_seconds = j.at("read");
+  r.remesh_seconds = j.value("remesh", 0.0);
   s.plc = j.at("plc");
   s.protect = j.at("protect");
   s.facets = j.at("facets");
@@ -152,6 +164,15 @@ RunRecord record_from(const Json& j) {
 }
 
 }  // namespace
+
+void RunRecord::set_option(std::string_view name, const Option& value) {
+  const auto found =
+      std::ranges::find(options, name, [](const auto& option) { return std::string_view(option.first); });
+  if (found != options.end())
+    found->second = value;
+  else
+    options.emplace_back(name, value);
+}
 
 std::string_view name_of(Lattice lattice) {
   switch (lattice) {

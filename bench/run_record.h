@@ -31,6 +31,7 @@ struct RunRecord {
   MeshCounts counts;
   StageSeconds seconds;
   double read_seconds = 0, write_seconds = 0;
+  double remesh_seconds = 0;  ///< of the surface, before the mesher got it; not in `seconds.mesh`
   std::uint64_t peak_rss_bytes = 0;
   Quality quality;
   double largest_rounding = 0;
@@ -39,6 +40,9 @@ struct RunRecord {
   std::vector<std::string> notes;  ///< what a reader has to know
   std::map<std::string, std::vector<double>>
       samples;  ///< raw seconds by name, where one record stands for several runs
+
+  /// Replaces the option of this name, or adds it.
+  void set_option(std::string_view name, const Option& value);
 };
 
 /// A record that says who was asked to mesh what and how, before anything has been done.

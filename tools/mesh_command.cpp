@@ -9,6 +9,9 @@
 #include "engine/io/read_plc.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/io/write_plc.h"
+#include "engine/surface/remesh_surface.h"
+#include "reports/numbers.h"
 #include "reports/run_summary.h"
 #include "tools/commands.h"
 #include "tools/options.h"
@@ -19,11 +22,21 @@ namespace {
 
 struct MeshCommand {
   std::string input, output, report;
+  std::string surface_output;  ///< where a remeshed surface goes
   std::string mesher = "ccdt";
   MeshOptions options;
+  bool remesh = false;
+  double sharp_angle = RemeshOptions().sharp_angle;
   std::string only_value;  ///< of options that have a single value so far
   unsigned most_threads = 1;
 };
+
+void check_surface_options(const MeshCommand& command) {
+  if (command.remesh && command.options.edge_length == 0)
+    throw CLI::ValidationError("--surface remesh", "how fine? Give the length of its edges by --edge-length");
+  if (!command.remesh && !command.surface_output.empty())
+    throw CLI::ValidationError("--surface-output", "there is a new surface only with --surface remesh");
+}
 
 void check_files(const MeshCommand& command) {
   if (!is_tet_mesh_file(command.output)) {
@@ -34,11 +47,39 @@ void check_files(const MeshCommand& command) {
   check_can_be_written(command.output);
   check_are_different(command.input, command.output);
   check_are_different(command.options.background.name, command.output);
+  if (!command.surface_output.empty()) {
+    check_can_be_written(command.surface_output);
+    for (const std::string& other : {command.input, command.output, command.options.background.name})
+      check_are_different(other, command.surface_output);
+  }
   if (command.report.empty()) return;
   check_can_be_written(command.report);
   check_are_different(command.input, command.report);
   check_are_different(command.options.background.name, command.report);
   check_are_different(command.output, command.report);
+}
+
+RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
+  RunRecord record = start_record(mesher(command.mesher), input, command.options);
+  if (command.remesh) {
+    record.set_option("surface", "remesh");
+    record.set_option("sharp_angle", command.sharp_angle);
+  }
+  return record;
+}
+
+/// The surface with edges of the wanted length, for whichever mesher.
+InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progress& progress, RunRecord& record) {
+  const Stopwatch watch(record.remesh_seconds);
+  InputPlc surface = remesh_surface(input,
+                                    {.edge_length = command.options.edge_length,
+                                     .sharp_angle = command.sharp_angle,
+                                     .flatness = command.options.flatness},
+                                    progress);
+  record.notes.push_back("the surface was remeshed from " + with_separators(input.facet_count()) + " to " +
+                         with_separators(surface.facet_count()) + " facets");
+  if (!command.surface_output.empty()) write_plc(surface, command.surface_output);
+  return surface;
 }
 
 /// Reads, meshes, measures and writes; what is known of the run so far is in the record at every moment.
@@ -49,12 +90,13 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
 
   report(progress, "read", 0, 0);
   double read_seconds = 0;
-  const InputPlc input = [&] {
+  InputPlc input = [&] {
     const Stopwatch watch(read_seconds);
     return read_plc(command.input);
   }();
-  record = start_record(chosen, input, command.options);
+  record = begin_record(command, input);
   record.input.sha256 = sha256_of_file(command.input);
+  if (command.remesh) input = remeshed(command, input, progress, record);
   MeshOptions options = command.options;
   if (!options.background.name.empty()) {
     const Stopwatch watch(read_seconds);
@@ -69,7 +111,7 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
   record.seconds = run.result.seconds;
   record.largest_rounding = run.result.largest_rounding;
   record.mesher_settings = std::move(run.settings);
-  record.notes = std::move(run.notes);
+  record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
   if (!options.background.empty() && chosen.name != "ccdt")
     record.notes.push_back("only ccdt knows size functions: " + options.background.name + " was not used");
   record.quality = measure_quality(run.result.mesh);
@@ -83,7 +125,7 @@ void record_failure(const MeshCommand& command, RunRecord& record, const std::ex
   if (record.mesher.name.empty()) {  // the input could not even be read
     InputPlc unread;
     unread.name = command.input;
-    record = start_record(mesher(command.mesher), unread, command.options);
+    record = begin_record(command, unread);
   }
   const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   record.status = memory ? RunStatus::out_of_memory : RunStatus::failed;
@@ -91,6 +133,7 @@ void record_failure(const MeshCommand& command, RunRecord& record, const std::ex
 }
 
 void run(const MeshCommand& command) {
+  check_surface_options(command);
   check_files(command);
   RunRecord record;
   try {
@@ -116,6 +159,8 @@ std::string footer() {
          "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
          "Example: edges inside as the size function part.sol says, which belongs to the mesh part.mesh\n"
          "  ccdt mesh part.stl -o part.vtu --sizes part.sol\n"
+         "Example: the same with a new surface of such edges too, which is kept for `ccdt verify`\n"
+         "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface remesh --surface-output even.off\n"
          "Example: the constrained Delaunay tetrahedralization of the input alone\n"
          "  ccdt mesh part.stl -o part.mesh --lattice none\n";
 }
@@ -123,6 +168,7 @@ std::string footer() {
 void add_files(CLI::App& verb, MeshCommand& command) {
   verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh")->required();
   verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .mesh .node")->required();
+  verb.add_option("--surface-output", command.surface_output, "write the remeshed surface there: .off .obj .ply .poly");
   verb.add_option("--report", command.report,
                   "write a report of the run there (JSON, schema ccdt.run/1), also of a failure");
 }
@@ -163,7 +209,12 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
     verb.add_option(name, command.only_value, what)->check(CLI::IsMember({value}))->default_str(value);
   };
   only("--improve", "none", "improvement of the finished mesh");
-  only("--surface", "keep", "what happens to the triangles of the surface");
+  choice("--surface", command.remesh, std::vector<std::pair<std::string, bool>>{{"keep", false}, {"remesh", true}},
+         "keep, remesh: take the surface's triangles as they are, or make new ones of --edge-length", "keep");
+  verb.add_option("--sharp-angle", command.sharp_angle,
+                  "remeshing keeps edges between facets whose normals differ by more degrees")
+      ->check(CLI::Range(1.0, 179.0))
+      ->capture_default_str();
   verb.add_option("--threads", command.most_threads, "at most so many threads work; so far one does all")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -50,11 +50,22 @@ TEST_F(Program, StrategyThatThisBuildLacksIsRefusedWithTheOnesThatThereAre) {
        std::vector<std::array<std::string, 3>>{{"--locator", "tree", "octree"},
                                                {"--delaunay", "sweep", "insert"},
                                                {"--improve", "swap", "none"},
-                                               {"--surface", "remesh", "keep"}}) {
+                                               {"--surface", "smooth", "remesh"}}) {
     const Outcome outcome = run("mesh cube.off -o a.vtu " + option + " " + missing);
     EXPECT_EQ(outcome.exit_code, 2) << option;
     EXPECT_NE(outcome.err.find(there), std::string::npos) << outcome.err;
   }
+}
+
+TEST_F(Program, RemeshingNeedsAnEdgeLengthAndANewSurfaceNeedsRemeshing) {
+  write("cube.off", cube_off);
+  const Outcome no_length = run("mesh cube.off -o a.vtu --surface remesh");
+  EXPECT_EQ(no_length.exit_code, 2);
+  EXPECT_NE(no_length.err.find("--edge-length"), std::string::npos) << no_length.err;
+  const Outcome no_surface = run("mesh cube.off -o a.vtu --surface-output b.off");
+  EXPECT_EQ(no_surface.exit_code, 2);
+  EXPECT_NE(no_surface.err.find("--surface remesh"), std::string::npos) << no_surface.err;
+  EXPECT_EQ(file_count(), 1u);
 }
 
 TEST_F(Program, AnyNumberOfThreadsIsALimitThatCanBeKept) {

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cstring>
+#include <set>
 
+#include "engine/io/tet_mesh_files.h"
 #include "engine/io/write_plc.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "tools/tests/program.h"
@@ -28,6 +31,17 @@ class WholeRun : public Program {
     for (const std::string name : {"plain", "rotated"})
       for (const std::string lattice : {"none", "fcc", "bcc", "sc"})
         expect_meshed_and_verified(name + ending, "--lattice " + lattice, "mesh.vtu");
+  }
+
+  /// The tetrahedra of a mesh file as a text that does not depend on their order.
+  static std::string sorted_tetrahedra(const std::filesystem::path& file) {
+    auto cells = read_tet_mesh(file).tetrahedra;
+    for (auto& cell : cells) std::ranges::sort(cell);
+    std::ranges::sort(cells);
+    std::string text;
+    for (const auto& cell : cells)
+      for (const std::uint32_t v : cell) text += std::to_string(v) + " ";
+    return text;
   }
 
   /// Exit code 3, one message that names the file and all of `words`, and nothing written.
@@ -86,6 +100,35 @@ TEST_F(WholeRun, ModelsOfTheProgramItself) {
       expect_meshed_and_verified(file, "--lattice " + lattice, "mesh.vtu");
     expect_meshed_and_verified(file, "--face-protection off", "mesh.vtu");
   }
+}
+
+TEST_F(WholeRun, RemeshedSurfacesKeepWhatTheyBound) {
+  for (const InputPlc& plc : {two_cubes(), cube_with_slit(), rotated(oblique, cube_with_dangling_facet())}) {
+    write_plc(plc, work() / "plc.poly");
+    const Outcome mesh =
+        run("mesh plc.poly -o mesh.vtu --surface remesh --edge-length 0.4 --surface-output new.poly --report r.json");
+    ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
+    EXPECT_NE(mesh.out.find("the surface was remeshed"), std::string::npos) << mesh.out;
+    EXPECT_NE(text_of(work() / "r.json").find("\"surface\": \"remesh\""), std::string::npos);
+    const Outcome verify = run("verify new.poly mesh.vtu");
+    EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+  }
+}
+
+TEST_F(WholeRun, EveryCombinationOfStrategiesWritesTheSameMesh) {
+  write_plc(rotated(oblique, two_bars()), work() / "bars.off");
+  std::set<std::string> meshes;
+  for (const std::string delaunay : {"insert", "wrap"})
+    for (const std::string locator : {"grid", "octree", "cavity"})
+      for (const std::string check : {"on", "off"}) {
+        const std::string options = " --delaunay " + delaunay + " --locator " + locator + " --face-protection " + check;
+        ASSERT_EQ(run("mesh bars.off -o mesh.node --edge-length 1 --report r.json" + options).exit_code, 0) << options;
+        const std::string report = text_of(work() / "r.json");
+        EXPECT_NE(report.find("\"delaunay\": \"" + delaunay + "\""), std::string::npos);
+        EXPECT_NE(report.find("\"locator\": \"" + locator + "\""), std::string::npos);
+        meshes.insert(sorted_tetrahedra(work() / "mesh.node"));
+      }
+  EXPECT_EQ(meshes.size(), 1u);
 }
 
 TEST_F(WholeRun, OpenSurfaceIsRefusedWithItsBoundary) {
