@@ -12,7 +12,9 @@ namespace ccdt {
 ///
 /// The time is about linear for points of a uniform density in a body. It is not where the points are graded or lie on
 /// surfaces alone, as the number of vertices in a cell is then no longer bounded: a region that is k times denser than
-/// the mean costs about k times as much per vertex; n points on a sphere cost about n^2.
+/// the mean costs about k times as much per vertex; n points on a sphere cost about n^2. On slanted flat sides, where
+/// vertices are a rounding off the plane, the spheres of slivers are half-spaces, whose border is searched: about n^1.2
+/// in all.
 ///
 /// \param vertices    by id, with point and rank; points pairwise different, in grid units, and ranks too
 /// \param grid_scale  factor of the paper's size of the grid's cells
