@@ -104,12 +104,13 @@ Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
   return foot;
 }
 
-Foot ClosestPoint::on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const {
+// The nearest point, or the first that is found within a distance that is enough.
+Foot ClosestPoint::search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const {
   Foot best = foot_on(near, p);
   std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items, as each node is halved
   std::size_t size = 0;
   stack[size++] = patch;
-  while (size > 0) {
+  while (size > 0 && best.squared_distance > squared_enough) {
     const Node& node = nodes_[stack[--size]];
     if (squared_distance(node.box, p) >= best.squared_distance) continue;
     if (node.count == 0) {
@@ -125,6 +126,15 @@ Foot ClosestPoint::on_patch(std::uint32_t patch, const Point3& p, std::uint32_t 
     }
   }
   return best;
+}
+
+Foot ClosestPoint::on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const {
+  return search(patch, p, near, 0);
+}
+
+bool ClosestPoint::is_within(double distance, std::uint32_t patch, const Point3& p, std::uint32_t near) const {
+  const double enough = distance * distance;
+  return search(patch, p, near, enough).squared_distance <= enough;
 }
 
 Point3 ClosestPoint::normal_at(const Foot& foot) const {

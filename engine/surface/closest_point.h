@@ -28,6 +28,9 @@ class ClosestPoint {
   /// \param near  a triangle of the patch; the nearer it is, the faster
   Foot on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const;
 
+  /// Is the patch as near as that to a point? Faster than to find where.
+  bool is_within(double distance, std::uint32_t patch, const Point3& p, std::uint32_t near) const;
+
   /// The normal of the surface at a foot, interpolated from those of the wedges; of length one.
   Point3 normal_at(const Foot& foot) const;
 
@@ -37,6 +40,7 @@ class ClosestPoint {
     ClosedBox box;
     std::uint32_t first = 0, count = 0;
   };
+  Foot search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const;
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   std::array<Point3, 3> corners(std::uint32_t triangle) const;
   Foot foot_on(std::uint32_t triangle, const Point3& p) const;

@@ -127,10 +127,9 @@ InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, con
     if (verdict.places.empty()) return result;
     if (attempt == most_attempts) refuse(input, verdict, options.edge_length);
     if (attempt < halvings) {
-      for (const Point3& p : thinned(verdict.places, options.edge_length)) {
-        const double wanted = 0.5 * lengths.at(p);
-        lengths.limit(p, 2 * options.edge_length, wanted);
-      }
+      const EdgeLengths before = lengths;  // the balls overlap, and each place is to be halved once
+      for (const Point3& p : thinned(verdict.places, options.edge_length))
+        lengths.limit(p, 2 * options.edge_length, 0.5 * before.at(p));
     } else {
       freeze(original, verdict.places, std::ldexp(options.edge_length, attempt - halvings), frozen);
     }

@@ -14,8 +14,7 @@ bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
 bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q) {
   if (m.is_flat(a)) return true;
   const Point3 p = m.point(a);
-  const Foot foot = m.closest.on_patch(m.at(a).patch, 0.5 * (p + q), m.at(a).near);
-  return foot.squared_distance <= most_deviation * most_deviation * squared_length(q - p);
+  return m.closest.is_within(most_deviation * length(q - p), m.at(a).patch, 0.5 * (p + q), m.at(a).near);
 }
 
 }  // namespace ccdt

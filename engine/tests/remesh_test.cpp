@@ -1,0 +1,217 @@
+#include <gtest/gtest.h>
+
+// after GoogleTest, whose macros it uses
+#include "engine/base/errors.h"
+#include "engine/io/read_plc.h"
+#include "engine/mesher.h"
+#include "engine/surface/remesh_surface.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/real_parts.h"
+#include "engine/tests/remesh_measures.h"
+#include "models/solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+using namespace remesh_test;
+
+InputPlc remeshed(const InputPlc& input, double edge_length) {
+  RemeshOptions options;
+  options.edge_length = edge_length;
+  return remesh_surface(input, options);
+}
+
+/// Flat facets, so everything but the triangles is as before, to the last bits.
+void expect_same_shape(const InputPlc& before, const InputPlc& after) {
+  expect_near(areas(before), areas(after), 1e-9);
+  expect_near(odd_edge_lengths(before), odd_edge_lengths(after), 1e-9);
+  expect_near(segment_lengths(before), segment_lengths(after), 1e-9);
+  const Plc a = build_plc(before), b = build_plc(after);
+  EXPECT_EQ(a.chambers.size(), b.chambers.size());
+  EXPECT_EQ(a.facets.size(), b.facets.size());
+  expect_near(region_volumes(a), region_volumes(b), 1e-9);
+}
+
+TEST(Remeshing, CubeKeepsItsEdgesItsVolumeAndItsFlatFaces) {
+  for (const double h : {0.05, 0.1, 0.23, 0.5, 3.0}) {
+    SCOPED_TRACE(h);
+    const InputPlc cube = remeshed(unit_cube(), h);
+    expect_same_shape(unit_cube(), cube);
+    EXPECT_NEAR(sharp_length(cube, 30), 12, 1e-12);
+    for (const auto& [a, b, c] : cube.triangles) {
+      const Point3 &p = cube.vertices[a], &q = cube.vertices[b], &r = cube.vertices[c];
+      EXPECT_TRUE((p.x == q.x && q.x == r.x) || (p.y == q.y && q.y == r.y) || (p.z == q.z && q.z == r.z));
+    }
+    if (h >= 0.5) continue;
+    EXPECT_GE(share_of_good_edges(cube, h), 0.9);
+    EXPECT_GE(smallest_angle_of_99_percent(cube), 25);
+  }
+}
+
+TEST(Remeshing, RotatedCubeStaysFlatWithinTheTolerance) {
+  const InputPlc cube = rotated(oblique, unit_cube());
+  expect_same_shape(cube, remeshed(cube, 0.1));
+}
+
+TEST(Remeshing, DenseSurfacesAreCoarsened) {
+  const InputPlc cube = remeshed(gridded_cube(20), 0.4);
+  expect_near(areas(gridded_cube(20)), areas(cube), 1e-12);
+  EXPECT_NEAR(sharp_length(cube, 30), 12, 1e-12);
+  EXPECT_LT(cube.triangles.size(), 12u * 20);
+  EXPECT_GE(share_of_good_edges(cube, 0.4), 0.8);
+}
+
+TEST(Remeshing, InteriorFacetsSlitsAndDanglingFacetsStay) {
+  for (const InputPlc& plc : {two_cubes(), two_cubes_as_surface(), cube_within_cube(), cube_with_slit(),
+                              cube_with_dangling_facet(), cube_with_turnstile()})
+    for (const double h : {0.2, 0.7}) {
+      SCOPED_TRACE(h);
+      const InputPlc result = remeshed(plc, h);
+      expect_same_shape(plc, result);
+      EXPECT_GT(result.triangles.size(), plc.triangles.size());
+    }
+}
+
+TEST(Remeshing, EdgesAndVerticesOfEveryKindStay) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 6; ++round) {
+    SCOPED_TRACE(round);
+    const InputPlc plc = random_voxels(3, 3, random);
+    expect_same_shape(plc, remeshed(plc, round % 2 ? 0.45 : 2));
+    const InputPlc turned = rotated(random_rotation(random), plc);
+    expect_same_shape(turned, remeshed(turned, 0.45));
+  }
+}
+
+TEST(Remeshing, MarkersStayWhereTheyAre) {
+  InputPlc plc = two_cubes();
+  for (std::size_t t = 0; t < plc.triangles.size(); ++t)
+    plc.triangle_markers.push_back(static_cast<int>(t / 2 + t % 3));
+  expect_same_shape(plc, remeshed(plc, 0.2));
+}
+
+TEST(Remeshing, SegmentsKeepTheirMarkersAndAreDivided) {
+  InputPlc plc = cube_with_dangling_segment();
+  plc.segments.push_back({0, 3});  // a diagonal of the bottom
+  plc.segment_markers = {5, 6};
+  const InputPlc result = remeshed(plc, 0.3);
+  expect_same_shape(plc, result);
+  EXPECT_GT(result.segments.size(), 15u);
+}
+
+TEST(Remeshing, SegmentOfASingleEdgeWithinAFaceStays) {
+  InputPlc plc = gridded_cube(4);
+  plc.segments = {{6, 7}};  // inner vertices of the first face
+  plc.segment_markers = {9};
+  for (const double h : {0.1, 0.25, 1.0}) {
+    SCOPED_TRACE(h);
+    expect_near(segment_lengths(plc), segment_lengths(remeshed(plc, h)), 1e-12);
+  }
+}
+
+TEST(Remeshing, VerticesThatTheInputListsAloneStay) {
+  InputPlc plc = seeded_cube();
+  const std::vector<Point3> alone = {{1, 1, 1.5}, {1.25, 0.75, 3}, {0, 0, 1.125}};  // inside, on a face, on an edge
+  plc.vertices.insert(plc.vertices.end(), alone.begin(), alone.end());
+  const InputPlc result = remeshed(plc, 0.5);
+  for (const Point3& p : alone) EXPECT_EQ(std::count(result.vertices.begin(), result.vertices.end(), p), 1);
+  EXPECT_NEAR(inside_volume(build_plc(result)), 27, 1e-9);
+}
+
+TEST(Remeshing, SphereStaysRound) {
+  const InputPlc plc = make_solid("sphere", 0.05);
+  const double before = inside_volume(build_plc(plc));
+  for (const double h : {0.04, 0.08, 0.15}) {
+    SCOPED_TRACE(h);
+    const InputPlc result = remeshed(plc, h);
+    EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.01 * before);
+    EXPECT_EQ(sharp_length(result, 30), 0);
+    EXPECT_GE(share_of_good_edges(result, h), 0.9);
+    EXPECT_GE(smallest_angle_of_99_percent(result), 25);
+  }
+}
+
+TEST(Remeshing, RimOfACylinderStaysRound) {
+  constexpr int sides = 64;
+  std::vector<std::array<double, 2>> circle;
+  for (int i = 0; i < sides; ++i)
+    circle.push_back({std::cos(2 * std::acos(-1.0) * i / sides), std::sin(2 * std::acos(-1.0) * i / sides)});
+  const InputPlc cylinder = prism(circle);
+  const double before = inside_volume(build_plc(cylinder));
+  for (const double h : {0.1, 0.2, 1.0, 5.0}) {
+    SCOPED_TRACE(h);
+    const InputPlc result = remeshed(cylinder, h);
+    EXPECT_NEAR(sharp_length(result, 60), sharp_length(cylinder, 60), 0.01 * sharp_length(cylinder, 60));
+    EXPECT_NEAR(inside_volume(build_plc(result)), before, (h < 0.5 ? 0.005 : 0.03) * before);
+    for (const Point3& p : result.vertices) EXPECT_LE(std::hypot(p.x, p.y), 1 + 1e-12);
+  }
+}
+
+TEST(Remeshing, ModelsReachTheirEdgeLength) {
+  for (const auto& [name, h] : {std::pair{"piston", 5.0}, {"bracket", 5.0}, {"stepping-pole", 2.5}}) {
+    SCOPED_TRACE(name);
+    const InputPlc plc = make_solid(name, h), result = remeshed(plc, h);
+    const double before = inside_volume(build_plc(plc));
+    EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.005 * before);
+    EXPECT_NEAR(sharp_length(result, 30), sharp_length(plc, 30), 0.02 * sharp_length(plc, 30));
+    EXPECT_GE(share_of_good_edges(result, h), 0.9);
+    EXPECT_GE(smallest_angle_of_99_percent(result), 20);
+  }
+}
+
+TEST(Remeshing, ShellsThinnerThanTheEdgesDoNotCross) {
+  InputPlc shell = make_solid("sphere", 0.1);
+  const auto shrunk = [](const Point3& p) { return 0.99 * p; };
+  append(shell, rotated(oblique, mapped(shell, shrunk)));
+  shell.triangle_markers.clear();
+  int attempts = 0;
+  RemeshOptions options;
+  options.edge_length = 0.4;
+  const InputPlc result = remesh_surface(
+      shell, options,
+      [&](std::string_view stage, std::uint64_t done, std::uint64_t) { attempts += stage == "remesh" && done == 0; });
+  EXPECT_GT(attempts, 1);  // else this tests nothing
+  const Plc before = build_plc(shell), after = build_plc(result);
+  EXPECT_EQ(after.chambers.size(), before.chambers.size());
+  EXPECT_NEAR(inside_volume(after), inside_volume(before), 0.3 * inside_volume(before));
+}
+
+TEST(Remeshing, IsDeterministic) {
+  const InputPlc plc = make_solid("bracket", 7);
+  const InputPlc a = remeshed(plc, 5), b = remeshed(plc, 5);
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(Remeshing, RefusesOptionsOutOfRange) {
+  EXPECT_THROW(remeshed(unit_cube(), 0), InputError);
+  EXPECT_THROW(remeshed(unit_cube(), -1), InputError);
+  EXPECT_THROW(remeshed(unit_cube(), std::nan("")), InputError);
+}
+
+TEST(RemeshedParts, MeshAtEveryEdgeLengthAndKeepTheirVolume) {
+  const auto files = real_parts();
+  if (files.empty()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
+  for (const auto& file : files) {
+    const std::string name = file.stem().string();
+    if (name != "cheese" && name != "fandisk" && name != "joint" && name != "elephant") continue;
+    const InputPlc input = read_plc(file);
+    const double before = inside_volume(build_plc(input));
+    double sum = 0;
+    const auto edges = triangles_at_edges(input);
+    for (const auto& [edge, triangles] : edges) sum += distance(input.vertices[edge[0]], input.vertices[edge[1]]);
+    for (const double factor : {1.0, 2.0, 4.0}) {
+      if (name == "cheese" && factor != 2) continue;  // the mesher takes many seconds for it
+      SCOPED_TRACE(name + " " + std::to_string(factor));
+      const InputPlc result = remeshed(input, factor * sum / static_cast<double>(edges.size()));
+      EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.02 * factor * before);
+      MeshOptions options;
+      options.lattice = Lattice::none;
+      EXPECT_GT(mesh_plc(result, options).counts.tetrahedra, 0u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
