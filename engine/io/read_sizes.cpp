@@ -41,6 +41,9 @@ void read_values(TextScanner& in, BackgroundSizes& background) {
     background.sizes.push_back(in.number(item));
     if (!(background.sizes.back() > 0)) in.fail(item, "it is not greater than 0", scalar_remedy);
   }
+  const std::string_view next = in.peek();
+  if (!next.empty() && std::string_view("+-.0123456789").find(next[0]) != std::string_view::npos)
+    in.fail({"sizes"}, "after one for each vertex another number follows: " + in_quotes(next), scalar_remedy);
 }
 
 /// Goes to the section that matters.

@@ -101,7 +101,8 @@ TEST(ReadSizes, ThatAreNotOnePositiveNumberAVertexAreRefusedWithTheLine) {
   refused("4\n1 1", "1\n2\n-3\n4", 10);
   refused("4\n1 1", "1\n2\n3\nnan", 11);
   refused("4\n1 1", "1\n2\ninf\n4", 10);
-  refused("4\n1 1", "1\n2\n3", 11);  // 'End' is no number
+  refused("4\n1 1", "1 0.5\n2\n3\n4", 11);  // one too many
+  refused("4\n1 1", "1\n2\n3", 11);         // 'End' is no number
   expect_refused(put(folder / "a.sol", "MeshVersionFormatted 2\nDimension 3\nEnd\n"), "a.sol", 3);
   expect_refused(put(folder / "a.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n"), "a.sol", 2);
   expect_refused(put(folder / "a.sol", "\x01\x02"), "a.sol", 1);
