@@ -1,0 +1,40 @@
+#include "engine/base/flat_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <map>
+#include <random>
+
+namespace ccdt {
+namespace {
+
+/// Many keys with one home, and homes at the end of the array, where chains go round.
+struct CrowdedTraits {
+  static std::uint32_t none() { return 0xFFFFFFFFu; }
+  static std::size_t hash(std::uint32_t key) { return ~std::size_t{0} - key % 5; }
+};
+
+TEST(FlatTable, HoldsWhatAMapHoldsAfterRandomInsertionsAndRemovals) {
+  FlatTable<std::uint32_t, int, CrowdedTraits> table;
+  std::map<std::uint32_t, int> map;
+  std::mt19937 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const std::uint32_t key = random() % 60;
+    if (random() % 2) {
+      EXPECT_EQ(table.insert(key, i).second, map.try_emplace(key, i).second);
+    } else if (const int* value = table.find(key); value != nullptr) {
+      EXPECT_EQ(map.at(key), *value);
+      table.erase(value);
+      map.erase(key);
+    }
+    ASSERT_EQ(table.size(), map.size());
+  }
+  for (std::uint32_t key = 0; key < 60; ++key) EXPECT_EQ(table.find(key) != nullptr, map.count(key) == 1);
+  std::map<std::uint32_t, int> all;
+  table.for_each([&](std::uint32_t key, int value) { all[key] = value; });
+  EXPECT_EQ(all, map);
+}
+
+}  // namespace
+}  // namespace ccdt
