@@ -21,7 +21,8 @@ constexpr int most_attempts = 10;
 void refuse_bad_options(const InputPlc& input, const RemeshOptions& options) {
   Place place;
   place.file = input.name;
-  if (!(options.edge_length > 0) || !std::isfinite(options.edge_length))
+  const bool is_positive = options.edge_length > 0 && std::isfinite(options.edge_length);
+  if (!is_positive)
     throw InputError("the edge length for remeshing is not a positive number", place,
                      "give the edge length that the surface shall have, in the units of the input");
   if (!(options.sharp_angle > 0 && options.sharp_angle < 180))
@@ -81,7 +82,7 @@ Verdict judge(const InputPlc& result, const Plc& before, const RemeshOptions& op
 }
 
 /// One place for many that are near to each other.
-std::vector<Point3> thinned(std::vector<Point3> places, double distance) {
+std::vector<Point3> thinned(const std::vector<Point3>& places, double distance) {
   std::vector<Point3> kept;
   for (const Point3& p : places)
     if (std::none_of(kept.begin(), kept.end(), [&](const Point3& q) { return length(p - q) < distance; }))

@@ -13,7 +13,7 @@ struct RemeshOptions {
   /// still kept.
   double sharp_angle = 30;
 
-  int iterations = 8;      ///< rounds of split, collapse, flip and relaxation; after ten hardly anything changes
+  int iterations = 8;      ///< rounds of split, collapse, flip and relaxation
   double flatness = 1e-8;  ///< see PlcOptions
 };
 

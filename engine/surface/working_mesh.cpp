@@ -36,7 +36,7 @@ void add_vertices(WorkingMesh& m, const std::vector<std::uint32_t>& knot_of) {
   for (std::uint32_t w = 0; w < m.original.wedge_points.size(); ++w) {
     const std::uint32_t p = m.original.wedge_points[w];
     const Point3& position = m.original.points[p];
-    const VertexHandle v = m.mesh.add_vertex({position.x, position.y, position.z});
+    const VertexHandle v(m.mesh.add_vertex({position.x, position.y, position.z}).idx());
     m.vertices.push_back(
         {knot_of[p], m.original.wedge_patches[w], none, m.original.wedge_normals[w], m.lengths.at(position)});
     if (knot_of[p] != none) m.knots[knot_of[p]].copies.push_back(v);
@@ -74,7 +74,7 @@ WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurv
 }
 
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted) {
-  const VertexHandle v = m.mesh.add_vertex({foot.point.x, foot.point.y, foot.point.z});
+  const VertexHandle v(m.mesh.add_vertex({foot.point.x, foot.point.y, foot.point.z}).idx());
   m.vertices.push_back({none, patch, foot.triangle, m.closest.normal_at(foot), wanted});
   return v;
 }
@@ -102,7 +102,7 @@ std::vector<EdgeHandle> copies_of_link(const WorkingMesh& m, std::uint32_t link)
   const auto [a, b] = m.links[link].ends;
   for (const VertexHandle copy : m.knots[a].copies)
     for (auto h = m.mesh.cvoh_iter(copy); h.is_valid(); ++h) {
-      const EdgeHandle e = m.mesh.edge_handle(*h);
+      const EdgeHandle e(m.mesh.edge_handle(*h).idx());
       if (m.at(m.mesh.to_vertex_handle(*h)).knot == b && m.mesh.is_boundary(e)) edges.push_back(e);
     }
   return edges;

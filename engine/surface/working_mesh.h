@@ -82,7 +82,7 @@ struct WorkingMesh {
   void move(VertexHandle v, const Point3& p) { mesh.set_point(v, {p.x, p.y, p.z}); }
   Vertex& at(VertexHandle v) { return vertices[static_cast<std::size_t>(v.idx())]; }
   const Vertex& at(VertexHandle v) const { return vertices[static_cast<std::size_t>(v.idx())]; }
-  bool is_frozen(FaceHandle f) const { return face_is_frozen[static_cast<std::size_t>(f.idx())] != 0; }
+  bool is_frozen(const FaceHandle& f) const { return face_is_frozen[static_cast<std::size_t>(f.idx())] != 0; }
   bool is_flat(VertexHandle v) const { return original.patch_is_flat[at(v).patch] != 0; }
   double edge_length(VertexHandle a, VertexHandle b) const { return length(point(b) - point(a)); }
   double wanted_length(VertexHandle a, VertexHandle b) const { return 0.5 * (at(a).wanted + at(b).wanted); }
