@@ -35,8 +35,10 @@ double median(std::vector<Weighted> sizes) {
   std::ranges::sort(sizes, {}, &Weighted::size);
   double rest = 0;
   for (const Weighted& s : sizes) rest += s.weight / 2;
-  for (const Weighted& s : sizes)
-    if ((rest -= s.weight) <= 0) return s.size;
+  for (const Weighted& s : sizes) {
+    rest -= s.weight;
+    if (rest <= 0) return s.size;
+  }
   return sizes.back().size;
 }
 

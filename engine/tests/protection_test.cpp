@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "engine/base/errors.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/protection/protect_edges.h"
@@ -133,6 +135,32 @@ InputPlc cube_with_pages(int pages, double angle) {
     append_fan(plc, {8, tip, 9});
   }
   return plc;
+}
+
+TEST(Protection, SplitsAreCountedByLevelWhichForMidpointsIsTheDepthOfTheBisection) {
+  EXPECT_EQ(bare_mesh(plc_test::schoenhardt(), Protection::midpoint).counts.splits_by_level,
+            std::vector<std::uint64_t>{3});
+  EXPECT_TRUE(bare_mesh(unit_cube()).counts.splits_by_level.empty());
+  std::size_t deepest = 0;
+  std::vector<InputPlc> inputs = inputs_with_reflex_edges();
+  for (const double angle : {0.1, 0.05}) inputs.push_back(cube_with_pages(5, angle));
+  for (const InputPlc& input : inputs) {
+    const Plc plc = build_plc(input);
+    Delaunay delaunay = build_delaunay(plc.vertices);
+    SegmentChains chains = bare_chains(plc);
+    const std::uint64_t added = protect_edges(plc, grazeable_segments(plc), Protection::midpoint, delaunay, chains);
+    const std::vector<std::uint64_t> splits = count_splits_by_level(chains);
+    EXPECT_EQ(std::accumulate(splits.begin(), splits.end(), std::uint64_t{0}), added);
+    deepest = std::max(deepest, splits.size());
+    for (const auto& chain : chains)
+      for (const ChainVertex& v : chain) {
+        // A midpoint of depth k is an odd multiple of 2^-k.
+        const std::uint32_t unit = whole_segment >> v.level;
+        EXPECT_TRUE(v.level == 0 ? v.fraction % whole_segment == 0 : v.fraction / unit % 2 == 1);
+        EXPECT_EQ(v.fraction % unit, 0u);
+      }
+  }
+  EXPECT_GE(deepest, 2u);
 }
 
 TEST(Protection, ShellsTerminateWhereSegmentsMeetAtSmallAngles) {
