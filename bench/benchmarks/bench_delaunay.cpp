@@ -1,31 +1,36 @@
 // What is measured: the Delaunay tetrahedralization of points that are in memory, from the plain array of points to the
-// finished structure, on one thread; the sorting along a Hilbert curve is within, the release of the structure is not.
+// finished structure, on one thread; the release of the structure is not within.
 //
-//   delaunay/ccdt/...   build_delaunay
+//   delaunay/ccdt/...   build_delaunay, vertex by vertex; the sorting along a Hilbert curve is within
+//   delaunay/wrap/...   wrap_delaunay, the paper's way: face by face in a uniform grid, which is made within; it is
+//   given
+//                       the ranks that decide ties, those of build_delaunay, so that both have one result
 //   delaunay/cgal/...   CGAL's Delaunay_triangulation_3 with its kernel of exact predicates, given the same points, of
 //                       the very same coordinates, as a range
 //
 //   .../random/N        N uniformly distributed points, snapped to the grid
 //   .../lattice/N       N points of a perfect face-centred lattice in random order: almost all spheres have more than
 //                       four points on them, which is the common case in the mesher
+//   .../MODEL/N         the about N vertices of a mesh of the model, those of its surface first
+//   .../FILE            the same for a file given by --input
 //
-// items_per_second counts points, "cells" the finite tetrahedra. Before anything is timed, the results of both are
-// compared: the same volume and, for random points, the same number of tetrahedra (a lattice has many Delaunay
-// tetrahedralizations). Repetitions are interleaved by default, so that both programs see the same machine; compare by
-// ratio within one run.
+// "vertices" are the points, "cells" the finite tetrahedra. Before anything is timed, the results are compared: ccdt
+// and wrap must have the very same tetrahedra; ccdt and CGAL the same volume and, for random points, the same number of
+// tetrahedra (the others have many Delaunay tetrahedralizations). Compare by ratio within one run.
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/benchmarks/benchmark_main.h"
 #include "bench/benchmarks/point_sets.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/delaunay/wrap_delaunay.h"
 
 #ifdef CCDT_WITH_CGAL_MESHERS
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -35,12 +40,20 @@
 namespace ccdt::benchmarks {
 namespace {
 
-enum class Set { random, lattice };
+/// Beyond that, wrapping takes seconds.
+constexpr std::int64_t largest_wrapped = 100000;
 
-const std::vector<Point3>& points_of(Set set, std::size_t n) {
-  static std::map<std::pair<Set, std::size_t>, std::vector<Point3>> made;
-  auto& points = made[{set, n}];
-  if (points.empty()) points = set == Set::random ? random_points(n, 2005) : lattice_points(n, 2005);
+/// Points of one kind, by size.
+struct PointSet {
+  std::string name;
+  std::vector<std::int64_t> sizes;  ///< empty: there is but one
+  std::function<std::vector<Point3>(std::int64_t size)> make;
+};
+
+const std::vector<Point3>& kept_points(const PointSet& set, std::int64_t size) {
+  static std::map<std::pair<std::string, std::int64_t>, std::vector<Point3>> made;
+  auto& points = made[{set.name, size}];
+  if (points.empty()) points = set.make(size);
   return points;
 }
 
@@ -57,6 +70,7 @@ struct Outcome {
 
 struct Ccdt {
   static constexpr const char* name = "ccdt";
+  static constexpr std::int64_t largest = 1000000;
   using Input = std::vector<Point3>;
   using Result = Delaunay;
 
@@ -64,17 +78,31 @@ struct Ccdt {
   static Result build(const Input& input) { return build_delaunay(input); }
   static Outcome outcome(const Result& d) {
     Outcome outcome;
-    for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
-      const auto& v = d.cells[c].vertices;
-      if (d.is_finite(c)) outcome.add_cell(d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3]));
-    }
+    for (const auto& v : finite_cells(d)) outcome.add_cell(d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3]));
     return outcome;
   }
+};
+
+struct Wrap {
+  static constexpr const char* name = "wrap";
+  static constexpr std::int64_t largest = largest_wrapped;
+  using Input = std::vector<DelaunayVertex>;
+  using Result = Delaunay;
+
+  static Input prepare(const std::vector<Point3>& points) {
+    const std::vector<std::uint32_t> ranks = insertion_ranks(points);
+    Input input;
+    for (std::size_t i = 0; i < points.size(); ++i) input.push_back({points[i], ranks[i]});
+    return input;
+  }
+  static Result build(const Input& input) { return wrap_delaunay(input); }
+  static Outcome outcome(const Result& d) { return Ccdt::outcome(d); }
 };
 
 #ifdef CCDT_WITH_CGAL_MESHERS
 struct Cgal {
   static constexpr const char* name = "cgal";
+  static constexpr std::int64_t largest = Ccdt::largest;
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Input = std::vector<Kernel::Point_3>;
   using Result = CGAL::Delaunay_triangulation_3<Kernel>;
@@ -99,38 +127,42 @@ struct Cgal {
   }
 };
 
-/// Why the results are not both right; empty if they are.
-std::string find_difference(Set set, std::size_t n) {
-  const auto& points = points_of(set, n);
-  const Outcome ours = Ccdt::outcome(Ccdt::build(points));
+std::string compare_with_cgal(const std::string& set, const std::vector<Point3>& points, const Delaunay& d) {
+  const Outcome ours = Ccdt::outcome(d);
   const Outcome theirs = Cgal::outcome(Cgal::build(Cgal::prepare(points)));
-  if (set == Set::random && ours.cells != theirs.cells)
+  if (set == "random" && ours.cells != theirs.cells)
     return "ccdt has " + std::to_string(ours.cells) + " cells, CGAL " + std::to_string(theirs.cells);
   if (std::fabs(ours.volume - theirs.volume) > 1e-9 * theirs.volume) return "ccdt and CGAL fill different volumes";
   return {};
 }
-#else
-/// Without CGAL: the cells must fill the convex hull, which for both sets is nearly or exactly known.
-std::string find_difference(Set set, std::size_t n) {
-  const Outcome ours = Ccdt::outcome(Ccdt::build(points_of(set, n)));
-  const double cube = 0x1p156;
-  if (ours.cells < 5 * n) return "ccdt has only " + std::to_string(ours.cells) + " cells";
-  if (set == Set::random && !(ours.volume > 0.9 * cube && ours.volume <= cube)) return "ccdt does not fill the cube";
-  return {};
-}
 #endif
 
+/// Why the results are not all right; empty if they are.
+std::string compare(const std::string& set, const std::vector<Point3>& points) {
+  const Delaunay d = build_delaunay(points);
+  if (points.size() <= largest_wrapped &&
+      sorted(finite_cells(d)) != sorted(finite_cells(Wrap::build(Wrap::prepare(points)))))
+    return "ccdt and wrap have different cells";
+#ifdef CCDT_WITH_CGAL_MESHERS
+  return compare_with_cgal(set, points, d);
+#else
+  // The hull of random points is nearly known.
+  const double cube = 0x1p156, volume = Ccdt::outcome(d).volume;
+  if (set == "random" && !(volume > 0.9 * cube && volume <= cube)) return "ccdt does not fill the cube";
+  return {};
+#endif
+}
+
 /// Compared once for each set, whoever comes first.
-const std::string& difference(Set set, std::size_t n) {
-  static std::map<std::pair<Set, std::size_t>, std::string> found;
-  const auto at = found.find({set, n});
-  return at != found.end() ? at->second : found[{set, n}] = find_difference(set, n);
+std::string find_fault(const PointSet& set, std::int64_t size) {
+  static std::map<std::pair<std::string, std::int64_t>, std::string> found;
+  const auto at = found.find({set.name, size});
+  return at != found.end() ? at->second : found[{set.name, size}] = compare(set.name, kept_points(set, size));
 }
 
 template <class Program>
-void tetrahedralize(benchmark::State& state, Set set, std::size_t n) {
-  if (const std::string& reason = difference(set, n); !reason.empty()) return state.SkipWithError(reason.c_str());
-  const typename Program::Input input = Program::prepare(points_of(set, n));
+void measure(benchmark::State& state, const std::vector<Point3>& points) {
+  const typename Program::Input input = Program::prepare(points);
   std::size_t cells = 0;
   for (auto _ : state) {
     std::optional<typename Program::Result> result(Program::build(input));
@@ -139,16 +171,34 @@ void tetrahedralize(benchmark::State& state, Set set, std::size_t n) {
     result.reset();
     state.ResumeTiming();
   }
-  state.SetItemsProcessed(static_cast<std::int64_t>(n) * static_cast<std::int64_t>(state.iterations()));
-  state.counters["cells"] = static_cast<double>(cells);
+  set_counters(state, points.size(), cells);
 }
 
 template <class Program>
-void add(Set set, std::size_t n) {
-  const std::string name = std::string("delaunay/") + Program::name + (set == Set::random ? "/random/" : "/lattice/");
-  benchmark::RegisterBenchmark((name + std::to_string(n)).c_str(), [set, n](benchmark::State& state) {
-    tetrahedralize<Program>(state, set, n);
-  })->Unit(benchmark::kMillisecond);
+void add(const PointSet& set) {
+  Family family{.name = std::string("delaunay/") + Program::name + "/" + set.name,
+                .sizes = set.sizes,
+                .complexity = benchmark::oN,
+                .find_fault = [set](std::int64_t size) { return find_fault(set, size); },
+                .measure = [set](benchmark::State& state,
+                                 std::int64_t size) { measure<Program>(state, kept_points(set, size)); }};
+  std::erase_if(family.sizes, [](std::int64_t size) { return size > Program::largest; });
+  add_family(family);
+}
+
+std::vector<PointSet> point_sets(const Files& files) {
+  const std::vector<std::int64_t> sizes = {10000, 30000, 100000, 300000, 1000000};
+  std::vector<PointSet> sets = {
+      {"random", sizes, [](std::int64_t n) { return random_points(static_cast<std::size_t>(n), 2005); }},
+      {"lattice", sizes, [](std::int64_t n) { return lattice_points(static_cast<std::size_t>(n), 2005); }}};
+  for (const std::string model : model_names)
+    sets.push_back({model, {model_sizes.begin(), model_sizes.end()}, [model](std::int64_t size) {
+                      return points_of(stages_of_model(model, false, size).delaunay);
+                    }});
+  for (const auto& file : files)
+    sets.push_back(
+        {file.filename().string(), {}, [file](std::int64_t) { return points_of(stages_of_file(file).delaunay); }});
+  return sets;
 }
 
 }  // namespace
@@ -156,23 +206,13 @@ void add(Set set, std::size_t n) {
 
 int main(int argc, char** argv) {
   using namespace ccdt::benchmarks;
-  for (const std::size_t n : {100000, 1000000}) {
-    for (const Set set : {Set::random, Set::lattice}) {
-      add<Ccdt>(set, n);
+  return run_benchmarks(argc, argv, [](const Files& files) {
+    for (const PointSet& set : point_sets(files)) {
+      add<Ccdt>(set);
+      add<Wrap>(set);
 #ifdef CCDT_WITH_CGAL_MESHERS
-      add<Cgal>(set, n);
+      add<Cgal>(set);
 #endif
     }
-  }
-  // Before the arguments of the caller, which win.
-  std::vector<std::string> defaults = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=5",
-                                       "--benchmark_display_aggregates_only=true"};
-  std::vector<char*> arguments = {argv[0]};
-  for (std::string& argument : defaults) arguments.push_back(argument.data());
-  arguments.insert(arguments.end(), argv + 1, argv + argc);
-  int count = static_cast<int>(arguments.size());
-  benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  });
 }

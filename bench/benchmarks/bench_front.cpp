@@ -1,0 +1,87 @@
+// What is measured: advance_front, from the facets, the Delaunay tetrahedralization of all vertices and the outcome of
+// the face protection check to the tetrahedra of the front; making the locator is within.
+//
+//   front/grid/...     vertices and faces nearby are found in uniform grids
+//   front/octree/...   ... in octrees
+//   front/cavity/...   ... among the Delaunay cells that the missing faces pierce
+//
+//   .../check/...      only faces that are not Delaunay go through the front
+//   .../no_check/...   every face does (the paper's ablation); larger sizes are left out, as these take long
+//
+//   .../MODEL/N        with the interior points of the fcc lattice; the mesh has about N vertices
+//   .../flat-MODEL/N   the same, but z scaled by 0.3; edges and faces are missing then
+//   .../FILE           a file given by --input
+//
+// "vertices" and "cells" are those of the finished mesh, also with the check, where the front meets but few of them (so
+// that the two modes compare); "front_cells" are the front's own, "undelaunay" the faces that have been in the front.
+// Time with the check goes with the undelaunay faces: its fit is free. Before anything is timed, front and labelled
+// cells together must be the very tetrahedra that the grid with the check finds.
+
+#include "bench/benchmarks/benchmark_main.h"
+#include "engine/label/label_cells.h"
+#include "engine/mesh/assemble_mesh.h"
+
+namespace ccdt::benchmarks {
+namespace {
+
+struct Strategy {
+  LocatorKind locator;
+  bool check;
+};
+
+/// The codes that `mesh_plc` hands to the front.
+std::vector<std::uint32_t> codes_for(const Stages& s, bool check) {
+  return check ? s.codes : std::vector<std::uint32_t>(s.codes.size(), no_neighbor);
+}
+
+FrontResult advance(const Stages& s, const Strategy& strategy, const std::vector<std::uint32_t>& codes) {
+  return advance_front(s.plc, s.facets, codes, strategy.check, s.delaunay, {strategy.locator});
+}
+
+std::string find_fault(const Stages& s, const Strategy& strategy) {
+  const auto codes = codes_for(s, strategy.check);
+  const FrontResult front = advance(s, strategy, codes);
+  const auto chambers = label_cells(s.plc, s.delaunay, front.open, codes);
+  if (sorted(collect_tetrahedra(s.plc, front, chambers, s.delaunay).tetrahedra) != s.tetrahedra)
+    return "the tetrahedra are not those of the grid with the check";
+  return {};
+}
+
+void measure(benchmark::State& state, const Stages& s, const Strategy& strategy) {
+  const auto codes = codes_for(s, strategy.check);
+  std::optional<FrontResult> front;
+  for (auto _ : state) {
+    front.emplace(advance(s, strategy, codes));
+    state.PauseTiming();
+    set_count(state, "front_cells", front->tetrahedra.size());
+    set_count(state, "undelaunay", front->undelaunay_faces);
+    front.reset();
+    state.ResumeTiming();
+  }
+  set_counters(state, s.delaunay.vertices.size(), s.tetrahedra.size());
+}
+
+void add(const std::string& name, LocatorKind locator, const Files& files) {
+  for (const bool check : {true, false}) {
+    const Strategy strategy{locator, check};
+    add_stage({.name = "front/" + name + (check ? "/check" : "/no_check"),
+               .complexity = check ? benchmark::oAuto : benchmark::oN,
+               .largest = check ? model_sizes.back() : 20000,
+               .flattened_too = true,
+               .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
+               .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
+              files);
+  }
+}
+
+}  // namespace
+}  // namespace ccdt::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace ccdt::benchmarks;
+  return run_benchmarks(argc, argv, [](const Files& files) {
+    add("grid", ccdt::LocatorKind::grid, files);
+    add("octree", ccdt::LocatorKind::octree, files);
+    add("cavity", ccdt::LocatorKind::cavity, files);
+  });
+}

@@ -1,0 +1,68 @@
+// What is measured: label_cells and collect_tetrahedra, from the Delaunay tetrahedralization of all vertices and the
+// finished front to the tetrahedra of the mesh.
+//
+//   label/MODEL/N   with the interior points of the fcc lattice; the mesh has about N vertices
+//   label/FILE      a file given by --input
+//
+// "vertices" and "cells" are those of the mesh. Before anything is timed, the tetrahedra must fill the volume that the
+// facets enclose.
+
+#include <cmath>
+
+#include "bench/benchmarks/benchmark_main.h"
+#include "engine/label/label_cells.h"
+#include "engine/mesh/assemble_mesh.h"
+
+namespace ccdt::benchmarks {
+namespace {
+
+TetMesh label(const Stages& s) {
+  return collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes), s.delaunay);
+}
+
+double six_volumes(const Point3& a, const Point3& b, const Point3& c) {
+  return dot(a, cross(b, c));
+}
+
+/// By the divergence theorem, from the input's own triangles.
+double enclosed_volume(const Plc& plc) {
+  double volume = 0;
+  for (const Facet& facet : plc.facets) {
+    const int outward = (plc.chambers[facet.below].inside ? 1 : 0) - (plc.chambers[facet.above].inside ? 1 : 0);
+    if (outward == 0) continue;
+    for (const auto& [a, b, c] : facet.triangles)
+      volume += outward * six_volumes(plc.vertices[a], plc.vertices[b], plc.vertices[c]);
+  }
+  return volume / 6;
+}
+
+double filled_volume(const TetMesh& mesh, const Delaunay& d) {
+  double volume = 0;
+  for (const auto& t : mesh.tetrahedra) {
+    const Point3& a = d.point(t[0]);
+    volume += six_volumes(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
+  }
+  return volume / 6;
+}
+
+std::string find_fault(const Stages& s) {
+  const double filled = filled_volume(label(s), s.delaunay), wanted = enclosed_volume(s.plc);
+  if (std::fabs(filled - wanted) > 1e-7 * std::fabs(wanted))
+    return "the cells fill " + std::to_string(filled / wanted) + " of the volume";
+  return {};
+}
+
+void measure(benchmark::State& state, const Stages& s) {
+  time_runs(state, [&] { return label(s); });
+  set_counters(state, s.delaunay.vertices.size(), s.tetrahedra.size());
+}
+
+}  // namespace
+}  // namespace ccdt::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace ccdt::benchmarks;
+  return run_benchmarks(argc, argv, [](const Files& files) {
+    add_stage({.name = "label", .find_fault = find_fault, .measure = measure}, files);
+  });
+}

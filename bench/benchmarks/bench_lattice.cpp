@@ -1,0 +1,66 @@
+// What is measured: place_lattice_points, from the surface (vertices, triangles, protected subsegments) in memory to
+// the array of interior points; the octree and the tests of distance to the surface are within.
+//
+//   lattice/fcc/...   face-centred cubic
+//   lattice/bcc/...   body-centred cubic
+//   lattice/sc/...    simple cubic; all three at equal density
+//
+//   .../MODEL/N   one edge length inside and on the surface, such that the mesh has about N vertices with fcc
+//   .../FILE      a file given by --input, with edges that grow away from the surface
+//
+// "vertices" are the points placed ("triangles" those of the surface); there are no cells yet. Before anything is
+// timed, the points must be pairwise different, and about as many as with fcc: within a fifth where there are a
+// thousand or more.
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "bench/benchmarks/benchmark_main.h"
+
+namespace ccdt::benchmarks {
+namespace {
+
+std::vector<Point3> place(const LatticeInput& input, Lattice kind) {
+  LatticeOptions options = input.options;
+  options.kind = kind;
+  return place_lattice_points(input.vertices, input.triangles, input.subsegments, options);
+}
+
+std::string find_fault(const Stages& s, Lattice kind) {
+  std::vector<Point3> points = place(s.lattice, kind);
+  if (points.empty()) return "no lattice point fits inside: the edges of the surface are too long";
+  const auto as_tuple = [](const Point3& p) { return std::tie(p.x, p.y, p.z); };
+  std::ranges::sort(points, {}, as_tuple);
+  if (std::ranges::adjacent_find(points, {}, as_tuple) != points.end()) return "two lattice points are the same";
+  const auto count = static_cast<double>(points.size());
+  const auto fcc = static_cast<double>(place(s.lattice, Lattice::fcc).size());
+  if (fcc >= 1000 && std::fabs(count - fcc) > 0.2 * fcc)
+    return std::to_string(points.size()) + " points, but fcc places " + std::to_string(fcc);
+  return {};
+}
+
+void measure(benchmark::State& state, const Stages& s, Lattice kind) {
+  time_runs(state, [&] { return place(s.lattice, kind); });
+  set_counters(state, place(s.lattice, kind).size(), 0);
+  set_count(state, "triangles", s.lattice.triangles.size());
+}
+
+void add(const std::string& name, Lattice kind, const Files& files) {
+  add_stage({.name = "lattice/" + name,
+             .find_fault = [=](const Stages& s) { return find_fault(s, kind); },
+             .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, kind); }},
+            files);
+}
+
+}  // namespace
+}  // namespace ccdt::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace ccdt::benchmarks;
+  return run_benchmarks(argc, argv, [](const Files& files) {
+    add("fcc", ccdt::Lattice::fcc, files);
+    add("bcc", ccdt::Lattice::bcc, files);
+    add("sc", ccdt::Lattice::sc, files);
+  });
+}

@@ -1,0 +1,82 @@
+// What is measured: protect_edges, from the Delaunay tetrahedralization of the input's vertices to the one in which
+// every grazeable segment is a chain of edges; the copy of the tetrahedralization that it changes is made outside.
+//
+//   protection/shell/...      splits where the encroaching vertex asks for it, on spheres around common ends
+//   protection/midpoint/...   the paper's bisection
+//
+//   .../MODEL/N        the surface whose mesh has about N vertices
+//   .../flat-MODEL/N   the same, but z scaled by 0.3; edges and faces are missing then
+//   .../FILE           a file given by --input
+//
+// "vertices" and "cells" are those of the tetrahedralization that comes out, which has no interior vertices yet;
+// "segments" counts the grazeable ones, "steiner" the vertices put on them. The time is not linear in the vertices, as
+// most of them are on no segment: the fit is free. Before anything is timed, all pieces of all grazeable segments must
+// be edges of the result.
+
+#include <algorithm>
+
+#include "bench/benchmarks/benchmark_main.h"
+#include "engine/delaunay/cell_star.h"
+#include "engine/protection/protect_edges.h"
+
+namespace ccdt::benchmarks {
+namespace {
+
+/// What the stage changes.
+struct Changed {
+  Delaunay delaunay;
+  SegmentChains chains;
+  explicit Changed(const Stages& s) : delaunay(s.input_delaunay), chains(bare_chains(s.plc)) {}
+};
+
+std::uint64_t protect(const Stages& s, Protection strategy, Changed& changed) {
+  return protect_edges(s.plc, s.must_be_chain, strategy, changed.delaunay, changed.chains);
+}
+
+std::string find_fault(const Stages& s, Protection strategy) {
+  Changed result(s);
+  protect(s, strategy, result);
+  CellStar star(result.delaunay);
+  for (std::size_t segment = 0; segment < result.chains.size(); ++segment) {
+    if (!s.must_be_chain[segment]) continue;
+    const auto& chain = result.chains[segment];
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      if (!star.has_edge(chain[i].vertex, chain[i + 1].vertex))
+        return "segment " + std::to_string(segment) + " is not protected";
+  }
+  return {};
+}
+
+void measure(benchmark::State& state, const Stages& s, Protection strategy) {
+  std::optional<Changed> changed;
+  std::uint64_t steiner = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    changed.emplace(s);
+    state.ResumeTiming();
+    steiner = protect(s, strategy, *changed);
+  }
+  set_counters(state, changed->delaunay.vertices.size(), finite_cells(changed->delaunay).size());
+  set_count(state, "segments", static_cast<std::size_t>(std::ranges::count(s.must_be_chain, true)));
+  set_count(state, "steiner", steiner);
+}
+
+void add(const std::string& name, Protection strategy, const Files& files) {
+  add_stage({.name = "protection/" + name,
+             .complexity = benchmark::oAuto,
+             .flattened_too = true,
+             .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
+             .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
+            files);
+}
+
+}  // namespace
+}  // namespace ccdt::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace ccdt::benchmarks;
+  return run_benchmarks(argc, argv, [](const Files& files) {
+    add("shell", ccdt::Protection::shell, files);
+    add("midpoint", ccdt::Protection::midpoint, files);
+  });
+}

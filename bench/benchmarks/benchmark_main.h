@@ -1,0 +1,77 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/benchmarks/stages.h"
+
+/// What the benchmark programs have in common: their names, sizes, counters and command line.
+namespace ccdt::benchmarks {
+
+/// One way to do something, over several sizes of one subject.
+struct Family {
+  std::string name;                            ///< stage/strategy/subject
+  std::vector<std::int64_t> sizes;             ///< the last part of the benchmarks' names; empty: one benchmark without
+  benchmark::BigO complexity = benchmark::oN;  ///< what is fitted through the sizes
+
+  /// Does it once and says why the result is not right; empty if it is. Asked once for each size, before its first
+  /// measurement; a benchmark with a fault is not measured.
+  std::function<std::string(std::int64_t size)> find_fault;
+  std::function<void(benchmark::State&, std::int64_t size)> measure;
+};
+
+void add_family(const Family& family);
+
+/// The parts of the user: files that a stage is measured on beside the models.
+using Files = std::vector<std::filesystem::path>;
+
+/// One strategy of a stage.
+struct StageBenchmark {
+  std::string name;  ///< stage/strategy
+  benchmark::BigO complexity = benchmark::oN;
+  std::int64_t largest = model_sizes.back();  ///< of the models' sizes
+  bool flattened_too = false;                 ///< are there families of the flattened models as well?
+  std::function<std::string(const Stages&)> find_fault;
+  std::function<void(benchmark::State&, const Stages&)> measure;
+};
+
+/// Families `name/MODEL` over the sizes of each of the paper's models, or `name/flat-MODEL` if flattened, and a
+/// benchmark `name/FILE` for each file.
+void add_stage(const StageBenchmark& stage, const Files& files);
+
+/// Sets, after the measurement: `vertices` and `cells`, `vertices/s` and `cells/s` (of CPU time; items_per_second are
+/// the vertices too), and the size for the complexity fit, which is that of the vertices.
+///
+/// \param cells  tetrahedra; 0: the stage has none
+void set_counters(benchmark::State& state, std::size_t vertices, std::size_t cells);
+
+/// Sets a counter unless it is 0: the statistics of the repetitions would divide by it, and JSON has no NaN.
+void set_count(benchmark::State& state, const std::string& name, std::size_t count);
+
+/// Times `run()`, but not the release of its result.
+template <class Run>
+void time_runs(benchmark::State& state, const Run& run) {
+  for (auto _ : state) {
+    auto result = std::make_optional(run());
+    benchmark::DoNotOptimize(result);
+    state.PauseTiming();
+    result.reset();
+    state.ResumeTiming();
+  }
+}
+
+/// The program: reads the arguments, has the benchmarks added and runs them. The arguments are those of Google
+/// Benchmark and `--input FILE`, as often as wanted. Repetitions are interleaved by default, so that all strategies see
+/// the same machine.
+///
+/// \return  the exit code: 1 if a benchmark found a fault, 2 if the arguments are wrong
+int run_benchmarks(int argc, char** argv, const std::function<void(const Files&)>& add_all);
+
+}  // namespace ccdt::benchmarks

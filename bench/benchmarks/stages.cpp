@@ -1,0 +1,141 @@
+#include "bench/benchmarks/stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "engine/front/face_check.h"
+#include "engine/io/read_plc.h"
+#include "engine/label/label_cells.h"
+#include "engine/mesh/assemble_mesh.h"
+#include "engine/plc/build_plc.h"
+#include "engine/protection/insert_interior.h"
+#include "engine/protection/protect_edges.h"
+#include "models/solids.h"
+
+namespace ccdt::benchmarks {
+namespace {
+
+/// The edge lengths, in millimetres, that give the models their `model_sizes`.
+constexpr std::array<std::array<double, model_sizes.size()>, model_names.size()> edge_lengths = {
+    {{3.85, 3.05, 2.4, 1.87, 1.47}, {3.0, 2.3, 1.82, 1.4, 1.11}, {2.95, 2.29, 1.8, 1.43, 1.13}}};
+
+/// Of z, in flattened models.
+constexpr double flattening = 0.3;
+
+double edge_length_of(const std::string& model, std::int64_t size) {
+  const auto name = static_cast<std::size_t>(std::ranges::find(model_names, model) - model_names.begin());
+  const auto place = static_cast<std::size_t>(std::ranges::find(model_sizes, size) - model_sizes.begin());
+  return edge_lengths.at(name).at(place);
+}
+
+void flatten(InputPlc& plc) {
+  const auto press = [](Point3& p) { p.z *= flattening; };
+  for (Point3& p : plc.vertices) press(p);
+  for (Point3& p : plc.holes) press(p);
+  for (auto& region : plc.regions) press(region.seed);
+  for (auto& facet : plc.polygon_facets)
+    for (Point3& p : facet.holes) press(p);
+}
+
+/// How far apart the interior points are.
+struct Density {
+  double edge_length;  ///< units of the input; 0: as the surface has it
+  double grading;
+};
+
+LatticeInput lattice_input(const Stages& s, const Density& density) {
+  LatticeInput input;
+  input.vertices = points_of(s.delaunay);
+  for (std::size_t i = 0; i < s.facets.triangles.size(); ++i) {
+    const Facet& facet = s.plc.facets[s.facets.facet[i]];
+    input.triangles.push_back(
+        {s.facets.triangles[i], s.plc.chambers[facet.above].inside, s.plc.chambers[facet.below].inside});
+  }
+  for (const auto& chain : s.chains)
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      input.subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
+  input.options.edge_length = density.edge_length / s.plc.grid.unit;
+  input.options.grading = density.grading;
+  return input;
+}
+
+Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOptions& options) {
+  Stages s;
+  s.plc = build_plc(input, options);
+  s.must_be_chain = grazeable_segments(s.plc);
+  s.input_delaunay = build_delaunay(s.plc.vertices);
+  s.delaunay = s.input_delaunay;
+  s.chains = bare_chains(s.plc);
+  protect_edges(s.plc, s.must_be_chain, Protection::shell, s.delaunay, s.chains);
+  s.facets = triangulate_facets(s.plc, s.chains, s.delaunay);
+  s.lattice = lattice_input(s, density);
+  const auto points =
+      place_lattice_points(s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments, s.lattice.options);
+  insert_interior(points, s.must_be_chain, s.chains, s.delaunay);
+  s.codes = find_delaunay_faces(s.facets, s.delaunay);
+  if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
+    s.codes = find_delaunay_faces(s.facets, s.delaunay);
+  s.front = advance_front(s.plc, s.facets, s.codes, true, s.delaunay);
+  const auto chambers = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
+  s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, chambers, s.delaunay).tetrahedra);
+  return s;
+}
+
+Stages make_stages(const InputPlc& input, const Density& density) {
+  try {
+    return mesh_in_stages(input, density, {});
+  } catch (const FrontStuck&) {
+    return mesh_in_stages(input, density, {.flatness = 0});  // as mesh_plc does
+  }
+}
+
+using Cache = std::map<std::pair<std::string, std::int64_t>, std::unique_ptr<const Stages>>;
+
+}  // namespace
+
+const Stages& stages_of_model(const std::string& model, bool flattened, std::int64_t size) {
+  static Cache made[2];
+  auto& stages = made[flattened][{model, size}];
+  if (!stages) {
+    double edge_length = edge_length_of(model, size);
+    InputPlc plc = make_solid(model, edge_length);
+    if (flattened) {
+      flatten(plc);
+      edge_length *= std::cbrt(flattening);  // as many vertices in less space
+    }
+    stages = std::make_unique<const Stages>(make_stages(plc, {edge_length, 0}));
+  }
+  return *stages;
+}
+
+const Stages& stages_of_file(const std::filesystem::path& file) {
+  static Cache made;
+  auto& stages = made[{file.string(), 0}];
+  if (!stages) stages = std::make_unique<const Stages>(make_stages(read_plc(file), {0, MeshOptions().grading}));
+  return *stages;
+}
+
+Tetrahedra sorted(Tetrahedra tetrahedra) {
+  for (auto& t : tetrahedra) std::ranges::sort(t);
+  std::ranges::sort(tetrahedra);
+  return tetrahedra;
+}
+
+Tetrahedra finite_cells(const Delaunay& delaunay) {
+  Tetrahedra cells;
+  for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c)
+    if (delaunay.is_finite(c)) cells.push_back(delaunay.cells[c].vertices);
+  return cells;
+}
+
+std::vector<Point3> points_of(const Delaunay& delaunay) {
+  std::vector<Point3> points;
+  points.reserve(delaunay.vertices.size());
+  for (const DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
+  return points;
+}
+
+}  // namespace ccdt::benchmarks

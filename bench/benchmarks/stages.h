@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_mesh.h"
+#include "engine/front/advance_front.h"
+#include "engine/lattice/place_lattice_points.h"
+#include "engine/plc/plc.h"
+#include "engine/protection/segment_chains.h"
+
+/// What each stage of the engine works on, made once and kept, so that a benchmark times its stage alone.
+namespace ccdt::benchmarks {
+
+/// The benchmarks' sizes: about so many vertices has the mesh of a model.
+inline constexpr std::array<std::int64_t, 5> model_sizes = {5000, 10000, 20000, 40000, 80000};
+
+/// The paper's models.
+inline constexpr std::array<const char*, 3> model_names = {"piston", "bracket", "stepping-pole"};
+
+/// The largest size of the flattened models, of which much goes through the front.
+inline constexpr std::int64_t largest_flattened = 20000;
+
+/// All that `place_lattice_points` is given.
+struct LatticeInput {
+  std::vector<Point3> vertices;
+  std::vector<SurfaceTriangle> triangles;
+  std::vector<std::array<VertexId, 2>> subsegments;
+  LatticeOptions options;  ///< of the kind fcc
+};
+
+/// Tetrahedra that can be compared: sorted lists of sorted vertices.
+using Tetrahedra = std::vector<std::array<std::uint32_t, 4>>;
+
+/// One meshing with the default strategies, and what it had after each stage; in the order of `mesh_plc`.
+struct Stages {
+  Plc plc;
+  std::vector<bool> must_be_chain;  ///< by segment
+  Delaunay input_delaunay;          ///< of the vertices of the PLC, before protection
+  SegmentChains chains;             ///< after protection
+  LatticeInput lattice;
+  Delaunay delaunay;                 ///< of all vertices
+  FacetMesh facets;                  ///< up to date with all vertices
+  std::vector<std::uint32_t> codes;  ///< of the facets' triangles in `delaunay`
+  FrontResult front;
+  Tetrahedra tetrahedra;  ///< of the front and the labelled cells
+};
+
+/// The stages of a model at one of `model_sizes`, of a uniform edge length inside as on the surface. Made at the first
+/// call. The models' surfaces are so even that all their edges and faces are Delaunay. Where that leaves a stage idle,
+/// there is a flattened model: its z is scaled by 0.3, so that many triangles are thin and many edges and faces
+/// missing.
+const Stages& stages_of_model(const std::string& model, bool flattened, std::int64_t size);
+
+/// The stages of a file, meshed as `ccdt mesh` does by default: inside the edges grow away from the surface.
+///
+/// \throw Error  the file cannot be read or meshed
+const Stages& stages_of_file(const std::filesystem::path& file);
+
+Tetrahedra sorted(Tetrahedra tetrahedra);
+
+/// The finite cells.
+Tetrahedra finite_cells(const Delaunay& delaunay);
+
+std::vector<Point3> points_of(const Delaunay& delaunay);
+
+}  // namespace ccdt::benchmarks
