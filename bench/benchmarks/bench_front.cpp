@@ -66,7 +66,7 @@ void add(const std::string& name, LocatorKind locator, const Files& files) {
     const Strategy strategy{locator, check};
     add_stage({.name = "front/" + name + (check ? "/check" : "/no_check"),
                .complexity = check ? benchmark::oAuto : benchmark::oN,
-               .largest = check ? model_sizes.back() : 20000,
+               .largest = check ? model_sizes.back() : 40000,
                .flattened_too = true,
                .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
                .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
