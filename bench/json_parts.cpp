@@ -25,7 +25,8 @@ Json counts_json(const MeshCounts& c) {
           {"undelaunay_faces", c.undelaunay_faces},
           {"front_tetrahedra", c.front_tetrahedra},
           {"splits_by_level", c.splits_by_level},
-          {"dropped_interior_vertices", c.dropped_interior_vertices}};
+          {"dropped_interior_vertices", c.dropped_interior_vertices},
+          {"front_faces", c.front_faces}};
 }
 
 std::string to_text(const Json& json) {

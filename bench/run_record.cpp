@@ -101,6 +101,7 @@ MeshCounts counts_from(const Json& j) {
   c.front_tetrahedra = j.at("front_tetrahedra");
   c.splits_by_level = j.value("splits_by_level", c.splits_by_level);
   c.dropped_interior_vertices = j.value("dropped_interior_vertices", c.dropped_interior_vertices);
+  c.front_faces = j.value("front_faces", c.front_faces);
   return c;
 }
 

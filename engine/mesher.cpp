@@ -113,6 +113,7 @@ TetMesh constrain(Work& w) {
     front = advance_front(w.plc, w.facets, codes, w.options.face_protection, w.delaunay,
                           {w.options.locator, w.options.grid_scale}, w.progress);
     w.counts.front_tetrahedra = front.tetrahedra.size();
+    w.counts.front_faces = front.undelaunay_faces;
   }
   TetMesh mesh;
   {

@@ -12,7 +12,11 @@ namespace ccdt {
 enum class Lattice { none, fcc, bcc, sc };
 enum class Protection { shell, midpoint };
 /// Who finds vertices near a face and faces near an edge, for the front.
-enum class LocatorKind { grid, octree, cavity };
+enum class LocatorKind {
+  grid,    ///< the uniform grid of the paper (section 4)
+  octree,  ///< adapts to graded density
+  cavity   ///< what the missing faces pierce of the Delaunay tetrahedralization: the fastest
+};
 /// How the Delaunay tetrahedralization is made; the result is the same.
 enum class DelaunayMethod {
   insert,  ///< vertex by vertex along a Hilbert curve (Bowyer, Watson)
@@ -28,7 +32,7 @@ struct MeshOptions {
   bool face_protection = true;  ///< check which faces are Delaunay first; off: every face goes through the front
   Lattice lattice = Lattice::fcc;
   Protection protection = Protection::shell;
-  LocatorKind locator = LocatorKind::grid;
+  LocatorKind locator = LocatorKind::cavity;
   DelaunayMethod delaunay = DelaunayMethod::insert;
   double grid_scale = 1;               ///< factor of the cell size that the paper gives its uniform grids (section 4)
   double edge_length = 0;              ///< target edge length in the units of the input; 0: as the surface has it
@@ -58,6 +62,7 @@ struct MeshCounts {
   /// Steiner vertices on segments, by level from 1: how many splits led to the piece that they split, and one more.
   std::vector<std::uint64_t> splits_by_level;
   std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
+  std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
 };
 
 struct MeshResult {

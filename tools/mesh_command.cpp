@@ -198,7 +198,7 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
   choice("--locator", command.options.locator,
          std::vector<std::pair<std::string, LocatorKind>>{
              {"grid", LocatorKind::grid}, {"octree", LocatorKind::octree}, {"cavity", LocatorKind::cavity}},
-         "grid, octree, cavity: who finds the vertices near a face and the faces near an edge", "grid");
+         "cavity, octree, grid: who finds the vertices near a face and the faces near an edge", "cavity");
   choice("--delaunay", command.options.delaunay,
          std::vector<std::pair<std::string, DelaunayMethod>>{{"insert", DelaunayMethod::insert},
                                                              {"wrap", DelaunayMethod::wrap}},
