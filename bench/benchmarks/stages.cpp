@@ -78,7 +78,7 @@ Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOp
   s.codes = find_delaunay_faces(s.facets, s.delaunay);
   if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = find_delaunay_faces(s.facets, s.delaunay);
-  s.front = advance_front(s.plc, s.facets, s.codes, true, s.delaunay);
+  s.front = advance_front(s.plc, s.facets, s.codes, true, s.delaunay, {LocatorKind::grid});
   const auto chambers = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, chambers, s.delaunay).tetrahedra);
   return s;

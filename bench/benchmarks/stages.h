@@ -36,7 +36,8 @@ struct LatticeInput {
 /// Tetrahedra that can be compared: sorted lists of sorted vertices.
 using Tetrahedra = std::vector<std::array<std::uint32_t, 4>>;
 
-/// One meshing with the default strategies, and what it had after each stage; in the order of `mesh_plc`.
+/// One meshing with the default strategies, but located by the grid, and what it had after each stage; in the order of
+/// `mesh_plc`.
 struct Stages {
   Plc plc;
   std::vector<bool> must_be_chain;  ///< by segment
