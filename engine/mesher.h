@@ -40,8 +40,8 @@ struct MeshOptions {
   double flatness = 1e-8;              ///< see PlcOptions
   double sphere_factor = 1;            ///< see LatticeOptions
   double clearance = usual_clearance;  ///< see LatticeOptions
-  BackgroundSizes background;  ///< a size function, in the units of the input; with one, the lengths of the surface's
-                               ///< own edges do not matter
+  BackgroundSizes background = {};     ///< a size function, in the units of the input; with one, the lengths of the
+                                    ///< surface's own edges do not matter
 };
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
@@ -60,7 +60,7 @@ struct MeshCounts {
   std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
   std::uint64_t front_tetrahedra = 0;  ///< tetrahedra built by the front
   /// Steiner vertices on segments, by level from 1: how many splits led to the piece that they split, and one more.
-  std::vector<std::uint64_t> splits_by_level;
+  std::vector<std::uint64_t> splits_by_level = {};
   std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
 };
