@@ -21,8 +21,16 @@ InputPlc make_stepping_pole(double edge_length);
 
 /// The unit cube with a square grid on each face.
 InputPlc make_cube(double edge_length);
+/// The unit cube with squares on its faces that shrink towards the origin: the longest edge is 181 times the shortest.
+/// The edge length is that of the largest squares.
+InputPlc make_graded_cube(double edge_length);
 /// The unit sphere about the origin: an icosahedron, each face divided, on the sphere.
 InputPlc make_sphere(double edge_length);
+/// The logarithms of the rough sphere's radii cover a range of this times the edge length. It makes one face in ten not
+/// Delaunay; with 1 there is none yet.
+inline constexpr double rough_sphere_range = 3;
+/// The sphere with radii as good as at random, but the same each time.
+InputPlc make_rough_sphere(double edge_length);
 /// Radii 1 and 0.4 about the z axis.
 InputPlc make_torus(double edge_length);
 /// Schoenhardt's polyhedron (1928): a prism over a triangle with its top turned by 30 degrees, so that its reflex edges

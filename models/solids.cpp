@@ -11,33 +11,21 @@
 namespace ccdt {
 namespace {
 
-/// The edge lengths for which a solid keeps its shape and fits into memory.
-struct Limits {
-  std::string_view name;
-  double finest, coarsest;
-};
-
-constexpr std::array<Solid, 7> all_solids{{
-    {"piston", "piston with three ring grooves, pin bosses and a bowl in the crown; 80 mm", 2.0, make_piston},
-    {"bracket", "angle bracket with gusset, holes, a slit and an interior face between two regions; 80 mm", 2.0,
-     make_bracket},
-    {"stepping-pole", "bicycle foot peg: threaded stub, hexagon, toothed grip, cap with bore; 117 mm", 1.5,
+constexpr std::array<Solid, 9> all_solids{{
+    {"piston", "piston with three ring grooves, pin bosses and a bowl in the crown; 80 mm", 2.0, 0.1, 16, make_piston},
+    {"bracket", "angle bracket with gusset, holes, a slit and an interior face between two regions; 80 mm", 2.0, 0.1,
+     16, make_bracket},
+    {"stepping-pole", "bicycle foot peg: threaded stub, hexagon, toothed grip, cap with bore; 117 mm", 1.5, 0.08, 12,
      make_stepping_pole},
-    {"cube", "unit cube, a square grid on each face", 0.1, make_cube},
-    {"sphere", "unit sphere", 0.1, make_sphere},
-    {"torus", "torus of radii 1 and 0.4", 0.1, make_torus},
+    {"cube", "unit cube, a square grid on each face", 0.1, 0.0005, 1, make_cube},
+    {"graded-cube", "unit cube, squares that shrink 128-fold towards a corner; the largest have the edge length",
+     0.0625, 0.005, 0.5, make_graded_cube},
+    {"sphere", "unit sphere", 0.1, 0.001, 1.2, make_sphere},
+    {"rough-sphere", "unit sphere, radii shifted at random by up to 1.5 edge lengths", 0.1, 0.001, 1.2,
+     make_rough_sphere},
+    {"torus", "torus of radii 1 and 0.4", 0.1, 0.001, 0.5, make_torus},
     {"schoenhardt", "Schoenhardt's polyhedron, which needs a Steiner vertex; the same at every edge length", 1.0,
-     make_schoenhardt},
-}};
-
-constexpr std::array<Limits, 7> all_limits{{
-    {"piston", 0.1, 16},
-    {"bracket", 0.1, 16},
-    {"stepping-pole", 0.08, 12},
-    {"cube", 0.0005, 1},
-    {"sphere", 0.001, 1.2},
-    {"torus", 0.001, 0.5},
-    {"schoenhardt", 1e-300, 1e300},
+     1e-300, 1e300, make_schoenhardt},
 }};
 
 const Solid& find_solid(std::string_view name) {
@@ -51,16 +39,13 @@ const Solid& find_solid(std::string_view name) {
 }
 
 void check_edge_length(const Solid& solid, double edge_length) {
-  for (const Limits& limits : all_limits) {
-    if (limits.name != solid.name) continue;
-    if (edge_length >= limits.finest && edge_length <= limits.coarsest) return;  // false for NaN
-    std::ostringstream what, remedy;
-    what << "the edge length " << edge_length << " is too " << (edge_length < limits.finest ? "fine" : "coarse")
-         << " for the solid " << solid.name;
-    remedy << "give one from " << limits.finest << " to " << limits.coarsest << " (default "
-           << solid.default_edge_length << ")";
-    throw InputError(what.str(), {}, remedy.str());
-  }
+  if (edge_length >= solid.finest && edge_length <= solid.coarsest) return;  // false for NaN
+  std::ostringstream what, remedy;
+  what << "the edge length " << edge_length << " is too " << (edge_length < solid.finest ? "fine" : "coarse")
+       << " for the solid " << solid.name;
+  remedy << "give one from " << solid.finest << " to " << solid.coarsest << " (default " << solid.default_edge_length
+         << ")";
+  throw InputError(what.str(), {}, remedy.str());
 }
 
 }  // namespace

@@ -12,11 +12,12 @@ struct Solid {
   std::string_view name;
   std::string_view what;  ///< one line for people
   double default_edge_length;
+  double finest, coarsest;               ///< the edge lengths for which it keeps its shape and fits into memory
   InputPlc (*make)(double edge_length);  ///< does not check the edge length; `make_solid` does
 };
 
-/// piston, bracket, stepping-pole (the paper's, in millimetres), cube, sphere, torus (of size one), schoenhardt (always
-/// the same).
+/// piston, bracket, stepping-pole (the paper's, in millimetres), cube, graded-cube, sphere, rough-sphere, torus (of
+/// size one), schoenhardt (always the same).
 ///
 /// Each group of faces has its own marker, counted from 1 (models/parts.h lists them). All are closed surfaces but the
 /// bracket, whose markers 8 (a face between its two regions) and 9 (a slit) are facets inside.

@@ -1,6 +1,8 @@
 #include "reports/table1_report.h"
 
+#include "reports/experiment_parts.h"
 #include "reports/numbers.h"
+#include "reports/table1_differences.h"
 #include "reports/text_table.h"
 
 namespace ccdt {
@@ -91,16 +93,10 @@ std::vector<std::string> complaints(const Table1& table) {
 }
 
 std::string how(const Table1& table) {
-  return "Medians of " + std::to_string(table.runs) + " runs in turn after one that is not counted, with " +
-         rounded(100 * Bootstrap{}.confidence, 2) + "% bootstrap intervals. The paper's: Pentium IV, 2.0 GHz.";
+  return how_measured(table.how) + " The paper's: Pentium IV, 2.0 GHz.";
 }
 
-std::string machine(const Environment& e) {
-  std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + rounded(e.load_average, 2) + "; " +
-                     e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
-  for (const auto& [name, version] : e.libraries) text.append("; ").append(name).append(" ").append(version);
-  return text;
-}
+constexpr const char* differences_title = "Where this differs from the paper, and why";
 
 }  // namespace
 
@@ -109,20 +105,15 @@ std::string to_terminal(const Table1& table) {
   text += to_terminal(sizes(table)) + "\n" + to_terminal(seconds(table)) + "\n" + to_terminal(ratios(table)) + "\n" +
           to_terminal(tetrahedra(table)) + "\n";
   for (const std::string& line : complaints(table)) text += line + "\n";
-  return text + how(table) + "\n";
+  return text + terminal_section(differences_title, table1_differences(table)) + how(table) + "\n";
 }
 
 std::string to_markdown(const Table1& table) {
   std::string text = "# Table 1: CDT with and without the face protection check\n\n" + how(table) + "\n\n";
   text += to_markdown(sizes(table)) + "\n" + to_markdown(seconds(table)) + "\n" + to_markdown(ratios(table)) + "\n" +
           to_markdown(tetrahedra(table)) + "\n";
-  const auto wrong = complaints(table);
-  if (!wrong.empty()) text += "## What went wrong\n\n";
-  for (const std::string& line : wrong) text += "- " + line + "\n";
-  if (!wrong.empty()) text += "\n";
-  text += "## What the rows mean\n\n";
-  for (const std::string& line : table1_definitions()) text += "- " + line + "\n";
-  return text + "\n## The machine\n\n" + machine(table.environment) + "\n";
+  return text + section("What went wrong", complaints(table)) + section(differences_title, table1_differences(table)) +
+         closing_sections(table1_definitions(), table.how);
 }
 
 }  // namespace ccdt

@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "bench/experiments/case_runner.h"
+#include "bench/experiments/measured_case.h"
 #include "engine/io/read_plc.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/io/write_plc.h"
@@ -15,42 +15,30 @@ namespace ccdt {
 namespace {
 
 /// A model of the paper, how finely it is meshed here, and what the paper measured on it (Table 1; Pentium IV, 2.0
-/// GHz).
+/// GHz). The edge lengths make meshes of at least 50,000 vertices.
 struct PaperModel {
   const char* name;
   double edge_length;
   double delaunay_seconds, with_check_seconds, without_check_seconds;
 };
 
-constexpr std::array<PaperModel, 3> paper_models = {{{"piston", 2.5, 25.53, 26.01, 602.25},
-                                                     {"bracket", 1.6, 33.14, 34.26, 607.15},
-                                                     {"stepping-pole", 1.8, 35.83, 37.14, 610.94}}};
+constexpr std::array<PaperModel, 3> paper_models = {{{"piston", 1.7, 25.53, 26.01, 602.25},
+                                                     {"bracket", 1.25, 33.14, 34.26, 607.15},
+                                                     {"stepping-pole", 1.2, 35.83, 37.14, 610.94}}};
 
-/// Seconds of the constrained Delaunay tetrahedralization of given vertices: the paper's CDT times.
-double cdt_seconds(const RunRecord& run) {
-  const StageSeconds& s = run.seconds;
-  return s.delaunay + s.face_check + s.front + s.label;
+double delaunay_seconds(const StageSeconds& seconds) {
+  return seconds.delaunay;
 }
-
-double delaunay_seconds(const RunRecord& run) {
-  return run.seconds.delaunay;
+double front_seconds(const StageSeconds& seconds) {
+  return seconds.front;
 }
-double mesh_seconds(const RunRecord& run) {
-  return run.seconds.mesh;
+double mesh_seconds(const StageSeconds& seconds) {
+  return seconds.mesh;
 }
-
-/// A case of a model with all that its runs have told.
-struct MeasuredCase {
-  std::string name;
-  Case what;
-  std::vector<RunRecord> counted;
-  RunRecord first = {};  ///< of the run that is not counted
-  bool failed() const { return first.status != RunStatus::ok; }
-};
 
 class ModelExperiment {
  public:
-  ModelExperiment(const Table1Options& options, const PaperModel& model)
+  ModelExperiment(const ExperimentOptions& options, const PaperModel& model)
       : options_(options), model_(model), edge_length_(model.edge_length * options.scale) {}
 
   /// The cases in the order in which they take turns.
@@ -59,7 +47,7 @@ class ModelExperiment {
     const auto add = [&](const char* name, const char* mesher, const std::filesystem::path& input,
                          std::vector<std::string> more) {
       if (!is_measured(mesher)) return;
-      cases.push_back({name, {mesher, input, mesh_file(name), std::move(more)}, {}});
+      cases.push_back({name, std::string(model_.name) + "-" + name, {mesher, input, mesh_file(name), std::move(more)}});
     };
     add("with_check", "ccdt", surface_file(), {"--face-protection", "on"});
     add("without_check", "ccdt", surface_file(), {"--face-protection", "off"});
@@ -72,20 +60,9 @@ class ModelExperiment {
 
   void write_surface() const { write_plc(surface(), surface_file()); }
 
-  /// Runs a case once. Its first run is not counted.
   void run(MeasuredCase& measured, int number) const {
-    if (measured.failed()) return;
-    const auto report = options_.folder / "runs" /
-                        (std::string(model_.name) + "-" + measured.name + "-" + std::to_string(number) + ".json");
-    RunRecord record = run_case(options_.program, measured.what, report, options_.limits);
-    if (number == 0) {
-      measured.first = record;
-      if (measured.name == "with_check" && !measured.failed()) write_points(record);
-    } else if (record.status == RunStatus::ok) {
-      measured.counted.push_back(record);
-    } else {
-      measured.first = record;  // it went well before, but a row of fewer samples than the others would not be fair
-    }
+    run_once(options_, measured, number);
+    if (number == 0 && measured.name == "with_check" && !measured.failed()) write_points(measured.first);
   }
 
   Table1Model evaluate(std::span<const MeasuredCase> cases) const;
@@ -126,17 +103,17 @@ class ModelExperiment {
     return sorted("with_check") == sorted("without_check");
   }
 
-  const Table1Options& options_;
+  const ExperimentOptions& options_;
   const PaperModel& model_;
   double edge_length_;
 };
 
-Table1Row row_of(const MeasuredCase& measured, std::string id, std::string label, double (*seconds)(const RunRecord&),
-                 std::optional<double> paper = {}) {
+Table1Row row_of(const MeasuredCase& measured, std::string id, std::string label,
+                 double (*seconds)(const StageSeconds&), std::optional<double> paper = {}) {
   Table1Row row{std::move(id),         std::move(label),     {}, {}, paper, measured.first.counts,
                 measured.first.status, measured.first.reason};
   if (measured.failed()) return row;
-  for (const RunRecord& record : measured.counted) row.samples.push_back(seconds(record));
+  row.samples = samples_of(measured.counted, seconds);
   row.seconds = median_estimate(row.samples);
   return row;
 }
@@ -156,18 +133,26 @@ Table1Ratio ratio_of(const Table1Model& model, std::string id, std::string label
 Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperModel& paper) {
   Table1Ratio ratio{
       "with_check/delaunay", "with check / Delaunay", {}, paper.with_check_seconds / paper.delaunay_seconds};
-  std::vector<double> ratios;
-  ratios.reserve(with_check.counted.size());
-  for (const RunRecord& record : with_check.counted) ratios.push_back(cdt_seconds(record) / delaunay_seconds(record));
-  if (!with_check.failed()) ratio.value = median_estimate(ratios);
+  const auto in_a_run = [](const StageSeconds& s) { return cdt_seconds(s) / s.delaunay; };
+  if (!with_check.failed()) ratio.value = median_estimate(samples_of(with_check.counted, in_a_run));
   return ratio;
+}
+
+Table1Costs costs_of(const MeasuredCase& with_check, const MeasuredCase& without_check) {
+  const auto cost = [](const MeasuredCase& measured, double (*seconds)(const StageSeconds&), std::uint64_t units) {
+    return 1e6 * median(samples_of(measured.counted, seconds)) / static_cast<double>(units);
+  };
+  const auto check = [](const StageSeconds& s) { return cdt_seconds(s) - s.delaunay; };
+  const std::uint64_t vertices = with_check.first.counts.vertices;
+  return {cost(with_check, delaunay_seconds, vertices), cost(with_check, check, vertices),
+          cost(without_check, front_seconds, without_check.first.counts.front_tetrahedra)};
 }
 
 Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const {
   Table1Model model;
   model.name = model_.name;
   model.edge_length = edge_length_;
-  const auto add = [&](const char* name, const char* id, const char* label, double (*seconds)(const RunRecord&),
+  const auto add = [&](const char* name, const char* id, const char* label, double (*seconds)(const StageSeconds&),
                        std::optional<double> paper = {}) {
     const auto found = std::ranges::find(cases, name, &MeasuredCase::name);
     if (found != cases.end()) model.rows.push_back(row_of(*found, id, label, seconds, paper));
@@ -183,12 +168,17 @@ Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const
 
   model.ratios.push_back(check_ratio(cases[0], model_));
   model.ratios.push_back(
+      ratio_of(model, "without_check/delaunay", "without check / Delaunay", "without_check", "delaunay"));
+  model.ratios.push_back(
       ratio_of(model, "without_check/with_check", "without / with check", "without_check", "with_check"));
   model.ratios.push_back(
       ratio_of(model, "delaunay/cgal_delaunay", "Delaunay / CGAL Delaunay", "delaunay", "cgal_delaunay"));
   model.ratios.push_back(
       ratio_of(model, "with_check/tetgen_cdt", "with check / TetGen CDT", "with_check", "tetgen_cdt"));
-  if (!cases[0].failed() && !cases[1].failed()) model.same_tetrahedra = same_tetrahedra();
+  if (!cases[0].failed() && !cases[1].failed()) {
+    model.same_tetrahedra = same_tetrahedra();
+    model.costs = costs_of(cases[0], cases[1]);
+  }
   return model;
 }
 
@@ -197,7 +187,10 @@ Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const
 std::vector<std::string> table1_definitions() {
   return {
       "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
-      "CDT: Delaunay, face check, front and labelling of a run. Without the check every face goes through the front.",
+      "CDT: the stages delaunay, face_check, front and label of a run. Without the check every face goes through the "
+      "front.",
+      "Not in the CDT times: facets, the constrained Delaunay triangulation of each facet, made once before there are "
+      "interior vertices; finish, which gives coordinates their units back and checks the result.",
       "with check / Delaunay is taken within each run; the other ratios are of medians.",
       "CGAL Delaunay, same vertices: all vertices of our mesh.",
       "TetGen CDT, same vertices: switch p, the input with our interior vertices.",
@@ -207,18 +200,19 @@ std::vector<std::string> table1_definitions() {
   };
 }
 
-Table1 measure_table1(const Table1Options& options, const Progress& progress) {
-  for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
+Table1 measure_table1(const ExperimentOptions& options, const Progress& progress) {
   Table1 table;
-  table.environment = capture_environment();
-  table.runs = options.runs;
-  table.limits = options.limits;
+  table.how = start_experiment(options);
+  const auto is_asked = [&](const PaperModel& paper) { return is_asked_for(options, paper.name); };
+  const auto model_count = static_cast<std::uint64_t>(std::ranges::count_if(paper_models, is_asked));
+  check_something_is_measured(model_count, "table1");
   std::uint64_t done = 0;
   for (const PaperModel& paper : paper_models) {
+    if (!is_asked(paper)) continue;
     const ModelExperiment experiment(options, paper);
     experiment.write_surface();
     std::vector<MeasuredCase> cases = experiment.plan();
-    const std::uint64_t total = paper_models.size() * cases.size() * static_cast<std::uint64_t>(options.runs + 1);
+    const std::uint64_t total = model_count * cases.size() * static_cast<std::uint64_t>(options.runs + 1);
     for (int number = 0; number <= options.runs; ++number)
       for (MeasuredCase& measured : cases) {
         report(progress, std::string(paper.name) + " " + measured.name, done++, total);

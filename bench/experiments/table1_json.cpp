@@ -1,19 +1,10 @@
 #include <nlohmann/json.hpp>
 
+#include "bench/experiments/experiment_json.h"
 #include "bench/experiments/table1.h"
-#include "bench/json_parts.h"
 
 namespace ccdt {
 namespace {
-
-Json estimate_json(const std::optional<Estimate>& estimate) {
-  if (!estimate) return nullptr;
-  return {{"median", estimate->value}, {"low", estimate->low}, {"high", estimate->high}};
-}
-
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json row_json(const Table1Row& row) {
   Json json = {{"id", row.id},
@@ -25,6 +16,13 @@ Json row_json(const Table1Row& row) {
                {"counts", counts_json(row.counts)}};
   if (!row.reason.empty()) json["reason"] = row.reason;
   return json;
+}
+
+Json costs_json(const std::optional<Table1Costs>& costs) {
+  if (!costs) return nullptr;
+  return {{"delaunay_per_vertex", costs->delaunay_per_vertex},
+          {"check_per_vertex", costs->check_per_vertex},
+          {"front_per_tetrahedron", costs->front_per_tetrahedron}};
 }
 
 Json model_json(const Table1Model& model) {
@@ -39,7 +37,8 @@ Json model_json(const Table1Model& model) {
           {"edge_length", model.edge_length},
           {"same_tetrahedra", model.same_tetrahedra},
           {"rows", rows},
-          {"ratios", ratios}};
+          {"ratios", ratios},
+          {"microseconds", costs_json(model.costs)}};
 }
 
 }  // namespace
@@ -47,13 +46,8 @@ Json model_json(const Table1Model& model) {
 std::string to_json(const Table1& table) {
   Json models = Json::array();
   for (const Table1Model& model : table.models) models.push_back(model_json(model));
-  const Json json = {{"schema", "ccdt.table1/1"},
-                     {"definitions", table1_definitions()},
-                     {"runs", table.runs},
-                     {"confidence", Bootstrap{}.confidence},
-                     {"limits", {{"seconds", table.limits.seconds}, {"memory_bytes", table.limits.memory_bytes}}},
-                     {"environment", environment_json(table.environment)},
-                     {"models", models}};
+  Json json = head_json("ccdt.table1/1", table1_definitions(), table.how);
+  json["models"] = models;
   return to_text(json);
 }
 

@@ -43,6 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, SolidSurface,
                                            Case{"stepping-pole", 12}, Case{"stepping-pole", 4},
                                            Case{"stepping-pole", 1.5}, Case{"cube", 0.25}, Case{"sphere", 1.2},
                                            Case{"sphere", 0.2}, Case{"torus", 0.5}, Case{"torus", 0.1},
+                                           Case{"graded-cube", 0.25}, Case{"rough-sphere", 0.2},
                                            Case{"schoenhardt", 0}));
 
 }  // namespace

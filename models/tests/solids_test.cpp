@@ -202,7 +202,7 @@ TEST(Schoenhardt, HasSixVerticesAndEightTrianglesAtEveryEdgeLength) {
 }
 
 TEST(Solids, HaveADefaultEdgeLengthWithinTheirLimits) {
-  ASSERT_EQ(solids().size(), 7u);
+  ASSERT_EQ(solids().size(), 9u);
   for (const Solid& solid : solids()) {
     const InputPlc by_default = make_solid(solid.name, 0);
     EXPECT_EQ(by_default.name, solid.name);
@@ -220,7 +220,8 @@ TEST(Solids, AnUnknownNameIsRefusedWithTheKnownOnes) {
 }
 
 TEST(Solids, AnEdgeLengthWithoutSenseIsRefused) {
-  for (const std::string_view name : {"piston", "bracket", "stepping-pole", "cube", "sphere", "torus"}) {
+  for (const std::string_view name :
+       {"piston", "bracket", "stepping-pole", "cube", "graded-cube", "sphere", "rough-sphere", "torus"}) {
     EXPECT_THROW(make_solid(name, 1000), InputError) << name;
     EXPECT_THROW(make_solid(name, 1e-9), InputError) << name;
     EXPECT_THROW(make_solid(name, std::numeric_limits<double>::infinity()), InputError) << name;

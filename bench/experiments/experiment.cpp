@@ -1,0 +1,46 @@
+#include "bench/experiments/experiment.h"
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+
+namespace ccdt {
+
+Circumstances start_experiment(const ExperimentOptions& options) {
+  for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
+  return {capture_environment(), options.runs, options.limits};
+}
+
+bool is_asked_for(const ExperimentOptions& options, std::string_view model) {
+  return options.models.empty() || std::ranges::find(options.models, model) != options.models.end();
+}
+
+void check_something_is_measured(std::size_t cases, std::string_view experiment) {
+  if (cases == 0)
+    throw InputError("none of these models is part of the experiment " + std::string(experiment), {},
+                     "leave out --models, and it measures all that it has");
+}
+
+Claim is_at_most(const Estimate& estimate, double bound) {
+  if (estimate.high <= bound) return Claim::holds;
+  return estimate.low > bound ? Claim::fails : Claim::undecided;
+}
+
+Claim is_at_least(const Estimate& estimate, double bound) {
+  if (estimate.low >= bound) return Claim::holds;
+  return estimate.high < bound ? Claim::fails : Claim::undecided;
+}
+
+std::string_view name_of(Claim claim) {
+  switch (claim) {
+    case Claim::holds:
+      return "holds";
+    case Claim::undecided:
+      return "undecided";
+    case Claim::fails:
+      return "fails";
+  }
+  return "";
+}
+
+}  // namespace ccdt

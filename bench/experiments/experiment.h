@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/child_process.h"
+#include "bench/environment.h"
+#include "bench/statistics.h"
+
+namespace ccdt {
+
+/// What every experiment of `ccdt reproduce` is told.
+struct ExperimentOptions {
+  std::filesystem::path program;                     ///< the `ccdt` that is run
+  std::filesystem::path folder;                      ///< models, meshes and records go here; exists
+  int runs = 5;                                      ///< counted runs a case; one more before them is not counted
+  double scale = 1;                                  ///< factor of the models' edge lengths
+  std::vector<std::string> models;                   ///< to measure; empty: all that the experiment has
+  std::optional<std::vector<std::string>> beside;    ///< other meshers to measure; none: all of this build
+  std::vector<std::filesystem::path> inputs;         ///< files to measure as well, where the experiment takes files
+  Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
+};
+
+/// Under which circumstances an experiment was made; part of its result.
+struct Circumstances {
+  Environment environment;
+  int runs = 0;
+  Limits limits;
+};
+
+/// Makes the folders of an experiment: models, meshes, runs.
+/// \return  the circumstances, as they are before the first run
+Circumstances start_experiment(const ExperimentOptions& options);
+
+/// Has the user asked for this model?
+bool is_asked_for(const ExperimentOptions& options, std::string_view model);
+
+/// \throw InputError  there is nothing to measure, because none of the models that were asked for is part of it
+void check_something_is_measured(std::size_t cases, std::string_view experiment);
+
+/// What an interval says about a bound.
+enum class Claim {
+  holds,      ///< all of the interval is on the right side
+  undecided,  ///< the bound is inside
+  fails       ///< all of the interval is on the wrong side
+};
+Claim is_at_most(const Estimate& estimate, double bound);
+Claim is_at_least(const Estimate& estimate, double bound);
+std::string_view name_of(Claim claim);
+
+}  // namespace ccdt

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/experiments/fig8.h"
+#include "bench/experiments/interior_points.h"
+#include "bench/experiments/locators.h"
+#include "bench/experiments/surfaces.h"
+#include "engine/base/errors.h"
+
+namespace ccdt {
+namespace {
+
+TEST(Claim, HoldsOrFailsOnlyWithTheWholeInterval) {
+  EXPECT_EQ(is_at_most({1, 0.9, 1.05}, 1.1), Claim::holds);
+  EXPECT_EQ(is_at_most({1, 0.9, 1.2}, 1.1), Claim::undecided);
+  EXPECT_EQ(is_at_most({1.3, 1.2, 1.4}, 1.1), Claim::fails);
+  EXPECT_EQ(is_at_least({9, 8.5, 9.5}, 8), Claim::holds);
+  EXPECT_EQ(is_at_least({9, 7.5, 9.5}, 8), Claim::undecided);
+  EXPECT_EQ(is_at_least({7, 6.5, 7.5}, 8), Claim::fails);
+}
+
+TEST(Experiments, MeasureAllModelsUnlessSomeAreAskedFor) {
+  ExperimentOptions options;
+  EXPECT_TRUE(is_asked_for(options, "piston"));
+  options.models = {"bracket"};
+  EXPECT_TRUE(is_asked_for(options, "bracket"));
+  EXPECT_FALSE(is_asked_for(options, "piston"));
+}
+
+TEST(Experiments, RefuseToMeasureNothing) {
+  EXPECT_NO_THROW(check_something_is_measured(1, "fig8"));
+  EXPECT_THROW(check_something_is_measured(0, "fig8"), InputError);
+}
+
+TEST(EdgeRatio, IsOfTrianglesPolygonsAndSegments) {
+  InputPlc plc;
+  EXPECT_EQ(edge_ratio(plc), 1);
+  plc.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {10, 0, 0}, {10, 1, 0}};
+  plc.triangles = {{0, 1, 2}};
+  EXPECT_DOUBLE_EQ(edge_ratio(plc), 5.0 / 3);
+  plc.polygon_facets.push_back({{{1, 3, 2}}, {}, 0, 0});
+  EXPECT_DOUBLE_EQ(edge_ratio(plc), std::sqrt(116.0) / 3);
+  plc.segments = {{3, 4}};
+  EXPECT_DOUBLE_EQ(edge_ratio(plc), std::sqrt(116.0));
+}
+
+/// A point whose Delaunay stage takes n^exponent microseconds and whose front takes twice as long as that is linear.
+Fig8Point point_of_size(std::uint64_t n, double exponent) {
+  Fig8Point point;
+  point.counts.vertices = n;
+  StageSeconds seconds;
+  seconds.delaunay = 1e-6 * std::pow(static_cast<double>(n), exponent);
+  seconds.front = 2e-6 * static_cast<double>(n);
+  point.samples.assign(5, seconds);
+  point.cdt = Estimate{seconds.delaunay + seconds.front, 0, 0};
+  return point;
+}
+
+TEST(Fig8, FitsEachStageOnItsOwn) {
+  Fig8Series series;
+  for (const std::uint64_t n : {10000, 20000, 40000, 80000}) series.points.push_back(point_of_size(n, 1.5));
+  const auto fits = fit_series(series, true);
+  ASSERT_EQ(fits.size(), 3u);
+  EXPECT_EQ(fits[0].id, "cdt");
+  EXPECT_GT(fits[0].power.slope.value, 1.4);
+  EXPECT_LT(fits[0].power.slope.value, 1.5);
+  EXPECT_EQ(fits[1].id, "delaunay");
+  EXPECT_NEAR(fits[1].power.slope.value, 1.5, 1e-9);
+  EXPECT_EQ(fits[2].id, "front");
+  EXPECT_NEAR(fits[2].power.slope.value, 1, 1e-9);
+  EXPECT_NEAR(fits[2].line.slope.value, 2e-6, 1e-12);
+  EXPECT_EQ(fit_series(series, false).size(), 2u);
+}
+
+TEST(Fig8, LeavesOutFailedPointsAndDoesNotFitTwo) {
+  Fig8Series series;
+  for (const std::uint64_t n : {10000, 20000, 40000}) series.points.push_back(point_of_size(n, 1));
+  series.points.push_back(point_of_size(80000, 7));
+  series.points.back().cdt = {};
+  EXPECT_NEAR(fit_series(series, false)[0].power.slope.value, 1, 1e-9);
+  series.points[0].cdt = {};
+  EXPECT_TRUE(fit_series(series, false).empty());
+}
+
+TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
+  LocatorsCase c;
+  EXPECT_FALSE(expectation(c));
+  c.octree_over_grid = Estimate{0.5, 0.4, 0.6};
+  EXPECT_EQ(expectation(c), Claim::fails);
+  c.kind = SurfaceKind::graded;
+  EXPECT_EQ(expectation(c), Claim::holds);
+  c.octree_over_grid = Estimate{1, 0.9, 1.1};
+  EXPECT_EQ(expectation(c), Claim::undecided);
+  c.kind = SurfaceKind::rough;
+  EXPECT_FALSE(expectation(c));
+}
+
+TEST(InteriorPointsSummary, CountsCasesOfARuleAndAsideThoseThatFailed) {
+  const std::vector<InteriorCase> cases = {{"a", 1, Lattice::fcc, InteriorRule::paper, 100, 0, RunStatus::ok, ""},
+                                           {"a", 1, Lattice::bcc, InteriorRule::paper, 90, 2, RunStatus::ok, ""},
+                                           {"a", 1, Lattice::bcc, InteriorRule::no_spheres, 95, 7, RunStatus::ok, ""},
+                                           {"b", 1, Lattice::fcc, InteriorRule::paper, 0, 0, RunStatus::failed, "why"}};
+  const InteriorSummary paper = summarize(cases, InteriorRule::paper);
+  EXPECT_EQ(paper.cases, 2u);
+  EXPECT_EQ(paper.failed, 1u);
+  EXPECT_EQ(paper.harmed, 1u);
+  EXPECT_EQ(paper.placed, 190u);
+  EXPECT_EQ(paper.dropped, 2u);
+  EXPECT_EQ(summarize(cases, InteriorRule::paper, Lattice::fcc).harmed, 0u);
+  EXPECT_EQ(summarize(cases, InteriorRule::no_distances).cases, 0u);
+}
+
+}  // namespace
+}  // namespace ccdt

@@ -1,0 +1,27 @@
+#include <cmath>
+#include <cstdint>
+
+#include "models/parts.h"
+
+namespace ccdt {
+namespace {
+
+/// A number from 0 to 1 for each index, as good as random (SplitMix64; Steele, Lea and Flood 2014).
+double scattered(std::uint64_t index) {
+  std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+InputPlc make_rough_sphere(double edge_length) {
+  InputPlc input = make_sphere(edge_length);
+  // A ray from the centre still meets one triangle, so however rough it is, the surface does not cross itself.
+  for (std::size_t i = 0; i < input.vertices.size(); ++i)
+    input.vertices[i] = std::exp(rough_sphere_range * edge_length * (scattered(i) - 0.5)) * input.vertices[i];
+  return input;
+}
+
+}  // namespace ccdt
