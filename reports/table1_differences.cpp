@@ -12,41 +12,41 @@ const Table1Ratio* ratio(const Table1Model& model, std::string_view id) {
   return found != model.ratios.end() && found->value ? &*found : nullptr;
 }
 
-std::string beside_paper(const Table1Ratio& ratio) {
-  return with_interval(*ratio.value) + (ratio.paper ? ", in the paper " + rounded(*ratio.paper, 4) : "");
+/// "1.21 [1.20, 1.22] times as long as Delaunay (paper: 1.019): ".
+std::string times_delaunay(const Table1Ratio& ratio) {
+  return with_interval(*ratio.value) + " times as long as Delaunay (paper: " + rounded(*ratio.paper, 4) + "): ";
 }
 
-/// What an interval says of the paper's figure, which is known without one.
-std::string words(Claim claim, const char* holds, const char* undecided, const char* fails) {
+/// One of three endings.
+std::string ending(Claim claim, const char* holds, const char* undecided, const char* fails) {
   return claim == Claim::holds ? holds : claim == Claim::fails ? fails : undecided;
 }
 
 std::string check_sentence(const Table1Model& model, const Table1Ratio& check) {
-  return model.name + ": with the check the CDT costs " + beside_paper(check) + ", times Delaunay: " +
-         words(is_at_most(*check.value, *check.paper), "not more than there.",
-               "not to be told from there by these runs.", "more than there.");
+  return model.name + ": with the check, the CDT takes " + times_delaunay(check) +
+         ending(is_at_most(*check.value, *check.paper), "not more than there.", "these runs cannot tell it from there.",
+                "more than there.");
 }
 
 std::string front_sentence(const Table1Model& model, const Table1Ratio& front) {
-  return model.name + ": without it " + beside_paper(front) +
-         ", times Delaunay: " + words(is_at_least(*front.value, least_gain), "at least ", "not surely ", "less than ") +
+  return model.name + ": without the check, it takes " + times_delaunay(front) +
+         ending(is_at_least(*front.value, least_gain), "at least ", "not surely ", "less than ") +
          rounded(least_gain, 1) + ".";
 }
 
 std::string check_reason(const Table1Model& model) {
   const Table1Costs& costs = *model.costs;
-  return model.name + ": the check is one pass over faces and cells, and labelling another; both together take " +
-         rounded(costs.check_per_vertex, 3) +
-         " microseconds a vertex. They are linear as in the paper, but weigh as much as they do because they are "
-         "compared with a Delaunay stage of " +
-         rounded(costs.delaunay_per_vertex, 3) +
-         " microseconds a vertex. (The paper's took 26 to 36 s; of how many vertices it does not say.)";
+  return model.name + ": the check is one pass over the cells, labelling another; together they take " +
+         rounded(costs.check_per_vertex) +
+         " microseconds a vertex. That is linear, but the Delaunay stage that it is compared with takes only " +
+         rounded(costs.delaunay_per_vertex) +
+         " microseconds a vertex. (The paper's Delaunay took 26 to 36 s; it does not say for how many vertices.)";
 }
 
 std::string front_reason(const Table1Model& model) {
-  const Table1Costs& costs = *model.costs;
-  return model.name + ": without the check the front finds each apex in " + rounded(costs.front_per_tetrahedron, 3) +
-         " microseconds a tetrahedron, which is what is left to be gained.";
+  return model.name + ": without the check, the front finds each apex in " +
+         rounded(model.costs->front_per_tetrahedron) +
+         " microseconds a tetrahedron; the cheaper that is, the less there is for the check to save.";
 }
 
 void add_model(const Table1Model& model, std::vector<std::string>& lines) {

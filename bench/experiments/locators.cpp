@@ -35,8 +35,9 @@ Group group_of(const ExperimentOptions& options, const SurfaceFile& surface, Sur
   const std::string check = face_protection ? "on" : "off";
   for (const LocatorKind locator : all_locators) {
     const std::string name(name_of(locator));
-    const std::string stem = "locators-" + std::to_string(number) + "-" +
-                             std::filesystem::path(surface.name).stem().string() + "-" + check + "-" + name;
+    std::string stem = "locators-" + std::to_string(number);
+    for (const std::string& part : {std::filesystem::path(surface.name).stem().string(), check, name})
+      stem += "-" + part;
     std::vector<std::string> words = {"--locator", name, "--face-protection", check};
     if (kind == SurfaceKind::uniform) words.insert(words.end(), {"--grading", "0"});
     group.cases.push_back({name, stem, {"ccdt", surface.file, options.folder / "meshes" / "locators.vtu", words}});
@@ -108,9 +109,9 @@ std::vector<std::string> locators_definitions() {
   return {
       "Seconds of the front alone; the locators' structures are built within it.",
       "Check off: every face goes through the front. Check on: only the faces that are not Delaunay do.",
-      "Uniform: the paper's models with interior vertices at the density of the surface. Graded: a cube whose faces "
-      "have squares that shrink towards a corner. Rough: a sphere with uneven radii, so that some faces are not "
-      "Delaunay.",
+      "Uniform: the paper's models with interior vertices at the density of the surface.",
+      "Graded: a cube with squares on its faces that shrink towards a corner.",
+      "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
       "Edge ratio: the longest edge of the surface over the shortest.",
       "Ratios are of medians. A claim holds if the whole interval is on its side of 1.",
   };

@@ -56,7 +56,8 @@ TEST(GradedCube, EdgesShrinkTowardsTheOrigin) {
   for (const EdgeUse& edge : edges_of(input.triangles)) {
     const Point3 &a = input.vertices[edge.ends[0]], &b = input.vertices[edge.ends[1]];
     const double far = std::max({a.x, a.y, a.z, b.x, b.y, b.z}), length = std::sqrt(squared_length(b - a));
-    EXPECT_LE(length, 0.6 * far + 1e-9);  // four squares along a block, of which the nearest is one block off
+    // A block has four squares along its side and is its side away from the origin; the last one is at the origin.
+    EXPECT_LE(length, std::sqrt(2) * std::max(far, 1.0 / 256) / 4);
   }
 }
 
