@@ -137,13 +137,13 @@ std::vector<std::string> fig8_definitions() {
   return {
       "Models at uniform density: the lattice has the edge length of the surface everywhere (--grading 0).",
       "Seconds of the CDT: the stages delaunay, face_check, front and label of a run.",
-      "With check: Delaunay by insertion; wrap: Delaunay face by face in a uniform grid, as in the paper; without "
-      "check: Delaunay by insertion, and every face goes through the front.",
+      "With check: Delaunay by insertion. Wrap: Delaunay face by face in a uniform grid, as in the paper.",
+      "Without check: Delaunay by insertion, and every face goes through the front.",
+      "What is not named here is done as by default; the records of the runs have all options.",
       "Wrap's Delaunay stage does not hold the tetrahedralization of the input alone, which edge protection needs.",
-      "Exponent: slope of the logarithm of the median seconds over that of the vertices, with the 95% interval of "
-      "Student's t; 1 is linear.",
-      "Slope: of the straight line through the median seconds over the vertices; R2 is what it explains of the "
-      "variance.",
+      "Exponent: slope of the logarithms of median seconds over those of vertices; 1 is linear.",
+      "Slope: of the straight line through the median seconds over the vertices; R2: its share of the variance.",
+      "Intervals of both are Student's t for 95% confidence.",
       "A size at which a CDT takes more than 30 s has at most three counted runs.",
   };
 }

@@ -105,14 +105,16 @@ std::string_view name_of(InteriorRule rule) {
 std::vector<std::string> interior_points_definitions() {
   return {
       "The paper, section 3: \"Insertion of interior points does not affect CDT existence.\" It gives no proof.",
-      "Existence rests on edge protection: each grazeable edge is a chain of Delaunay edges. An interior point does "
-      "harm if with it a protected edge would be Delaunay no more; such a point is dropped.",
-      "Rule paper: no point in the smallest sphere of a face or subsegment, nor nearer to the surface than 0.55 edge "
-      "lengths. No spheres: the distance alone (--sphere-factor 0). No distances: neither (--clearance 0.01 as well).",
+      "Existence rests on edge protection: each grazeable edge is a chain of Delaunay edges.",
+      "A point does harm, and is dropped, if with it a protected edge would be Delaunay no more.",
+      "Rule paper: no point in the smallest sphere of a face or subsegment, nor near to the surface.",
+      "Near: within 0.55 edge lengths.",
+      "Rule no spheres: the distance alone (--sphere-factor 0).",
+      "Rule no distances: neither (--sphere-factor 0 --clearance 0.01).",
       "A case is one input at one density, with one lattice and one rule.",
-      "The smallest counterexample that we know has five vertices: a tetrahedron with a dent and one point below it, "
-      "after which there are tetrahedralizations, but no constrained Delaunay one (engine/tests/"
-      "interior_points_test.cpp).",
+      "The smallest counterexample we know is a tetrahedron with a dent, five vertices, and one point below the dent.",
+      "With that point it has tetrahedralizations, but no constrained Delaunay one.",
+      "See engine/tests/interior_points_test.cpp.",
   };
 }
 

@@ -6,12 +6,11 @@ void run_once(const ExperimentOptions& options, MeasuredCase& measured, int numb
   if (measured.failed()) return;
   const auto report = options.folder / "runs" / (measured.stem + "-" + std::to_string(number) + ".json");
   RunRecord record = run_case(options.program, measured.what, report, options.limits);
-  if (number == 0) {
-    measured.first = record;
-  } else if (record.status == RunStatus::ok) {
+  if (number > 0 && record.status == RunStatus::ok) {
     measured.counted.push_back(record);
   } else {
-    measured.first = record;  // it went well before, but a row of fewer samples than the others would not be fair
+    // A failure counts even if it went well before: a row of fewer samples than the others would not be fair.
+    measured.first = record;
   }
 }
 

@@ -187,10 +187,12 @@ Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const
 std::vector<std::string> table1_definitions() {
   return {
       "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
-      "CDT: the stages delaunay, face_check, front and label of a run. Without the check every face goes through the "
-      "front.",
-      "Not in the CDT times: facets, the constrained Delaunay triangulation of each facet, made once before there are "
-      "interior vertices; finish, which gives coordinates their units back and checks the result.",
+      "CDT: the stages delaunay, face_check, front and label of a run.",
+      "Without the check, every face goes through the front.",
+      "Not in the CDT times: facets, the constrained Delaunay triangulation of each facet, made once before the "
+      "lattice;",
+      "and finish, which gives the coordinates their units back and checks the result.",
+      "All strategies but the check are the default ones; the records of the runs have them.",
       "with check / Delaunay is taken within each run; the other ratios are of medians.",
       "CGAL Delaunay, same vertices: all vertices of our mesh.",
       "TetGen CDT, same vertices: switch p, the input with our interior vertices.",
