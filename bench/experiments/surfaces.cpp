@@ -16,7 +16,7 @@ SurfaceFile write_solid(const ExperimentOptions& options, const std::string& exp
   const double scaled = std::clamp(options.scale * edge_length, solid->finest, solid->coarsest);
   std::ostringstream file;
   file << experiment << "-" << name << "-" << scaled << ".poly";
-  const SurfaceFile surface{name, options.folder / "models" / file.str(), scaled};
+  SurfaceFile surface{name, options.folder / "models" / file.str(), scaled};
   write_plc(make_solid(name, scaled), surface.file);
   return surface;
 }
