@@ -23,7 +23,7 @@ void write_text(const std::string& text, const std::filesystem::path& file) {
 template <class Result>
 Result measure_and_report(const std::string& name, const ExperimentOptions& options,
                           Result (*measure)(const ExperimentOptions&, const Progress&)) {
-  const Result result = [&] {
+  Result result = [&] {
     ProgressBar bar;
     return measure(options, bar.progress());
   }();
