@@ -194,9 +194,8 @@ std::vector<std::string> table1_definitions() {
       "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
       "CDT: the stages delaunay, face_check, front and label of a run.",
       "Without the check, every face goes through the front.",
-      "Not in the CDT times: facets, the constrained Delaunay triangulation of each facet, made once before the "
-      "lattice;",
-      "and finish, which gives the coordinates their units back and checks the result.",
+      "Not in the CDT times: facets, the constrained Delaunay triangulation of each facet, once before the lattice.",
+      "Nor in them: finish, which gives the coordinates their units back and checks the result.",
       "Paper's grid: the front finds its vertices with the uniform grid of the paper's section 4 (--locator grid).",
       "All other strategies are the default ones; the records of the runs have them.",
       "with check / Delaunay is taken within each run; the other ratios are of medians.",
