@@ -25,7 +25,8 @@ void refuse_bad_options(const InputPlc& input, const RemeshOptions& options) {
   if (!is_positive)
     throw InputError("the edge length for remeshing is not a positive number", place,
                      "give the edge length that the surface shall have, in the units of the input");
-  if (!(options.sharp_angle > 0 && options.sharp_angle < 180))
+  const bool is_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
+  if (!is_angle)
     throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place, "give one, 30 say");
   if (options.iterations < 1)
     throw InputError("remeshing needs at least one iteration", place, "give a greater number, 8 say");
