@@ -17,7 +17,7 @@ inline constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
 bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
 
 /// Is the middle of an edge between two vertices of a patch, or one and a place for another, within the bound?
-bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& b);
+bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q);
 inline bool is_near_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
   return is_near_surface(m, a, m.point(b));
 }
