@@ -41,7 +41,7 @@ struct MeshOptions {
   double sphere_factor = 1;            ///< see LatticeOptions
   double clearance = usual_clearance;  ///< see LatticeOptions
   BackgroundSizes background = {};     ///< a size function, in the units of the input; with one, the lengths of the
-                                    ///< surface's own edges do not matter
+                                       ///< surface's own edges do not matter
 };
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
