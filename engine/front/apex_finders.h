@@ -12,6 +12,13 @@
 
 namespace ccdt {
 
+/// The numbers of all faces of the PLC.
+inline std::vector<std::uint32_t> all_triangles(const FacetMesh& facets) {
+  std::vector<std::uint32_t> all(facets.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
 /// What the front asks: which vertex makes the tetrahedron above a face. Here with a locator of the whole model, so
 /// that there is but one cavity.
 template <class Locator>
@@ -28,11 +35,7 @@ class WholeModelFinder {
   std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return CavityLocator::no_cavity; }
 
   /// The triangles that the front can meet.
-  std::vector<std::uint32_t> triangles() const {
-    std::vector<std::uint32_t> all(facets_.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-  }
+  std::vector<std::uint32_t> triangles() const { return all_triangles(facets_); }
 
  private:
   const FacetMesh& facets_;
@@ -62,12 +65,7 @@ class CavityFinder {
 
   std::uint32_t cavity_of_triangle(std::uint32_t triangle) const { return locator_.cavity_of_triangle(triangle); }
 
-  std::vector<std::uint32_t> triangles() const {
-    if (!all_faces_) return locator_.triangles();
-    std::vector<std::uint32_t> all(facets_.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-  }
+  std::vector<std::uint32_t> triangles() const { return all_faces_ ? all_triangles(facets_) : locator_.triangles(); }
 
  private:
   std::optional<std::uint32_t> apex_of_cell(std::uint32_t code) const {

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <functional>
-#include <numeric>
 #include <optional>
 
 #include "engine/io/read_plc.h"
