@@ -1,0 +1,42 @@
+#pragma once
+
+namespace ccdt {
+
+/// What improvement may do.
+enum class Improvement {
+  none,
+  swap,    ///< other tetrahedra of the same vertices: edges and faces are removed
+  smooth,  ///< other places for the same vertices
+  all      ///< both, and interior vertices are inserted and taken out where these are stuck
+};
+
+/// What is improved: the worst value of it counts.
+enum class Objective {
+  r,        ///< the paper's measure of shape (section 5); where that is good, the dihedral angles
+  dihedral  ///< the least sine of the dihedral angles, so that small and large ones count alike
+};
+
+/// What becomes of the vertices on the boundary and on interior facets.
+enum class BoundaryRule {
+  keep,  ///< they stay where they are
+  slide  ///< those inside a facet may move in it, those inside a segment along it
+};
+
+struct ImproveOptions {
+  Improvement improvement = Improvement::all;
+  Objective objective = Objective::r;
+  BoundaryRule boundary = BoundaryRule::keep;
+  double target_dihedral = 20;  ///< degrees: no dihedral angle is to be smaller, or larger than 180 less this
+  double target_r = 2;          ///< no tetrahedron is to be worse; with `Objective::r` alone
+  double time = 0;              ///< seconds after which improvement stops; 0: no limit
+};
+
+/// Why improvement came to an end.
+enum class ImproveStop {
+  none,    ///< it was not asked for
+  target,  ///< every tetrahedron is as good as was asked for
+  time,    ///< the time was up
+  stuck    ///< nothing that it can do makes any of the remaining tetrahedra better
+};
+
+}  // namespace ccdt
