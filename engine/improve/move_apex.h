@@ -22,8 +22,9 @@ struct Freedom {
 double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex);
 
 /// Moves the apex of a star to where the worst of its tetrahedra is better: to the mean of the star's vertices where
-/// that makes all good enough, else by steepest ascent on the non-smooth minimum of their worths (Freitag and
-/// Ollivier-Gooch 1997). The new place has integer coordinates, and all tetrahedra are exactly positive there.
+/// that makes all good enough, else by ascent on the non-smooth minimum of their worths (Freitag and Ollivier-Gooch
+/// 1997), in steps that take the values of nearby functions into account as well as their gradients
+/// (proximal_step.h). The new place has integer coordinates, and all tetrahedra are exactly positive there.
 ///
 /// \param faces  in grid units
 /// \param worst  `worst_of_star` at the apex
