@@ -58,7 +58,7 @@ std::optional<Point3> round_move(const Freedom& freedom, const Point3& move) {
     i = std::round((um * vv - vm * uv) / det), j = std::round((vm * uu - um * uv) / det);
   }
   // Beyond, the multiples would not be exact.
-  if (!(std::fabs(i) * largest_of(u) <= 0x1p52 && std::fabs(j) * largest_of(v) <= 0x1p52)) return std::nullopt;
+  if (std::fabs(i) * largest_of(u) > 0x1p52 || std::fabs(j) * largest_of(v) > 0x1p52) return std::nullopt;
   return i * u + j * v;
 }
 

@@ -33,11 +33,11 @@ inline Star star_of(const Delaunay& delaunay, CellStar& cells, std::uint32_t ver
 ///
 /// \param jitter  by how much, in units of the spacing `step` of its cubes
 inline std::vector<Star> jittered_stars(double jitter, std::uint64_t seed, double step = 0x1p40, Point3 centre = {}) {
-  constexpr int side = 8;
+  constexpr int side = 8, middle = 4;
   std::mt19937_64 random(seed);
   const auto noise = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
   std::vector<Point3> points;
-  const auto place = [&](int i) { return std::round(step * (i - side / 2 + jitter * noise())); };
+  const auto place = [&](int i) { return std::round(step * (i - middle + jitter * noise())); };
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
       for (int k = i % 2 == j % 2 ? 0 : 1; k < side; k += 2)

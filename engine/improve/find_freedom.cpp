@@ -1,0 +1,162 @@
+#include "engine/improve/find_freedom.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/numbers/predicates.h"
+
+namespace ccdt {
+namespace {
+
+constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+/// The shortest vector of integer coordinates in the direction from one vertex of the PLC to another.
+Point3 shortest_step(const Point3& from, const Point3& to) {
+  const Point3 difference = to - from;
+  const auto magnitude = [](double x) { return static_cast<std::int64_t>(std::fabs(x)); };
+  const std::int64_t divisor =
+      std::gcd(std::gcd(magnitude(difference.x), magnitude(difference.y)), magnitude(difference.z));
+  const auto part = [&](double x) { return static_cast<double>(static_cast<std::int64_t>(x) / divisor); };
+  return {part(difference.x), part(difference.y), part(difference.z)};
+}
+
+/// Makes the two steps, of the same multiples, short and nearly orthogonal (Lagrange).
+void shorten(Point3& u, Point3& v) {
+  constexpr int most_rounds = 100;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (squared_length(v) < squared_length(u)) std::swap(u, v);
+    const double times = std::round(dot(u, v) / squared_length(u));
+    if (times == 0) return;
+    const Point3 shorter = v - times * u;
+    if (!(squared_length(shorter) < squared_length(v))) return;
+    v = shorter;
+  }
+}
+
+Freedom along_line(const Point3& a, const Point3& b) {
+  return {1, shortest_step(a, b), {}};
+}
+
+Freedom in_plane(const Point3& a, const Point3& b, const Point3& c) {
+  Freedom freedom{2, shortest_step(a, b), shortest_step(a, c)};
+  shorten(freedom.u, freedom.v);
+  return freedom;
+}
+
+/// What is around a vertex of the PLC.
+struct Surroundings {
+  std::uint32_t facet = none, triangle = none;  ///< the first
+  bool several_facets = false;
+  bool flat = true;      ///< all facets are exactly so
+  bool crossed = false;  ///< a facet does not contain all of the first two segments
+  std::uint32_t segment_count = 0;
+  std::array<std::uint32_t, 2> segments = {none, none};  ///< the first two
+};
+
+class FreedomFinder {
+ public:
+  FreedomFinder(const Plc& plc, const SegmentChains& chains)
+      : plc_(plc), chains_(chains), around_(plc.vertices.size()), flat_segment_(plc.segments.size(), true) {
+    look_at_segments();
+    look_at_facets();
+  }
+
+  std::vector<Freedom> find(std::size_t vertices) {
+    std::vector<Freedom> freedom(vertices);
+    for (std::uint32_t v = 0; v < plc_.vertices.size(); ++v) freedom[v] = of_vertex(v);
+    for (std::uint32_t s = 0; s < chains_.size(); ++s) {
+      const Freedom along = flat_segment_[s] ? along_line(end(s, 0), end(s, 1)) : fixed;
+      for (std::size_t i = 1; i + 1 < chains_[s].size(); ++i) freedom[chains_[s][i].vertex] = along;
+    }
+    return freedom;
+  }
+
+ private:
+  static constexpr Freedom fixed{0, {}, {}};
+
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+  }
+  const Point3& point(std::uint32_t v) const { return plc_.vertices[v]; }
+  const Point3& end(std::uint32_t segment, int i) const { return point(plc_.segments[segment].ends[i]); }
+  std::uint32_t other_end(std::uint32_t segment, std::uint32_t v) const {
+    const auto& ends = plc_.segments[segment].ends;
+    return ends[0] == v ? ends[1] : ends[0];
+  }
+
+  void look_at_segments() {
+    segment_of_edge_.reserve(plc_.segments.size());
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
+      segment_of_edge_[key(plc_.segments[s].ends[0], plc_.segments[s].ends[1])] = s;
+      for (const VertexId v : plc_.segments[s].ends) {
+        Surroundings& around = around_[v];
+        if (around.segment_count < 2) around.segments[around.segment_count] = s;
+        ++around.segment_count;
+      }
+    }
+  }
+
+  void look_at_facets() {
+    for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
+      const Facet& facet = plc_.facets[f];
+      for (std::uint32_t t = 0; t < facet.triangles.size(); ++t)
+        for (const VertexId v : facet.triangles[t]) look_at(f, t, v);
+      if (facet.exactly_flat) continue;
+      for (const auto& triangle : facet.triangles) {
+        for (int i = 0; i < 3; ++i) {
+          const auto found = segment_of_edge_.find(key(triangle[i], triangle[(i + 1) % 3]));
+          if (found != segment_of_edge_.end()) flat_segment_[found->second] = false;
+        }
+      }
+    }
+  }
+
+  void look_at(std::uint32_t facet, std::uint32_t triangle, std::uint32_t v) {
+    Surroundings& around = around_[v];
+    around.flat = around.flat && plc_.facets[facet].exactly_flat;
+    if (around.facet == none) {
+      around.facet = facet;
+      around.triangle = triangle;
+    } else if (around.facet != facet) {
+      around.several_facets = true;
+    }
+    if (around.segment_count != 2) return;
+    const auto [a, b, c] = plc_.facets[facet].triangles[triangle];
+    for (const std::uint32_t s : around.segments)
+      if (orient3d(point(a), point(b), point(c), point(other_end(s, v))) != 0) around.crossed = true;
+  }
+
+  Freedom of_vertex(std::uint32_t v) const {
+    const Surroundings& around = around_[v];
+    if (!around.flat) return fixed;
+    if (around.segment_count == 2) return of_junction(v, around);
+    if (around.segment_count > 0 || around.facet == none || around.several_facets) return fixed;
+    const auto [a, b, c] = plc_.facets[around.facet].triangles[around.triangle];
+    return in_plane(point(a), point(b), point(c));
+  }
+
+  /// Two segments that meet in one line and do not overlap are the two sides of their vertex.
+  Freedom of_junction(std::uint32_t v, const Surroundings& around) const {
+    const auto [s, t] = around.segments;
+    if (around.crossed || plc_.segments[s].marker != plc_.segments[t].marker) return fixed;
+    const std::uint32_t before = other_end(s, v), after = other_end(t, v);
+    return collinear(point(before), point(v), point(after)) ? along_line(point(v), point(after)) : fixed;
+  }
+
+  const Plc& plc_;
+  const SegmentChains& chains_;
+  std::vector<Surroundings> around_;
+  std::vector<char> flat_segment_;  // are all facets at the segment exactly flat?
+  std::unordered_map<std::uint64_t, std::uint32_t> segment_of_edge_;
+};
+
+}  // namespace
+
+std::vector<Freedom> find_freedom(const Plc& plc, const SegmentChains& chains, std::size_t vertices) {
+  return FreedomFinder(plc, chains).find(vertices);
+}
+
+}  // namespace ccdt

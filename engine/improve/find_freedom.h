@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/improve/move_apex.h"
+#include "engine/plc/plc.h"
+#include "engine/protection/segment_chains.h"
+
+namespace ccdt {
+
+/// Where the vertices of a mesh may go without a change of any facet or segment (`BoundaryRule::slide`):
+///
+/// - a vertex of the PLC inside one facet, in its plane;
+/// - a vertex inside a segment along it: a Steiner vertex, or a vertex of the PLC where two segments of one marker meet
+///   straight and all facets there contain both;
+/// - interior vertices, anywhere;
+/// - all others, nowhere: corners, isolated vertices, and vertices on facets that are flat only within the tolerance.
+///
+/// What is straight or flat is decided exactly. Vertices of the PLC are multiples of the quantum, so that the quotients
+/// by `DyadicGrid::quantum` of the differences between them have integer coordinates: such are the steps.
+///
+/// \param vertices  how many vertices the mesh has: those of the PLC, Steiner vertices, then interior vertices
+std::vector<Freedom> find_freedom(const Plc& plc, const SegmentChains& chains, std::size_t vertices);
+
+}  // namespace ccdt
