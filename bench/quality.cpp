@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "bench/statistics.h"
 
@@ -14,8 +15,12 @@ namespace {
 constexpr double regular_factor = 8.485281374238570;  ///< 6 sqrt(2): makes the regular tetrahedron's r equal to 1
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Steps of r that grow, as nearly all tetrahedra are near 1 and the bad ones are spread over decades.
+/// Steps of r and of the aspect ratio that grow, as nearly all tetrahedra are near 1 and the bad ones are spread over
+/// decades.
 const std::vector<double> r_edges = {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2, 2.5, 3, 4, 5, 10, 100, 1000};
+
+/// From the regular tetrahedron's, below which there is none; with TetGen's usual bounds 1.2, 1.414 and 2.
+const std::vector<double> radius_edge_edges = {0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1, 1.2, 1.414, 2, 3, 5, 10, 100, 1000};
 
 constexpr double dihedral_step = 5;
 
@@ -40,14 +45,44 @@ std::vector<double> dihedral_edges() {
   return edges;
 }
 
-void summarize(std::span<const double> r, Quality::Shape& shape) {
-  shape.min = quantile(r, 0);
-  shape.median = median(r);
-  shape.p99 = quantile(r, 0.99);
-  shape.max = quantile(r, 1);
+Quality::Measure measure_of(std::span<const double> values, const std::vector<double>& edges) {
+  Quality::Measure measure;
+  measure.histogram = empty_histogram(edges);
+  if (values.empty()) return measure;
   double sum = 0;
-  for (const double value : r) sum += value;
-  shape.mean = sum / static_cast<double>(r.size());
+  for (const double value : values) {
+    sum += value;
+    count(measure.histogram, value);
+  }
+  measure.min = quantile(values, 0);
+  measure.mean = sum / static_cast<double>(values.size());
+  measure.median = median(values);
+  measure.p99 = quantile(values, 0.99);
+  measure.max = quantile(values, 1);
+  return measure;
+}
+
+void add_dihedral_angles(const std::array<Point3, 4>& tetrahedron, Quality::Dihedral& dihedral) {
+  for (const double angle : dihedral_angles(tetrahedron)) {
+    dihedral.min = std::min(dihedral.min, angle);
+    dihedral.max = std::max(dihedral.max, angle);
+    count(dihedral.histogram, angle);
+  }
+}
+
+double length(const Point3& p) {
+  return std::sqrt(squared_length(p));
+}
+
+/// The squared lengths of the shortest and of the longest edge.
+std::pair<double, double> squared_edges(const std::array<Point3, 4>& t) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      shortest = std::min(shortest, squared_length(t[j] - t[i]));
+      longest = std::max(longest, squared_length(t[j] - t[i]));
+    }
+  return {shortest, longest};
 }
 
 }  // namespace
@@ -74,28 +109,44 @@ std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& t) {
   return angles;
 }
 
-Quality measure_quality(const TetMesh& mesh) {
-  Quality quality;
-  quality.r.histogram = empty_histogram(r_edges);
-  quality.dihedral_degrees.histogram = empty_histogram(dihedral_edges());
-  if (mesh.tetrahedra.empty()) return quality;
+double aspect_ratio(const std::array<Point3, 4>& t) {
+  double twice_area = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Point3 &a = t[(i + 1) % 4], &b = t[(i + 2) % 4], &c = t[(i + 3) % 4];
+    twice_area += length(cross(b - a, c - a));
+  }
+  const double inradius = 6 * std::abs(volume(t)) / twice_area;
+  return inradius > 0 ? std::sqrt(squared_edges(t).second / 24) / inradius : std::numeric_limits<double>::infinity();
+}
 
-  std::vector<double> r;
-  r.reserve(mesh.tetrahedra.size());
-  quality.dihedral_degrees.min = 180;
+double radius_edge_ratio(const std::array<Point3, 4>& t) {
+  const Point3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0];
+  const double v = std::abs(volume(t));
+  if (!(v > 0)) return std::numeric_limits<double>::infinity();
+  // From t[0] to the centre: (|a|^2 b x c + |b|^2 c x a + |c|^2 a x b) / (12 V).
+  const Point3 sum =
+      squared_length(a) * cross(b, c) + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b);
+  return length(sum) / (12 * v) / std::sqrt(squared_edges(t).first);
+}
+
+Quality measure_quality(const TetMesh& mesh) {
+  std::vector<double> r, aspect, radius_edge;
+  for (auto* values : {&r, &aspect, &radius_edge}) values->reserve(mesh.tetrahedra.size());
+  Quality quality;
+  quality.dihedral_degrees.histogram = empty_histogram(dihedral_edges());
+  if (!mesh.tetrahedra.empty()) quality.dihedral_degrees.min = 180;
   for (const auto& corners : mesh.tetrahedra) {
     std::array<Point3, 4> t;
     for (std::size_t i = 0; i < 4; ++i) t[i] = mesh.vertices[corners[i]];
     quality.volume += volume(t);
     r.push_back(shape_measure(t));
-    count(quality.r.histogram, r.back());
-    for (const double angle : dihedral_angles(t)) {
-      quality.dihedral_degrees.min = std::min(quality.dihedral_degrees.min, angle);
-      quality.dihedral_degrees.max = std::max(quality.dihedral_degrees.max, angle);
-      count(quality.dihedral_degrees.histogram, angle);
-    }
+    aspect.push_back(aspect_ratio(t));
+    radius_edge.push_back(radius_edge_ratio(t));
+    add_dihedral_angles(t, quality.dihedral_degrees);
   }
-  summarize(r, quality.r);
+  quality.r = measure_of(r, r_edges);
+  quality.aspect_ratio = measure_of(aspect, r_edges);
+  quality.radius_edge_ratio = measure_of(radius_edge, radius_edge_edges);
   return quality;
 }
 

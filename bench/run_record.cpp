@@ -1,10 +1,10 @@
 #include "bench/run_record.h"
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bench/json_parts.h"
+#include "bench/quality_json.h"
 #include "engine/base/errors.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/output_file.h"
@@ -47,33 +47,10 @@ Json seconds_json(const RunRecord& r) {
           {"mesh", s.mesh}};
 }
 
-Json histogram_json(const Histogram& h) {
-  return {{"edges", h.edges}, {"counts", h.counts}};
-}
-
-Json quality_json(const Quality& q) {
-  return {{"r",
-           {{"min", q.r.min},
-            {"mean", q.r.mean},
-            {"median", q.r.median},
-            {"p99", q.r.p99},
-            {"max", q.r.max},
-            {"histogram", histogram_json(q.r.histogram)}}},
-          {"dihedral_degrees",
-           {{"min", q.dihedral_degrees.min},
-            {"max", q.dihedral_degrees.max},
-            {"histogram", histogram_json(q.dihedral_degrees.histogram)}}}};
-}
-
-/// JSON has no infinity; what was infinite (r of a flat tetrahedron) is null there.
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
-}
-
 RunRecord::Option option_from(const Json& value) {
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_string()) return value.get<std::string>();
-  return number(value);
+  return number_from_json(value);
 }
 
 Environment environment_from(const Json& j) {
@@ -123,21 +100,6 @@ void seconds_from(const Json& j, RunRecord& r) {
   s.mesh = j.at("mesh");
 }
 
-Histogram histogram_from(const Json& j) {
-  return {j.at("edges"), j.at("counts")};
-}
-
-Quality quality_from(const Json& j, double volume) {
-  Quality q;
-  const Json& r = j.at("r");
-  q.r = {number(r.at("min")), number(r.at("mean")), number(r.at("median")),
-         number(r.at("p99")), number(r.at("max")),  histogram_from(r.at("histogram"))};
-  const Json& d = j.at("dihedral_degrees");
-  q.dihedral_degrees = {number(d.at("min")), number(d.at("max")), histogram_from(d.at("histogram"))};
-  q.volume = volume;
-  return q;
-}
-
 RunRecord record_from(const Json& j) {
   RunRecord r;
   const Json &mesher = j.at("mesher"), &input = j.at("input");
@@ -154,7 +116,8 @@ RunRecord record_from(const Json& j) {
   r.counts = counts_from(j.at("counts"));
   seconds_from(j.at("seconds"), r);
   r.peak_rss_bytes = j.at("peak_rss_bytes");
-  r.quality = quality_from(j.at("quality"), j.at("volume"));
+  r.quality = quality_from_json(j.at("quality"));
+  r.quality.volume = j.at("volume");
   r.largest_rounding = j.at("largest_rounding");
   r.status = run_status(j.at("status").get<std::string>());
   r.reason = j.value("reason", "");

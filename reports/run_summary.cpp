@@ -36,19 +36,27 @@ std::string protection(const MeshCounts& c) {
   return text.empty() ? "" : "protection  " + text + "\n";
 }
 
+std::string measure_words(const Quality::Measure& m) {
+  return "mean " + rounded(m.mean) + ", 99% below " + rounded(m.p99) + ", worst " + rounded(m.max);
+}
+
+std::string quality_lines(const Quality& q) {
+  return "quality     r: " + measure_words(q.r) + "; dihedral angles " + rounded(q.dihedral_degrees.min) + " to " +
+         rounded(q.dihedral_degrees.max) + " degrees\n            aspect ratio: " + measure_words(q.aspect_ratio) +
+         "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
+}
+
 }  // namespace
 
 std::string summarize(const RunRecord& r) {
   const MeshCounts& c = r.counts;
-  const Quality& q = r.quality;
   std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
   text += protection(c);
-  text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(q.volume, 6) + "\n";
+  text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
   text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
           mebibytes(r.peak_rss_bytes) + "\n";
-  text += "quality     r: median " + rounded(q.r.median) + ", worst " + rounded(q.r.max) + "; dihedral angles " +
-          rounded(q.dihedral_degrees.min) + " to " + rounded(q.dihedral_degrees.max) + " degrees\n";
+  text += quality_lines(r.quality);
   for (const std::string& note : r.notes) text += "note        " + note + "\n";
   return text;
 }

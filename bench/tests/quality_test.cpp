@@ -32,13 +32,33 @@ TEST(Quality, CornerOfACubeHasThePapersMeasure) {
 }
 
 TEST(Quality, FlatTetrahedronIsInfinitelyBad) {
-  EXPECT_TRUE(std::isinf(shape_measure({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}})));
+  for (const auto measure : {shape_measure, aspect_ratio, radius_edge_ratio})
+    EXPECT_TRUE(std::isinf(measure({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}})));
+}
+
+TEST(Quality, AspectRatioIsThatOfVtk) {
+  EXPECT_NEAR(aspect_ratio(regular), 1, 1e-14);
+  // Longest edge sqrt(2); the inscribed sphere's radius is 3 V / area = 1 / (3 + sqrt(3)).
+  EXPECT_NEAR(aspect_ratio(corner), std::sqrt(2.0) * (3 + std::sqrt(3.0)) / (2 * std::sqrt(6.0)), 1e-14);
+}
+
+TEST(Quality, RadiusEdgeRatioIsThatOfTetGen) {
+  EXPECT_NEAR(radius_edge_ratio(regular), std::sqrt(6.0) / 4, 1e-14);
+  EXPECT_NEAR(radius_edge_ratio(corner), std::sqrt(3.0) / 2, 1e-14);  // of the cube around it
+}
+
+TEST(Quality, RadiusEdgeRatioDoesNotSeeASliverButTheOthersDo) {
+  const std::array<Point3, 4> sliver = {{{1, 0, 1e-3}, {-1, 0, 1e-3}, {0, 1, -1e-3}, {0, -1, -1e-3}}};
+  EXPECT_LT(radius_edge_ratio(sliver), 0.8);
+  EXPECT_GT(aspect_ratio(sliver), 100);
+  EXPECT_GT(shape_measure(sliver), 100);
 }
 
 TEST(Quality, SizeAndPlaceDoNotMatter) {
   std::array<Point3, 4> moved = corner;
   for (Point3& p : moved) p = 1e-3 * p + Point3{5, 6, 7};
-  EXPECT_NEAR(shape_measure(moved), shape_measure(corner), 1e-9);
+  for (const auto measure : {shape_measure, aspect_ratio, radius_edge_ratio})
+    EXPECT_NEAR(measure(moved), measure(corner), 1e-9);
 }
 
 TEST(Quality, HistogramsCountEveryTetrahedronAndEveryAngle) {
@@ -47,7 +67,8 @@ TEST(Quality, HistogramsCountEveryTetrahedronAndEveryAngle) {
   mesh.tetrahedra.push_back({4, 5, 6, 7});
   const Quality quality = measure_quality(mesh);
   const auto sum = [](const Histogram& h) { return std::accumulate(h.counts.begin(), h.counts.end(), 0ull); };
-  EXPECT_EQ(sum(quality.r.histogram), 2u);
+  for (const Quality::Measure& measure : {quality.r, quality.aspect_ratio, quality.radius_edge_ratio})
+    EXPECT_EQ(sum(measure.histogram), 2u);
   EXPECT_EQ(sum(quality.dihedral_degrees.histogram), 12u);
   EXPECT_EQ(quality.r.histogram.edges.size(), quality.r.histogram.counts.size() + 1);
   EXPECT_EQ(quality.dihedral_degrees.histogram.counts[14], 6u);  // 70 to 75 degrees: the regular one's
@@ -57,6 +78,8 @@ TEST(Quality, OfAMeshSummarizesItsTetrahedra) {
   const Quality quality = measure_quality(mesh_of(corner));
   EXPECT_EQ(quality.r.min, quality.r.max);
   EXPECT_NEAR(quality.r.mean, shape_measure(corner), 1e-15);
+  EXPECT_EQ(quality.aspect_ratio.max, aspect_ratio(corner));
+  EXPECT_EQ(quality.radius_edge_ratio.median, radius_edge_ratio(corner));
   EXPECT_NEAR(quality.dihedral_degrees.max, 90, 1e-12);
   EXPECT_NEAR(quality.volume, 1.0 / 6, 1e-15);
 }

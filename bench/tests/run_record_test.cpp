@@ -29,6 +29,8 @@ RunRecord example() {
   record.peak_rss_bytes = 1 << 20;
   record.quality.r = {1, 1.5, 1.25, 3, std::numeric_limits<double>::infinity(), {{1, 2, 3}, {29, 1}}};
   record.quality.dihedral_degrees = {10, 170, {{0, 90, 180}, {100, 80}}};
+  record.quality.aspect_ratio = {1, 1.75, 1.5, 4, std::numeric_limits<double>::infinity(), {{1, 2}, {30}}};
+  record.quality.radius_edge_ratio = {0.625, 0.75, 0.7, 1.25, 2, {{0.5, 2}, {30}}};
   record.quality.volume = 1.0 / 3;
   record.largest_rounding = 1e-10;
   record.notes = {"a note"};
@@ -85,6 +87,10 @@ TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
                               "/quality/dihedral_degrees/max",
                               "/quality/dihedral_degrees/histogram/edges",
                               "/quality/dihedral_degrees/histogram/counts",
+                              "/quality/aspect_ratio/p99",
+                              "/quality/aspect_ratio/histogram/edges",
+                              "/quality/radius_edge_ratio/max",
+                              "/quality/radius_edge_ratio/histogram/counts",
                               "/volume",
                               "/status"})
     EXPECT_TRUE(json.contains(Json::json_pointer(pointer))) << pointer;
@@ -110,6 +116,13 @@ TEST(RunRecord, OfOlderProgramsMayLackTheCountsOfSplits) {
   json["counts"].erase("splits_by_level");
   json["counts"].erase("dropped_interior_vertices");
   EXPECT_TRUE(run_record_from_json(json.dump()).counts.splits_by_level.empty());
+}
+
+TEST(RunRecord, OfOlderProgramsMayLackTheRatiosOfOtherTools) {
+  Json json = Json::parse(to_json(example()));
+  json["quality"].erase("aspect_ratio");
+  json["quality"].erase("radius_edge_ratio");
+  EXPECT_EQ(run_record_from_json(json.dump()).quality.aspect_ratio.max, 0);
 }
 
 TEST(RunRecord, OfAFailureKeepsStatusAndReason) {
