@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "baselines/mesher.h"
 
 namespace ccdt {
@@ -15,5 +17,10 @@ Mesher cgal_mesh3_mesher();
 /// CGAL Delaunay_triangulation_3 of the input's vertices: fills their convex hull and knows no facets. It is the lower
 /// bound of what any Delaunay-based mesher costs.
 Mesher cgal_delaunay_mesher();
+
+/// Gmsh's HXT (Marot and Remacle 2020), run as an external program: `gmsh` on PATH, or what the environment variable
+/// CCDT_GMSH says. None where there is no such program. It keeps the surface's triangles and fills the inside with
+/// tetrahedra of the edge length asked for, or of those of the surface.
+std::optional<Mesher> gmsh_hxt_mesher();
 
 }  // namespace ccdt

@@ -19,8 +19,8 @@ struct MesherRun {
 
 /// One way to make a tetrahedral mesh: our engine or somebody else's program, behind one function.
 struct Mesher {
-  std::string name;     ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay
-  std::string version;  ///< of the library
+  std::string name;     ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay, gmsh-hxt
+  std::string version;  ///< of the library; of an external program the settings of a run say it
   std::string what;     ///< one line for people
   std::string licence;
   MesherRun (*run)(const InputPlc&, const MeshOptions&, const Progress&);  ///< throws as `mesh_plc`

@@ -22,6 +22,7 @@ std::vector<Mesher> meshers_of_this_build() {
   all.push_back(cgal_mesh3_mesher());
   all.push_back(cgal_delaunay_mesher());
 #endif
+  if (auto gmsh = gmsh_hxt_mesher()) all.push_back(*std::move(gmsh));
   return all;
 }
 

@@ -14,8 +14,9 @@
 namespace ccdt {
 namespace {
 
-/// Radius-edge ratio of the examples in TetGen's manual for meshes of good quality.
-constexpr const char* quality_switch = "q1.414";
+/// Radius-edge ratio of the examples in TetGen's manual for meshes of good quality, and smallest dihedral angle in
+/// degrees: ten keeps slivers out, and of larger angles the manual says that they need not be reached.
+constexpr const char* quality_switch = "q1.414/10";
 
 /// The largest tetrahedron of a refined mesh has about twice the volume of the average one.
 constexpr double largest_to_average = 2;

@@ -60,7 +60,7 @@ TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
   EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
-  EXPECT_EQ(made.settings.at(0).second.substr(0, 9), "pYq1.414a");
+  EXPECT_EQ(made.settings.at(0).second.substr(0, 12), "pYq1.414/10a");
   EXPECT_GE(static_cast<double>(made.result.counts.tetrahedra), 3 * std::sqrt(2.0) / (0.2 * 0.2 * 0.2));
 }
 
@@ -132,6 +132,58 @@ TEST(CgalMesh3, GivesEachRegionItsAttribute) {
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-6);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
+}
+
+TEST(GmshHxt, FillsACubeWithAHoleAndKeepsItsTriangles) {
+  if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
+  const InputPlc plc = shapes::with_repeated_vertices(shapes::cube_with_hole());
+  const MesherRun made = run("gmsh-hxt", plc, {.edge_length = 1});
+  EXPECT_NEAR(volume(made.result.mesh), 26, 1e-9);
+  EXPECT_EQ(made.result.mesh.faces.size(), 24u);
+  EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
+  EXPECT_GT(made.result.counts.interior_vertices, 0u);
+  EXPECT_GT(made.result.seconds.mesh, 0);
+}
+
+TEST(GmshHxt, MakesMoreTetrahedraWhereTheEdgesAreShorter) {
+  if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
+  const InputPlc plc = shapes::cube_with_grid(4);
+  const auto count = [&](double edge_length) {
+    return run("gmsh-hxt", plc, {.edge_length = edge_length}).result.counts.tetrahedra;
+  };
+  EXPECT_GT(count(0.1), 3 * count(0.2));
+  EXPECT_GT(count(0), 100u);  // as the surface has it
+}
+
+TEST(GmshHxt, ReadsCoordinatesBackThatNeedSeventeenDigits) {
+  if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
+  InputPlc plc = shapes::cube();
+  for (Point3& p : plc.vertices) p = (0.1 + 0.2) * p + Point3{0.1, 0.7, 1.0 / 3};
+  EXPECT_EQ(run("gmsh-hxt", plc, bare).result.counts.steiner_vertices, 0u);
+}
+
+TEST(GmshHxt, KeepsRegionsAndMarkers) {
+  if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
+  InputPlc plc = shapes::cube_with_hole();
+  plc.inside = InputPlc::Inside::seeds;
+  plc.triangle_markers.assign(12, 7);
+  plc.triangle_markers.resize(24, 8);
+  plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
+  const MesherRun made = run("gmsh-hxt", plc, {.edge_length = 1});
+  EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
+  EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
+  EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
+  EXPECT_EQ(std::ranges::count(made.result.mesh.face_markers, 7), 12);
+  EXPECT_EQ(std::ranges::count(made.result.mesh.face_markers, 8), 12);
+}
+
+TEST(GmshHxt, RefusesFacetsInsideAVolume) {
+  if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
+  InputPlc plc = shapes::cube();
+  plc.inside = InputPlc::Inside::seeds;
+  plc.vertices.insert(plc.vertices.end(), {{0.3, 0.3, 0.5}, {0.7, 0.3, 0.5}, {0.3, 0.7, 0.5}});
+  plc.triangles.push_back({8, 9, 10});
+  EXPECT_THROW(run("gmsh-hxt", plc, {}), MeshError);
 }
 
 }  // namespace

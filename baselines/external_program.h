@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ccdt {
+
+/// Where a program of somebody else's is: what the environment variable says, else the first of that name on PATH.
+/// None if that is no file that can be run.
+std::optional<std::filesystem::path> find_program(const std::string& name, const char* environment_variable);
+
+/// Runs a program to its end. It gets no input; all that it prints goes to the log.
+/// \return  its exit code; 128 and the number of the signal that ended it, as shells have it
+/// \throw std::system_error  it cannot be started
+int run_program(const std::vector<std::string>& command, const std::filesystem::path& log);
+
+/// A folder of this object's own among the system's temporary files; removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace ccdt
