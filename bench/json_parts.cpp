@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/run_record.h"
+
 namespace ccdt {
 
 Json environment_json(const Environment& e) {
@@ -16,6 +18,22 @@ Json environment_json(const Environment& e) {
           {"libraries", e.libraries}};
 }
 
+namespace {
+
+Json improve_json(const ImproveCounts& c) {
+  return {{"bad_cells", c.bad_cells},
+          {"bad_cells_left", c.bad_cells_left},
+          {"removed_edges", c.removed_edges},
+          {"facet_flips", c.facet_flips},
+          {"removed_faces", c.removed_faces},
+          {"moved_vertices", c.moved_vertices},
+          {"inserted_vertices", c.inserted_vertices},
+          {"collapsed_edges", c.collapsed_edges},
+          {"stop", name_of(c.stop)}};
+}
+
+}  // namespace
+
 Json counts_json(const MeshCounts& c) {
   return {{"vertices", c.vertices},
           {"steiner_vertices", c.steiner_vertices},
@@ -26,7 +44,8 @@ Json counts_json(const MeshCounts& c) {
           {"front_tetrahedra", c.front_tetrahedra},
           {"splits_by_level", c.splits_by_level},
           {"dropped_interior_vertices", c.dropped_interior_vertices},
-          {"front_faces", c.front_faces}};
+          {"front_faces", c.front_faces},
+          {"improve", improve_json(c.improve)}};
 }
 
 std::string to_text(const Json& json) {

@@ -67,6 +67,26 @@ Environment environment_from(const Json& j) {
   return e;
 }
 
+ImproveStop improve_stop(const std::string& name) {
+  for (const ImproveStop stop : {ImproveStop::target, ImproveStop::time, ImproveStop::stuck})
+    if (name == name_of(stop)) return stop;
+  return ImproveStop::none;
+}
+
+ImproveCounts improve_counts_from(const Json& j) {
+  ImproveCounts c;
+  c.bad_cells = j.at("bad_cells");
+  c.bad_cells_left = j.at("bad_cells_left");
+  c.removed_edges = j.at("removed_edges");
+  c.facet_flips = j.at("facet_flips");
+  c.removed_faces = j.at("removed_faces");
+  c.moved_vertices = j.at("moved_vertices");
+  c.inserted_vertices = j.at("inserted_vertices");
+  c.collapsed_edges = j.at("collapsed_edges");
+  c.stop = improve_stop(j.at("stop"));
+  return c;
+}
+
 MeshCounts counts_from(const Json& j) {
   MeshCounts c;
   c.vertices = j.at("vertices");
@@ -79,6 +99,7 @@ MeshCounts counts_from(const Json& j) {
   c.splits_by_level = j.value("splits_by_level", c.splits_by_level);
   c.dropped_interior_vertices = j.value("dropped_interior_vertices", c.dropped_interior_vertices);
   c.front_faces = j.value("front_faces", c.front_faces);
+  if (j.contains("improve")) c.improve = improve_counts_from(j.at("improve"));
   return c;
 }
 
@@ -172,6 +193,42 @@ std::string_view name_of(DelaunayMethod method) {
   return method == DelaunayMethod::insert ? "insert" : "wrap";
 }
 
+std::string_view name_of(Improvement improvement) {
+  switch (improvement) {
+    case Improvement::none:
+      return "none";
+    case Improvement::swap:
+      return "swap";
+    case Improvement::smooth:
+      return "smooth";
+    case Improvement::all:
+      return "all";
+  }
+  return {};
+}
+
+std::string_view name_of(Objective objective) {
+  return objective == Objective::r ? "r" : "dihedral";
+}
+
+std::string_view name_of(BoundaryRule rule) {
+  return rule == BoundaryRule::keep ? "keep" : "slide";
+}
+
+std::string_view name_of(ImproveStop stop) {
+  switch (stop) {
+    case ImproveStop::none:
+      return "none";
+    case ImproveStop::target:
+      return "target";
+    case ImproveStop::time:
+      return "time";
+    case ImproveStop::stuck:
+      return "stuck";
+  }
+  return {};
+}
+
 RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
   RunRecord record;
   record.environment = capture_environment();
@@ -185,7 +242,12 @@ RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOp
                     {"locator", std::string(name_of(options.locator))},
                     {"delaunay", std::string(name_of(options.delaunay))},
                     {"protection", std::string(name_of(options.protection))},
-                    {"improve", "none"},
+                    {"improve", std::string(name_of(options.improve.improvement))},
+                    {"objective", std::string(name_of(options.improve.objective))},
+                    {"target_r", options.improve.target_r},
+                    {"target_dihedral", options.improve.target_dihedral},
+                    {"boundary", std::string(name_of(options.improve.boundary))},
+                    {"improve_time", options.improve.time},
                     {"surface", "keep"},
                     {"edge_length", options.edge_length},
                     {"grading", options.grading},

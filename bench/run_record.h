@@ -52,6 +52,10 @@ std::string_view name_of(Lattice lattice);
 std::string_view name_of(Protection protection);
 std::string_view name_of(LocatorKind locator);
 std::string_view name_of(DelaunayMethod method);
+std::string_view name_of(Improvement improvement);
+std::string_view name_of(Objective objective);
+std::string_view name_of(BoundaryRule rule);
+std::string_view name_of(ImproveStop stop);
 
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);

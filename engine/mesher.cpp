@@ -8,9 +8,11 @@
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/face_check.h"
+#include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
+#include "engine/mesh/to_world.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/insert_interior.h"
 #include "engine/protection/protect_edges.h"
@@ -58,11 +60,15 @@ BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid
   return background;
 }
 
+std::vector<Point3> points_of(const Delaunay& delaunay) {
+  std::vector<Point3> points;
+  points.reserve(delaunay.vertices.size());
+  for (const DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
+  return points;
+}
+
 /// The faces and subsegments that the lattice keeps away from.
 std::vector<Point3> lattice_points(const Work& w) {
-  std::vector<Point3> vertices;
-  vertices.reserve(w.delaunay.vertices.size());
-  for (const DelaunayVertex& v : w.delaunay.vertices) vertices.push_back(v.point);
   std::vector<SurfaceTriangle> triangles;
   for (std::size_t i = 0; i < w.facets.triangles.size(); ++i) {
     const Facet& facet = w.plc.facets[w.facets.facet[i]];
@@ -76,7 +82,7 @@ std::vector<Point3> lattice_points(const Work& w) {
   const LatticeOptions options{w.options.lattice,   w.options.edge_length / w.plc.grid.unit,
                                w.options.grading,   w.options.sphere_factor,
                                w.options.clearance, &background};
-  return place_lattice_points(vertices, triangles, subsegments, options, w.progress);
+  return place_lattice_points(points_of(w.delaunay), triangles, subsegments, options, w.progress);
 }
 
 void fill_inside(Work& w) {
@@ -105,6 +111,26 @@ std::vector<std::uint32_t> check_faces(Work& w) {
   return codes;
 }
 
+/// Makes a whole mesh of the tetrahedra, and a good one.
+TetMesh complete(Work& w, TetMesh mesh) {
+  std::vector<std::uint32_t> facet_of_face;
+  {
+    const Stopwatch watch(w.seconds.finish);
+    facet_of_face = finish_mesh(w.plc, w.chains, std::move(w.facets), w.delaunay, mesh);
+  }
+  std::vector<Point3> points = points_of(w.delaunay);
+  if (w.options.improve.improvement != Improvement::none) {
+    const Stopwatch watch(w.seconds.improve);
+    const std::size_t first_interior = points.size() - w.counts.interior_vertices;
+    w.counts.improve = improve_mesh(w.plc, w.chains, std::move(facet_of_face), first_interior, w.options.improve,
+                                    points, mesh, w.progress);
+    w.counts.interior_vertices = points.size() - first_interior;
+  }
+  const Stopwatch watch(w.seconds.finish);
+  mesh.vertices = to_world(w.plc, points, mesh.tetrahedra);
+  return mesh;
+}
+
 TetMesh constrain(Work& w) {
   const std::vector<std::uint32_t> codes = check_faces(w);
   FrontResult front;
@@ -121,9 +147,7 @@ TetMesh constrain(Work& w) {
     const std::vector<ChamberId> chambers = label_cells(w.plc, w.delaunay, front.open, codes);
     mesh = collect_tetrahedra(w.plc, front, chambers, w.delaunay);
   }
-  const Stopwatch watch(w.seconds.finish);
-  finish_mesh(w.plc, w.chains, std::move(w.facets), w.delaunay, mesh);
-  return mesh;
+  return complete(w, std::move(mesh));
 }
 
 TetMesh mesh_with(Work& w) {

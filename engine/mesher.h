@@ -3,6 +3,8 @@
 #include <cstdint>
 
 #include "engine/base/progress.h"
+#include "engine/improve/improve_counts.h"
+#include "engine/improve/improve_options.h"
 #include "engine/lattice/background_sizes.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
@@ -40,6 +42,7 @@ struct MeshOptions {
   double flatness = 1e-8;              ///< see PlcOptions
   double sphere_factor = 1;            ///< see LatticeOptions
   double clearance = usual_clearance;  ///< see LatticeOptions
+  ImproveOptions improve = {};         ///< of the finished mesh
   BackgroundSizes background = {};     ///< a size function, in the units of the input; with one, the lengths of the
                                        ///< surface's own edges do not matter
 };
@@ -54,7 +57,7 @@ struct StageSeconds {
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh
   std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
-  std::uint64_t interior_vertices = 0;  ///< lattice points
+  std::uint64_t interior_vertices = 0;  ///< lattice points, and what improvement made of them
   std::uint64_t tetrahedra = 0;
   std::uint64_t faces = 0;             ///< triangles on facets
   std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
@@ -63,6 +66,7 @@ struct MeshCounts {
   std::vector<std::uint64_t> splits_by_level = {};
   std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
+  ImproveCounts improve = {};
 };
 
 struct MeshResult {

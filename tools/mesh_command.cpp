@@ -27,7 +27,6 @@ struct MeshCommand {
   MeshOptions options;
   bool remesh = false;
   double sharp_angle = RemeshOptions().sharp_angle;
-  std::string only_value;  ///< of options that have a single value so far
   unsigned most_threads = 1;
 };
 
@@ -173,50 +172,71 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "write a report of the run there (JSON, schema ccdt.run/1), also of a failure");
 }
 
+/// An option whose values are names.
+template <class Value>
+void add_choice(CLI::App& verb, const char* name, Value& target,
+                const std::vector<std::pair<std::string, Value>>& values, const char* what, const char* standard) {
+  verb.add_option(name, target, what)
+      ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+      ->default_str(standard);
+}
+
 void add_strategies(CLI::App& verb, MeshCommand& command) {
   std::vector<std::string> names;
   for (const Mesher& m : meshers()) names.push_back(m.name);
   verb.add_option("--mesher", command.mesher, "who meshes")->check(CLI::IsMember(names))->capture_default_str();
 
-  const auto choice = [&](const char* name, auto& target, const auto& values, const char* what, const char* standard) {
-    verb.add_option(name, target, what)
-        ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
-        ->default_str(standard);
-  };
-  choice("--face-protection", command.options.face_protection,
-         std::vector<std::pair<std::string, bool>>{{"on", true}, {"off", false}},
-         "on, off: check first which faces are Delaunay, or send all through the front", "on");
-  choice("--lattice", command.options.lattice,
-         std::vector<std::pair<std::string, Lattice>>{
-             {"fcc", Lattice::fcc}, {"bcc", Lattice::bcc}, {"sc", Lattice::sc}, {"none", Lattice::none}},
-         "fcc, bcc, sc, none: the crystal whose points fill the inside", "fcc");
-  choice(
-      "--protection", command.options.protection,
-      std::vector<std::pair<std::string, Protection>>{{"shell", Protection::shell}, {"midpoint", Protection::midpoint}},
-      "shell, midpoint: where a segment is split", "shell");
+  add_choice<bool>(verb, "--face-protection", command.options.face_protection, {{"on", true}, {"off", false}},
+                   "on, off: check first which faces are Delaunay, or send all through the front", "on");
+  add_choice<Lattice>(verb, "--lattice", command.options.lattice,
+                      {{"fcc", Lattice::fcc}, {"bcc", Lattice::bcc}, {"sc", Lattice::sc}, {"none", Lattice::none}},
+                      "fcc, bcc, sc, none: the crystal whose points fill the inside", "fcc");
+  add_choice<Protection>(verb, "--protection", command.options.protection,
+                         {{"shell", Protection::shell}, {"midpoint", Protection::midpoint}},
+                         "shell, midpoint: where a segment is split", "shell");
 
-  choice("--locator", command.options.locator,
-         std::vector<std::pair<std::string, LocatorKind>>{
-             {"grid", LocatorKind::grid}, {"octree", LocatorKind::octree}, {"cavity", LocatorKind::cavity}},
-         "cavity, octree, grid: who finds the vertices near a face and the faces near an edge", "cavity");
-  choice("--delaunay", command.options.delaunay,
-         std::vector<std::pair<std::string, DelaunayMethod>>{{"insert", DelaunayMethod::insert},
-                                                             {"wrap", DelaunayMethod::wrap}},
-         "insert, wrap: vertex by vertex along a space-filling curve, or the paper's: face by face in a grid",
-         "insert");
+  add_choice<LocatorKind>(
+      verb, "--locator", command.options.locator,
+      {{"grid", LocatorKind::grid}, {"octree", LocatorKind::octree}, {"cavity", LocatorKind::cavity}},
+      "cavity, octree, grid: who finds the vertices near a face and the faces near an edge", "cavity");
+  add_choice<DelaunayMethod>(
+      verb, "--delaunay", command.options.delaunay,
+      {{"insert", DelaunayMethod::insert}, {"wrap", DelaunayMethod::wrap}},
+      "insert, wrap: vertex by vertex along a space-filling curve, or the paper's: face by face in a grid", "insert");
 
-  const auto only = [&](const char* name, const char* value, const char* what) {
-    verb.add_option(name, command.only_value, what)->check(CLI::IsMember({value}))->default_str(value);
-  };
-  only("--improve", "none", "improvement of the finished mesh");
-  choice("--surface", command.remesh, std::vector<std::pair<std::string, bool>>{{"keep", false}, {"remesh", true}},
-         "keep, remesh: take the surface's triangles as they are, or make new ones of --edge-length", "keep");
+  add_choice<bool>(verb, "--surface", command.remesh, {{"keep", false}, {"remesh", true}},
+                   "keep, remesh: take the surface's triangles as they are, or make new ones of --edge-length", "keep");
   verb.add_option("--sharp-angle", command.sharp_angle,
                   "remeshing keeps edges between facets whose normals differ by more degrees")
       ->check(CLI::Range(1.0, 179.0))
       ->capture_default_str();
   verb.add_option("--threads", command.most_threads, "at most so many threads work; so far one does all")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void add_improvement(CLI::App& verb, ImproveOptions& options) {
+  add_choice<Improvement>(verb, "--improve", options.improvement,
+                          {{"all", Improvement::all},
+                           {"swap", Improvement::swap},
+                           {"smooth", Improvement::smooth},
+                           {"none", Improvement::none}},
+                          "all, swap, smooth, none: what makes the worst tetrahedra better", "all");
+  add_choice<Objective>(
+      verb, "--objective", options.objective, {{"r", Objective::r}, {"dihedral", Objective::dihedral}},
+      "r, dihedral: what is improved, the paper's measure of shape and then dihedral angles, or these", "r");
+  add_choice<BoundaryRule>(verb, "--boundary", options.boundary,
+                           {{"keep", BoundaryRule::keep}, {"slide", BoundaryRule::slide}},
+                           "keep, slide: whether vertices inside facets and segments may move along them", "keep");
+  verb.add_option("--target-dihedral", options.target_dihedral,
+                  "degrees: improve until no dihedral angle is smaller, nor larger than 180 less this")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron is worse; with --objective r")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  verb.add_option("--improve-time", options.time, "stop improvement after so many seconds; 0: no limit")
+      ->check(non_negative_number())
       ->capture_default_str();
 }
 
@@ -254,6 +274,7 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
   add_files(*verb, *command);
   add_strategies(*verb, *command);
+  add_improvement(*verb, command->options.improve);
   add_numbers(*verb, command->options);
   verb->footer(footer());
   verb->callback([command, &exit_code] {

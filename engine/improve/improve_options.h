@@ -31,12 +31,4 @@ struct ImproveOptions {
   double time = 0;              ///< seconds after which improvement stops; 0: no limit
 };
 
-/// Why improvement came to an end.
-enum class ImproveStop {
-  none,    ///< it was not asked for
-  target,  ///< every tetrahedron is as good as was asked for
-  time,    ///< the time was up
-  stuck    ///< nothing that it can do makes any of the remaining tetrahedra better
-};
-
 }  // namespace ccdt

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/mesh/peel_flat_tetrahedra.h"
-#include "engine/mesh/to_world.h"
 
 namespace ccdt {
 namespace {
@@ -40,13 +39,17 @@ void check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& d, co
                    "some facets are almost but not quite flat: try another --flatness");
 }
 
-void add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets, TetMesh& mesh) {
+/// \return the facet of each face
+std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets,
+                                               TetMesh& mesh) {
+  std::vector<std::uint32_t> facet_of_face;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const Facet& facet = plc.facets[facets.facet[i]];
     if (!plc.chambers[facet.above].inside && !plc.chambers[facet.below].inside) continue;
     const auto& t = facets.triangles[i];
     mesh.faces.push_back({t[0], t[1], t[2]});
     mesh.face_markers.push_back(facet.marker);
+    facet_of_face.push_back(facets.facet[i]);
   }
   for (std::size_t s = 0; s < chains.size(); ++s) {
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
@@ -54,6 +57,7 @@ void add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const Face
       mesh.edge_markers.push_back(plc.segments[s].marker);
     }
   }
+  return facet_of_face;
 }
 
 }  // namespace
@@ -75,13 +79,12 @@ TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::
   return mesh;
 }
 
-void finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const Delaunay& delaunay,
-                 TetMesh& mesh) {
+std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets,
+                                       const Delaunay& delaunay, TetMesh& mesh) {
   check_volume(plc, facets, delaunay, mesh);
   peel_flat_tetrahedra(plc, chains, facets, mesh);
-  add_faces_and_edges(plc, chains, facets, mesh);
-  mesh.vertices = to_world(plc, delaunay.vertices, mesh.tetrahedra);
   mesh.constrained_delaunay = true;
+  return add_faces_and_edges(plc, chains, facets, mesh);
 }
 
 }  // namespace ccdt

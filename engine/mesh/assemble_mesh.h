@@ -14,12 +14,12 @@ namespace ccdt {
 TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
                            const Delaunay& delaunay);
 
-/// Makes the mesh whole: takes the flat tetrahedra on its boundary off, gives it the faces of the facets, the edges of
-/// the segments, and the vertices in the units of the input.
+/// Makes the mesh whole but for its coordinates: takes the flat tetrahedra on its boundary off, gives it the faces of
+/// the facets and the edges of the segments.
 ///
+/// \return the facet of each of the mesh's faces
 /// \throw FrontStuck  the tetrahedra do not fill the domain
-/// \throw MeshError   of `to_world`
-void finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, const Delaunay& delaunay,
-                 TetMesh& mesh);
+std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets,
+                                       const Delaunay& delaunay, TetMesh& mesh);
 
 }  // namespace ccdt

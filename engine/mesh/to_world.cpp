@@ -47,11 +47,10 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
 
 }  // namespace
 
-std::vector<Point3> to_world(const Plc& plc, const std::vector<DelaunayVertex>& vertices,
-                             std::span<const Tetrahedron> tetrahedra) {
-  std::vector<Point3> world(vertices.size());
+std::vector<Point3> to_world(const Plc& plc, std::span<const Point3> points, std::span<const Tetrahedron> tetrahedra) {
+  std::vector<Point3> world(points.size());
   for (std::size_t v = 0; v < world.size(); ++v)
-    world[v] = v < plc.world.size() ? plc.world[v] : plc.grid.to_world(vertices[v].point);
+    world[v] = v < plc.world.size() ? plc.world[v] : plc.grid.to_world(points[v]);
   // A vertex that goes back to the grid may invert a tetrahedron of another: look again until all are right. All
   // inverted ones are found before any vertex moves, so that their order does not matter.
   std::vector<bool> on_grid(plc.world.size(), false);
@@ -65,7 +64,7 @@ std::vector<Point3> to_world(const Plc& plc, const std::vector<DelaunayVertex>& 
       for (const std::uint32_t v : t) {
         if (v >= on_grid.size() || on_grid[v]) continue;
         on_grid[v] = moved = true;
-        world[v] = plc.grid.to_world(vertices[v].point);
+        world[v] = plc.grid.to_world(points[v]);
       }
     }
     if (!moved) refuse_rounding(plc, world, inverted.front());

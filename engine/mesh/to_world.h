@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/delaunay/delaunay.h"
 #include "engine/numbers/point.h"
 #include "engine/plc/plc.h"
 
@@ -15,8 +14,9 @@ namespace ccdt {
 /// tetrahedron around stays positively oriented in the coordinates that are written, exactly tested; elsewhere they
 /// stay where the grid has put them.
 ///
+/// \param points     grid units; those of the PLC's vertices come first
 /// \throw MeshError  a tetrahedron is inverted by writing its vertices as doubles: the part is too far from the origin
-std::vector<Point3> to_world(const Plc& plc, const std::vector<DelaunayVertex>& vertices,
+std::vector<Point3> to_world(const Plc& plc, std::span<const Point3> points,
                              std::span<const std::array<std::uint32_t, 4>> tetrahedra);
 
 }  // namespace ccdt

@@ -49,7 +49,7 @@ TEST_F(Program, StrategyThatThisBuildLacksIsRefusedWithTheOnesThatThereAre) {
   for (const auto& [option, missing, there] :
        std::vector<std::array<std::string, 3>>{{"--locator", "tree", "octree"},
                                                {"--delaunay", "sweep", "insert"},
-                                               {"--improve", "swap", "none"},
+                                               {"--improve", "sweep", "swap"},
                                                {"--surface", "smooth", "remesh"}}) {
     const Outcome outcome = run("mesh cube.off -o a.vtu " + option + " " + missing);
     EXPECT_EQ(outcome.exit_code, 2) << option;

@@ -1,0 +1,206 @@
+#include "engine/improve/improve_cells.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/improve/insert_vertex.h"
+#include "engine/improve/remove_edge.h"
+#include "engine/improve/remove_faces.h"
+#include "engine/improve/remove_vertex.h"
+#include "engine/improve/vertex_star.h"
+
+namespace ccdt {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A cell that is not good enough.
+struct BadCell {
+  double worth;
+  std::uint32_t cell;
+  std::uint32_t generation;    ///< of the cell: another one there is a new cell
+  std::uint64_t tried_at = 0;  ///< the number of the last change when it was tried in vain
+};
+
+/// How much is tried for a cell.
+enum class Effort { usual, greatest };
+
+class Improving {
+ public:
+  Improving(CellComplex& x, const std::vector<Freedom>& freedom, const ImproveOptions& options)
+      : x_(x), freedom_(freedom), options_(options), goal_(goal_of(options)), begin_(Clock::now()) {}
+
+  ImproveCounts run(const Progress& progress);
+
+ private:
+  bool is_bad(std::uint32_t cell) const { return !(x_.worths[cell] >= worth_of_goal(goal_)); }
+  bool is_stale(const BadCell& bad) const {
+    return x_.generations[bad.cell] != bad.generation || x_.is_dead(bad.cell) || !is_bad(bad.cell);
+  }
+  bool time_is_up() const {
+    return options_.time > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= options_.time;
+  }
+
+  bool pass(Effort effort, const Progress& progress);
+  bool improve(std::uint32_t cell, Effort effort);
+  bool swap(std::uint32_t cell);
+  bool smooth(std::uint32_t cell);
+  bool move(std::uint32_t vertex);
+  bool insert_or_collapse(std::uint32_t cell);
+  void apply(const Change& change);
+  void add_bad(std::uint32_t cell) {
+    if (is_bad(cell)) found_.push_back({x_.worths[cell], cell, x_.generations[cell]});
+  }
+
+  CellComplex& x_;
+  const std::vector<Freedom>& freedom_;
+  const ImproveOptions& options_;
+  const QualityGoal goal_;
+  const Clock::time_point begin_;
+  ImproveCounts counts_;
+  std::vector<BadCell> queue_, found_;  ///< of this pass, worst first; for the next one
+  Change plan_, best_;
+  VertexStar star_;
+};
+
+ImproveCounts Improving::run(const Progress& progress) {
+  for (std::uint32_t c = 0; c < x_.cells.size(); ++c) add_bad(c);
+  counts_.bad_cells = found_.size();
+  Effort effort = Effort::usual;
+  while (!found_.empty() && !time_is_up()) {
+    const bool changed = pass(effort, progress);
+    if (changed) continue;
+    if (effort == Effort::greatest || options_.improvement != Improvement::all) break;
+    effort = Effort::greatest;
+    for (BadCell& bad : found_) bad.tried_at = 0;
+  }
+  std::erase_if(found_, [&](const BadCell& bad) { return is_stale(bad); });
+  counts_.bad_cells_left = found_.size();
+  counts_.stop = found_.empty() ? ImproveStop::target : time_is_up() ? ImproveStop::time : ImproveStop::stuck;
+  return counts_;
+}
+
+/// Tries each bad cell once, unless nothing around it has changed since it was tried in vain.
+/// \return has anything been improved?
+bool Improving::pass(Effort effort, const Progress& progress) {
+  queue_.swap(found_);
+  found_.clear();
+  std::erase_if(queue_, [&](const BadCell& bad) { return is_stale(bad); });
+  for (BadCell& bad : queue_) bad.worth = x_.worths[bad.cell];
+  std::ranges::sort(queue_, [](const BadCell& a, const BadCell& b) {
+    return a.worth != b.worth ? a.worth < b.worth : a.cell < b.cell;
+  });
+  const std::uint64_t changes = x_.changes;
+  std::uint64_t done = 0;
+  for (BadCell& bad : queue_) {
+    if (done++ % 256 == 0) {
+      report(progress, "improve", done, queue_.size());
+      if (time_is_up()) {
+        found_.insert(found_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(done) - 1, queue_.end());
+        break;
+      }
+    }
+    if (is_stale(bad)) continue;
+    const auto& corners = x_.cells[bad.cell].vertices;
+    const auto tried = [&](std::uint32_t v) { return x_.changed_at[v] < bad.tried_at; };
+    if (!std::ranges::all_of(corners, tried) && improve(bad.cell, effort) && is_stale(bad)) continue;
+    bad.tried_at = x_.changes + 1;
+    found_.push_back(bad);
+  }
+  return x_.changes != changes;
+}
+
+bool Improving::improve(std::uint32_t cell, Effort effort) {
+  const std::uint32_t generation = x_.generations[cell];
+  const bool swaps = options_.improvement != Improvement::smooth;
+  const bool smooths = options_.improvement != Improvement::swap;
+  if (swaps && swap(cell)) return true;
+  bool improved = false;
+  if (smooths && smooth(cell)) {
+    improved = true;
+    if (x_.generations[cell] != generation || !is_bad(cell)) return true;
+  }
+  return (effort == Effort::greatest && insert_or_collapse(cell)) || improved;
+}
+
+/// The best of all swaps that a cell has part in.
+bool Improving::swap(std::uint32_t cell) {
+  double least = x_.worths[cell];
+  bool is_planned = false;
+  const auto consider = [&](bool is_better) {
+    if (!is_better) return;
+    least = worst_of(plan_.new_cells);
+    is_planned = true;
+    std::swap(plan_, best_);
+  };
+  for (std::uint32_t edge = 0; edge < 6; ++edge) consider(plan_edge_removal(x_, goal_, cell, edge, least, plan_));
+  for (std::uint32_t face = 0; face < 4; ++face) consider(plan_face_removal(x_, goal_, cell, face, least, plan_));
+  if (!is_planned || !all_positive(x_, best_)) return false;
+  if (best_.new_cells.size() > best_.old_cells.size())
+    ++counts_.removed_faces;
+  else
+    ++counts_.removed_edges;
+  counts_.facet_flips += best_.flips.size();
+  apply(best_);
+  return true;
+}
+
+void Improving::apply(const Change& change) {
+  for (const std::uint32_t c : apply_change(x_, change)) add_bad(c);
+}
+
+bool Improving::smooth(std::uint32_t cell) {
+  bool moved = false;
+  const auto corners = x_.cells[cell].vertices;
+  for (const std::uint32_t v : corners) {
+    if (!move(v)) continue;
+    moved = true;
+    if (!is_bad(cell)) break;
+  }
+  return moved;
+}
+
+bool Improving::move(std::uint32_t vertex) {
+  Freedom freedom;
+  if (!x_.is_interior(vertex)) {
+    if (freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
+    freedom = freedom_[vertex];
+  }
+  gather_star(x_, vertex, star_);
+  const double worst = worst_of(x_, star_.cells);
+  Point3 apex = x_.points[vertex];
+  if (!(move_apex(star_.faces, goal_, freedom, worst, apex) > worst)) return false;
+  x_.points[vertex] = apex;
+  ++x_.changes;
+  ++counts_.moved_vertices;
+  for (const std::uint32_t c : star_.cells) {
+    const bool was_bad = is_bad(c);
+    x_.worths[c] = x_.worth_of(goal_, x_.cells[c].vertices);
+    note_change(x_, x_.cells[c].vertices);
+    if (!was_bad) add_bad(c);
+  }
+  return true;
+}
+
+bool Improving::insert_or_collapse(std::uint32_t cell) {
+  const double least = x_.worths[cell];
+  if (plan_collapse(x_, goal_, cell, least, plan_) && all_positive(x_, plan_)) {
+    ++counts_.collapsed_edges;
+    apply(plan_);
+    return true;
+  }
+  if (!plan_insertion(x_, goal_, cell, least, plan_)) return false;
+  ++counts_.inserted_vertices;
+  apply(plan_);
+  return true;
+}
+
+}  // namespace
+
+ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& freedom, const ImproveOptions& options,
+                            const Progress& progress) {
+  if (options.improvement == Improvement::none) return {};
+  return Improving(complex, freedom, options).run(progress);
+}
+
+}  // namespace ccdt

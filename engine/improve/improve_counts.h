@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+namespace ccdt {
+
+/// Why improvement came to an end.
+enum class ImproveStop {
+  none,    ///< it was not asked for
+  target,  ///< every tetrahedron is as good as was asked for
+  time,    ///< the time was up
+  stuck    ///< nothing that it can do makes any of the remaining tetrahedra better
+};
+
+/// How often each change was made, and why improvement stopped.
+struct ImproveCounts {
+  std::uint64_t bad_cells = 0;  ///< before: cells that are not good enough
+  std::uint64_t bad_cells_left = 0;
+  std::uint64_t removed_edges = 0;  ///< swaps 3-2, 4-4 and larger ones
+  std::uint64_t facet_flips = 0;    ///< of these, on facets
+  std::uint64_t removed_faces = 0;  ///< swaps 2-3 and larger ones
+  std::uint64_t moved_vertices = 0;
+  std::uint64_t inserted_vertices = 0;
+  std::uint64_t collapsed_edges = 0;
+  ImproveStop stop = ImproveStop::none;
+};
+
+}  // namespace ccdt

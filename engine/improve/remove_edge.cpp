@@ -1,0 +1,199 @@
+#include "engine/improve/remove_edge.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace ccdt {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// For each edge its two vertices and the other two, such that all four are positively oriented.
+constexpr std::array<std::array<std::uint8_t, 4>, 6> edge_corners = {
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+
+/// What is around an edge ab between two walls, or all around: cell i is a, b, vertex i, vertex i + 1.
+struct Ring {
+  std::array<std::uint32_t, longest_ring + 1> vertices;
+  std::array<std::uint32_t, longest_ring> cells;
+  std::uint32_t size = 0;        ///< of the cells
+  bool is_closed = false;        ///< the last vertex is the first again
+  std::uint32_t begin_wall = 0;  ///< the face code of the wall at vertex 0, in cell 0
+  std::uint32_t end_wall = 0;    ///< of the wall at the last vertex, in the last cell
+  std::uint32_t vertex_count() const { return is_closed ? size : size + 1; }
+};
+
+/// From a cell with edge ab around it, through the face of its vertex `from`, as long as there are no walls.
+/// \param visit  called with each cell that is entered and its fourth vertex; false ends the walk
+/// \return       the code of the wall that ends the walk, as the cell before it calls it; `no_neighbor`: `visit` did
+template <class Visit>
+std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t cell,
+                          std::uint32_t from, const Visit& visit) {
+  while (true) {
+    const std::uint32_t leaving = face_code(cell, x.place(cell, from));
+    if (x.is_wall(leaving)) return leaving;
+    const auto& here = x.cells[cell].vertices;
+    std::uint32_t shared = 0;
+    for (const std::uint32_t v : here)
+      if (v != a && v != b && v != from) shared = v;
+    const std::uint32_t entered = x.cells[cell].neighbors[face_of(leaving)];
+    cell = cell_of(entered);
+    if (!visit(cell, x.cells[cell].vertices[face_of(entered)])) return no_neighbor;
+    from = shared;
+  }
+}
+
+/// \return false: the ring is too long
+bool find_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t cell, std::uint32_t before,
+               std::uint32_t after, Ring& ring) {
+  ring.size = 1;
+  ring.is_closed = false;
+  ring.cells[0] = cell;
+  ring.vertices[0] = before;
+  ring.vertices[1] = after;
+  bool fits = true;
+  ring.end_wall = walk_around(x, a, b, cell, before, [&](std::uint32_t next, std::uint32_t vertex) {
+    ring.is_closed = next == cell;
+    fits = ring.size < longest_ring;
+    if (ring.is_closed || !fits) return false;
+    ring.cells[ring.size++] = next;
+    ring.vertices[ring.size] = vertex;
+    return true;
+  });
+  if (ring.is_closed) return true;
+  if (!fits) return false;
+  // There is a wall: what is on the other side of the first cell comes before it.
+  ring.begin_wall = walk_around(x, a, b, cell, after, [&](std::uint32_t next, std::uint32_t vertex) {
+    fits = ring.size < longest_ring;
+    if (!fits) return false;
+    std::copy_backward(ring.cells.begin(), ring.cells.begin() + ring.size, ring.cells.begin() + ring.size + 1);
+    std::copy_backward(ring.vertices.begin(), ring.vertices.begin() + ring.size + 1,
+                       ring.vertices.begin() + ring.size + 2);
+    ring.cells[0] = next;
+    ring.vertices[0] = vertex;
+    ++ring.size;
+    return true;
+  });
+  return fits;
+}
+
+/// The best triangulation of the polygon 0 to n - 1 of ring vertices, by dynamic programming over its chords.
+class RingTriangulation {
+ public:
+  RingTriangulation(const CellComplex& x, const QualityGoal& goal, std::uint32_t a, std::uint32_t b, const Ring& ring,
+                    double least)
+      : x_(x), goal_(goal), a_(a), b_(b), ring_(ring), least_(least) {}
+
+  /// \return the worth of the worst cell, or less than `least` where there is nothing better
+  double find() {
+    const std::uint32_t n = ring_.vertex_count();
+    for (std::uint32_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = infinity;
+    for (std::uint32_t span = 2; span < n; ++span)
+      for (std::uint32_t i = 0; i + span < n; ++i) find_chord(i, i + span);
+    return best_[0][n - 1];
+  }
+
+  void add_cells(int region, Change& change) const { add_cells(0, ring_.vertex_count() - 1, region, change); }
+
+ private:
+  void find_chord(std::uint32_t i, std::uint32_t j) {
+    best_[i][j] = -infinity;
+    for (std::uint32_t k = i + 1; k < j; ++k) {
+      const double sides = std::min(best_[i][k], best_[k][j]);
+      if (sides <= least_ || sides <= best_[i][j]) continue;
+      const double all = std::min(sides, worth_of_triangle(i, k, j));
+      if (all <= best_[i][j]) continue;
+      best_[i][j] = all;
+      apex_[i][j] = static_cast<std::uint8_t>(k);
+    }
+  }
+
+  std::array<std::uint32_t, 4> upper(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
+    return {ring_.vertices[i], ring_.vertices[k], ring_.vertices[j], b_};
+  }
+  std::array<std::uint32_t, 4> lower(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
+    return {ring_.vertices[i], ring_.vertices[j], ring_.vertices[k], a_};
+  }
+
+  double worth_of_triangle(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
+    const double above = x_.worth_of(goal_, upper(i, k, j));
+    return above <= least_ ? above : std::min(above, x_.worth_of(goal_, lower(i, k, j)));
+  }
+
+  void add_cells(std::uint32_t i, std::uint32_t j, int region, Change& change) const {
+    if (j == i + 1) return;
+    const std::uint32_t k = apex_[i][j];
+    for (const auto& vertices : {upper(i, k, j), lower(i, k, j)})
+      change.new_cells.push_back({vertices, region, x_.worth_of(goal_, vertices)});
+    add_cells(i, k, region, change);
+    add_cells(k, j, region, change);
+  }
+
+  const CellComplex& x_;
+  const QualityGoal& goal_;
+  std::uint32_t a_, b_;
+  const Ring& ring_;
+  double least_;
+  std::array<std::array<double, longest_ring + 1>, longest_ring + 1> best_;
+  std::array<std::array<std::uint8_t, longest_ring + 1>, longest_ring + 1> apex_;
+};
+
+/// Adds the best that can replace the cells of a ring, if it is worth more than `least`.
+bool add_ring(const CellComplex& x, const QualityGoal& goal, std::uint32_t a, std::uint32_t b, const Ring& ring,
+              double least, Change& change) {
+  if (ring.vertex_count() < 3) return false;
+  RingTriangulation triangulation(x, goal, a, b, ring, least);
+  if (!(triangulation.find() > least)) return false;
+  triangulation.add_cells(x.regions[ring.cells[0]], change);
+  change.old_cells.insert(change.old_cells.end(), ring.cells.begin(), ring.cells.begin() + ring.size);
+  return true;
+}
+
+std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const std::uint32_t* const face = x.wall_faces.find(face_key(a, b, c));
+  return face == nullptr ? no_neighbor : x.facet_of_face[*face];
+}
+
+/// The cells on the other side of the facet that the ring ends at, from its last wall to its first.
+/// \return false: what is there forbids to exchange the diagonal
+bool find_other_side(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, Ring& other) {
+  other.size = 0;
+  const std::uint32_t behind_begin = x.cells[cell_of(ring.begin_wall)].neighbors[face_of(ring.begin_wall)];
+  const std::uint32_t behind_end = x.cells[cell_of(ring.end_wall)].neighbors[face_of(ring.end_wall)];
+  if (behind_begin == no_neighbor || behind_end == no_neighbor) return behind_begin == behind_end;
+  const std::uint32_t first = ring.vertices[ring.size], cell = cell_of(behind_end);
+  const std::uint32_t second = x.cells[cell].vertices[face_of(behind_end)];
+  return find_ring(x, a, b, cell, first, second, other) && !other.is_closed && other.vertices[0] == first &&
+         other.vertices[other.size] == ring.vertices[0];
+}
+
+/// An edge on a facet, between walls: both sides of it change, and the facet has the other diagonal.
+bool plan_flip(const CellComplex& x, const QualityGoal& goal, std::uint32_t a, std::uint32_t b, const Ring& ring,
+               double least, Change& change) {
+  const std::uint32_t first = ring.vertices[0], last = ring.vertices[ring.size];
+  const std::uint32_t facet = facet_at(x, a, b, first);
+  if (facet == no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
+  Ring other;
+  if (!find_other_side(x, a, b, ring, other)) return false;
+  if (!add_ring(x, goal, a, b, ring, least, change)) return false;
+  if (other.size > 0 && !add_ring(x, goal, a, b, other, least, change)) return false;
+  change.flips.push_back({a, b, first, last});
+  return true;
+}
+
+}  // namespace
+
+bool plan_edge_removal(const CellComplex& x, const QualityGoal& goal, std::uint32_t cell, std::uint32_t edge,
+                       double least, Change& change) {
+  change.clear();
+  const auto& corner = edge_corners[edge];
+  const auto& v = x.cells[cell].vertices;
+  const std::uint32_t a = v[corner[0]], b = v[corner[1]];
+  Ring ring;
+  if (!find_ring(x, a, b, cell, v[corner[2]], v[corner[3]], ring)) return false;
+  if (!ring.is_closed) return plan_flip(x, goal, a, b, ring, least, change);
+  return !x.is_segment(a, b) && add_ring(x, goal, a, b, ring, least, change);
+}
+
+}  // namespace ccdt
