@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "baselines/mesher.h"
 #include "bench/run_record.h"
@@ -27,8 +28,16 @@ struct MeshCommand {
   MeshOptions options;
   bool remesh = false;
   double sharp_angle = RemeshOptions().sharp_angle;
+  std::optional<Improvement> improvement;  ///< none: all of it, but for the bare tetrahedralization
   unsigned most_threads = 1;
 };
+
+/// Without lattice points the mesh is the constrained Delaunay tetrahedralization of the input and stays that, unless
+/// improvement is asked for.
+void choose_improvement(MeshCommand& command) {
+  const Improvement usual = command.options.lattice == Lattice::none ? Improvement::none : Improvement::all;
+  command.options.improve.improvement = command.improvement.value_or(usual);
+}
 
 void check_surface_options(const MeshCommand& command) {
   if (command.remesh && command.options.edge_length == 0)
@@ -215,13 +224,15 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
       ->capture_default_str();
 }
 
-void add_improvement(CLI::App& verb, ImproveOptions& options) {
-  add_choice<Improvement>(verb, "--improve", options.improvement,
-                          {{"all", Improvement::all},
-                           {"swap", Improvement::swap},
-                           {"smooth", Improvement::smooth},
-                           {"none", Improvement::none}},
-                          "all, swap, smooth, none: what makes the worst tetrahedra better", "all");
+void add_improvement(CLI::App& verb, MeshCommand& command) {
+  ImproveOptions& options = command.options.improve;
+  add_choice<std::optional<Improvement>>(
+      verb, "--improve", command.improvement,
+      {{"all", Improvement::all},
+       {"swap", Improvement::swap},
+       {"smooth", Improvement::smooth},
+       {"none", Improvement::none}},
+      "all, swap, smooth, none: what makes the worst tetrahedra better; with --lattice none: none", "all");
   add_choice<Objective>(
       verb, "--objective", options.objective, {{"r", Objective::r}, {"dihedral", Objective::dihedral}},
       "r, dihedral: what is improved, the paper's measure of shape and then dihedral angles, or these", "r");
@@ -274,10 +285,11 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
   add_files(*verb, *command);
   add_strategies(*verb, *command);
-  add_improvement(*verb, command->options.improve);
+  add_improvement(*verb, *command);
   add_numbers(*verb, command->options);
   verb->footer(footer());
   verb->callback([command, &exit_code] {
+    choose_improvement(*command);
     run(*command);
     exit_code = done;
   });

@@ -61,7 +61,7 @@ std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Range& ra
   for (const Strategy& strategy : strategies()) {
     if (size.number >= strategy.sizes) continue;
     std::vector<std::string> words = strategy.options;
-    words.insert(words.end(), {"--grading", "0"});
+    words.insert(words.end(), {"--improve", "none", "--grading", "0"});
     cases.push_back({strategy.id,
                      stem + "-" + strategy.id,
                      {"ccdt", surface, options.folder / "meshes" / (stem + "-" + strategy.id + ".vtu"), words}});

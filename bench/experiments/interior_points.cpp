@@ -48,7 +48,7 @@ std::vector<SurfaceFile> surfaces(const ExperimentOptions& options) {
 InteriorCase run(const ExperimentOptions& options, const SurfaceFile& surface, Lattice lattice, InteriorRule rule,
                  std::uint64_t number) {
   std::vector<std::string> words = options_of(rule);
-  words.insert(words.end(), {"--lattice", std::string(name_of(lattice))});
+  words.insert(words.end(), {"--improve", "none", "--lattice", std::string(name_of(lattice))});
   const auto record = options.folder / "runs" / ("interior-points-" + std::to_string(number) + ".json");
   const RunRecord run =
       run_case(options.program, {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},

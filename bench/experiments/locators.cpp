@@ -38,7 +38,7 @@ Group group_of(const ExperimentOptions& options, const SurfaceFile& surface, Sur
     std::string stem = "locators-" + std::to_string(number);
     for (const std::string& part : {std::filesystem::path(surface.name).stem().string(), check, name})
       stem += "-" + part;
-    std::vector<std::string> words = {"--locator", name, "--face-protection", check};
+    std::vector<std::string> words = {"--improve", "none", "--locator", name, "--face-protection", check};
     if (kind == SurfaceKind::uniform) words.insert(words.end(), {"--grading", "0"});
     group.cases.push_back({name, stem, {"ccdt", surface.file, options.folder / "meshes" / "locators.vtu", words}});
   }

@@ -49,9 +49,10 @@ class ModelExperiment {
       if (!is_measured(mesher)) return;
       cases.push_back({name, std::string(model_.name) + "-" + name, {mesher, input, mesh_file(name), std::move(more)}});
     };
-    add("with_check", "ccdt", surface_file(), {"--face-protection", "on"});
-    add("without_check", "ccdt", surface_file(), {"--face-protection", "off"});
-    add("without_check_grid", "ccdt", surface_file(), {"--face-protection", "off", "--locator", "grid"});
+    add("with_check", "ccdt", surface_file(), {"--improve", "none", "--face-protection", "on"});
+    add("without_check", "ccdt", surface_file(), {"--improve", "none", "--face-protection", "off"});
+    add("without_check_grid", "ccdt", surface_file(),
+        {"--improve", "none", "--face-protection", "off", "--locator", "grid"});
     add("cgal_delaunay", "cgal-delaunay", mesh_file("with_check"), {});
     add("tetgen_cdt", "tetgen", points_file(), {"--lattice", "none"});
     add("tetgen_quality", "tetgen", surface_file(), {});

@@ -23,7 +23,7 @@ enum class BoundaryRule {
 };
 
 struct ImproveOptions {
-  Improvement improvement = Improvement::all;
+  Improvement improvement = Improvement::none;
   Objective objective = Objective::r;
   BoundaryRule boundary = BoundaryRule::keep;
   double target_dihedral = 20;  ///< degrees: no dihedral angle is to be smaller, or larger than 180 less this
