@@ -36,7 +36,6 @@ std::string protection(const MeshCounts& c) {
   return text.empty() ? "" : "protection  " + text + "\n";
 }
 
-<<<<<<< HEAD
 std::string measure_words(const Quality::Measure& m) {
   return "mean " + rounded(m.mean) + ", 99% below " + rounded(m.p99) + ", worst " + rounded(m.max);
 }
@@ -45,7 +44,8 @@ std::string quality_lines(const Quality& q) {
   return "quality     r: " + measure_words(q.r) + "; dihedral angles " + rounded(q.dihedral_degrees.min) + " to " +
          rounded(q.dihedral_degrees.max) + " degrees\n            aspect ratio: " + measure_words(q.aspect_ratio) +
          "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
-=======
+}
+
 /// Nothing if none was asked for.
 std::string improvement(const ImproveCounts& c) {
   if (c.stop == ImproveStop::none) return "";
@@ -57,7 +57,6 @@ std::string improvement(const ImproveCounts& c) {
   if (c.stop == ImproveStop::target) return text + "all reach the target\n";
   return text + with_separators(c.bad_cells_left) + " are left, " +
          (c.stop == ImproveStop::time ? "the time was up" : "which nothing makes better") + "\n";
->>>>>>> 3ef2794 (Improve finished meshes by swaps, smoothing, insertion and collapse)
 }
 
 }  // namespace
@@ -70,13 +69,8 @@ std::string summarize(const RunRecord& r) {
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
   text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
           mebibytes(r.peak_rss_bytes) + "\n";
-<<<<<<< HEAD
   text += quality_lines(r.quality);
-=======
-  text += "quality     r: median " + rounded(q.r.median) + ", worst " + rounded(q.r.max) + "; dihedral angles " +
-          rounded(q.dihedral_degrees.min) + " to " + rounded(q.dihedral_degrees.max) + " degrees\n";
   text += improvement(c.improve);
->>>>>>> 3ef2794 (Improve finished meshes by swaps, smoothing, insertion and collapse)
   for (const std::string& note : r.notes) text += "note        " + note + "\n";
   return text;
 }
