@@ -3,6 +3,7 @@
 #include "engine/improve/cell_complex.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/improve_cells.h"
+#include "engine/improve/sort_cells.h"
 
 namespace ccdt {
 
@@ -11,6 +12,7 @@ ImproveCounts improve_mesh(const Plc& plc, const SegmentChains& chains, std::vec
                            TetMesh& mesh, const Progress& progress) {
   std::vector<Freedom> freedom;
   if (options.boundary == BoundaryRule::slide) freedom = find_freedom(plc, chains, points.size());
+  sort_cells(mesh);
   CellComplex complex = make_complex(mesh, std::move(points), std::move(facet_of_face),
                                      static_cast<std::uint32_t>(first_interior), goal_of(options));
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
