@@ -61,11 +61,22 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
                       CLI::ignore_case)
                       .description(""))
       ->default_str("claimed");
+  using Boundary = VerifyOptions::Boundary;
+  verb->add_option("--boundary", command->options.boundary,
+                   "keep, slide: may vertices inside flat facets and straight segments have slid in these (keep: all "
+                   "vertices of the input are where they were)")
+      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Boundary>>{{"keep", Boundary::keep},
+                                                                                        {"slide", Boundary::slide}},
+                                          CLI::ignore_case)
+                      .description(""))
+      ->default_str("keep");
   verb->add_option("--report", command->report, "write the checks there as JSON (schema ccdt.verify/1)");
   verb->footer(
       "Exit code 0: the mesh is right; 1: it is not.\n\n"
       "Example: does the mesh fill exactly the part?\n"
-      "  ccdt verify part.stl part.vtu\n");
+      "  ccdt verify part.stl part.vtu\n"
+      "Example: the same of a mesh that was improved with --boundary slide\n"
+      "  ccdt verify --boundary slide part.stl part.vtu\n");
   verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
 }
 

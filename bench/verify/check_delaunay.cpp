@@ -69,8 +69,9 @@ std::string describe(const TetMesh& mesh, const std::array<std::uint32_t, 3>& fa
 
 DelaunayChecks check_delaunay(const TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
                               double rounding, bool required, const Progress& progress) {
-  DelaunayChecks checks{make_check("locally Delaunay faces", required),
-                        make_check("locally Delaunay without rounding", false)};
+  DelaunayChecks checks{
+      make_check(required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", required),
+      make_check("locally Delaunay without rounding", false)};
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
     if (f % 65536 == 0) report(progress, "verify Delaunay", f, topology.faces.size());
     if (constrained[f] || topology.on_boundary(f)) continue;

@@ -19,8 +19,7 @@ std::string text_of_edge(const Surface& surface, const std::array<std::uint32_t,
 }  // namespace
 
 Check check_vertices(const InputPlc& input, const Surface& surface, const Chambers& chambers, const RayShooter& rays) {
-  Check check = make_check("input vertices");
-  check.checked = input.vertices.size();
+  Check check = make_check(surface.slides.empty() ? "input vertices" : "input vertices that may not slide");
   std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
   for (std::uint32_t i = 0; i < surface.directed.size(); ++i) {
     const std::uint32_t site = surface.directed[i][0];
@@ -29,6 +28,8 @@ Check check_vertices(const InputPlc& input, const Surface& surface, const Chambe
   }
   for (std::size_t i = 0; i < input.vertices.size(); ++i) {
     const std::uint32_t site = surface.sites.of_input[i];
+    if (!surface.slides.empty() && surface.slides[site]) continue;
+    ++check.checked;
     if (surface.sites.in_mesh(site)) continue;
     const Point3& p = input.vertices[i];
     if (on_surface[site] ? !touched[site] : !any_inside(chambers, chambers_at(surface, chambers, rays, p))) continue;

@@ -5,7 +5,7 @@
 
 namespace ccdt::verification {
 
-/// Every input vertex in or on the domain is a vertex of the mesh.
+/// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
 Check check_vertices(const InputPlc& input, const Surface& surface, const Chambers& chambers, const RayShooter& rays);
 
 /// Every segment and every feature edge in or on the domain is a chain of mesh edges.

@@ -1,89 +1,18 @@
 #include "bench/verify/embed_lines.h"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <map>
 
 #include "bench/verify/covers.h"
+#include "bench/verify/piece_tree.h"
 #include "bench/verify/polygon_cells.h"
 
 namespace ccdt::verification {
 
 namespace {
 
-namespace geometry = boost::geometry;
-
 using Edge = std::array<std::uint32_t, 2>;
-
-/// The pieces by their bounding boxes.
-class PieceTree {
- public:
-  explicit PieceTree(const Surface& surface) : tolerance_(surface.tolerances.flat), tree_(boxes_of(surface)) {}
-
-  /// Calls visit(piece) for all pieces whose box the box of a and b touches within the tolerance.
-  template <class Visit>
-  void for_each_near(const Point3& a, const Point3& b, const Visit& visit) const {
-    const Box query(
-        Corner(std::min(a.x, b.x) - tolerance_, std::min(a.y, b.y) - tolerance_, std::min(a.z, b.z) - tolerance_),
-        Corner(std::max(a.x, b.x) + tolerance_, std::max(a.y, b.y) + tolerance_, std::max(a.z, b.z) + tolerance_));
-    for (auto i = tree_.qbegin(geometry::index::intersects(query)); i != tree_.qend(); ++i) visit(i->second);
-  }
-
- private:
-  using Corner = geometry::model::point<double, 3, geometry::cs::cartesian>;
-  using Box = geometry::model::box<Corner>;
-  using Item = std::pair<Box, std::uint32_t>;
-
-  static std::vector<Item> boxes_of(const Surface& surface) {
-    std::vector<Item> items;
-    items.reserve(surface.pieces());
-    for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-      Point3 low = surface.origin(p), high = low;
-      for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i) {
-        const Point3& v = surface.at(surface.directed[i][0]);
-        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-      }
-      items.emplace_back(Box(Corner(low.x, low.y, low.z), Corner(high.x, high.y, high.z)), p);
-    }
-    return items;
-  }
-
-  double tolerance_;
-  geometry::index::rtree<Item, geometry::index::quadratic<16>> tree_;
-};
-
-double squared_distance(const Point3& p, const Point3& a, const Point3& b) {
-  const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
-  return squared_length(p - a - along * (b - a));
-}
-
-enum class Place { off, border, within };
-
-/// Where a point lies against a piece: in its plane and near its border, or within it.
-Place place_of(const Surface& surface, std::uint32_t piece, const Point3& p) {
-  const Point3& area = surface.area_vector[piece];
-  const double size = std::sqrt(squared_length(area));
-  if (std::fabs(dot(area, p - surface.origin(piece))) > surface.tolerances.flat * size) return Place::off;
-  const double tolerance = surface.tolerances.place;
-  // Across the plane's most upright axis, counting the edges to one side of the point.
-  const auto n = as_array(area);
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if (std::fabs(n[i]) > std::fabs(n[axis])) axis = i;
-  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto c = as_array(p);
-  bool inside = false;
-  for (std::uint32_t i = surface.piece_begin[piece]; i < surface.piece_begin[piece + 1]; ++i) {
-    const Point3 &from = surface.at(surface.directed[i][0]), &to = surface.at(surface.directed[i][1]);
-    if (squared_distance(p, from, to) <= tolerance * tolerance) return Place::border;
-    const auto a = as_array(from), b = as_array(to);
-    if ((a[v] > c[v]) != (b[v] > c[v]) && c[u] < a[u] + (c[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u])) inside = !inside;
-  }
-  return inside ? Place::within : Place::off;
-}
 
 Point3 point_along(const Surface& surface, std::uint32_t edge, double fraction) {
   const auto& [a, b] = surface.edges[edge];

@@ -34,6 +34,7 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 2>> edges;     ///< ascending sites
   std::vector<std::uint32_t> use_begin, uses;          ///< directed edges along each edge
   std::vector<std::array<std::uint32_t, 2>> segments;  ///< that the input asks for by themselves
+  std::vector<bool> slides;  ///< of each site: a mesh need not have it (slide.h); empty: it must have them all
 
   std::uint32_t pieces() const { return static_cast<std::uint32_t>(marker.size()); }
   std::uint32_t use_count(std::uint32_t edge) const { return use_begin[edge + 1] - use_begin[edge]; }

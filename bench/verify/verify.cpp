@@ -9,6 +9,7 @@
 #include "bench/verify/check_domain.h"
 #include "bench/verify/check_facets.h"
 #include "bench/verify/embed_lines.h"
+#include "bench/verify/slide.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
@@ -45,12 +46,13 @@ void check_against_input(const InputPlc& input, const TetMesh& mesh, const Topol
   report(progress, "verify facets", 0, 0);
   Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances.place), tolerances);
   embed_lines(surface);
+  Chambers chambers = find_chambers(input, surface);
+  if (options.boundary == VerifyOptions::Boundary::slide) let_vertices_slide(surface, chambers);
   const std::vector<bool> features = find_features(surface);
   const Chains edges = find_chains(mesh, topology, surface, surface.edges);
   const Chains segments = find_chains(mesh, topology, surface, surface.segments);
   const Covers covers = find_covers(mesh, topology, surface, edges, features);
   report(progress, "verify domain", 0, 0);
-  Chambers chambers = find_chambers(input, surface);
   const Rooms rooms = find_rooms(mesh, topology, chambers, covers, tolerances.flat);
   resolve_unknown(rooms, chambers);
 

@@ -17,6 +17,9 @@ struct VerifyOptions {
   double flatness = 1e-8;
   /// Must every unconstrained inner face be locally Delaunay? `claimed`: if the mesh says so of itself.
   enum class Delaunay { claimed, yes, no } delaunay = Delaunay::claimed;
+  /// What may have become of the input's vertices inside flat facets and inside straight chains of edges or segments?
+  /// `keep`: they are vertices of the mesh. `slide`: they may be elsewhere in their facet or chain, or nowhere.
+  enum class Boundary { keep, slide } boundary = Boundary::keep;
 };
 
 /// One property that was checked.

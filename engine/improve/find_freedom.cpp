@@ -19,8 +19,8 @@ Point3 shortest_step(const Point3& from, const Point3& to) {
   const auto magnitude = [](double x) { return static_cast<std::int64_t>(std::fabs(x)); };
   const std::int64_t divisor =
       std::gcd(std::gcd(magnitude(difference.x), magnitude(difference.y)), magnitude(difference.z));
-  const auto part = [&](double x) { return static_cast<double>(static_cast<std::int64_t>(x) / divisor); };
-  return {part(difference.x), part(difference.y), part(difference.z)};
+  const auto by = static_cast<double>(divisor);  // divides without remainder, so exactly
+  return {difference.x / by, difference.y / by, difference.z / by};
 }
 
 /// Makes the two steps, of the same multiples, short and nearly orthogonal (Lagrange).

@@ -1,0 +1,247 @@
+#include "bench/verify/slide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "bench/verify/covers.h"
+#include "bench/verify/piece_tree.h"
+
+namespace ccdt::verification {
+
+namespace {
+
+using Edge = std::array<std::uint32_t, 2>;
+
+/// Of a patch that counts as flat, times the tolerance: what is left must do for its other vertices, which are compared
+/// with the plane of its corners.
+constexpr double greatest_thickness = 0.25;
+
+Edge ascending(const Edge& e) {
+  return {std::min(e[0], e[1]), std::max(e[0], e[1])};
+}
+
+/// Sites that a piece or a segment has.
+std::vector<bool> find_used(const Surface& surface) {
+  std::vector<bool> used(surface.sites.position.size(), false);
+  for (const Edge& e : surface.directed) used[e[0]] = used[e[1]] = true;
+  for (const Edge& e : surface.segments) used[e[0]] = used[e[1]] = true;
+  return used;
+}
+
+void merge_flat_patches(Surface& surface, Chambers& chambers) {
+  std::vector<bool> joined = find_features(surface);
+  joined.flip();
+  Chains none_yet;
+  none_yet.begin.assign(surface.edges.size() + 1, 0);
+  const Patches patches = group_pieces(surface, none_yet, joined);
+  Surface merged;
+  merged.piece_begin.push_back(0);
+  std::vector<std::uint32_t> of_side;
+  const auto finish_piece = [&](std::uint32_t like) {
+    merged.piece_begin.push_back(static_cast<std::uint32_t>(merged.directed.size()));
+    merged.marker.push_back(surface.marker[like]);
+    merged.number.push_back(surface.number[like]);
+    of_side.insert(of_side.end(), {chambers.of_side[2 * like], chambers.of_side[2 * like + 1]});
+  };
+  const auto add_edges = [&](std::uint32_t piece, bool turned, bool all) {
+    for (std::uint32_t i = surface.piece_begin[piece]; i < surface.piece_begin[piece + 1]; ++i) {
+      const auto& [a, b] = surface.directed[i];
+      if (all || !joined[surface.edge_of[i]]) merged.directed.push_back(turned ? Edge{b, a} : Edge{a, b});
+    }
+  };
+  for (std::uint32_t n = 0; n < patches.count(); ++n) {
+    const auto pieces = patches.pieces_of(n);
+    const std::size_t before = merged.directed.size();
+    if (patches.thickness[n] <= greatest_thickness * surface.tolerances.flat) {
+      for (const std::uint32_t p : pieces) add_edges(p, patches.flipped[p] != patches.flipped[pieces[0]], false);
+      if (merged.directed.size() > before) {
+        finish_piece(pieces[0]);
+        continue;
+      }
+    }
+    for (const std::uint32_t p : pieces) {
+      add_edges(p, false, true);
+      finish_piece(p);
+    }
+  }
+  surface.directed = std::move(merged.directed);
+  surface.piece_begin = std::move(merged.piece_begin);
+  surface.marker = std::move(merged.marker);
+  surface.number = std::move(merged.number);
+  chambers.of_side = std::move(of_side);
+  index_surface(surface);
+}
+
+/// Takes out the segments that are features of the facets: these are asked for anyway.
+void drop_segments_on_features(Surface& surface) {
+  const std::vector<bool> features = find_features(surface);
+  std::set<Edge> kept;
+  for (const Edge& segment : surface.segments) {
+    const Edge e = ascending(segment);
+    const auto found = std::lower_bound(surface.edges.begin(), surface.edges.end(), e);
+    const bool is_feature = found != surface.edges.end() && *found == e &&
+                            features[static_cast<std::size_t>(found - surface.edges.begin())];
+    if (!is_feature) kept.insert(e);
+  }
+  surface.segments.assign(kept.begin(), kept.end());
+}
+
+/// A chain of sites that becomes one edge.
+using Run = std::vector<std::uint32_t>;
+
+class StraightRuns {
+ public:
+  explicit StraightRuns(const Surface& surface) : surface_(surface) {
+    for (const Edge& e : surface.edges) join(e);
+    for (const Edge& e : surface.segments) join(e);
+    find_turning_back();
+  }
+
+  std::vector<Run> find() {
+    std::vector<Run> runs;
+    for (const auto& [site, around] : neighbours_) {
+      if (is_passed(site)) continue;
+      for (const std::uint32_t next : around) {
+        Run run = follow(site, next);
+        // Found from both ends, if at all.
+        if (run.size() > 2 && run.front() < run.back() && is_straight(run)) runs.push_back(std::move(run));
+      }
+    }
+    return runs;
+  }
+
+ private:
+  void join(const Edge& e) {
+    neighbours_[e[0]].insert(e[1]);
+    neighbours_[e[1]].insert(e[0]);
+  }
+
+  /// Which of the two neighbours of a site?
+  std::size_t side(std::uint32_t site, std::uint32_t neighbour) const {
+    return *neighbours_.at(site).begin() == neighbour ? 0 : 1;
+  }
+  bool has_two(std::uint32_t site) const { return neighbours_.at(site).size() == 2; }
+
+  /// Sites at which a piece that comes from one neighbour does not go on to the other.
+  void find_turning_back() {
+    std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> balance;  // of a site and a piece
+    for (std::uint32_t i = 0; i < surface_.directed.size(); ++i) {
+      const auto& [a, b] = surface_.directed[i];
+      if (has_two(b)) ++balance[{b, surface_.piece_of[i]}][side(b, a)];
+      if (has_two(a)) --balance[{a, surface_.piece_of[i]}][1 - side(a, b)];
+    }
+    for (const auto& [where, sum] : balance)
+      if (sum != std::array{0, 0}) turning_back_.insert(where[0]);
+  }
+
+  bool is_passed(std::uint32_t site) const {
+    if (!has_two(site) || turning_back_.count(site) > 0) return false;
+    const auto& around = neighbours_.at(site);
+    return is_between(*around.begin(), site, *around.rbegin());
+  }
+
+  bool is_between(std::uint32_t a, std::uint32_t site, std::uint32_t b) const {
+    const Point3 axis = surface_.at(b) - surface_.at(a), p = surface_.at(site) - surface_.at(a);
+    const double part = dot(p, axis) / squared_length(axis);
+    const double tolerance = surface_.tolerances.place;
+    return part > 0 && part < 1 && squared_length(p - part * axis) <= tolerance * tolerance;
+  }
+
+  Run follow(std::uint32_t from, std::uint32_t next) const {
+    Run run = {from, next};
+    while (is_passed(run.back())) {
+      const auto& around = neighbours_.at(run.back());
+      run.push_back(*around.begin() == run[run.size() - 2] ? *around.rbegin() : *around.begin());
+    }
+    return run;
+  }
+
+  bool is_straight(const Run& run) const {
+    return std::all_of(run.begin() + 1, run.end() - 1,
+                       [&](std::uint32_t site) { return is_between(run.front(), site, run.back()); });
+  }
+
+  const Surface& surface_;
+  std::map<std::uint32_t, std::set<std::uint32_t>> neighbours_;
+  std::set<std::uint32_t> turning_back_;
+};
+
+/// For every edge along a run, in either direction, what it becomes: the first edge the whole run, the others nothing.
+std::map<Edge, Edge> find_replacements(const std::vector<Run>& runs) {
+  constexpr Edge nothing = {none, none};
+  std::map<Edge, Edge> become;
+  for (const Run& run : runs) {
+    for (std::size_t i = 0; i + 1 < run.size(); ++i)
+      become[{run[i], run[i + 1]}] = become[{run[i + 1], run[i]}] = nothing;
+    become[{run[0], run[1]}] = {run.front(), run.back()};
+    become[{run.back(), run[run.size() - 2]}] = {run.back(), run.front()};
+  }
+  return become;
+}
+
+void merge_straight_chains(Surface& surface) {
+  const std::map<Edge, Edge> become = find_replacements(StraightRuns(surface).find());
+  if (become.empty()) return;
+  std::vector<Edge> directed;
+  std::vector<std::uint32_t> begin = {0};
+  const auto add = [&](const Edge& e, std::vector<Edge>& edges) {
+    const auto found = become.find(e);
+    const Edge& replacement = found == become.end() ? e : found->second;
+    if (replacement[0] != none) edges.push_back(replacement);
+  };
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
+    for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i)
+      add(surface.directed[i], directed);
+    begin.push_back(static_cast<std::uint32_t>(directed.size()));
+  }
+  std::vector<Edge> segments;
+  for (const auto& [a, b] : surface.segments)
+    for (const Edge& e : {Edge{a, b}, Edge{b, a}})
+      if (e == Edge{a, b} || become.count(e) > 0) add(e, segments);
+  for (Edge& e : segments) e = ascending(e);
+  std::sort(segments.begin(), segments.end());
+  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  surface.directed = std::move(directed);
+  surface.piece_begin = std::move(begin);
+  surface.segments = std::move(segments);
+  index_surface(surface);
+}
+
+/// Is a vertex that nothing has on a piece or a segment all the same?
+class OnSomething {
+ public:
+  explicit OnSomething(const Surface& surface) : surface_(surface), tree_(surface) {}
+
+  bool operator()(std::uint32_t site) const {
+    const Point3& p = surface_.at(site);
+    bool found = std::any_of(surface_.segments.begin(), surface_.segments.end(), [&](const Edge& segment) {
+      return !select_within(surface_, segment, {&site, 1}).empty();
+    });
+    tree_.for_each_near(p, p,
+                        [&](std::uint32_t piece) { found = found || place_of(surface_, piece, p) != Place::off; });
+    return found;
+  }
+
+ private:
+  const Surface& surface_;
+  PieceTree tree_;
+};
+
+}  // namespace
+
+void let_vertices_slide(Surface& surface, Chambers& chambers) {
+  const std::vector<bool> was_used = find_used(surface);
+  merge_flat_patches(surface, chambers);
+  drop_segments_on_features(surface);
+  merge_straight_chains(surface);
+  const std::vector<bool> is_used = find_used(surface);
+  const OnSomething is_on_something(surface);
+  surface.slides.assign(is_used.size(), false);
+  for (const std::uint32_t site : surface.sites.of_input)
+    if (!is_used[site])
+      surface.slides[site] = was_used[site] || (!surface.sites.in_mesh(site) && is_on_something(site));
+}
+
+}  // namespace ccdt::verification
