@@ -87,12 +87,25 @@ TEST(VerifySlide, OnACurvedSurfaceNoVertexMaySlide) {
 /// So little bent that each edge alone would pass as flat.
 TEST(VerifySlide, OnASlightlyCurvedSurfaceNoVertexMaySlide) {
   const auto bulge = [](const Point3& p) {
-    return Point3{p.x, p.y, p.z + 1e-8 * p.z * (p.x * (12 - p.x) + p.y * (12 - p.y))};
+    return Point3{p.x, p.y, p.z + 5e-8 * p.z * (p.x * (12 - p.x) + p.y * (12 - p.y))};
   };
   const MeshedInput m = make_grid_mesh({12, 12, 1}, everywhere, false, bulge);
   expect_ok(m, sliding());
   expect_slide(moved(m, {5, 5, 0}, {5.2, 5.1, 0}, bulge));
   expect_no_slide(moved(m, {5, 5, 1}, {5.2, 5.1, 1}, bulge), must_stay);
+}
+
+/// The top is flat in the middle and twisted at two sides, so little that no edge parts the two.
+TEST(VerifySlide, VerticesMaySlideInTheFlatPartOfASlightlyCurvedSurface) {
+  const auto bend = [](const Point3& p) {
+    const double beyond = std::fmax(0, std::fabs(p.x - 6) - 3);
+    return Point3{p.x, p.y, p.z - 1e-8 * p.z * beyond * (p.y - 6) * (p.y - 6)};
+  };
+  const MeshedInput m = make_grid_mesh({12, 12, 1}, everywhere, false, bend);
+  expect_ok(m, sliding());
+  expect_slide(moved(m, {6, 6, 1}, {6.2, 6.1, 1}, bend));
+  expect_no_slide(moved(m, {1, 2, 1}, {1.2, 2, 1}, bend), must_stay);
+  expect_no_slide(moved(m, {6, 6, 1}, {6.2, 6.1, 1 - 1e-6}, bend), "input facets");
 }
 
 TEST(VerifySlide, VerticesMaySlideInAnInteriorFacetAndAlongItsBorder) {

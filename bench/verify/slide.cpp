@@ -30,12 +30,92 @@ std::vector<bool> find_used(const Surface& surface) {
   return used;
 }
 
-void merge_flat_patches(Surface& surface, Chambers& chambers) {
-  std::vector<bool> joined = find_features(surface);
-  joined.flip();
+Patches group(const Surface& surface, const std::vector<bool>& joined) {
   Chains none_yet;
   none_yet.begin.assign(surface.edges.size() + 1, 0);
-  const Patches patches = group_pieces(surface, none_yet, joined);
+  return group_pieces(surface, none_yet, joined);
+}
+
+/// Finds what is flat in a patch that is not, such as a flat face that goes over into a round one without an edge: sets
+/// of pieces grown from the largest ones along their plane.
+class FlatParts {
+ public:
+  FlatParts(const Surface& surface, const std::vector<bool>& joined)
+      : surface_(surface), joined_(joined), part_(surface.pieces(), none) {}
+
+  void divide(std::span<const std::uint32_t> pieces) {
+    std::vector<std::uint32_t> order(pieces.begin(), pieces.end());
+    const auto area = [&](std::uint32_t p) { return squared_length(surface_.area_vector[p]); };
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) { return area(p) > area(q); });
+    for (const std::uint32_t seed : order)
+      if (part_[seed] == none) grow(seed);
+  }
+
+  /// Are the pieces at an edge in different parts?
+  bool parts(std::uint32_t edge) const {
+    const std::uint32_t* use = &surface_.uses[surface_.use_begin[edge]];
+    return part_[surface_.piece_of[use[0]]] != part_[surface_.piece_of[use[1]]];
+  }
+
+ private:
+  /// How far the sites of a facet are from its plane that is flat but for rounding, in both coordinates and places.
+  double tolerance() const { return 2 * surface_.tolerances.place; }
+
+  void grow(std::uint32_t seed) {
+    Point3 area = surface_.area_vector[seed];
+    std::vector<std::uint32_t> members = {seed};
+    part_[seed] = seed;
+    for (std::size_t n = 0; n < members.size(); ++n) {
+      for (std::uint32_t i = surface_.piece_begin[members[n]]; i < surface_.piece_begin[members[n] + 1]; ++i) {
+        const std::uint32_t next = across(i);
+        if (next == none || part_[next] != none || !is_within(next, surface_.origin(seed), area)) continue;
+        part_[next] = seed;
+        members.push_back(next);
+        const Point3& more = surface_.area_vector[next];
+        area = dot(area, more) < 0 ? area - more : area + more;
+      }
+    }
+  }
+
+  std::uint32_t across(std::uint32_t use) const {
+    const std::uint32_t e = surface_.edge_of[use];
+    if (!joined_[e]) return none;
+    const std::uint32_t* uses = &surface_.uses[surface_.use_begin[e]];
+    return surface_.piece_of[uses[0] == use ? uses[1] : uses[0]];
+  }
+
+  bool is_within(std::uint32_t piece, const Point3& origin, const Point3& area) const {
+    const double bound = tolerance() * std::sqrt(squared_length(area));
+    for (std::uint32_t i = surface_.piece_begin[piece]; i < surface_.piece_begin[piece + 1]; ++i)
+      if (std::fabs(dot(area, surface_.at(surface_.directed[i][0]) - origin)) > bound) return false;
+    return true;
+  }
+
+  const Surface& surface_;
+  const std::vector<bool>& joined_;
+  std::vector<std::uint32_t> part_;  // of each piece: its seed
+};
+
+bool is_thin(const Surface& surface, const Patches& patches, std::uint32_t patch) {
+  return patches.thickness[patch] <= greatest_thickness * surface.tolerances.flat;
+}
+
+/// The edges within flat patches.
+std::vector<bool> find_edges_to_merge(const Surface& surface) {
+  std::vector<bool> joined = find_features(surface);
+  joined.flip();
+  const Patches patches = group(surface, joined);
+  FlatParts flat_parts(surface, joined);
+  for (std::uint32_t n = 0; n < patches.count(); ++n)
+    if (!is_thin(surface, patches, n)) flat_parts.divide(patches.pieces_of(n));
+  std::vector<bool> merged = joined;
+  for (std::uint32_t e = 0; e < surface.edges.size(); ++e) merged[e] = joined[e] && !flat_parts.parts(e);
+  return merged;
+}
+
+void merge_flat_patches(Surface& surface, Chambers& chambers) {
+  const std::vector<bool> joined = find_edges_to_merge(surface);
+  const Patches patches = group(surface, joined);
   Surface merged;
   merged.piece_begin.push_back(0);
   std::vector<std::uint32_t> of_side;
@@ -54,7 +134,7 @@ void merge_flat_patches(Surface& surface, Chambers& chambers) {
   for (std::uint32_t n = 0; n < patches.count(); ++n) {
     const auto pieces = patches.pieces_of(n);
     const std::size_t before = merged.directed.size();
-    if (patches.thickness[n] <= greatest_thickness * surface.tolerances.flat) {
+    if (is_thin(surface, patches, n)) {
       for (const std::uint32_t p : pieces) add_edges(p, patches.flipped[p] != patches.flipped[pieces[0]], false);
       if (merged.directed.size() > before) {
         finish_piece(pieces[0]);
