@@ -32,7 +32,7 @@ class SandwichedFaces {
     const std::array<std::uint32_t, 4> rim = {below_, above_, u, v};
     const double at_rim = x_.worth_of(goal_, rim);
     const std::size_t olds = change_.old_cells.size(), news = change_.new_cells.size();
-    if (at_rim < worth_of_goal(goal_)) {
+    if (at_rim < worth_of_goal(goal_) && !x_.is_segment(u, v)) {
       const double crossed = cross(upper, lower, u, v, w);
       if (crossed > at_rim) return crossed;
     }

@@ -1,0 +1,318 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/improve/insert_vertex.h"
+#include "engine/improve/remove_edge.h"
+#include "engine/improve/remove_faces.h"
+#include "engine/improve/remove_vertex.h"
+#include "engine/tests/improve_checks.h"
+
+namespace ccdt {
+namespace {
+
+using namespace improve_test;
+
+/// 1 / r alone, so that any difference of shape counts.
+const QualityGoal by_shape{Objective::r, 1, 1};
+const QualityGoal by_angle{Objective::dihedral, 0.5, std::sin(std::numbers::pi / 3)};
+
+/// Tetrahedra around the edge from 0 to 1; the ring is 2, 3, ...
+Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
+  Model model;
+  model.points = {{0, 0, -height}, {0, 0, height}};
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const double angle = 2 * std::numbers::pi * i / size;
+    model.points.push_back({std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle)), 0});
+    model.cells.push_back({0, 1, 2 + i, 2 + (i + 1) % size});
+  }
+  return model;
+}
+
+/// The edge of the cell between two vertices, or 6.
+std::uint32_t edge_of_cell(const CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
+  constexpr std::array<std::array<std::uint32_t, 2>, 6> ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+  const auto& v = x.cells[cell].vertices;
+  std::uint32_t edge = 0;
+  while (edge < 6 && edge_key(v[ends[edge][0]], v[ends[edge][1]]) != edge_key(a, b)) ++edge;
+  return edge;
+}
+
+/// Plans to remove an edge that the first cell has.
+bool plan_removal(const CellComplex& x, std::uint32_t a, std::uint32_t b, Change& change) {
+  return plan_edge_removal(x, by_shape, 0, edge_of_cell(x, 0, a, b), x.worths[0], change);
+}
+
+/// Makes the change and expects that all is well after it.
+void apply_checked(CellComplex& x, const Change& change) {
+  const Invariants before = invariants_of(x);
+  ASSERT_TRUE(all_positive(x, change));
+  apply_change(x, change);
+  expect_consistent(x, by_shape);
+  EXPECT_TRUE(invariants_of(x) == before);
+}
+
+/// Two tetrahedra on a square whose diagonal, from 0 to 1, is too long; 2 and 3 are its other corners, 4 is above.
+/// The square is facet 7, its sides are segments.
+Model square_with_long_diagonal() {
+  Model model;
+  model.points = {{-300, 0, 0}, {300, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 150}};
+  model.cells = {{0, 1, 2, 4}, {0, 1, 3, 4}};
+  model.faces = {{0, 1, 2}, {1, 0, 3}};
+  model.facet_of_face = {7, 7};
+  model.segments = {{0, 2}, {2, 1}, {1, 3}, {3, 0}};
+  return model;
+}
+
+/// The same with 5 below, and a region on either side.
+Model square_between_regions() {
+  Model model = square_with_long_diagonal();
+  model.points.push_back({0, 0, -150});
+  model.cells.insert(model.cells.end(), {{0, 1, 2, 5}, {0, 1, 3, 5}});
+  model.regions = {1, 1, 2, 2};
+  return model;
+}
+
+/// An octahedron of the vertices 0 to 5, whose inner vertex 6 is near to the vertex 0.
+Model octahedron() {
+  Model model;
+  model.points = {{100, 0, 0}, {-100, 0, 0}, {0, 100, 0}, {0, -100, 0}, {0, 0, 100}, {0, 0, -100}, {80, 1, 2}};
+  for (const std::uint32_t x : {0u, 1u})
+    for (const std::uint32_t y : {2u, 3u})
+      for (const std::uint32_t z : {4u, 5u}) model.cells.push_back({x, y, z, 6});
+  model.first_interior = 6;
+  return model;
+}
+
+TEST(Changes, ThreeTetrahedraAroundAnEdgeBecomeTwo) {
+  CellComplex x = complex_of(ring_of(3), by_shape);
+  Change change;
+  ASSERT_TRUE(plan_removal(x, 0, 1, change));
+  EXPECT_TRUE(change.flips.empty());
+  apply_checked(x, change);
+  EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 4}, {1, 2, 3, 4}}));
+}
+
+TEST(Changes, TwoFlatTetrahedraBecomeThreeAroundAnEdge) {
+  Model model = ring_of(3, 300, 1000);
+  model.cells = {{0, 2, 3, 4}, {1, 2, 3, 4}};
+  CellComplex x = complex_of(model, by_shape);
+  Change change;
+  ASSERT_TRUE(plan_face_removal(x, by_shape, 0, x.place(0, 0), x.worths[0], change));
+  apply_checked(x, change);
+  EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 3, 4}}));
+}
+
+TEST(Changes, FourTetrahedraAroundAnEdgeBecomeFourAroundTheShorterDiagonal) {
+  Model model = ring_of(4);
+  model.points[2].x = 150, model.points[4].x = -150;
+  CellComplex x = complex_of(model, by_shape);
+  Change change;
+  ASSERT_TRUE(plan_removal(x, 0, 1, change));
+  apply_checked(x, change);
+  EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 5}, {0, 3, 4, 5}, {1, 2, 3, 5}, {1, 3, 4, 5}}));
+}
+
+TEST(Changes, RingsUpToTheLongestGiveWayToTwoTetrahedraForEachOfTheirTriangles) {
+  for (std::uint32_t size = 3; size <= longest_ring; ++size) {
+    SCOPED_TRACE(size);
+    CellComplex x = complex_of(ring_of(size), by_shape);
+    Change change;
+    ASSERT_TRUE(plan_removal(x, 0, 1, change));
+    apply_checked(x, change);
+    EXPECT_EQ(cells_of(x).size(), 2 * (size - 2));
+    EXPECT_FALSE(has_edge(x, 0, 1));
+  }
+}
+
+TEST(Changes, LongerRingIsLeftAlone) {
+  CellComplex x = complex_of(ring_of(longest_ring + 1), by_shape);
+  // Not for want of something better: of all triangles of the ring none is smaller than one that cuts off a corner.
+  EXPECT_GT(x.worth_of(by_shape, {2, 3, 4, 1}), *std::ranges::min_element(x.worths));
+  Change change;
+  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
+    EXPECT_FALSE(plan_edge_removal(x, by_shape, c, edge_of_cell(x, c, 0, 1), x.worths[c], change));
+}
+
+TEST(Changes, RingThatIsAsGoodAsAnyIsLeftAlone) {
+  CellComplex x = complex_of(ring_of(5, 100, 170), by_shape);  // nearly regular tetrahedra
+  Change change;
+  EXPECT_FALSE(plan_removal(x, 0, 1, change));
+  EXPECT_EQ(expect_every_plan_is_sound(x, by_shape).edge_removals, 0);
+}
+
+TEST(Changes, DiagonalOnAFlatBoundaryFacetIsExchanged) {
+  CellComplex x = complex_of(square_with_long_diagonal(), by_shape);
+  Change change;
+  ASSERT_TRUE(plan_removal(x, 0, 1, change));
+  EXPECT_EQ(change.flips.size(), 1u);
+  apply_checked(x, change);
+  EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 4}, {1, 2, 3, 4}}));
+  EXPECT_NE(x.wall_faces.find(face_key(0, 2, 3)), nullptr);
+  EXPECT_NE(x.wall_faces.find(face_key(1, 2, 3)), nullptr);
+}
+
+TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
+  CellComplex x = complex_of(square_between_regions(), by_shape);
+  Change change;
+  ASSERT_TRUE(plan_removal(x, 0, 1, change));
+  apply_checked(x, change);
+  EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 4}, {1, 2, 3, 4}, {0, 2, 3, 5}, {1, 2, 3, 5}}));
+  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
+    EXPECT_EQ(x.regions[c], std::ranges::count(x.cells[c].vertices, 4u) == 1 ? 1 : 2);
+}
+
+TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
+  CellComplex x = complex_of(square_between_regions(), by_shape);
+  Change change;
+  ASSERT_TRUE(plan_removal(x, 0, 1, change));
+  apply_checked(x, change);
+  TetMesh mesh;
+  const std::size_t faces = x.faces.size();
+  take_mesh(std::move(x), mesh);
+  ASSERT_EQ(mesh.faces.size(), faces);
+  for (std::size_t f = 0; f < 2; ++f) {  // the first two are the square; they looked downwards
+    const auto& [a, b, c] = mesh.faces[f];
+    const auto& points = square_between_regions().points;
+    EXPECT_LT(cross(points[b] - points[a], points[c] - points[a]).z, 0);
+  }
+}
+
+TEST(Changes, EdgeOnASegmentIsNeverRemoved) {
+  for (Model model : {ring_of(3), ring_of(4), ring_of(6), square_with_long_diagonal(), square_between_regions()}) {
+    const CellComplex free = complex_of(model, by_shape);
+    Change change;
+    EXPECT_TRUE(plan_removal(free, 0, 1, change));
+    model.segments.push_back({0, 1});
+    const CellComplex x = complex_of(model, by_shape);
+    EXPECT_FALSE(plan_removal(x, 0, 1, change));
+    expect_every_plan_is_sound(x, by_shape);
+  }
+}
+
+TEST(Changes, EdgeBetweenDifferentFacetsIsNeverRemoved) {
+  for (Model model : {square_with_long_diagonal(), square_between_regions()}) {
+    model.facet_of_face = {7, 8};
+    const CellComplex x = complex_of(model, by_shape);
+    Change change;
+    EXPECT_FALSE(plan_removal(x, 0, 1, change));
+    expect_every_plan_is_sound(x, by_shape);
+  }
+}
+
+TEST(Changes, DiagonalOfAQuadrilateralThatIsNotConvexStays) {
+  Model model = square_with_long_diagonal();
+  model.points[0] = {50, 0, 0};  // the other diagonal passes by
+  model.points[2] = {0, -200, 0};
+  model.points[3] = {0, 200, 0};
+  const CellComplex x = complex_of(model, by_shape);
+  Change change;
+  EXPECT_FALSE(plan_removal(x, 0, 1, change));
+}
+
+TEST(Changes, WallIsNeverRemoved) {
+  Model flat = ring_of(3, 300, 1000);
+  flat.cells = {{0, 2, 3, 4}, {1, 2, 3, 4}};
+  flat.faces = {{2, 3, 4}};
+  flat.facet_of_face = {7};
+  flat.regions = {1, 2};
+  EXPECT_EQ(expect_every_plan_is_sound(complex_of(flat, by_shape), by_shape).face_removals, 0);
+  Model ring = ring_of(5);  // with a wall that ends at its edge
+  ring.faces = {{0, 1, 2}};
+  ring.facet_of_face = {7};
+  ring.segments = {{0, 1}, {1, 2}, {2, 0}};
+  const CellComplex x = complex_of(ring, by_shape);
+  EXPECT_EQ(expect_every_plan_is_sound(x, by_shape).edge_removals, 0);
+}
+
+TEST(Changes, TwoFacesAreRemovedTogetherWithTheEdgeBetweenThem) {
+  Model model = ring_of(4, 100, 100);
+  model.points[2].x = 150, model.points[4].x = -150;
+  model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
+  CellComplex x = complex_of(model, by_shape);
+  Change change;
+  ASSERT_TRUE(plan_face_removal(x, by_shape, 0, x.place(0, 0), x.worths[0], change));
+  apply_checked(x, change);
+  EXPECT_FALSE(has_edge(x, 2, 4));
+  EXPECT_TRUE(has_edge(x, 0, 1));
+}
+
+TEST(Changes, DanglingSegmentBetweenTwoFacesStays) {
+  Model model = ring_of(4, 100, 100);
+  model.points[2].x = 150, model.points[4].x = -150;
+  model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
+  model.segments = {{2, 4}};
+  const CellComplex x = complex_of(model, by_shape);
+  expect_every_plan_is_sound(x, by_shape);
+}
+
+TEST(Changes, InnerVertexOfOursIsCollapsed) {
+  CellComplex x = complex_of(octahedron(), by_shape);
+  Change change;
+  ASSERT_TRUE(plan_collapse(x, by_shape, 0, x.worths[0], change));
+  apply_checked(x, change);
+  EXPECT_EQ(x.cell_of_vertex[6], no_neighbor);
+  TetMesh mesh;
+  EXPECT_EQ(take_mesh(std::move(x), mesh).size(), 6u);
+  EXPECT_EQ(mesh.tetrahedra.size(), 4u);
+}
+
+TEST(Changes, CavityOfANewVertexSwallowsVerticesOfOurs) {
+  const PlanCounts counts = expect_every_plan_is_sound(complex_of(octahedron(), by_angle), by_angle);
+  EXPECT_GT(counts.insertions, 0);
+  EXPECT_TRUE(counts.vertices_gone.contains(6));
+}
+
+TEST(Changes, IsolatedVertexOfTheInputStays) {
+  Model model = octahedron();
+  model.first_interior = 7;
+  for (const QualityGoal& goal : {by_shape, by_angle}) {
+    const PlanCounts counts = expect_every_plan_is_sound(complex_of(model, goal), goal);
+    EXPECT_EQ(counts.collapses, 0);
+    EXPECT_TRUE(counts.vertices_gone.empty());
+  }
+}
+
+TEST(Changes, CavityOfANewVertexKeepsDanglingSegments) {
+  for (const std::uint32_t size : {3u, 4u, 5u, 6u, 7u}) {
+    SCOPED_TRACE(size);
+    Model model = ring_of(size, 400, 200);
+    CellComplex free = complex_of(model, by_angle);
+    Change change;
+    ASSERT_TRUE(plan_insertion(free, by_angle, 0, free.worths[0], change));
+    apply_change(free, change);
+    EXPECT_FALSE(has_edge(free, 0, 1));
+    model.segments = {{0, 1}};
+    expect_every_plan_is_sound(complex_of(model, by_angle), by_angle);
+  }
+}
+
+TEST(Changes, CavityOfANewVertexKeepsASegmentThatEndsInside) {
+  Model model = octahedron();
+  model.segments = {{1, 6}};
+  model.first_interior = 7;
+  for (const QualityGoal& goal : {by_shape, by_angle})
+    EXPECT_TRUE(expect_every_plan_is_sound(complex_of(model, goal), goal).vertices_gone.empty());
+}
+
+TEST(Changes, VertexIsInsertedIntoASliver) {
+  Model model;  // the sliver 0 1 2 3, its long edges crossing, between the vertices 4 above and 5 below
+  model.points = {{-100, 0, -2}, {100, 0, -2}, {0, -100, 2}, {0, 100, 2}, {0, 0, 140}, {0, 0, -140}};
+  model.cells = {{0, 1, 2, 3}, {2, 3, 0, 4}, {2, 3, 1, 4}, {0, 1, 2, 5}, {0, 1, 3, 5}};
+  CellComplex x = complex_of(model, by_angle);
+  EXPECT_LT(x.worths[0], 0.1);
+  Change change;
+  ASSERT_TRUE(plan_insertion(x, by_angle, 0, x.worths[0], change));
+  const Invariants before = invariants_of(x);
+  apply_change(x, change);
+  expect_consistent(x, by_angle);
+  EXPECT_EQ(x.points.size(), 7u);
+  EXPECT_NE(x.cell_of_vertex[6], no_neighbor);
+  EXPECT_TRUE(invariants_of(x) == before);
+  EXPECT_EQ(cells_of(x).size(), 8u);
+  EXPECT_GT(worst_of(x, {0, 1, 2, 3, 4, 5, 6, 7}), 0.5);
+}
+
+}  // namespace
+}  // namespace ccdt

@@ -1,0 +1,240 @@
+#include "engine/tests/improve_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/improve/insert_vertex.h"
+#include "engine/improve/remove_edge.h"
+#include "engine/improve/remove_faces.h"
+#include "engine/improve/remove_vertex.h"
+
+namespace ccdt::improve_test {
+namespace {
+
+using IntegerPoint = std::array<Integer, 3>;
+
+IntegerPoint exact(const Point3& p) {
+  const auto integer = [](double x) { return Integer(static_cast<long long>(x)); };
+  return {integer(p.x), integer(p.y), integer(p.z)};
+}
+
+IntegerPoint difference(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+IntegerPoint cross_product(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Twice the area of a triangle, as a vector.
+IntegerPoint area_vector(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const IntegerPoint origin = exact(x.points[a]);
+  return cross_product(difference(exact(x.points[b]), origin), difference(exact(x.points[c]), origin));
+}
+
+Integer sixfold_volume(const CellComplex& x, const Tetrahedron& t) {
+  const IntegerPoint n = area_vector(x, t[0], t[1], t[2]);
+  const IntegerPoint d = difference(exact(x.points[t[3]]), exact(x.points[t[0]]));
+  return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+}
+
+template <class Visit>
+void visit_cells(const CellComplex& x, const Visit& visit) {
+  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
+    if (!x.is_dead(c)) visit(c);
+}
+
+FaceKey key_of(const CellComplex& x, std::uint32_t code) {
+  const auto& v = x.cells[cell_of(code)].vertices;
+  const auto& corner = face_corners[face_of(code)];
+  return face_key(v[corner[0]], v[corner[1]], v[corner[2]]);
+}
+
+/// The faces of all cells, by how many cells have them.
+std::map<FaceKey, int> count_faces(const std::vector<Tetrahedron>& cells) {
+  std::map<FaceKey, int> counts;
+  for (const auto& v : cells)
+    for (const auto& corner : face_corners) ++counts[face_key(v[corner[0]], v[corner[1]], v[corner[2]])];
+  return counts;
+}
+
+void orient(const std::vector<Point3>& points, Tetrahedron& t) {
+  CellComplex x;
+  x.points = points;
+  if (sixfold_volume(x, t) < 0) std::swap(t[0], t[1]);
+}
+
+/// Faces of the boundary that are on no facet get one each, the face seen from outside counterclockwise.
+void add_boundary(Model& model) {
+  std::set<FaceKey> known;
+  for (const Triangle& f : model.faces) known.insert(face_key(f[0], f[1], f[2]));
+  const auto counts = count_faces(model.cells);
+  std::uint32_t facet = 1000;
+  for (const auto& v : model.cells)
+    for (const auto& corner : face_corners) {
+      const Triangle face = {v[corner[0]], v[corner[2]], v[corner[1]]};
+      const FaceKey key = face_key(face[0], face[1], face[2]);
+      if (counts.at(key) == 2 || !known.insert(key).second) continue;
+      model.faces.push_back(face);
+      model.facet_of_face.push_back(facet++);
+    }
+}
+
+void expect_neighbors_fit(const CellComplex& x, std::uint32_t code) {
+  const std::uint32_t c = cell_of(code), beyond = x.cells[c].neighbors[face_of(code)];
+  const bool on_facet = x.wall_faces.find(key_of(x, code)) != nullptr;
+  EXPECT_EQ(x.is_wall(code), on_facet || beyond == no_neighbor) << "face " << face_of(code) << " of cell " << c;
+  if (beyond == no_neighbor) return;
+  ASSERT_LT(cell_of(beyond), x.cells.size());
+  EXPECT_FALSE(x.is_dead(cell_of(beyond)));
+  EXPECT_EQ(x.cells[cell_of(beyond)].neighbors[face_of(beyond)], code);
+  EXPECT_EQ(key_of(x, beyond), key_of(x, code));
+  EXPECT_TRUE(x.is_wall(code) || x.regions[cell_of(beyond)] == x.regions[c]) << "cell " << c;
+}
+
+void expect_vertices_know_cells(const CellComplex& x) {
+  std::vector<bool> in_use(x.points.size(), false);
+  visit_cells(x, [&](std::uint32_t c) {
+    for (const std::uint32_t v : x.cells[c].vertices) in_use[v] = true;
+  });
+  ASSERT_EQ(x.cell_of_vertex.size(), x.points.size());
+  ASSERT_EQ(x.changed_at.size(), x.points.size());
+  for (std::uint32_t v = 0; v < x.points.size(); ++v) {
+    const std::uint32_t c = x.cell_of_vertex[v];
+    EXPECT_EQ(c != no_neighbor, in_use[v]) << "vertex " << v;
+    if (c == no_neighbor) continue;
+    ASSERT_FALSE(x.is_dead(c)) << "vertex " << v;
+    EXPECT_EQ(std::ranges::count(x.cells[c].vertices, v), 1) << "vertex " << v;
+  }
+}
+
+void expect_faces_and_segments_there(const CellComplex& x) {
+  std::set<FaceKey> faces;
+  std::set<std::uint64_t> edges;
+  visit_cells(x, [&](std::uint32_t c) {
+    const auto& v = x.cells[c].vertices;
+    for (std::uint32_t f = 0; f < 4; ++f) faces.insert(key_of(x, face_code(c, f)));
+    for (std::uint32_t i = 0; i < 4; ++i)
+      for (std::uint32_t j = 0; j < i; ++j) edges.insert(edge_key(v[i], v[j]));
+  });
+  EXPECT_EQ(x.wall_faces.size(), x.faces.size());
+  for (std::uint32_t f = 0; f < x.faces.size(); ++f) {
+    const FaceKey key = face_key(x.faces[f][0], x.faces[f][1], x.faces[f][2]);
+    EXPECT_TRUE(faces.contains(key)) << "face " << f;
+    const std::uint32_t* const place = x.wall_faces.find(key);
+    ASSERT_NE(place, nullptr);
+    EXPECT_EQ(*place, f);
+  }
+  x.segments.for_each([&](std::uint64_t key, bool) {
+    EXPECT_TRUE(edges.contains(key)) << "segment " << (key >> 32) << " " << (key & 0xFFFFFFFFu);
+  });
+}
+
+/// Makes a planned change in a copy.
+void expect_sound(CellComplex x, const QualityGoal& goal, const Invariants& before, double least, const Change& change,
+                  PlanCounts& counts) {
+  EXPECT_GT(worst_of(change.new_cells), least);
+  for (const NewCell& made : change.new_cells) EXPECT_EQ(made.worth, x.worth_of(goal, made.vertices));
+  if (!all_positive(x, change)) return;  // such a plan is given up
+  const std::uint64_t changes = x.changes;
+  const auto places = apply_change(x, change);
+  EXPECT_GT(x.changes, changes);
+  EXPECT_EQ(places.size(), change.new_cells.size());
+  expect_consistent(x, goal);
+  EXPECT_TRUE(invariants_of(x) == before);
+  for (std::uint32_t v = 0; v < x.points.size(); ++v)
+    if (x.cell_of_vertex[v] == no_neighbor) counts.vertices_gone.insert(v);
+}
+
+}  // namespace
+
+CellComplex complex_of(Model model, const QualityGoal& goal) {
+  for (Tetrahedron& t : model.cells) orient(model.points, t);
+  add_boundary(model);
+  TetMesh mesh;
+  mesh.tetrahedra = model.cells;
+  mesh.regions = model.regions.empty() ? std::vector<int>(model.cells.size(), 0) : model.regions;
+  mesh.faces = model.faces;
+  mesh.edges = model.segments;
+  const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
+  return make_complex(mesh, model.points, model.facet_of_face, first_interior, goal);
+}
+
+Invariants invariants_of(const CellComplex& x) {
+  Invariants result;
+  visit_cells(x, [&](std::uint32_t c) {
+    result.sixfold_volumes[x.regions[c]] += sixfold_volume(x, x.cells[c].vertices);
+    for (const std::uint32_t v : x.cells[c].vertices) {
+      if (x.is_interior(v)) continue;
+      result.kept_vertices.insert(v);
+      result.places[v] = as_array(x.points[v]);
+    }
+  });
+  for (std::size_t f = 0; f < x.faces.size(); ++f) {
+    const IntegerPoint area = area_vector(x, x.faces[f][0], x.faces[f][1], x.faces[f][2]);
+    auto& sum = result.twofold_area_vectors[x.facet_of_face[f]];
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
+    ++result.face_counts[x.facet_of_face[f]];
+  }
+  return result;
+}
+
+void expect_consistent(const CellComplex& x, const QualityGoal& goal) {
+  std::size_t dead = 0;
+  for (std::uint32_t c = 0; c < x.cells.size(); ++c) {
+    dead += x.is_dead(c);
+    if (x.is_dead(c)) continue;
+    EXPECT_GT(sixfold_volume(x, x.cells[c].vertices), 0) << "cell " << c;
+    EXPECT_EQ(x.worths[c], x.worth_of(goal, x.cells[c].vertices)) << "cell " << c;
+    for (std::uint32_t f = 0; f < 4; ++f) expect_neighbors_fit(x, face_code(c, f));
+  }
+  EXPECT_EQ(dead, x.free_cells.size());
+  for (const std::uint32_t c : x.free_cells) EXPECT_TRUE(x.is_dead(c));
+  expect_vertices_know_cells(x);
+  expect_faces_and_segments_there(x);
+}
+
+PlanCounts expect_every_plan_is_sound(const CellComplex& complex, const QualityGoal& goal) {
+  PlanCounts counts;
+  const Invariants before = invariants_of(complex);
+  CellComplex x = complex;
+  Change change;
+  const auto make = [&](int& count, std::uint32_t cell) {
+    ++count;
+    expect_sound(x, goal, before, x.worths[cell], change, counts);
+  };
+  visit_cells(complex, [&](std::uint32_t c) {
+    SCOPED_TRACE("cell " + std::to_string(c));
+    const double least = complex.worths[c];
+    for (std::uint32_t edge = 0; edge < 6; ++edge) {
+      if (!plan_edge_removal(x, goal, c, edge, least, change)) continue;
+      counts.facet_flips += static_cast<int>(change.flips.size());
+      make(counts.edge_removals, c);
+    }
+    for (std::uint32_t face = 0; face < 4; ++face)
+      if (plan_face_removal(x, goal, c, face, least, change)) make(counts.face_removals, c);
+    if (plan_collapse(x, goal, c, least, change)) make(counts.collapses, c);
+    if (plan_insertion(x, goal, c, least, change)) make(counts.insertions, c);
+    x = complex;  // without the vertex that an insertion has left
+  });
+  return counts;
+}
+
+std::set<Tetrahedron> cells_of(const CellComplex& x) {
+  std::set<Tetrahedron> cells;
+  visit_cells(x, [&](std::uint32_t c) {
+    Tetrahedron t = x.cells[c].vertices;
+    std::ranges::sort(t);
+    cells.insert(t);
+  });
+  return cells;
+}
+
+bool has_edge(const CellComplex& x, std::uint32_t a, std::uint32_t b) {
+  return std::ranges::any_of(cells_of(x), [&](const Tetrahedron& t) {
+    return std::ranges::count(t, a) == 1 && std::ranges::count(t, b) == 1;
+  });
+}
+
+}  // namespace ccdt::improve_test

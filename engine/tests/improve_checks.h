@@ -1,0 +1,66 @@
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "engine/improve/change_cells.h"
+
+/// What every change of a mesh has to leave as it is, found without the means of the engine.
+namespace ccdt::improve_test {
+
+using Integer = boost::multiprecision::cpp_int;
+using Tetrahedron = std::array<std::uint32_t, 4>;
+using Triangle = std::array<std::uint32_t, 3>;
+using Edge = std::array<std::uint32_t, 2>;
+
+/// A small mesh, from which a complex is made.
+struct Model {
+  std::vector<Point3> points;
+  std::vector<Tetrahedron> cells;    ///< of any orientation
+  std::vector<int> regions = {};     ///< empty: all 0
+  std::vector<Triangle> faces = {};  ///< on facets; faces of the boundary that are missing become facets of their own
+  std::vector<std::uint32_t> facet_of_face = {};
+  std::vector<Edge> segments = {};
+  std::uint32_t first_interior = 0xFFFFFFFFu;  ///< none is interior
+};
+
+CellComplex complex_of(Model model, const QualityGoal& goal);
+
+/// Exact sums, which stay the same as long as the same space is filled once and the facets keep their orientation.
+struct Invariants {
+  std::map<int, Integer> sixfold_volumes;                                ///< by region
+  std::map<std::uint32_t, std::array<Integer, 3>> twofold_area_vectors;  ///< by facet
+  std::map<std::uint32_t, std::size_t> face_counts;                      ///< by facet
+  std::set<std::uint32_t> kept_vertices;                                 ///< in use, and not interior
+  std::map<std::uint32_t, std::array<double, 3>> places = {};            ///< of these
+
+  bool operator==(const Invariants&) const = default;
+};
+
+Invariants invariants_of(const CellComplex& complex);
+
+/// All that the complex says of itself is right: neighbors are mutual and share three vertices, walls are exactly at
+/// the faces on facets and at the boundary, cells are exactly positive and worth what they say, regions end at walls,
+/// each vertex knows one of its cells, and segments are edges of cells.
+void expect_consistent(const CellComplex& complex, const QualityGoal& goal);
+
+/// How many changes are possible, by kind.
+struct PlanCounts {
+  int edge_removals = 0, facet_flips = 0, face_removals = 0, insertions = 0, collapses = 0;
+  std::set<std::uint32_t> vertices_gone = {};  ///< by any of them
+
+  int total() const { return edge_removals + face_removals + insertions + collapses; }
+};
+
+/// Makes each change that any cell can have part in, in a copy of the complex, and expects that it is for the better,
+/// that all is consistent, and that the invariants hold.
+PlanCounts expect_every_plan_is_sound(const CellComplex& complex, const QualityGoal& goal);
+
+/// The tetrahedra that live, with sorted vertices.
+std::set<Tetrahedron> cells_of(const CellComplex& complex);
+
+bool has_edge(const CellComplex& complex, std::uint32_t a, std::uint32_t b);
+
+}  // namespace ccdt::improve_test
