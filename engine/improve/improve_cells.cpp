@@ -20,7 +20,12 @@ struct BadCell {
   std::uint32_t cell;
   std::uint32_t generation;    ///< of the cell: another one there is a new cell
   std::uint64_t tried_at = 0;  ///< the number of the last change when it was tried in vain
+  int tries = 0;               ///< how often that was
 };
+
+/// So often a cell is tried in vain before it is given up. More would cost half as much time again for the last one in
+/// a hundred of the bad cells.
+constexpr int most_tries = 3;
 
 /// How much is tried for a cell.
 enum class Effort { usual, greatest };
@@ -36,6 +41,10 @@ class Improving {
   bool is_bad(std::uint32_t cell) const { return !(x_.worths[cell] >= worth_of_goal(goal_)); }
   bool is_stale(const BadCell& bad) const {
     return x_.generations[bad.cell] != bad.generation || x_.is_dead(bad.cell) || !is_bad(bad.cell);
+  }
+  bool is_worth_a_try(const BadCell& bad) const {
+    const auto has_changed = [&](std::uint32_t v) { return x_.changed_at[v] >= bad.tried_at; };
+    return bad.tries < most_tries && std::ranges::any_of(x_.cells[bad.cell].vertices, has_changed);
   }
   bool time_is_up() const {
     return options_.time > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= options_.time;
@@ -59,6 +68,7 @@ class Improving {
   const Clock::time_point begin_;
   ImproveCounts counts_;
   std::vector<BadCell> queue_, found_;  ///< of this pass, worst first; for the next one
+
   Change plan_, best_;
   VertexStar star_;
 };
@@ -72,7 +82,7 @@ ImproveCounts Improving::run(const Progress& progress) {
     if (changed) continue;
     if (effort == Effort::greatest || options_.improvement != Improvement::all) break;
     effort = Effort::greatest;
-    for (BadCell& bad : found_) bad.tried_at = 0;
+    for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
   }
   std::erase_if(found_, [&](const BadCell& bad) { return is_stale(bad); });
   counts_.bad_cells_left = found_.size();
@@ -101,10 +111,11 @@ bool Improving::pass(Effort effort, const Progress& progress) {
       }
     }
     if (is_stale(bad)) continue;
-    const auto& corners = x_.cells[bad.cell].vertices;
-    const auto tried = [&](std::uint32_t v) { return x_.changed_at[v] < bad.tried_at; };
-    if (!std::ranges::all_of(corners, tried) && improve(bad.cell, effort) && is_stale(bad)) continue;
-    bad.tried_at = x_.changes + 1;
+    if (is_worth_a_try(bad)) {
+      if (improve(bad.cell, effort) && is_stale(bad)) continue;
+      bad.tried_at = x_.changes + 1;
+      ++bad.tries;
+    }
     found_.push_back(bad);
   }
   return x_.changes != changes;
