@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <memory>
-#include <optional>
 
 #include "baselines/mesher.h"
 #include "bench/run_record.h"
@@ -28,16 +27,8 @@ struct MeshCommand {
   MeshOptions options;
   bool remesh = false;
   double sharp_angle = RemeshOptions().sharp_angle;
-  std::optional<Improvement> improvement;  ///< none: all of it, but for the bare tetrahedralization
   unsigned most_threads = 1;
 };
-
-/// Without lattice points the mesh is the constrained Delaunay tetrahedralization of the input and stays that, unless
-/// improvement is asked for.
-void choose_improvement(MeshCommand& command) {
-  const Improvement usual = command.options.lattice == Lattice::none ? Improvement::none : Improvement::all;
-  command.options.improve.improvement = command.improvement.value_or(usual);
-}
 
 void check_surface_options(const MeshCommand& command) {
   if (command.remesh && command.options.edge_length == 0)
@@ -224,8 +215,8 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
       ->capture_default_str();
 }
 
-void add_improvement(CLI::App& verb, MeshCommand& command) {
-  ImproveOptions& options = command.options.improve;
+void add_improvement(CLI::App& verb, ImproveOptions& options) {
+  options.improvement = Improvement::all;
   add_choice<std::optional<Improvement>>(
       verb, "--improve", command.improvement,
       {{"all", Improvement::all},
@@ -285,11 +276,14 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
   add_files(*verb, *command);
   add_strategies(*verb, *command);
-  add_improvement(*verb, *command);
+  add_improvement(*verb, command->options.improve);
   add_numbers(*verb, command->options);
   verb->footer(footer());
-  verb->callback([command, &exit_code] {
-    choose_improvement(*command);
+  verb->callback([command, verb, &exit_code] {
+    // Without lattice points the mesh is the constrained Delaunay tetrahedralization of the input, and stays that
+    // unless improvement is asked for.
+    if (command->options.lattice == Lattice::none && verb->count("--improve") == 0)
+      command->options.improve.improvement = Improvement::none;
     run(*command);
     exit_code = done;
   });

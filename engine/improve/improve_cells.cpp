@@ -53,8 +53,8 @@ class Improving {
   bool pass(Effort effort, const Progress& progress);
   bool improve(std::uint32_t cell, Effort effort);
   bool swap(std::uint32_t cell);
-  bool smooth(std::uint32_t cell);
-  bool move(std::uint32_t vertex);
+  bool smooth(std::uint32_t cell, Effort effort);
+  bool move(std::uint32_t vertex, Effort effort);
   bool insert_or_collapse(std::uint32_t cell);
   void apply(const Change& change);
   void add_bad(std::uint32_t cell) {
@@ -80,7 +80,7 @@ ImproveCounts Improving::run(const Progress& progress) {
   while (!found_.empty() && !time_is_up()) {
     const bool changed = pass(effort, progress);
     if (changed) continue;
-    if (effort == Effort::greatest || options_.improvement != Improvement::all) break;
+    if (effort == Effort::greatest || options_.improvement == Improvement::swap) break;
     effort = Effort::greatest;
     for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
   }
@@ -127,11 +127,12 @@ bool Improving::improve(std::uint32_t cell, Effort effort) {
   const bool smooths = options_.improvement != Improvement::swap;
   if (swaps && swap(cell)) return true;
   bool improved = false;
-  if (smooths && smooth(cell)) {
+  if (smooths && smooth(cell, effort)) {
     improved = true;
     if (x_.generations[cell] != generation || !is_bad(cell)) return true;
   }
-  return (effort == Effort::greatest && insert_or_collapse(cell)) || improved;
+  const bool everything = effort == Effort::greatest && options_.improvement == Improvement::all;
+  return (everything && insert_or_collapse(cell)) || improved;
 }
 
 /// The best of all swaps that a cell has part in.
@@ -160,21 +161,22 @@ void Improving::apply(const Change& change) {
   for (const std::uint32_t c : apply_change(x_, change)) add_bad(c);
 }
 
-bool Improving::smooth(std::uint32_t cell) {
+bool Improving::smooth(std::uint32_t cell, Effort effort) {
   bool moved = false;
   const auto corners = x_.cells[cell].vertices;
   for (const std::uint32_t v : corners) {
-    if (!move(v)) continue;
+    if (!move(v, effort)) continue;
     moved = true;
     if (!is_bad(cell)) break;
   }
   return moved;
 }
 
-bool Improving::move(std::uint32_t vertex) {
+/// Interior vertices first: those on the boundary slide only where that was not enough.
+bool Improving::move(std::uint32_t vertex, Effort effort) {
   Freedom freedom;
   if (!x_.is_interior(vertex)) {
-    if (freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
+    if (effort == Effort::usual || freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
     freedom = freedom_[vertex];
   }
   gather_star(x_, vertex, star_);

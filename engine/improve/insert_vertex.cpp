@@ -17,18 +17,25 @@ struct HullFace {
   std::array<std::uint32_t, 3> corners;  ///< the inside is above
 };
 
+/// Cells of the complex that are marked with its last question.
 struct Cavity {
   std::vector<std::uint32_t> cells;
   std::vector<HullFace> hull;
   std::vector<StarFace> faces;  ///< of the hull
 };
 
-double worth_with(const CellComplex& x, const QualityGoal& goal, const HullFace& face, const Point3& apex) {
-  return worth(goal, x.points[face.corners[0]], x.points[face.corners[1]], x.points[face.corners[2]], apex);
+bool is_in(const CellComplex& x, std::uint32_t cell) {
+  return x.marks[cell] == x.questions;
 }
 
-bool is_in(const Cavity& cavity, std::uint32_t cell) {
-  return std::ranges::find(cavity.cells, cell) != cavity.cells.end();
+void add_cell(CellComplex& x, std::uint32_t cell, Cavity& cavity) {
+  x.marks[cell] = x.questions;
+  cavity.cells.push_back(cell);
+}
+
+bool is_on_hull(const CellComplex& x, const Cell& cell, std::uint32_t code) {
+  const std::uint32_t beyond = cell.neighbors[face_of(code)];
+  return x.is_wall(code) || !is_in(x, cell_of(beyond));
 }
 
 /// The hull of the cavity as it is.
@@ -37,8 +44,7 @@ void find_hull(const CellComplex& x, Cavity& cavity) {
   for (const std::uint32_t c : cavity.cells) {
     const Cell& cell = x.cells[c];
     for (std::uint32_t f = 0; f < 4; ++f) {
-      if (cell.neighbors[f] != no_neighbor && !x.is_wall(face_code(c, f)) && is_in(cavity, cell_of(cell.neighbors[f])))
-        continue;
+      if (!is_on_hull(x, cell, face_code(c, f))) continue;
       const auto& corner = face_corners[f];
       cavity.hull.push_back(
           {face_code(c, f), {cell.vertices[corner[0]], cell.vertices[corner[1]], cell.vertices[corner[2]]}});
@@ -48,19 +54,22 @@ void find_hull(const CellComplex& x, Cavity& cavity) {
 
 /// Takes in what is behind faces that make a cell with the apex that is worth less than `wanted`.
 /// \return false: the cavity is as large as it may be
-bool grow(const CellComplex& x, const QualityGoal& goal, double wanted, const Point3& apex, Cavity& cavity) {
-  for (bool grows = true; grows;) {
-    grows = false;
-    find_hull(x, cavity);
-    for (const HullFace& face : cavity.hull) {
-      if (x.is_wall(face.code) || worth_with(x, goal, face, apex) >= wanted) continue;
-      const std::uint32_t beyond = cell_of(x.cells[cell_of(face.code)].neighbors[face_of(face.code)]);
-      if (is_in(cavity, beyond)) continue;
+bool grow(CellComplex& x, const QualityGoal& goal, double wanted, const Point3& apex, Cavity& cavity) {
+  // Cells that join the cavity are met later in the same loop.
+  for (std::size_t i = 0; i < cavity.cells.size(); ++i) {
+    const std::uint32_t c = cavity.cells[i];
+    const Cell& cell = x.cells[c];
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (x.is_wall(face_code(c, f)) || is_in(x, cell_of(cell.neighbors[f]))) continue;
+      const auto& corner = face_corners[f];
+      const double made = worth(goal, x.points[cell.vertices[corner[0]]], x.points[cell.vertices[corner[1]]],
+                                x.points[cell.vertices[corner[2]]], apex);
+      if (made >= wanted) continue;
       if (cavity.cells.size() >= most_cells) return false;
-      cavity.cells.push_back(beyond);
-      grows = true;
+      add_cell(x, cell_of(cell.neighbors[f]), cavity);
     }
   }
+  find_hull(x, cavity);
   return true;
 }
 
@@ -117,7 +126,9 @@ double wanted_worth(const QualityGoal& goal, double least) {
 bool plan_insertion(CellComplex& x, const QualityGoal& goal, std::uint32_t cell, double least, Change& change) {
   thread_local Cavity cavity;
   change.clear();
-  cavity.cells.assign(1, cell);
+  cavity.cells.clear();
+  ++x.questions;
+  add_cell(x, cell, cavity);
   const auto& v = x.cells[cell].vertices;
   const Point3 origin = x.points[v[0]];
   const Point3 sum = (x.points[v[1]] - origin) + (x.points[v[2]] - origin) + (x.points[v[3]] - origin);
