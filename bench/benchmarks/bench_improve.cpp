@@ -1,0 +1,132 @@
+// What is measured: improve_mesh, from the constrained Delaunay tetrahedralization, complete but for its coordinates,
+// to the improved mesh; all boundary vertices stay. Making and undoing the structure that is improved is within.
+//
+//   improve/swap/...     edges and faces are removed
+//   improve/smooth/...   interior vertices move
+//   improve/all/...      both, and interior vertices come and go
+//
+//   .../MODEL/N        with the interior points of the fcc lattice; the mesh has about N vertices
+//   .../flat-MODEL/N   the same, but z scaled by 0.3: the surface's own triangles forbid to reach the targets, so that
+//                      everything is tried for many cells
+//   .../FILE           a file given by --input
+//
+// "vertices" and "cells" are those of the mesh before; "bad" are its cells that are not good enough, "bad_left" those
+// after: moving vertices spreads what cannot be mended, of which the worst counts. Before anything is timed, all cells
+// of the improved mesh must be positive and the worst no worse than before, and together they must fill the same
+// volume.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/benchmarks/benchmark_main.h"
+#include "engine/improve/cell_quality.h"
+#include "engine/improve/improve_mesh.h"
+#include "engine/label/label_cells.h"
+#include "engine/mesh/assemble_mesh.h"
+#include "engine/numbers/predicates.h"
+
+namespace ccdt::benchmarks {
+namespace {
+
+/// What `improve_mesh` is given, and changes.
+struct Unimproved {
+  TetMesh mesh;
+  std::vector<std::uint32_t> facet_of_face;
+  std::vector<Point3> points;
+};
+
+const Unimproved& unimproved(const Stages& s) {
+  static std::map<const Stages*, Unimproved> made;
+  const auto [at, is_new] = made.try_emplace(&s);
+  Unimproved& u = at->second;
+  if (is_new) {
+    u.mesh = collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes), s.delaunay);
+    u.facet_of_face = finish_mesh(s.plc, s.chains, s.facets, s.delaunay, u.mesh);
+    u.points = points_of(s.delaunay);
+  }
+  return u;
+}
+
+ImproveOptions options_of(Improvement improvement) {
+  ImproveOptions options;
+  options.improvement = improvement;
+  return options;
+}
+
+ImproveCounts improve(const Stages& s, Improvement improvement, Unimproved& u) {
+  return improve_mesh(s.plc, s.chains, std::move(u.facet_of_face), s.lattice.vertices.size(), options_of(improvement),
+                      u.points, u.mesh);
+}
+
+/// Of the worst cell; not positive if a cell is not.
+double least_worth(const Unimproved& u) {
+  const QualityGoal goal = goal_of({});
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
+    const auto& at = u.points;
+    if (orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
+    least = std::min(least, worth(goal, at[a], at[b], at[c], at[d]));
+  }
+  return least;
+}
+
+double six_volumes(const Unimproved& u) {
+  double volume = 0;
+  for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
+    const Point3& origin = u.points[a];
+    volume += dot(u.points[d] - origin, cross(u.points[b] - origin, u.points[c] - origin));
+  }
+  return volume;
+}
+
+std::string find_fault(const Stages& s, Improvement improvement) {
+  const Unimproved& before = unimproved(s);
+  Unimproved after = before;
+  improve(s, improvement, after);
+  const double least = least_worth(after), volume = six_volumes(before);
+  if (!(least > 0)) return "a cell is not positive";
+  if (least < least_worth(before)) return "the worst cell is worse than before";
+  if (std::fabs(six_volumes(after) - volume) > 1e-9 * volume) return "the volume has changed";
+  return {};
+}
+
+void measure(benchmark::State& state, const Stages& s, Improvement improvement) {
+  const Unimproved& before = unimproved(s);
+  ImproveCounts counts;
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto mesh = std::make_optional(before);
+    state.ResumeTiming();
+    counts = improve(s, improvement, *mesh);
+    state.PauseTiming();
+    mesh.reset();
+    state.ResumeTiming();
+  }
+  set_count(state, "bad", counts.bad_cells);
+  set_count(state, "bad_left", counts.bad_cells_left);
+  set_counters(state, before.points.size(), before.mesh.tetrahedra.size());
+}
+
+void add(const std::string& name, Improvement improvement, const Files& files) {
+  add_stage({.name = "improve/" + name,
+             .flattened_too = true,
+             .find_fault = [=](const Stages& s) { return find_fault(s, improvement); },
+             .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, improvement); }},
+            files);
+}
+
+}  // namespace
+}  // namespace ccdt::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace ccdt::benchmarks;
+  return run_benchmarks(argc, argv, [](const Files& files) {
+    add("swap", ccdt::Improvement::swap, files);
+    add("smooth", ccdt::Improvement::smooth, files);
+    add("all", ccdt::Improvement::all, files);
+  });
+}
