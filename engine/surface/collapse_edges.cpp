@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/surface/improve_triangles.h"
 #include "engine/surface/remesh_steps.h"
 #include "engine/surface/surface_limits.h"
 
@@ -35,9 +36,13 @@ bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t alon
   return false;
 }
 
+// What a collapse is for: to have no short edges, or to make the worst triangle around better.
+enum class Aim { length, angle };
+
 // Are the triangles and edges that the collapse would make good enough?
-bool has_good_result(const WorkingMesh& m, HalfedgeHandle h) {
+bool has_good_result(const WorkingMesh& m, HalfedgeHandle h, Aim aim) {
   const VertexHandle from = m.mesh.from_vertex_handle(h), to = m.mesh.to_vertex_handle(h);
+  const Shape shape = aim == Aim::angle ? Shape::angle : Shape::area;
   WorstFit before, after;
   for (auto out = m.mesh.cvoh_iter(from); out.is_valid(); ++out) {
     const VertexHandle n = m.mesh.to_vertex_handle(*out);
@@ -47,12 +52,13 @@ bool has_good_result(const WorkingMesh& m, HalfedgeHandle h) {
     if (m.mesh.is_boundary(*out)) continue;
     if (m.is_frozen(m.mesh.face_handle(*out))) return false;
     auto v = corners_of(m, *out);
-    before.add(fit_of(m, v));
+    before.add(fit_of(m, v, shape));
     if (v[1] == to || v[2] == to) continue;
     v[0] = to;
-    after.add(fit_of(m, v));
+    after.add(fit_of(m, v, shape));
   }
-  return may_replace(before.worst, after.worst, good_quality);
+  return aim == Aim::angle ? is_better(before.worst, after.worst)
+                           : may_replace(before.worst, after.worst, good_quality);
 }
 
 bool stays_near_surface(const WorkingMesh& m, HalfedgeHandle h) {
@@ -62,10 +68,10 @@ bool stays_near_surface(const WorkingMesh& m, HalfedgeHandle h) {
   return true;
 }
 
-bool try_collapse(WorkingMesh& m, HalfedgeHandle h) {
+bool try_collapse(WorkingMesh& m, HalfedgeHandle h, Aim aim) {
   const VertexHandle from = m.mesh.from_vertex_handle(h);
   if (knot_of(m, from) != none || m.at(from).is_frozen || !m.mesh.is_collapse_ok(h)) return false;
-  if (would_join_knots(m, h, none) || !has_good_result(m, h) || !stays_near_surface(m, h)) return false;
+  if (would_join_knots(m, h, none) || !has_good_result(m, h, aim) || !stays_near_surface(m, h)) return false;
   m.mesh.collapse(h);
   return true;
 }
@@ -117,7 +123,7 @@ bool may_become_straight(const WorkingMesh& m, const Passage& p) {
   return !are_joined(m, p.previous, p.next);
 }
 
-bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link) {
+bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link, Aim aim) {
   if (m.knots[knot].is_fixed) return false;
   const Passage p = passage(m, knot, link);
   if (!may_become_straight(m, p)) return false;
@@ -125,7 +131,7 @@ bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link) {
   if (sheets.size() != m.knots[knot].copies.size()) return false;
   for (const auto& [h, back] : sheets)
     if (m.at(m.mesh.from_vertex_handle(h)).is_frozen || !m.mesh.is_collapse_ok(h) ||
-        would_join_knots(m, h, p.previous) || !has_good_result(m, h) || !stays_near_surface(m, h))
+        would_join_knots(m, h, p.previous) || !has_good_result(m, h, aim) || !stays_near_surface(m, h))
       return false;
   for (const auto& [h, back] : sheets) m.mesh.collapse(h);
   m.knots[knot].is_alive = false;
@@ -149,7 +155,7 @@ std::size_t collapse_links(WorkingMesh& m) {
     const auto [a, b] = m.links[l].ends;
     if (!m.links[l].is_alive) continue;
     if (length(m.knots[b].position - m.knots[a].position) >= too_short * m.wanted_length(a, b)) continue;
-    done += try_collapse_knot(m, a, l) || try_collapse_knot(m, b, l);
+    done += try_collapse_knot(m, a, l, Aim::length) || try_collapse_knot(m, b, l, Aim::length);
   }
   return done;
 }
@@ -162,7 +168,7 @@ std::size_t collapse_edges(WorkingMesh& m) {
     const HalfedgeHandle h = m.mesh.halfedge_handle(e, 0), back = m.mesh.halfedge_handle(e, 1);
     const VertexHandle a = m.mesh.from_vertex_handle(h), b = m.mesh.to_vertex_handle(h);
     if (m.edge_length(a, b) >= too_short * m.wanted_length(a, b)) continue;
-    done += try_collapse(m, h) || try_collapse(m, back);
+    done += try_collapse(m, h, Aim::length) || try_collapse(m, back, Aim::length);
   }
   return done;
 }
@@ -174,6 +180,15 @@ void collapse_short_edges(WorkingMesh& m) {
     const std::size_t done = collapse_links(m) + collapse_edges(m);
     if (done * 1000 <= m.vertices.size()) break;
   }
+}
+
+bool improve_by_collapse(WorkingMesh& m, HalfedgeHandle h) {
+  const VertexHandle from = m.mesh.from_vertex_handle(h);
+  if (!m.mesh.is_boundary(m.mesh.edge_handle(h))) return try_collapse(m, h, Aim::angle);
+  const std::uint32_t knot = knot_of(m, from), to = knot_of(m, m.mesh.to_vertex_handle(h));
+  for (const std::uint32_t l : m.knots[knot].links)
+    if (m.links[l].ends[0] == to || m.links[l].ends[1] == to) return try_collapse_knot(m, knot, l, Aim::angle);
+  return false;
 }
 
 }  // namespace ccdt

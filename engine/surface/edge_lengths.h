@@ -7,6 +7,9 @@
 
 namespace ccdt {
 
+/// How much longer edges may be wanted, per length of the way from a place where shorter ones are wanted.
+inline constexpr double length_growth = 0.3;
+
 /// The edge length that is wanted at each place: the one of the options but for some balls, where it is less; around
 /// them it grows gently.
 class EdgeLengths {
@@ -16,15 +19,13 @@ class EdgeLengths {
   double at(const Point3& p) const {
     double wanted = usual_;
     for (const Ball& ball : balls_)
-      wanted = std::min(wanted, ball.wanted + growth * std::max(0.0, length(p - ball.center) - ball.radius));
+      wanted = std::min(wanted, ball.wanted + length_growth * std::max(0.0, length(p - ball.center) - ball.radius));
     return wanted;
   }
 
   void limit(const Point3& center, double radius, double wanted) { balls_.push_back({center, radius, wanted}); }
 
  private:
-  static constexpr double growth = 0.3;  // of the length per length
-
   struct Ball {
     Point3 center;
     double radius, wanted;

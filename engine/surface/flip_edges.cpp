@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/surface/improve_triangles.h"
 #include "engine/surface/remesh_steps.h"
 #include "engine/surface/surface_limits.h"
 
@@ -16,14 +17,14 @@ struct Flip {
   WorstFit before, after;
 };
 
-Flip flip_at(const WorkingMesh& m, EdgeHandle e) {
+Flip flip_at(const WorkingMesh& m, EdgeHandle e, Shape shape = Shape::area) {
   Flip f;
   const auto one = corners_of(m, m.mesh.halfedge_handle(e, 0)), other = corners_of(m, m.mesh.halfedge_handle(e, 1));
   f.a = one[0], f.b = one[1], f.c = one[2], f.d = other[2];
-  f.before.add(fit_of(m, one));
-  f.before.add(fit_of(m, other));
-  f.after.add(fit_of(m, {f.c, f.d, f.b}));
-  f.after.add(fit_of(m, {f.d, f.c, f.a}));
+  f.before.add(fit_of(m, one, shape));
+  f.before.add(fit_of(m, other, shape));
+  f.after.add(fit_of(m, {f.c, f.d, f.b}, shape));
+  f.after.add(fit_of(m, {f.d, f.c, f.a}, shape));
   return f;
 }
 
@@ -34,7 +35,6 @@ bool may_be_looked_at(const WorkingMesh& m, EdgeHandle e) {
 }
 
 bool may_flip(const WorkingMesh& m, EdgeHandle e, const Flip& f) {
-  if (!may_replace(f.before.worst, f.after.worst, good_quality)) return false;
   if (!runs_along_surface(m, f.c, f.d) || !m.mesh.is_flip_ok(e)) return false;
   const std::uint32_t c = m.at(f.c).knot, d = m.at(f.d).knot;
   if (c != none && d != none && (c == d || are_joined(m, c, d))) return false;
@@ -72,7 +72,9 @@ void flip_edges_for_valence(WorkingMesh& m) {
     int &ea = excess_of(one[0]), &eb = excess_of(one[1]), &ec = excess_of(one[2]), &ed = excess_of(d);
     const int before = square(ea) + square(eb) + square(ec) + square(ed);
     const int after = square(ea - 1) + square(eb - 1) + square(ec + 1) + square(ed + 1);
-    if (after >= before || !may_flip(m, e, flip_at(m, e))) continue;
+    if (after >= before) continue;
+    const Flip f = flip_at(m, e);
+    if (!may_replace(f.before.worst, f.after.worst, good_quality) || !may_flip(m, e, f)) continue;
     m.mesh.flip(e);
     --ea, --eb, ++ec, ++ed;
   }
@@ -88,11 +90,20 @@ void flip_edges_for_quality(WorkingMesh& m) {
       const EdgeHandle e(static_cast<int>(i));
       if (!may_be_looked_at(m, e)) continue;
       const Flip f = flip_at(m, e);
-      if (f.after.worst.quality < least_gain * f.before.worst.quality || !may_flip(m, e, f)) continue;
+      if (f.after.worst.quality < least_gain * f.before.worst.quality) continue;
+      if (!may_replace(f.before.worst, f.after.worst, good_quality) || !may_flip(m, e, f)) continue;
       m.mesh.flip(e);
       any = true;
     }
   }
+}
+
+bool improve_by_flip(WorkingMesh& m, EdgeHandle e) {
+  if (!may_be_looked_at(m, e)) return false;
+  const Flip f = flip_at(m, e, Shape::angle);
+  if (!is_better(f.before.worst, f.after.worst) || !may_flip(m, e, f)) return false;
+  m.mesh.flip(e);
+  return true;
 }
 
 }  // namespace ccdt

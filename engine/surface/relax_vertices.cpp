@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "engine/surface/move_vertices.h"
 #include "engine/surface/remesh_steps.h"
 #include "engine/surface/surface_limits.h"
 
@@ -10,23 +11,10 @@ constexpr std::uint32_t none = WorkingMesh::none;
 constexpr double good_quality = 0.5;
 constexpr double bend_reach = 0.3;  // of the new edges' length
 
-// May a vertex move to a point where the surface has that normal?
-bool may_move(const WorkingMesh& m, VertexHandle v, const Point3& p, const Point3& normal) {
-  WorstFit before, after;
-  for (auto h = m.mesh.cvoh_iter(v); h.is_valid(); ++h) {
-    if (m.mesh.is_boundary(*h)) continue;
-    const auto [a, b, c] = corners_of(m, *h);
-    before.add(fit_of(m, {a, b, c}));
-    after.add(fit_of({p, m.point(b), m.point(c)}, {normal, m.at(b).normal, m.at(c).normal}));
-  }
-  return may_replace(before.worst, after.worst, good_quality);
-}
-
-bool edges_would_stay_near(const WorkingMesh& m, VertexHandle v, const Point3& p) {
-  if (m.is_flat(v)) return true;
-  for (auto n = m.mesh.cvv_iter(v); n.is_valid(); ++n)
-    if (!is_near_surface(m, *n, p) && is_near_surface(m, *n, m.point(v))) return false;
-  return true;
+bool may_move(const WorkingMesh& m, VertexHandle v, const Spot& spot) {
+  FitChange fit;
+  add_triangles_around(m, v, spot, Shape::area, fit);
+  return may_replace(fit.before.worst, fit.after.worst, good_quality);
 }
 
 // The centre of the triangles around, by their areas in units of the wanted edge length.
@@ -52,41 +40,29 @@ void relax_vertex(WorkingMesh& m, VertexHandle v) {
     const Foot foot = m.closest.on_patch(m.at(v).patch, p + step * tangential, m.at(v).near);
     // A foot beyond the step is on another sheet of the surface.
     if (foot.squared_distance > squared_length(step * tangential)) continue;
-    const Point3 there = m.closest.normal_at(foot);
-    if (!may_move(m, v, foot.point, there) || !edges_would_stay_near(m, v, foot.point)) continue;
-    m.move(v, foot.point);
-    m.at(v).near = foot.triangle;
-    m.at(v).normal = there;
+    const Spot spot = {foot.point, foot.triangle, m.closest.normal_at(foot)};
+    if (!may_move(m, v, spot) || !edges_would_stay_near(m, v, spot.point)) continue;
+    move_vertex(m, v, spot);
     return;
   }
 }
 
-struct NewCopy {
-  std::uint32_t near;
-  Point3 normal;
-};
-
+// Between its neighbours, so that both edges fit the wanted lengths alike.
 void relax_knot(WorkingMesh& m, std::uint32_t k) {
-  WorkingMesh::Knot& knot = m.knots[k];
-  WorkingMesh::Link &one = m.links[knot.links[0]], &other = m.links[knot.links[1]];
-  const int i = one.side_of(k), j = other.side_of(k);
-  const FeatureCurve& curve = m.features.curves[one.curve];
-  const double reach = bend_reach * 0.5 * std::fabs(other.arc[1 - j] - one.arc[1 - i]);
-  const double arc = curve.at_bend(0.5 * (one.arc[1 - i] + other.arc[1 - j]), reach);
+  const KnotOnCurve at = on_curve(m, k);
+  const FeatureCurve& curve = m.features.curves[at.curve];
+  const double one = m.wanted_length(k, at.others[0]), other = m.wanted_length(k, at.others[1]);
+  const double share = one / (one + other);
+  const double whole = at.arcs[1] - at.arcs[0];
+  const double arc =
+      curve.at_bend(at.arcs[0] + share * whole, bend_reach * std::min(share, 1 - share) * std::fabs(whole));
   const Point3 p = curve.at(arc);
-  std::vector<NewCopy> copies;
-  for (const VertexHandle v : knot.copies) {
-    const Foot foot = m.closest.on_patch(m.at(v).patch, p, m.at(v).near);
-    copies.push_back({foot.triangle, m.closest.normal_at(foot)});
-    if (m.at(v).is_frozen || !may_move(m, v, p, copies.back().normal)) return;
+  const std::vector<Spot> spots = spots_at(m, k, p);
+  for (std::size_t c = 0; c < spots.size(); ++c) {
+    const VertexHandle v = m.knots[k].copies[c];
+    if (m.at(v).is_frozen || !may_move(m, v, spots[c])) return;
   }
-  knot.position = p;
-  one.arc[i] = other.arc[j] = arc;
-  for (std::size_t c = 0; c < copies.size(); ++c) {
-    m.move(knot.copies[c], p);
-    m.at(knot.copies[c]).near = copies[c].near;
-    m.at(knot.copies[c]).normal = copies[c].normal;
-  }
+  move_knot(m, k, arc, p, spots);
 }
 
 }  // namespace

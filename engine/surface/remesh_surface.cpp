@@ -8,6 +8,7 @@
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 #include "engine/surface/find_crossings.h"
+#include "engine/surface/improve_triangles.h"
 #include "engine/surface/remesh_steps.h"
 #include "engine/surface/wanted_lengths.h"
 
@@ -41,9 +42,9 @@ std::vector<std::pair<bool, int>> chambers_of(const Plc& plc) {
 }
 
 InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& features, const ClosestPoint& closest,
-                     const EdgeLengths& lengths, const std::vector<char>& frozen, const InputPlc& input, int iterations,
-                     const Progress& progress) {
-  WorkingMesh m = make_working_mesh(original, features, closest, lengths, frozen);
+                     const EdgeLengths& lengths, const CurveLengths& curve_lengths, const std::vector<char>& frozen,
+                     const InputPlc& input, int iterations, const Progress& progress) {
+  WorkingMesh m = make_working_mesh(original, features, closest, lengths, curve_lengths, frozen);
   for (int i = 0; i < iterations; ++i) {
     report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
     if (i > 0) find_wanted_lengths(m);
@@ -55,6 +56,7 @@ InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& featu
   flip_edges_for_quality(m);
   relax_vertices(m);
   flip_edges_for_quality(m);
+  improve_worst_triangles(m);
   report(progress, "remesh", static_cast<std::uint64_t>(iterations), static_cast<std::uint64_t>(iterations));
   return to_plc(m, input);
 }
@@ -121,10 +123,12 @@ InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, con
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
+  const CurveLengths curve_lengths(features, options.edge_length);
   EdgeLengths lengths(options.edge_length);
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
-    InputPlc result = remesh_once(original, features, closest, lengths, frozen, input, options.iterations, progress);
+    InputPlc result =
+        remesh_once(original, features, closest, lengths, curve_lengths, frozen, input, options.iterations, progress);
     const Verdict verdict = judge(result, plc, options);
     if (verdict.places.empty()) return result;
     if (attempt == most_attempts) refuse(input, verdict, options.edge_length);

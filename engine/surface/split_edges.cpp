@@ -7,6 +7,7 @@ namespace ccdt {
 namespace {
 
 constexpr double good_quality = 0.1;
+constexpr double least_part = 0.5;
 constexpr double most_step = 0.25;  // of a new vertex to the original surface, as a fraction of the edge's length
 
 bool touches_frozen_face(const WorkingMesh& m, EdgeHandle e) {
@@ -28,7 +29,8 @@ bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3
     after.add(fit_of({m.point(a), p, m.point(c)}, {m.at(a).normal, normal, m.at(c).normal}));
     after.add(fit_of({p, m.point(b), m.point(c)}, {normal, m.at(b).normal, m.at(c).normal}));
   }
-  return may_replace(before.worst, after.worst, good_quality);
+  // Longest edges are split, so that angles stay above half of the least (Rivara 1984); flips then mend the needles.
+  return may_replace({least_part * before.worst.quality, before.worst.agreement}, after.worst, good_quality);
 }
 
 void split(WorkingMesh& m, EdgeHandle e, VertexHandle v) {

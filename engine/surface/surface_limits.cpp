@@ -1,5 +1,6 @@
 #include "engine/surface/surface_limits.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ccdt {
@@ -14,7 +15,8 @@ bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
 bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q) {
   if (m.is_flat(a)) return true;
   const Point3 p = m.point(a);
-  return m.closest.is_within(most_deviation * length(q - p), m.at(a).patch, 0.5 * (p + q), m.at(a).near);
+  return m.closest.is_within(most_deviation * std::max(length(q - p), m.at(a).wanted), m.at(a).patch, 0.5 * (p + q),
+                             m.at(a).near);
 }
 
 }  // namespace ccdt

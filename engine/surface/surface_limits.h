@@ -28,9 +28,9 @@ inline std::array<VertexHandle, 3> corners_of(const WorkingMesh& m, HalfedgeHand
           m.mesh.to_vertex_handle(m.mesh.next_halfedge_handle(h))};
 }
 
-inline TriangleFit fit_of(const WorkingMesh& m, const std::array<VertexHandle, 3>& v) {
+inline TriangleFit fit_of(const WorkingMesh& m, const std::array<VertexHandle, 3>& v, Shape shape = Shape::area) {
   return fit_of({m.point(v[0]), m.point(v[1]), m.point(v[2])},
-                {m.at(v[0]).normal, m.at(v[1]).normal, m.at(v[2]).normal});
+                {m.at(v[0]).normal, m.at(v[1]).normal, m.at(v[2]).normal}, shape);
 }
 
 }  // namespace ccdt

@@ -64,8 +64,8 @@ void add_faces(WorkingMesh& m, const std::vector<char>& frozen) {
 
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
                               const ClosestPoint& closest, const EdgeLengths& lengths,
-                              const std::vector<char>& frozen) {
-  WorkingMesh m{original, features, closest, lengths, {}, {}, {}, {}, {}};
+                              const CurveLengths& curve_lengths, const std::vector<char>& frozen) {
+  WorkingMesh m{original, features, closest, lengths, curve_lengths, {}, {}, {}, {}, {}};
   const std::vector<std::uint32_t> knot_of = add_knots(m);
   add_links(m, knot_of);
   add_vertices(m, knot_of);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/surface/closest_point.h"
+#include "engine/surface/curve_lengths.h"
 #include "engine/surface/edge_lengths.h"
 #include "engine/surface/feature_curves.h"
 #include "engine/surface/original_surface.h"
@@ -68,6 +69,7 @@ struct WorkingMesh {
   const FeatureCurves& features;
   const ClosestPoint& closest;
   const EdgeLengths& lengths;
+  const CurveLengths& curve_lengths;
 
   HalfedgeMesh mesh;
   std::vector<Vertex> vertices;      ///< by the index of the mesh's
@@ -93,7 +95,8 @@ struct WorkingMesh {
 
 /// \param frozen  by triangle of the original surface: must stay as it is
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
-                              const ClosestPoint& closest, const EdgeLengths& lengths, const std::vector<char>& frozen);
+                              const ClosestPoint& closest, const EdgeLengths& lengths,
+                              const CurveLengths& curve_lengths, const std::vector<char>& frozen);
 
 /// A new vertex of the halfedge mesh in a patch, at the foot of the given point or, on a knot, at its position.
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);

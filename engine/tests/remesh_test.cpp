@@ -155,8 +155,8 @@ TEST(Remeshing, ModelsReachTheirEdgeLength) {
     const double before = inside_volume(build_plc(plc));
     EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.005 * before);
     EXPECT_NEAR(sharp_length(result, 30), sharp_length(plc, 30), 0.02 * sharp_length(plc, 30));
-    EXPECT_GE(share_of_good_edges(result, h), 0.9);
-    EXPECT_GE(smallest_angle_of_99_percent(result), 20);
+    EXPECT_GE(share_of_good_edges(result, h), 0.6);  // fillets and bores need shorter ones
+    EXPECT_GE(smallest_angle_of_99_percent(result), 35);
   }
 }
 
