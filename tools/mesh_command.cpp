@@ -217,13 +217,13 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
 
 void add_improvement(CLI::App& verb, ImproveOptions& options) {
   options.improvement = Improvement::all;
-  add_choice<std::optional<Improvement>>(
-      verb, "--improve", command.improvement,
-      {{"all", Improvement::all},
-       {"swap", Improvement::swap},
-       {"smooth", Improvement::smooth},
-       {"none", Improvement::none}},
-      "all, swap, smooth, none: what makes the worst tetrahedra better; with --lattice none: none", "all");
+  add_choice<Improvement>(verb, "--improve", options.improvement,
+                          {{"all", Improvement::all},
+                           {"swap", Improvement::swap},
+                           {"smooth", Improvement::smooth},
+                           {"none", Improvement::none}},
+                          "all, swap, smooth, none: what makes the worst tetrahedra better; with --lattice none: none",
+                          "all");
   add_choice<Objective>(
       verb, "--objective", options.objective, {{"r", Objective::r}, {"dihedral", Objective::dihedral}},
       "r, dihedral: what is improved, the paper's measure of shape and then dihedral angles, or these", "r");
