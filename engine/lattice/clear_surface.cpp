@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "engine/lattice/cell_size.h"
 
@@ -21,121 +23,7 @@ namespace ccdt {
 
 namespace {
 
-/// How a node and the region that must be empty lie to each other.
-enum class Relation { apart, overlapping, covered };
-
-/// The part of the sites that is in a node, and whether none of it is left.
-struct NodeSites {
-  std::uint32_t begin = 0, end = 0;
-  std::uint8_t coarsest = 0;  ///< the level of the coarsest leaf in the node
-  bool emptied = false;
-};
-
-class Clearing {
- public:
-  Clearing(const Octree& tree, const std::vector<Site>& sites, const LatticeOptions& options)
-      : tree_(tree),
-        sites_(sites),
-        stays_(sites.size(), true),
-        nodes_(tree.nodes.size()),
-        radius_of_level_(tree.depth + 1) {
-    for (unsigned level = 0; level <= tree.depth; ++level)
-      radius_of_level_[level] =
-          options.clearance * edge_length_of_cell(options.kind, tree.length(2u << (tree.depth - level)));
-    find_sites(0, 0, static_cast<std::uint32_t>(sites.size()));
-  }
-
-  void clear(const Ball& ball) {
-    const double bound = ball.radius * ball.radius;
-    drop(
-        0,
-        [&](std::uint32_t node) {
-          const Box box = tree_.box(tree_.nodes[node]);
-          if (squared_distance(box, ball.centre) > bound) return Relation::apart;
-          return squared_farthest_distance(box, ball.centre) <= bound ? Relation::covered : Relation::overlapping;
-        },
-        [&](std::uint32_t, const Point3& p) { return squared_length(p - ball.centre) <= bound; });
-  }
-
-  /// Drops what is too near to a triangle, which may be degenerate: a segment or a vertex.
-  void clear(const Corners& triangle) {
-    const Box around = bounding_box(triangle);
-    const Point3 normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-    const double length = std::sqrt(squared_length(normal));
-    const Point3 unit = length > 0 ? (1 / length) * normal : Point3{};
-    const Point3 slant{std::abs(unit.x), std::abs(unit.y), std::abs(unit.z)};
-    drop(
-        0,
-        [&](std::uint32_t node) {
-          const double radius = radius_of_level_[nodes_[node].coarsest] * (1 + 1e-9);
-          const Box box = tree_.box(tree_.nodes[node]);
-          if (squared_distance(box, around) > radius * radius) return Relation::apart;
-          const double height = std::abs(dot(unit, box.centre() - triangle[0]));
-          return height - 0.5 * dot(slant, box.high - box.low) > radius ? Relation::apart : Relation::overlapping;
-        },
-        [&](std::uint32_t leaf, const Point3& p) {
-          const double radius = radius_of_level_[tree_.nodes[leaf].level];
-          return squared_distance(triangle, p) <= radius * radius;
-        });
-  }
-
-  std::vector<bool> take() { return std::move(stays_); }
-
- private:
-  /// The sites of a node follow one another in Morton order.
-  void find_sites(std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
-    const OctreeNode& node = tree_.nodes[i];
-    nodes_[i] = {begin, end, node.level, begin == end};
-    if (node.is_leaf()) return;
-    nodes_[i].coarsest = static_cast<std::uint8_t>(tree_.depth);
-    for (std::uint32_t c = 0; c < 8; ++c) {
-      std::uint32_t child_end = end;
-      if (c < 7) {
-        const Site next = site_at(tree_.nodes[node.first_child + c + 1].corner);
-        const auto at = std::lower_bound(sites_.begin() + begin, sites_.begin() + end, next);
-        child_end = static_cast<std::uint32_t>(at - sites_.begin());
-      }
-      find_sites(node.first_child + c, begin, child_end);
-      const NodeSites& child = nodes_[node.first_child + c];
-      if (!child.emptied) nodes_[i].coarsest = std::min(nodes_[i].coarsest, child.coarsest);
-      begin = child_end;
-    }
-  }
-
-  template <class RelationOf, class Contains>
-  void drop(std::uint32_t i, const RelationOf& relation_of, const Contains& contains) {
-    NodeSites& here = nodes_[i];
-    if (here.emptied) return;
-    const Relation relation = relation_of(i);
-    if (relation == Relation::apart) return;
-    if (relation == Relation::covered) {
-      std::fill(stays_.begin() + here.begin, stays_.begin() + here.end, false);
-      here.emptied = true;
-      return;
-    }
-    const OctreeNode& node = tree_.nodes[i];
-    here.emptied = true;
-    if (node.is_leaf()) {
-      for (std::uint32_t s = here.begin; s < here.end; ++s) {
-        if (stays_[s] && contains(i, tree_.point(coordinates_of(sites_[s])))) stays_[s] = false;
-        if (stays_[s]) here.emptied = false;
-      }
-      return;
-    }
-    for (std::uint32_t c = 0; c < 8; ++c) {
-      drop(node.first_child + c, relation_of, contains);
-      if (!nodes_[node.first_child + c].emptied) here.emptied = false;
-    }
-  }
-
-  const Octree& tree_;
-  const std::vector<Site>& sites_;
-  std::vector<bool> stays_;
-  std::vector<NodeSites> nodes_;
-  std::vector<double> radius_of_level_;
-};
-
-/// Covers the rounding of the test whether a point is in a ball.
+/// Covers the rounding of the test whether a point is in a ball, or near enough to a triangle.
 constexpr double hair = 1e-9;
 
 }  // namespace
@@ -165,35 +53,262 @@ Ball smallest_ball(const Corners& triangle) {
   return {middle + shift * height, radius * (1 + hair) + rounding * radius2 / std::sqrt(height2)};
 }
 
-std::vector<bool> find_clear_sites(const Octree& tree, const Surface& surface, const std::vector<Site>& sites,
-                                   const LatticeOptions& options) {
-  Clearing clearing(tree, sites, options);
-  std::vector<Ball> balls;
-  if (options.sphere_factor > 0) {
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) balls.push_back(smallest_ball(surface.corners(t)));
-    for (const auto& [a, b] : surface.subsegments)
-      balls.push_back(smallest_ball(surface.vertices[a], surface.vertices[b]));
-  }
-  // The large ones first: they empty whole nodes, which no other needs to enter then.
-  std::ranges::sort(balls, std::ranges::greater{}, &Ball::radius);
-  for (Ball& ball : balls) {
-    ball.radius *= options.sphere_factor;
-    clearing.clear(ball);
+namespace {
+
+/// Octree coordinates from `low` to `high`, both included.
+struct Range {
+  std::array<std::uint32_t, 3> low, high;
+};
+
+/// What wants room around it: a triangle, or a subsegment or a vertex as a degenerate one.
+struct Obstacle {
+  std::array<VertexId, 3> vertices;
+  bool needs_clearance = true;
+  Range near;          ///< of the triangle
+  Range in_ball;       ///< of the triangle and its ball
+  Point3 ball_centre;  ///< no site may be in this ball
+  double squared_ball_radius = -1;
+};
+
+/// Tells quickly how near a point is to a triangle.
+class TriangleDistance {
+ public:
+  explicit TriangleDistance(const Corners& triangle)
+      : corners_(triangle),
+        normal_(cross(triangle[1] - triangle[0], triangle[2] - triangle[0])),
+        squared_area_(squared_length(normal_)) {}
+
+  bool is_below(double squared_radius, const Point3& p) const {
+    // Most are too far from the plane already. The margin is for narrow triangles, whose normals are rounded most.
+    constexpr double margin = 1.01;
+    const double height = dot(p - corners_[0], normal_);
+    if (height * height > margin * squared_radius * squared_area_) return false;
+    return squared_distance(corners_, p) <= squared_radius;
   }
 
-  std::vector<bool> in_triangle(surface.vertices.size(), false);
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-    clearing.clear(surface.corners(t));
-    for (VertexId v : surface.triangles[t].vertices) in_triangle[v] = true;
+ private:
+  Corners corners_;
+  Point3 normal_;
+  double squared_area_;
+};
+
+/// Collects the obstacles of a surface.
+class ObstacleList {
+ public:
+  ObstacleList(const Octree& tree, const Surface& surface, double sphere_factor)
+      : tree_(tree), surface_(surface), sphere_factor_(sphere_factor) {
+    obstacles_.reserve(surface.triangles.size() + surface.subsegments.size());
+    std::vector<bool> in_triangle(surface.vertices.size(), false);
+    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+      const auto& vertices = surface.triangles[t].vertices;
+      add(vertices, true, smallest_ball(surface.corners(t)));
+      for (const VertexId v : vertices) in_triangle[v] = true;
+    }
+    for (const auto& [a, b] : surface.subsegments)
+      add({a, b, b}, !in_triangle[a] || !in_triangle[b], smallest_ball(surface.vertices[a], surface.vertices[b]));
+    for (std::uint32_t v = 0; v < in_triangle.size(); ++v)
+      if (!in_triangle[v]) add({VertexId(v), VertexId(v), VertexId(v)}, true, {surface.vertices[v], 0});
   }
-  for (const auto& [a, b] : surface.subsegments) {
-    if (!in_triangle[a] || !in_triangle[b])
-      clearing.clear({surface.vertices[a], surface.vertices[b], surface.vertices[b]});
+
+  std::vector<Obstacle> take() { return std::move(obstacles_); }
+
+ private:
+  void add(const std::array<VertexId, 3>& vertices, bool needs_clearance, const Ball& ball) {
+    Obstacle o{vertices, needs_clearance, {}, {}, ball.centre};
+    const Box box = bounding_box(
+        std::array{surface_.vertices[vertices[0]], surface_.vertices[vertices[1]], surface_.vertices[vertices[2]]});
+    o.in_ball = o.near = range(box);
+    if (sphere_factor_ > 0) {
+      const double r = ball.radius * sphere_factor_;
+      o.squared_ball_radius = r * r;
+      o.in_ball = range(
+          bounding_box(std::array{box.low, box.high, ball.centre - Point3{r, r, r}, ball.centre + Point3{r, r, r}}));
+    }
+    obstacles_.push_back(o);
   }
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-    if (!in_triangle[v]) clearing.clear({surface.vertices[v], surface.vertices[v], surface.vertices[v]});
+
+  /// Of all points in a box, and a little more.
+  Range range(const Box& box) const {
+    const auto low = as_array(box.low - tree_.origin), high = as_array(box.high - tree_.origin);
+    constexpr double most = std::uint32_t{1} << (Octree::bits + 1);
+    Range range;
+    for (int k = 0; k < 3; ++k) {
+      range.low[k] = static_cast<std::uint32_t>(std::clamp(low[k] / tree_.unit - 1, 0.0, most));
+      range.high[k] = static_cast<std::uint32_t>(std::clamp(high[k] / tree_.unit + 1, 0.0, most));
+    }
+    return range;
   }
-  return clearing.take();
+
+  const Octree& tree_;
+  const Surface& surface_;
+  double sphere_factor_;
+  std::vector<Obstacle> obstacles_;
+};
+
+/// Hands the obstacles down the octree, to the leaves whose sites they may clear.
+class Clearing {
+ public:
+  Clearing(const Octree& tree, const Surface& surface, const std::vector<Site>& sites, const LatticeOptions& options)
+      : tree_(tree),
+        surface_(surface),
+        sites_(sites),
+        obstacles_(ObstacleList(tree, surface, options.sphere_factor).take()),
+        nodes_(tree.nodes.size()),
+        stays_(sites.size(), true) {
+    for (unsigned level = 0; level <= tree.depth; ++level) {
+      const double radius =
+          options.clearance * edge_length_of_cell(options.kind, tree.length(2u << (tree.depth - level)));
+      clearance_.push_back({radius * radius, static_cast<std::uint32_t>(std::ceil(radius * (1 + hair) / tree.unit))});
+    }
+    find_sites(0, 0);
+  }
+
+  std::vector<bool> clear() {
+    reaching_.resize(obstacles_.size());
+    std::iota(reaching_.begin(), reaching_.end(), 0u);
+    descend(0, 0);
+    return std::move(stays_);
+  }
+
+ private:
+  /// The part of the sites that is in a node; they follow one another in Morton order.
+  struct NodeSites {
+    std::uint32_t begin = 0, end = 0;
+    std::uint8_t coarsest = 0;  ///< the level of the coarsest leaf in the node that has any
+  };
+  struct Clearance {
+    double squared_radius;
+    std::uint32_t units;  ///< the radius in octree units, rounded up
+  };
+
+  /// \param begin  where the sites of node i begin
+  /// \return where they end
+  std::uint32_t find_sites(std::uint32_t i, std::uint32_t begin) {
+    const OctreeNode& node = tree_.nodes[i];
+    NodeSites& here = nodes_[i];
+    here = {begin, begin, node.level};
+    if (node.is_leaf()) {
+      const std::uint64_t side = tree_.side(node);
+      const Site beyond = site_at(node.corner) + side * side * side;
+      while (here.end < sites_.size() && sites_[here.end] < beyond) ++here.end;
+      return here.end;
+    }
+    here.coarsest = static_cast<std::uint8_t>(tree_.depth);
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      here.end = find_sites(node.first_child + c, here.end);
+      const NodeSites& child = nodes_[node.first_child + c];
+      if (child.begin != child.end) here.coarsest = std::min(here.coarsest, child.coarsest);
+    }
+    return here.end;
+  }
+
+  /// \param first  the obstacles that reach node i are in `reaching_` from here on
+  void descend(std::uint32_t i, std::size_t first) {
+    const OctreeNode& node = tree_.nodes[i];
+    const NodeSites& here = nodes_[i];
+    const std::size_t last = reaching_.size();
+    if (first == last || here.begin == here.end) return;
+    if (node.is_leaf()) {
+      clear_leaf(node, here, first);
+      return;
+    }
+    if (is_covered(node, first)) {
+      std::fill(stays_.begin() + here.begin, stays_.begin() + here.end, false);
+      return;
+    }
+    children_in_reach_.resize(last);
+    for (std::size_t k = first; k < last; ++k)
+      children_in_reach_[k] = children_in_reach(node, here, obstacles_[reaching_[k]]);
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      for (std::size_t k = first; k < last; ++k)
+        if ((children_in_reach_[k] >> c & 1) != 0) reaching_.push_back(reaching_[k]);
+      descend(node.first_child + c, last);
+      reaching_.resize(last);
+    }
+  }
+
+  /// Is it within one of the balls?
+  bool is_covered(const OctreeNode& node, std::size_t first) const {
+    const Box box = tree_.box(node);
+    const double side = tree_.length(tree_.side(node)), least = 0.75 * side * side;
+    return std::any_of(reaching_.begin() + static_cast<std::ptrdiff_t>(first), reaching_.end(), [&](std::uint32_t o) {
+      const double bound = obstacles_[o].squared_ball_radius;
+      return bound >= least && squared_farthest_distance(box, obstacles_[o].ball_centre) <= bound;
+    });
+  }
+
+  /// A bit for each child that may have a site in the ball or within the clearance.
+  std::uint8_t children_in_reach(const OctreeNode& node, const NodeSites& here, const Obstacle& o) const {
+    constexpr std::uint8_t lower[] = {0x55, 0x33, 0x0F};
+    const std::uint32_t reach = o.needs_clearance ? clearance_[here.coarsest].units : 0;
+    unsigned children = 0xFF;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t middle = node.corner[k] + tree_.side(node) / 2;
+      if (std::min(o.in_ball.low[k] + reach, o.near.low[k]) >= middle + reach) children &= ~unsigned{lower[k]};
+      if (std::max(o.in_ball.high[k], o.near.high[k] + reach) < middle) children &= lower[k];
+    }
+    return static_cast<std::uint8_t>(children);
+  }
+
+  void clear_leaf(const OctreeNode& leaf, const NodeSites& here, std::size_t first) {
+    const std::span<const std::uint32_t> reaching = std::span(reaching_).subspan(first);
+    left_.clear();
+    for (std::uint32_t s = here.begin; s < here.end; ++s) {
+      const Point3 p = tree_.point(coordinates_of(sites_[s]));
+      if (std::ranges::any_of(reaching, [&](std::uint32_t o) {
+            return squared_length(p - obstacles_[o].ball_centre) <= obstacles_[o].squared_ball_radius;
+          }))
+        stays_[s] = false;
+      else
+        left_.push_back({p, s});
+    }
+    for (std::size_t k = 0; k < reaching.size() && !left_.empty(); ++k) {
+      const Obstacle& o = obstacles_[reaching[k]];
+      if (o.needs_clearance && is_near(leaf, o)) clear_around(o, clearance_[leaf.level].squared_radius);
+    }
+  }
+
+  /// May the leaf have a site within the clearance?
+  bool is_near(const OctreeNode& leaf, const Obstacle& o) const {
+    const std::uint32_t side = tree_.side(leaf), reach = clearance_[leaf.level].units;
+    for (int k = 0; k < 3; ++k)
+      if (o.near.low[k] >= leaf.corner[k] + side + reach || o.near.high[k] + reach < leaf.corner[k]) return false;
+    return true;
+  }
+
+  void clear_around(const Obstacle& o, double squared_radius) {
+    const auto& [a, b, c] = o.vertices;
+    const TriangleDistance distance({surface_.vertices[a], surface_.vertices[b], surface_.vertices[c]});
+    std::erase_if(left_, [&](const PlacedSite& site) {
+      const bool goes = distance.is_below(squared_radius, site.point);
+      if (goes) stays_[site.number] = false;
+      return goes;
+    });
+  }
+
+  struct PlacedSite {
+    Point3 point;
+    std::uint32_t number;
+  };
+
+  const Octree& tree_;
+  const Surface& surface_;
+  const std::vector<Site>& sites_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<NodeSites> nodes_;
+  std::vector<Clearance> clearance_;  ///< by level
+  std::vector<bool> stays_;
+  // Of the node that is at work and, before them, of all that it is in:
+  std::vector<std::uint32_t> reaching_;
+  std::vector<std::uint8_t> children_in_reach_;  ///< of each that is reaching
+  std::vector<PlacedSite> left_;                 ///< of a leaf
+};
+
+}  // namespace
+
+std::vector<bool> find_clear_sites(const Octree& tree, const Surface& surface, const std::vector<Site>& sites,
+                                   const LatticeOptions& options) {
+  return Clearing(tree, surface, sites, options).clear();
 }
 
 }  // namespace ccdt
