@@ -1,8 +1,9 @@
 #include "engine/protection/insert_interior.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
-#include <unordered_set>
+#include <utility>
 
 #include "engine/base/edge_key.h"
 #include "engine/delaunay/cell_star.h"
@@ -13,27 +14,45 @@
 namespace ccdt {
 namespace {
 
-/// The edges that must stay, and quick questions about them.
+/// The edges that must stay, each at its smaller end.
 struct ProtectedEdges {
-  std::vector<bool> on_edge;  ///< by vertex, those before the interior ones
-  std::unordered_set<std::uint64_t> edges;
+  std::vector<std::uint8_t> on_edge;  ///< by vertex, those before the interior ones
+  std::vector<std::uint32_t> first;   ///< by vertex: where its other ends begin in `others`
+  std::vector<std::uint32_t> others;
 
-  bool may_have(std::uint32_t v) const { return v < on_edge.size() && on_edge[v]; }
-  bool has(std::uint32_t a, std::uint32_t b) const { return edges.contains(edge_key(a, b)); }
+  bool may_have(std::uint32_t v) const { return v < on_edge.size() && on_edge[v] != 0; }
+  bool has(std::uint32_t a, std::uint32_t b) const {
+    if (b < a) std::swap(a, b);
+    for (std::uint32_t i = first[a]; i < first[a + 1]; ++i)
+      if (others[i] == b) return true;
+    return false;
+  }
 };
 
 ProtectedEdges collect(const std::vector<bool>& must_be_chain, const SegmentChains& chains, std::size_t vertices) {
   ProtectedEdges result;
-  result.on_edge.assign(vertices, false);
+  result.on_edge.assign(vertices, 0);
+  std::vector<std::uint64_t> keys;
   for (std::size_t s = 0; s < chains.size(); ++s) {
     if (!must_be_chain[s]) continue;
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       const VertexId a = chains[s][i].vertex, b = chains[s][i + 1].vertex;
-      result.on_edge[a] = result.on_edge[b] = true;
-      result.edges.insert(edge_key(a, b));
+      result.on_edge[a] = result.on_edge[b] = 1;
+      keys.push_back(edge_key(a, b));
     }
   }
+  result.first.assign(vertices + 1, 0);
+  for (const std::uint64_t key : keys) ++result.first[(key >> 32) + 1];
+  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+  std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
+  result.others.resize(keys.size());
+  for (const std::uint64_t key : keys) result.others[next[key >> 32]++] = static_cast<std::uint32_t>(key);
   return result;
+}
+
+bool has_edge(const CavityFace& face, std::uint32_t a, std::uint32_t b) {
+  const auto& v = face.vertices;
+  return (v[0] == a || v[1] == a || v[2] == a) && (v[0] == b || v[1] == b || v[2] == b);
 }
 
 /// Would filling this cavity destroy a protected edge, one that no face of the cavity has?
@@ -44,16 +63,18 @@ bool destroys_edge(const Delaunay& d, const Insertion& insertion, const Protecte
     const auto& v = d.cells[c].vertices;
     for (int i = 1; i < 4; ++i) {
       if (!edges.may_have(v[i])) continue;
-      for (int j = 0; j < i; ++j)
-        if (edges.may_have(v[j]) && edges.has(v[i], v[j])) found.push_back(edge_key(v[i], v[j]));
+      for (int j = 0; j < i; ++j) {
+        if (!edges.may_have(v[j]) || !edges.has(v[i], v[j])) continue;
+        const std::uint64_t edge = edge_key(v[i], v[j]);
+        if (std::ranges::find(found, edge) == found.end()) found.push_back(edge);
+      }
     }
   }
-  if (found.empty()) return false;
-  std::vector<std::uint64_t> border;
-  for (const CavityFace& face : insertion.cavity_faces())
-    for (int i = 0; i < 3; ++i) border.push_back(edge_key(face.vertices[i], face.vertices[(i + 1) % 3]));
-  return std::any_of(found.begin(), found.end(),
-                     [&](std::uint64_t edge) { return std::find(border.begin(), border.end(), edge) == border.end(); });
+  const auto faces = insertion.cavity_faces();
+  return std::ranges::any_of(found, [&](std::uint64_t edge) {
+    const auto a = static_cast<std::uint32_t>(edge >> 32), b = static_cast<std::uint32_t>(edge);
+    return std::ranges::none_of(faces, [&](const CavityFace& face) { return has_edge(face, a, b); });
+  });
 }
 
 bool has_all_edges(const Delaunay& d, const std::vector<bool>& must_be_chain, const SegmentChains& chains) {
