@@ -50,11 +50,6 @@ ProtectedEdges collect(const std::vector<bool>& must_be_chain, const SegmentChai
   return result;
 }
 
-bool has_edge(const CavityFace& face, std::uint32_t a, std::uint32_t b) {
-  const auto& v = face.vertices;
-  return (v[0] == a || v[1] == a || v[2] == a) && (v[0] == b || v[1] == b || v[2] == b);
-}
-
 /// Would filling this cavity destroy a protected edge, one that no face of the cavity has?
 bool destroys_edge(const Delaunay& d, const Insertion& insertion, const ProtectedEdges& edges,
                    std::vector<std::uint64_t>& found) {
@@ -64,17 +59,22 @@ bool destroys_edge(const Delaunay& d, const Insertion& insertion, const Protecte
     for (int i = 1; i < 4; ++i) {
       if (!edges.may_have(v[i])) continue;
       for (int j = 0; j < i; ++j) {
-        if (!edges.may_have(v[j]) || !edges.has(v[i], v[j])) continue;
-        const std::uint64_t edge = edge_key(v[i], v[j]);
-        if (std::ranges::find(found, edge) == found.end()) found.push_back(edge);
+        if (edges.may_have(v[j]) && edges.has(v[i], v[j])) found.push_back(edge_key(v[i], v[j]));
       }
     }
   }
-  const auto faces = insertion.cavity_faces();
-  return std::ranges::any_of(found, [&](std::uint64_t edge) {
-    const auto a = static_cast<std::uint32_t>(edge >> 32), b = static_cast<std::uint32_t>(edge);
-    return std::ranges::none_of(faces, [&](const CavityFace& face) { return has_edge(face, a, b); });
-  });
+  if (found.empty()) return false;
+  std::ranges::sort(found);
+  const auto repeated = std::ranges::unique(found);
+  // The faces are a closed surface, which passes each of its edges once in each direction.
+  std::ptrdiff_t on_faces = 0;
+  for (const CavityFace& face : insertion.cavity_faces()) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = face.vertices[i], b = face.vertices[i < 2 ? i + 1 : 0];
+      if (a < b && edges.may_have(a) && edges.may_have(b) && edges.has(a, b)) ++on_faces;
+    }
+  }
+  return on_faces < repeated.begin() - found.begin();
 }
 
 bool has_all_edges(const Delaunay& d, const std::vector<bool>& must_be_chain, const SegmentChains& chains) {
