@@ -164,9 +164,11 @@ class Clearing {
   }
 
   std::vector<bool> clear() {
+    for (const Obstacle& o : obstacles_)
+      largest_squared_ball_radius_ = std::max(largest_squared_ball_radius_, o.squared_ball_radius);
     reaching_.resize(obstacles_.size());
     std::iota(reaching_.begin(), reaching_.end(), 0u);
-    descend(0, 0);
+    descend(0, 0, reaching_.size());
     return std::move(stays_);
   }
 
@@ -202,36 +204,40 @@ class Clearing {
     return here.end;
   }
 
-  /// \param first  the obstacles that reach node i are in `reaching_` from here on
-  void descend(std::uint32_t i, std::size_t first) {
+  /// \param first,last  the part of `reaching_` that holds the obstacles that reach node i
+  void descend(std::uint32_t i, std::size_t first, std::size_t last) {
     const OctreeNode& node = tree_.nodes[i];
     const NodeSites& here = nodes_[i];
-    const std::size_t last = reaching_.size();
     if (first == last || here.begin == here.end) return;
     if (node.is_leaf()) {
-      clear_leaf(node, here, first);
+      clear_leaf(node, here, std::span(reaching_).subspan(first, last - first));
       return;
     }
-    if (is_covered(node, first)) {
+    if (is_covered(node, std::span(reaching_).subspan(first, last - first))) {
       std::fill(stays_.begin() + here.begin, stays_.begin() + here.end, false);
       return;
     }
-    children_in_reach_.resize(last);
+    if (reaching_.size() < 2 * last - first) reaching_.resize(2 * (2 * last - first));
+    if (children_in_reach_.size() < last) children_in_reach_.resize(2 * last);
     for (std::size_t k = first; k < last; ++k)
       children_in_reach_[k] = children_in_reach(node, here, obstacles_[reaching_[k]]);
     for (std::uint32_t c = 0; c < 8; ++c) {
-      for (std::size_t k = first; k < last; ++k)
-        if ((children_in_reach_[k] >> c & 1) != 0) reaching_.push_back(reaching_[k]);
-      descend(node.first_child + c, last);
-      reaching_.resize(last);
+      // Whether an obstacle reaches a child is as good as random: no branch.
+      std::size_t end = last;
+      for (std::size_t k = first; k < last; ++k) {
+        reaching_[end] = reaching_[k];
+        end += children_in_reach_[k] >> c & 1u;
+      }
+      descend(node.first_child + c, last, end);
     }
   }
 
   /// Is it within one of the balls?
-  bool is_covered(const OctreeNode& node, std::size_t first) const {
+  bool is_covered(const OctreeNode& node, std::span<const std::uint32_t> reaching) const {
     const Box box = tree_.box(node);
     const double side = tree_.length(tree_.side(node)), least = 0.75 * side * side;
-    return std::any_of(reaching_.begin() + static_cast<std::ptrdiff_t>(first), reaching_.end(), [&](std::uint32_t o) {
+    if (largest_squared_ball_radius_ < least) return false;
+    return std::ranges::any_of(reaching, [&](std::uint32_t o) {
       const double bound = obstacles_[o].squared_ball_radius;
       return bound >= least && squared_farthest_distance(box, obstacles_[o].ball_centre) <= bound;
     });
@@ -250,8 +256,7 @@ class Clearing {
     return static_cast<std::uint8_t>(children);
   }
 
-  void clear_leaf(const OctreeNode& leaf, const NodeSites& here, std::size_t first) {
-    const std::span<const std::uint32_t> reaching = std::span(reaching_).subspan(first);
+  void clear_leaf(const OctreeNode& leaf, const NodeSites& here, std::span<const std::uint32_t> reaching) {
     left_.clear();
     for (std::uint32_t s = here.begin; s < here.end; ++s) {
       const Point3 p = tree_.point(coordinates_of(sites_[s]));
@@ -298,7 +303,8 @@ class Clearing {
   std::vector<NodeSites> nodes_;
   std::vector<Clearance> clearance_;  ///< by level
   std::vector<bool> stays_;
-  // Of the node that is at work and, before them, of all that it is in:
+  double largest_squared_ball_radius_ = -1;
+  // Of the node that is at work, of all that it is in before them, and more room behind:
   std::vector<std::uint32_t> reaching_;
   std::vector<std::uint8_t> children_in_reach_;  ///< of each that is reaching
   std::vector<PlacedSite> left_;                 ///< of a leaf

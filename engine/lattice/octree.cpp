@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/base/errors.h"
@@ -119,18 +120,33 @@ class Builder {
       boxes[c] = tree_.box(tree_.nodes[first_child + c]);
       lists_[c].clear();
     }
-    for (std::uint32_t t : tree_.triangles_of(parent)) {
-      const Corners corners = surface_.corners(t);
-      const Box around = bounding_box(corners);
-      for (std::uint32_t c = 0; c < 8; ++c) {
-        if (may_touch(boxes[c], corners, around)) lists_[c].push_back(t);
-      }
-    }
+    for (std::uint32_t t : tree_.triangles_of(parent)) hand_down(t, boxes);
     for (std::uint32_t c = 0; c < 8; ++c) {
       OctreeNode& child = tree_.nodes[first_child + c];
       child.first_triangle = static_cast<std::uint32_t>(tree_.triangles.size());
       child.triangle_count = static_cast<std::uint32_t>(lists_[c].size());
       tree_.triangles.insert(tree_.triangles.end(), lists_[c].begin(), lists_[c].end());
+    }
+  }
+
+  /// Lists a triangle of the parent for each child that it may touch.
+  void hand_down(std::uint32_t t, const std::array<Box, 8>& boxes) {
+    const Corners corners = surface_.corners(t);
+    const Box around = bounding_box(corners);
+    std::optional<TouchingPlaces> places;
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      if (!overlap(boxes[c], around)) continue;
+      if (!contains(boxes[c], around)) {
+        if (!places) {
+          const Point3 centre = boxes[0].high, side = boxes[0].high - boxes[0].low;
+          double reach = 0;
+          for (const Point3& corner : {around.low - centre, around.high - centre})
+            for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
+          places.emplace(corners, 0.5 * side, reach + 0.5 * side.x);
+        }
+        if (!places->hold(boxes[c].centre())) continue;
+      }
+      lists_[c].push_back(t);
     }
   }
 

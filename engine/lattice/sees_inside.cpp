@@ -92,9 +92,10 @@ Meeting meet(const Sight& sight, const Corners& corners, const SurfaceTriangle& 
 }
 
 /// What one sight tells; nothing if it is unclear or hits nothing.
-std::optional<bool> look(const Sight& sight, const Surface& surface, std::span<const std::uint32_t> nearby) {
+std::optional<bool> look(const Sight& sight, const Surface& surface, std::span<const std::uint32_t> nearby,
+                         std::vector<Hit>& hits) {
   const Box around = bounding_box(std::array{sight.eye, sight.end});
-  std::vector<Hit> hits;
+  hits.clear();
   for (std::uint32_t t : nearby) {
     const Corners corners = surface.corners(t);
     if (boxes_apart(around, corners)) continue;
@@ -126,6 +127,7 @@ std::optional<bool> sees_inside(const Point3& p, const Box& box, const Surface& 
   // A second round looks a little aside of each target.
   constexpr double aside[] = {0, 0.11, 0.23};
   constexpr std::size_t most_targets = 40;
+  std::vector<Hit> hits;
   const std::size_t targets = std::min(nearby.size(), most_targets);
   for (double shift : aside) {
     for (std::size_t i = 0; i < targets; ++i) {
@@ -136,7 +138,7 @@ std::optional<bool> sees_inside(const Point3& p, const Box& box, const Surface& 
         continue;
       const Sight sight = sight_through(p, target, box);
       if (sight.end == p) continue;
-      if (const auto answer = look(sight, surface, nearby)) return answer;
+      if (const auto answer = look(sight, surface, nearby, hits)) return answer;
     }
   }
   return std::nullopt;

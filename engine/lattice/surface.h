@@ -24,10 +24,31 @@ struct Surface {
   }
 };
 
-/// False only if box and triangle are certainly apart (separating axes, with a margin for rounding).
-///
-/// \param around  the bounding box of the triangle
-bool may_touch(const Box& box, const Corners& triangle, const Box& around);
+/// Where boxes of one size may touch a triangle: separating axes, with a margin for rounding.
+class TouchingPlaces {
+ public:
+  /// \param half  of the sides of the boxes
+  /// \param reach no coordinate of a corner is farther than this from the centre of any box that is asked for
+  TouchingPlaces(const Corners& triangle, const Point3& half, double reach);
+
+  /// False only if the triangle and the box with this centre are certainly apart though their bounding boxes overlap.
+  bool hold(const Point3& centre) const {
+    const Point3 from_corner = centre - corner_;
+    for (const Slab& slab : slabs_) {
+      const double along = dot(slab.axis, from_corner);
+      if (along < slab.low || along > slab.high) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Slab {
+    Point3 axis;  // of any length
+    double low, high;
+  };
+  Point3 corner_;
+  std::array<Slab, 10> slabs_;
+};
 
 /// A point within the part of the triangle that lies in the box, up to rounding; false if there is no such part.
 bool common_point(const Box& box, const Corners& triangle, Point3& point);
