@@ -40,7 +40,6 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
   for (std::size_t i = 0; i < cavity_.size; ++i) {
     cavity_.make_room(4), outside_.make_room(4), border_.make_room(4);
     const Cell cell = cells[cavity_.room[i]];
-    for (const std::uint32_t code : cell.neighbors) __builtin_prefetch(cells + cell_of(code));
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
       if (mark[next] == Mark::conflict) continue;
@@ -48,6 +47,8 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
         if (conflicts(cells[next])) {
           mark[next] = Mark::conflict;
           cavity_.add(next);
+          // By the time that its turn comes, they are there.
+          for (const std::uint32_t beyond : cells[next].neighbors) __builtin_prefetch(cells + cell_of(beyond));
           continue;
         }
         mark[next] = Mark::outside;

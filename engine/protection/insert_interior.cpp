@@ -54,8 +54,11 @@ ProtectedEdges collect(const std::vector<bool>& must_be_chain, const SegmentChai
 bool destroys_edge(const Delaunay& d, const Insertion& insertion, const ProtectedEdges& edges,
                    std::vector<std::uint64_t>& found) {
   found.clear();
+  const auto interior = static_cast<std::uint32_t>(edges.on_edge.size());  // the first id, and all from there on
   for (const std::uint32_t c : insertion.cavity_cells()) {
     const auto& v = d.cells[c].vertices;
+    const int others = int{v[0] < interior} + int{v[1] < interior} + int{v[2] < interior} + int{v[3] < interior};
+    if (others < 2) continue;
     for (int i = 1; i < 4; ++i) {
       if (!edges.may_have(v[i])) continue;
       for (int j = 0; j < i; ++j) {
