@@ -11,6 +11,7 @@ namespace {
 
 // Fixed-size integers without allocation. The widest insphere needs 5 * 53 + 7 bits.
 __extension__ typedef __int128 Int128;
+__extension__ typedef unsigned __int128 UnsignedInt128;
 template <unsigned bits>
 using WideInt = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<bits, bits, boost::multiprecision::signed_magnitude,
@@ -60,25 +61,55 @@ Result determinant3(const std::array<std::array<std::int64_t, 3>, 3>& m) {
   return Result(x) * m[2][0] + Result(y) * m[2][1] + Result(z) * m[2][2];
 }
 
-/// The insphere determinant of four rows; `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits + 3, `Result` 5 * bits
-/// + 7.
+/// The heights of four rows, that is, their squared lengths, and the volumes that they are multiplied with in the
+/// insphere determinant: it is the sum of height[i] * volume[i]. `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits
+/// + 3.
+template <class Minor, class Volume>
+struct InsphereTerms {
+  std::array<Minor, 4> height;
+  std::array<Volume, 4> volume;
+
+  explicit InsphereTerms(const std::array<std::array<std::int64_t, 3>, 4>& m) {
+    const auto minor = [&](int i, int j) -> Minor {
+      return static_cast<Minor>(Minor(m[i][0]) * m[j][1] - Minor(m[j][0]) * m[i][1]);
+    };
+    const Minor ab = minor(0, 1), bc = minor(1, 2), cd = minor(2, 3), da = minor(3, 0), ac = minor(0, 2),
+                bd = minor(1, 3);
+    const auto z = [&](int i) { return Volume(m[i][2]); };
+    volume = {z(1) * cd - z(2) * bd + z(3) * bc, -(z(2) * da + z(3) * ac + z(0) * cd),
+              z(3) * ab + z(0) * bd + z(1) * da, -(z(0) * bc - z(1) * ac + z(2) * ab)};
+    for (int i = 0; i < 4; ++i)
+      height[i] = Minor(m[i][0]) * m[i][0] + Minor(m[i][1]) * m[i][1] + Minor(m[i][2]) * m[i][2];
+  }
+};
+
+/// `Result` holds 5 * bits + 7 bits.
 template <class Minor, class Volume, class Result>
 int insphere_sign(const std::array<std::array<std::int64_t, 3>, 4>& m) {
-  const auto minor = [&](int i, int j) -> Minor {
-    return static_cast<Minor>(Minor(m[i][0]) * m[j][1] - Minor(m[j][0]) * m[i][1]);
-  };
-  const Minor ab = minor(0, 1), bc = minor(1, 2), cd = minor(2, 3), da = minor(3, 0), ac = minor(0, 2),
-              bd = minor(1, 3);
-  const auto z = [&](int i) { return Volume(m[i][2]); };
-  const Volume abc = z(0) * bc - z(1) * ac + z(2) * ab;
-  const Volume bcd = z(1) * cd - z(2) * bd + z(3) * bc;
-  const Volume cda = z(2) * da + z(3) * ac + z(0) * cd;
-  const Volume dab = z(3) * ab + z(0) * bd + z(1) * da;
-  const auto lift = [&](int i) -> Result {
-    return Result(Minor(m[i][0]) * m[i][0] + Minor(m[i][1]) * m[i][1] + Minor(m[i][2]) * m[i][2]);
-  };
-  const Result det = (lift(2) * dab - lift(3) * abc) + (lift(0) * bcd - lift(1) * cda);
-  return sign_of(det);
+  const InsphereTerms<Minor, Volume> terms(m);
+  Result sum = 0;
+  for (int i = 0; i < 4; ++i) sum += Result(terms.height[i]) * terms.volume[i];
+  return sign_of(sum);
+}
+
+/// The same for up to 40 bits: the products of two numbers of 128 bits are added up in three digits of 64.
+int insphere_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 4>& m) {
+  const auto low_digit = [](Int128 x) { return static_cast<std::uint64_t>(x); };
+  const auto rest = [](Int128 x) { return x >> 64; };  // rounds down: x = 2^64 * rest + low digit
+  const InsphereTerms<Int128, Int128> terms(m);
+  Int128 first = 0, second = 0, third = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Int128 h = terms.height[i], v = terms.volume[i];
+    const auto low = static_cast<UnsignedInt128>(low_digit(h)) * low_digit(v);
+    first += static_cast<std::uint64_t>(low);
+    second += static_cast<std::uint64_t>(low >> 64);
+    second += Int128(low_digit(h)) * rest(v) + rest(h) * Int128(low_digit(v));
+    third += rest(h) * rest(v);
+  }
+  second += rest(first);
+  third += rest(second);
+  if (third != 0) return sign_of(third);
+  return (low_digit(second) | low_digit(first)) != 0 ? 1 : 0;
 }
 
 int exact_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
@@ -92,6 +123,7 @@ int exact_insphere(const Point3& a, const Point3& b, const Point3& c, const Poin
   const Differences<4> m = shifted_differences<4>({&a, &b, &c, &d}, e);
   if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
   if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
+  if (m.bits <= 40) return insphere_sign_in_digits(m.row);
   if (m.bits <= 49) return insphere_sign<Int128, WideInt<256>, WideInt<256>>(m.row);
   return insphere_sign<Int128, WideInt<512>, WideInt<512>>(m.row);
 }
