@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/numbers/predicates.h"
+
 namespace ccdt {
 namespace {
 
@@ -35,9 +37,28 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
   return cells_;
 }
 
+// Walks towards b within the star of a. The walk ends, as any walk towards a point in a Delaunay tetrahedralization; in
+// the cell at a that b is above, and if ab is an edge, then it is one of that cell.
 bool CellStar::has_edge(std::uint32_t a, std::uint32_t b) {
-  const auto cells = around(a);
-  return std::any_of(cells.begin(), cells.end(), [&](std::uint32_t c) { return place_of(d_.cells[c], b) < 4; });
+  std::uint32_t here = d_.vertices[a].cell;
+  // Never outside of the hull: b is not.
+  if (d_.is_ghost(here)) here = cell_of(d_.cells[here].neighbors[3]);
+  const Point3& p = d_.point(b);
+  for (std::uint32_t from = no_neighbor;;) {
+    const Cell& cell = d_.cells[here];
+    if (place_of(cell, b) < 4) return true;
+    std::uint32_t exit = 4;
+    for (std::uint32_t f = 0; f < 4 && exit == 4; ++f) {
+      if (cell.vertices[f] == a || cell.neighbors[f] == from) continue;
+      const auto& corner = face_corners[f];
+      if (orient3d(d_.point(cell.vertices[corner[0]]), d_.point(cell.vertices[corner[1]]),
+                   d_.point(cell.vertices[corner[2]]), p) < 0)
+        exit = f;
+    }
+    if (exit == 4) return false;
+    from = face_code(here, exit);
+    here = cell_of(cell.neighbors[exit]);
+  }
 }
 
 std::uint32_t CellStar::find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -5,20 +5,13 @@
 #include <boost/sort/spreadsort/integer_sort.hpp>
 #include <limits>
 
+#include "engine/numbers/morton.h"
+
 namespace ccdt {
 namespace {
 
 constexpr int bits_per_axis = 20;
 constexpr int round_shift = 3 * bits_per_axis;  // rounds above the 60 bits of the curve
-
-/// Two zero bits after each of the low 21 bits.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x1F00000000FFFF;
-  x = (x | x << 16) & 0x1F0000FF0000FF;
-  x = (x | x << 8) & 0x100F00F00F00F00F;
-  x = (x | x << 4) & 0x10C30C30C30C30C3;
-  return (x | x << 2) & 0x1249249249249249;
-}
 
 /// Distance along the Hilbert curve of a point of the cube [0, 2^bits)^3 (Skilling 2004: transpose form, then
 /// interleaved).
@@ -40,7 +33,7 @@ std::uint64_t hilbert_distance(std::array<std::uint32_t, 3> x) {
   std::uint32_t t = 0;
   for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1)
     if (x[2] & q) t ^= q - 1;
-  return spread(x[0] ^ t) << 2 | spread(x[1] ^ t) << 1 | spread(x[2] ^ t);
+  return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
 }
 
 /// A well-mixed hash of an index: the coins of the rounds, the same on every machine.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <unordered_map>
 
 #include "engine/base/edge_key.h"
+#include "engine/base/edge_map.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/facets/facet_plane.h"
 #include "engine/facets/planar_triangulation.h"
@@ -48,7 +48,7 @@ class FacetMesher {
   const SegmentChains& chains_;
   const Delaunay& d_;
   CellStar star_;
-  std::unordered_map<std::uint64_t, std::uint32_t> segment_of_edge_;
+  EdgeMap segment_of_edge_;
   std::vector<Point3> flattened_;        // by vertex, of the facet at hand
   std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
   std::uint32_t here_ = 0;
@@ -56,20 +56,20 @@ class FacetMesher {
 };
 
 FacetMesher::FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
-    : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {}
+    : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(plc.segments.size());
+  for (const Segment& s : plc.segments) keys.push_back(edge_key(s.ends[0], s.ends[1]));
+  segment_of_edge_ = EdgeMap(keys, plc.vertices.size());
+}
 
 std::vector<FacetMesher::FacetSegment> FacetMesher::segments_of(const Facet& facet) {
-  if (segment_of_edge_.empty()) {
-    segment_of_edge_.reserve(plc_.segments.size());
-    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s)
-      segment_of_edge_[edge_key(plc_.segments[s].ends[0], plc_.segments[s].ends[1])] = s;
-  }
   std::vector<FacetSegment> segments;
   for (const Triangle& t : facet.triangles) {
     for (int i = 0; i < 3; ++i) {
       const VertexId a = t[i], b = t[(i + 1) % 3];
-      if (const auto found = segment_of_edge_.find(edge_key(a, b)); found != segment_of_edge_.end())
-        segments.push_back({a, b, found->second});
+      if (const std::uint32_t found = segment_of_edge_.find(a, b); found != EdgeMap::none)
+        segments.push_back({a, b, found});
     }
   }
   // A segment within the facet is met from both sides.

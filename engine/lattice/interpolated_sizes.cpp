@@ -107,8 +107,8 @@ InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : backgr
   }
   for (std::uint32_t v = 0; v < background.vertices.size(); ++v)
     vertices.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], v});
-  tetrahedra_ = SizeTree(std::move(tetrahedra));
-  vertices_ = SizeTree(std::move(vertices));
+  tetrahedra_ = SizeTree(tetrahedra);
+  vertices_ = SizeTree(vertices);
 }
 
 double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) const {

@@ -55,6 +55,7 @@ SizeField::SizeField(const Surface& surface, double edge_length, double grading,
 
 void SizeField::sample(const Surface& surface, double edge_length) {
   std::vector<SizeTree::Item> samples;
+  samples.reserve(surface.triangles.size() + surface.vertices.size());
   const auto add_sample = [&](const Point3& p, double size) { samples.push_back({{p, p}, size, 0}); };
   std::vector<Mean> at_vertex(surface.vertices.size());
   Mean everywhere;
@@ -77,7 +78,7 @@ void SizeField::sample(const Surface& surface, double edge_length) {
   }
   reference_ = edge_length > 0 || everywhere.count == 0 ? edge_length : everywhere.value();
   largest_ = edge_length > 0 || grading_ == 0 ? reference_ : HUGE_VAL;
-  if (grading_ > 0) samples_ = SizeTree(std::move(samples));
+  if (grading_ > 0) samples_ = SizeTree(samples);
 }
 
 void SizeField::sample(const BackgroundSizes& background, double edge_length) {
@@ -91,7 +92,7 @@ void SizeField::sample(const BackgroundSizes& background, double edge_length) {
   std::vector<SizeTree::Item> samples;
   for (std::size_t v = 0; v < background.vertices.size(); ++v)
     samples.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], 0});
-  samples_ = SizeTree(std::move(samples));
+  samples_ = SizeTree(samples);
 }
 
 bool SizeField::is_below(const Box& box, double bound) const {

@@ -2,35 +2,38 @@
 
 #include <algorithm>
 
+#include "engine/numbers/morton.h"
+
 namespace ccdt {
 
-SizeTree::SizeTree(std::vector<Item> items) : items_(std::move(items)) {
-  if (items_.empty()) return;
+SizeTree::SizeTree(const std::vector<Item>& items) {
+  if (items.empty()) return;
+  std::vector<Point3> centres(items.size());
+  std::ranges::transform(items, centres.begin(), [](const Item& item) { return item.box.low + item.box.high; });
+  items_.reserve(items.size());
+  for (const std::uint32_t i : morton_order(centres)) items_.push_back(items[i]);
   constexpr std::size_t items_a_leaf = 8;
   std::size_t leaves = 1;
   while (leaves * items_a_leaf < items_.size()) leaves *= 2;
   first_leaf_ = leaves - 1;
   groups_.resize(2 * leaves - 1);
-  sort(0, items_.size(), 0);
+  surround(0, items_.size(), 0);
 }
 
-void SizeTree::sort(std::size_t begin, std::size_t end, std::size_t group) {
-  Group all{items_[begin].box, items_[begin].size};
-  for (std::size_t i = begin; i < end; ++i) {
-    const Box& box = items_[i].box;
-    all = {bounding_box(std::array{all.box.low, all.box.high, box.low, box.high}), std::min(all.size, items_[i].size)};
+SizeTree::Group SizeTree::surround(std::size_t begin, std::size_t end, std::size_t group) {
+  const auto both = [](const Group& a, const Box& box, double size) {
+    return Group{bounding_box(std::array{a.box.low, a.box.high, box.low, box.high}), std::min(a.size, size)};
+  };
+  Group& all = groups_[group];
+  if (group >= first_leaf_) {
+    all = {items_[begin].box, items_[begin].size};
+    for (std::size_t i = begin + 1; i < end; ++i) all = both(all, items_[i].box, items_[i].size);
+  } else {
+    const std::size_t half = middle(begin, end);
+    const Group right = surround(half, end, 2 * group + 2);
+    all = both(surround(begin, half, 2 * group + 1), right.box, right.size);
   }
-  groups_[group] = all;
-  if (group >= first_leaf_) return;
-  const auto extent = as_array(all.box.high - all.box.low);
-  const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
-  const std::size_t half = middle(begin, end);
-  const auto at = [this](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(half), at(end), [axis](const Item& a, const Item& b) {
-    return as_array(a.box.low + a.box.high)[axis] < as_array(b.box.low + b.box.high)[axis];
-  });
-  sort(begin, half, 2 * group + 1);
-  sort(half, end, 2 * group + 2);
+  return all;
 }
 
 }  // namespace ccdt

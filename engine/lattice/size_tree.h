@@ -10,8 +10,8 @@
 
 namespace ccdt {
 
-/// Things in space that have a size, as the leaves of a complete binary tree of boxes, in an array: the children of
-/// group g are 2g+1 and 2g+2.
+/// Things in space that have a size, in Morton order as the leaves of a complete binary tree of boxes, in an array: the
+/// children of group g are 2g+1 and 2g+2.
 class SizeTree {
  public:
   struct Item {
@@ -21,7 +21,7 @@ class SizeTree {
   };
 
   SizeTree() = default;
-  explicit SizeTree(std::vector<Item> items);
+  explicit SizeTree(const std::vector<Item>& items);
 
   bool empty() const { return items_.empty(); }
 
@@ -65,7 +65,7 @@ class SizeTree {
 
   /// Where half of the items [begin, end) go to the first child: the same rule must hold for boxes and queries.
   static std::size_t middle(std::size_t begin, std::size_t end) { return begin + (end - begin) / 2; }
-  void sort(std::size_t begin, std::size_t end, std::size_t group);
+  Group surround(std::size_t begin, std::size_t end, std::size_t group);
 
   std::vector<Item> items_;
   std::vector<Group> groups_;

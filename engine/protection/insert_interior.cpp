@@ -1,11 +1,11 @@
 #include "engine/protection/insert_interior.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/edge_key.h"
+#include "engine/base/edge_map.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
@@ -14,40 +14,27 @@
 namespace ccdt {
 namespace {
 
-/// The edges that must stay, each at its smaller end.
+/// The edges that must stay, and quick questions about them.
 struct ProtectedEdges {
   std::vector<std::uint8_t> on_edge;  ///< by vertex, those before the interior ones
-  std::vector<std::uint32_t> first;   ///< by vertex: where its other ends begin in `others`
-  std::vector<std::uint32_t> others;
+  EdgeMap edges;
 
   bool may_have(std::uint32_t v) const { return v < on_edge.size() && on_edge[v] != 0; }
-  bool has(std::uint32_t a, std::uint32_t b) const {
-    if (b < a) std::swap(a, b);
-    for (std::uint32_t i = first[a]; i < first[a + 1]; ++i)
-      if (others[i] == b) return true;
-    return false;
-  }
+  bool has(std::uint32_t a, std::uint32_t b) const { return edges.find(a, b) != EdgeMap::none; }
 };
 
 ProtectedEdges collect(const std::vector<bool>& must_be_chain, const SegmentChains& chains, std::size_t vertices) {
-  ProtectedEdges result;
-  result.on_edge.assign(vertices, 0);
+  std::vector<std::uint8_t> on_edge(vertices, 0);
   std::vector<std::uint64_t> keys;
   for (std::size_t s = 0; s < chains.size(); ++s) {
     if (!must_be_chain[s]) continue;
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       const VertexId a = chains[s][i].vertex, b = chains[s][i + 1].vertex;
-      result.on_edge[a] = result.on_edge[b] = 1;
+      on_edge[a] = on_edge[b] = 1;
       keys.push_back(edge_key(a, b));
     }
   }
-  result.first.assign(vertices + 1, 0);
-  for (const std::uint64_t key : keys) ++result.first[(key >> 32) + 1];
-  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
-  std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
-  result.others.resize(keys.size());
-  for (const std::uint64_t key : keys) result.others[next[key >> 32]++] = static_cast<std::uint32_t>(key);
-  return result;
+  return {std::move(on_edge), EdgeMap(keys, vertices)};
 }
 
 /// Would filling this cavity destroy a protected edge, one that no face of the cavity has?
