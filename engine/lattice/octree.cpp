@@ -1,6 +1,7 @@
 #include "engine/lattice/octree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -45,7 +46,9 @@ Octree make_root(const Surface& surface, const SizeField& size, Lattice kind) {
 
 class Builder {
  public:
-  Builder(Octree& tree, const Surface& surface) : tree_(tree), surface_(surface) {}
+  Builder(Octree& tree, const Surface& surface) : tree_(tree), surface_(surface), around_(surface.triangles.size()) {
+    for (std::uint32_t t = 0; t < around_.size(); ++t) around_[t] = bounding_box(surface.corners(t));
+  }
 
   void refine(const SizeField& size, Lattice kind) {
     // Children come after their parents, so one pass sees them all.
@@ -131,23 +134,39 @@ class Builder {
 
   /// Lists a triangle of the parent for each child that it may touch.
   void hand_down(std::uint32_t t, const std::array<Box, 8>& boxes) {
-    const Corners corners = surface_.corners(t);
-    const Box around = bounding_box(corners);
+    const Box& around = around_[t];
+    unsigned children = children_overlapping(boxes, around);
     std::optional<TouchingPlaces> places;
-    for (std::uint32_t c = 0; c < 8; ++c) {
-      if (!overlap(boxes[c], around)) continue;
+    for (; children != 0; children &= children - 1) {
+      const auto c = static_cast<std::uint32_t>(std::countr_zero(children));
       if (!contains(boxes[c], around)) {
         if (!places) {
           const Point3 centre = boxes[0].high, side = boxes[0].high - boxes[0].low;
           double reach = 0;
           for (const Point3& corner : {around.low - centre, around.high - centre})
             for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
-          places.emplace(corners, 0.5 * side, reach + 0.5 * side.x);
+          places.emplace(surface_.corners(t), 0.5 * side, reach + 0.5 * side.x);
         }
         if (!places->hold(boxes[c].centre())) continue;
       }
       lists_[c].push_back(t);
     }
+  }
+
+  /// A bit for each child whose box overlaps another.
+  static unsigned children_overlapping(const std::array<Box, 8>& boxes, const Box& other) {
+    constexpr unsigned lower[] = {0x55, 0x33, 0x0F};
+    const Box &first = boxes.front(), &last = boxes.back();
+    const auto low = as_array(other.low), high = as_array(other.high);
+    const auto first_low = as_array(first.low), first_high = as_array(first.high), last_low = as_array(last.low),
+               last_high = as_array(last.high);
+    unsigned children = 0xFF;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool in_lower = (low[k] <= first_high[k]) & (high[k] >= first_low[k]);
+      const bool in_upper = (low[k] <= last_high[k]) & (high[k] >= last_low[k]);
+      children &= (in_lower ? lower[k] : 0u) | (in_upper ? 0xFFu & ~lower[k] : 0u);
+    }
+    return children;
   }
 
   /// All empty children meet in the centre of the parent, so they are in the same place as the centre is.
@@ -169,6 +188,7 @@ class Builder {
 
   Octree& tree_;
   const Surface& surface_;
+  std::vector<Box> around_;                          ///< by triangle
   std::array<std::vector<std::uint32_t>, 8> lists_;  ///< scratch of `hand_down_triangles`
 };
 

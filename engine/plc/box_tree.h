@@ -1,8 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "engine/numbers/point.h"
@@ -13,9 +13,10 @@ namespace ccdt {
 struct ClosedBox {
   Point3 low, high;
 
+  // Which of the six fails is as good as random: all are asked, without branches.
   bool meets(const ClosedBox& o) const {
-    return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y && low.z <= o.high.z &&
-           o.low.z <= high.z;
+    return ((low.x <= o.high.x) & (o.low.x <= high.x) & (low.y <= o.high.y) & (o.low.y <= high.y) &
+            (low.z <= o.high.z) & (o.low.z <= high.z)) != 0;
   }
 };
 
@@ -38,7 +39,7 @@ class BoxTree {
   /// Calls visit(item) for all items whose box meets the given one.
   template <class Visit>
   void for_each_meeting(const ClosedBox& box, Visit&& visit) const {
-    if (!items_.empty()) descend(1, box, visit);
+    if (!items_.empty() && nodes_[1].meets(box)) descend(1, box, visit);
   }
 
   /// Calls visit(i, j) once for every pair of different items whose boxes meet.
@@ -51,21 +52,22 @@ class BoxTree {
   static constexpr std::uint32_t leaf_size = 4;
 
   bool is_leaf(std::uint32_t node) const { return node >= leaf_count_; }
-  std::span<const std::uint32_t> items_of(std::uint32_t leaf) const {
+  /// Where the items of a leaf begin and end in `items_`.
+  std::array<std::size_t, 2> places_of(std::uint32_t leaf) const {
     const std::size_t begin = std::min<std::size_t>(std::size_t{leaf - leaf_count_} * leaf_size, items_.size());
-    return std::span(items_).subspan(begin, std::min<std::size_t>(leaf_size, items_.size() - begin));
+    return {begin, std::min<std::size_t>(begin + leaf_size, items_.size())};
   }
 
   template <class Visit>
   void descend(std::uint32_t node, const ClosedBox& box, Visit& visit) const {
-    if (!nodes_[node].meets(box)) return;
     if (!is_leaf(node)) {
-      descend(2 * node, box, visit);
-      descend(2 * node + 1, box, visit);
+      for (const std::uint32_t child : {2 * node, 2 * node + 1})
+        if (nodes_[child].meets(box)) descend(child, box, visit);
       return;
     }
-    for (const std::uint32_t i : items_of(node))
-      if (boxes_[i].meets(box)) visit(i);
+    const auto [begin, end] = places_of(node);
+    for (std::size_t i = begin; i < end; ++i)
+      if (boxes_[i].meets(box)) visit(items_[i]);
   }
 
   template <class Visit>
@@ -73,34 +75,35 @@ class BoxTree {
     if (!is_leaf(node)) {
       descend_self(2 * node, visit);
       descend_self(2 * node + 1, visit);
-      descend_both(2 * node, 2 * node + 1, visit);
+      if (nodes_[2 * node].meets(nodes_[2 * node + 1])) descend_both(2 * node, 2 * node + 1, visit);
       return;
     }
-    const auto items = items_of(node);
-    for (std::size_t i = 0; i < items.size(); ++i)
-      for (std::size_t j = i + 1; j < items.size(); ++j)
-        if (boxes_[items[i]].meets(boxes_[items[j]])) visit(items[i], items[j]);
+    const auto [begin, end] = places_of(node);
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t j = i + 1; j < end; ++j)
+        if (boxes_[i].meets(boxes_[j])) visit(items_[i], items_[j]);
   }
 
+  /// The two meet.
   template <class Visit>
   void descend_both(std::uint32_t a, std::uint32_t b, Visit& visit) const {
-    if (!nodes_[a].meets(nodes_[b])) return;
     if (!is_leaf(a)) {  // both are on the same level
-      descend_both(2 * a, 2 * b, visit);
-      descend_both(2 * a, 2 * b + 1, visit);
-      descend_both(2 * a + 1, 2 * b, visit);
-      descend_both(2 * a + 1, 2 * b + 1, visit);
+      for (const std::uint32_t i : {2 * a, 2 * a + 1})
+        for (const std::uint32_t j : {2 * b, 2 * b + 1})
+          if (nodes_[i].meets(nodes_[j])) descend_both(i, j, visit);
       return;
     }
-    for (const std::uint32_t i : items_of(a)) {
+    const auto [begin_a, end_a] = places_of(a);
+    const auto [begin_b, end_b] = places_of(b);
+    for (std::size_t i = begin_a; i < end_a; ++i) {
       if (!boxes_[i].meets(nodes_[b])) continue;
-      for (const std::uint32_t j : items_of(b))
-        if (boxes_[i].meets(boxes_[j])) visit(i, j);
+      for (std::size_t j = begin_b; j < end_b; ++j)
+        if (boxes_[i].meets(boxes_[j])) visit(items_[i], items_[j]);
     }
   }
 
-  std::vector<ClosedBox> boxes_;
   std::vector<std::uint32_t> items_;  // in Morton order
+  std::vector<ClosedBox> boxes_;      // of these
   std::vector<ClosedBox> nodes_;
   std::uint32_t leaf_count_ = 1;  // a power of two
 };
