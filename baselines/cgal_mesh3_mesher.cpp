@@ -123,7 +123,12 @@ TetMesh read_back(const Complex& complex, const Plc& plc) {
   return mesh;
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const Sizes& sizes) {
+bool is_improved(const MeshOptions& options) {
+  return options.improve.improvement != Improvement::none;
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const Sizes& sizes, const MeshOptions& options) {
+  const char* improved = is_improved(options) ? "on" : "off";
   return {{"domain", "Polyhedral_complex_mesh_domain_3"},
           {"feature_angle", digits(sizes.feature_angle)},
           {"edge_size", digits(sizes.edge)},
@@ -132,11 +137,11 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Sizes& sizes)
           {"facet_distance", digits(sizes.facet_distance)},
           {"cell_radius_edge_ratio", digits(sizes.cell_radius_edge)},
           {"cell_size", digits(sizes.cell)},
-          {"perturb", "off"},
-          {"exude", "off"}};
+          {"perturb", improved},
+          {"exude", improved}};
 }
 
-Complex refine(const std::map<Sides, Patch>& patches, const Sizes& sizes) {
+Complex refine(const std::map<Sides, Patch>& patches, const Sizes& sizes, bool improve) {
   std::vector<Polyhedron> polyhedra;
   std::vector<Sides> sides;
   for (auto [key, patch] : patches) {
@@ -149,8 +154,9 @@ Complex refine(const std::map<Sides, Patch>& patches, const Sizes& sizes) {
                           parameters::facet_size = sizes.facet, parameters::facet_distance = sizes.facet_distance,
                           parameters::cell_radius_edge_ratio = sizes.cell_radius_edge,
                           parameters::cell_size = sizes.cell);
-  // The refinement alone, as our engine is measured: perturbation and exudation improve the finished mesh.
-  return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude());
+  // Perturbation and exudation improve the finished mesh: they are on or off as our engine's improvement is.
+  return CGAL::make_mesh_3<Complex>(domain, criteria, improve ? parameters::perturb() : parameters::no_perturb(),
+                                    improve ? parameters::exude() : parameters::no_exude());
 }
 
 MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
@@ -158,11 +164,11 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
   const auto patches = patches_of(plc);
   const Sizes sizes(target_edge_length(input, options));
   MesherRun run;
-  run.settings = settings_of(sizes);
+  run.settings = settings_of(sizes, options);
   run.notes = {"the surface is remeshed: the input's triangles are approximated, not kept"};
   report(progress, "mesh_3", 0, 0);
   const auto begin = std::chrono::steady_clock::now();
-  const Complex complex = refine(patches, sizes);
+  const Complex complex = refine(patches, sizes, is_improved(options));
   run.result.seconds.mesh = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   run.result.mesh = read_back(complex, plc);

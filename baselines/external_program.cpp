@@ -1,11 +1,12 @@
 #include "baselines/external_program.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
@@ -13,29 +14,38 @@
 namespace ccdt {
 namespace {
 
+constexpr int code_not_run = 127, code_of_signal = 128;
+
 bool can_be_run(const std::filesystem::path& file) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
 }
 
-/// Where a child's input comes from and where its output goes.
-class Redirections {
+/// A file that is closed at the end.
+class Descriptor {
  public:
-  explicit Redirections(const std::filesystem::path& log) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+  Descriptor(const char* file, int flags) : value_(open(file, flags | O_CLOEXEC, 0600)) {
+    if (value_ < 0) throw std::system_error(errno, std::generic_category(), std::string("cannot open ") + file);
   }
-  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
-  Redirections(const Redirections&) = delete;
-  Redirections& operator=(const Redirections&) = delete;
+  ~Descriptor() { close(value_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
 
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
+  int value() const { return value_; }
 
  private:
-  posix_spawn_file_actions_t actions_ = {};
+  int value_;
 };
+
+/// The rest of the fork's life: the program, or the shells' code for one that cannot be run. It ends with its parent.
+[[noreturn]] void become(char* const* arguments, int input, int output) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  dup2(input, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  execv(arguments[0], arguments);
+  _exit(code_not_run);
+}
 
 }  // namespace
 
@@ -57,14 +67,14 @@ int run_program(const std::vector<std::string>& command, const std::filesystem::
   std::vector<char*> arguments;
   for (std::string& argument : copies) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
-  const Redirections redirections(log);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, arguments[0], redirections.get(), nullptr, arguments.data(), environ);
-  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + command[0]);
+  const Descriptor null("/dev/null", O_RDONLY), output(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+  const pid_t child = fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot start " + command[0]);
+  if (child == 0) become(arguments.data(), null.value(), output.value());
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : code_of_signal + WTERMSIG(status);
 }
 
 TemporaryFolder::TemporaryFolder() {

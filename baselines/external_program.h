@@ -11,9 +11,9 @@ namespace ccdt {
 /// None if that is no file that can be run.
 std::optional<std::filesystem::path> find_program(const std::string& name, const char* environment_variable);
 
-/// Runs a program to its end. It gets no input; all that it prints goes to the log.
-/// \return  its exit code; 128 and the number of the signal that ended it, as shells have it
-/// \throw std::system_error  it cannot be started
+/// Runs a program to its end, or to that of the calling process. It gets no input; all that it prints goes to the log.
+/// \return  its exit code; as shells have it, 128 and the number of the signal that ended it, and 127 if it cannot be
+/// run \throw std::system_error  no process can be started, or the log cannot be written
 int run_program(const std::vector<std::string>& command, const std::filesystem::path& log);
 
 /// A folder of this object's own among the system's temporary files; removed with all that is in it.

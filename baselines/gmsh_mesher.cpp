@@ -89,7 +89,8 @@ DiscreteModel discrete_model(const Plc& plc) {
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const InputPlc& input, const MeshOptions& options) {
-  std::vector<std::pair<std::string, std::string>> settings = {{"Mesh.Algorithm3D", "10"}, {"Mesh.Optimize", "1"}};
+  std::vector<std::pair<std::string, std::string>> settings = {
+      {"Mesh.Algorithm3D", "10"}, {"Mesh.Optimize", options.improve.improvement == Improvement::none ? "0" : "1"}};
   const bool bare = options.lattice == Lattice::none;
   if (options.edge_length == 0 && !bare) {
     settings.emplace_back("Mesh.MeshSizeExtendFromBoundary", "1");

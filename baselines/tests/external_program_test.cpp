@@ -37,7 +37,8 @@ TEST(RunProgram, LogsWhatIsPrintedAndTellsHowItEnded) {
   EXPECT_EQ(run_program({"/bin/sh", "-c", "echo out; echo err >&2; exit 3"}, log), 3);
   EXPECT_EQ(text_of(log), "out\nerr\n");
   EXPECT_EQ(run_program({"/bin/sh", "-c", "kill -9 $$"}, log), 128 + 9);
-  EXPECT_THROW(run_program({"/nowhere/sh"}, log), std::system_error);
+  EXPECT_EQ(run_program({"/nowhere/sh"}, log), 127);
+  EXPECT_THROW(run_program({"/bin/sh"}, folder.path() / "nowhere" / "log"), std::system_error);
 }
 
 TEST(TemporaryFolder, IsGoneAfterwards) {

@@ -123,6 +123,32 @@ TEST(CgalMesh3, MeshesACubeWithAHoleKeepingItsSharpEdges) {
   EXPECT_FALSE(made.settings.empty());
 }
 
+/// The value of a setting, or nothing.
+std::string setting(const MesherRun& run, std::string_view name) {
+  const auto found = std::ranges::find(run.settings, name, [](const auto& s) { return std::string_view(s.first); });
+  return found == run.settings.end() ? "" : found->second;
+}
+
+TEST(CgalMesh3, PerturbsAndExudesUnlessThereIsToBeNoImprovement) {
+  if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
+  MeshOptions options = {.edge_length = 0.25};
+  const auto worst_volume = [](const TetMesh& mesh) {
+    double least = 1;
+    for (const auto& t : mesh.tetrahedra) {
+      const auto& v = mesh.vertices;
+      least = std::min(least, dot(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]), v[t[3]] - v[t[0]]) / 6);
+    }
+    return least;
+  };
+  options.improve.improvement = Improvement::all;
+  const MesherRun improved = run("cgal-mesh3", shapes::cube(), options);
+  options.improve.improvement = Improvement::none;
+  const MesherRun refined = run("cgal-mesh3", shapes::cube(), options);
+  EXPECT_EQ(setting(improved, "perturb") + setting(improved, "exude"), "onon");
+  EXPECT_EQ(setting(refined, "perturb") + setting(refined, "exude"), "offoff");
+  EXPECT_GT(worst_volume(improved.result.mesh), worst_volume(refined.result.mesh));  // slivers are gone
+}
+
 TEST(CgalMesh3, GivesEachRegionItsAttribute) {
   if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
   InputPlc plc = shapes::cube_with_hole();
@@ -175,6 +201,15 @@ TEST(GmshHxt, KeepsRegionsAndMarkers) {
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
   EXPECT_EQ(std::ranges::count(made.result.mesh.face_markers, 7), 12);
   EXPECT_EQ(std::ranges::count(made.result.mesh.face_markers, 8), 12);
+}
+
+TEST(GmshHxt, OptimizesUnlessThereIsToBeNoImprovement) {
+  if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
+  MeshOptions options = {.edge_length = 0.25};
+  options.improve.improvement = Improvement::all;
+  EXPECT_EQ(setting(run("gmsh-hxt", shapes::cube_with_grid(4), options), "Mesh.Optimize"), "1");
+  options.improve.improvement = Improvement::none;
+  EXPECT_EQ(setting(run("gmsh-hxt", shapes::cube_with_grid(4), options), "Mesh.Optimize"), "0");
 }
 
 TEST(GmshHxt, RefusesFacetsInsideAVolume) {
