@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "engine/io/output_file.h"
+#include "reports/ablation_report.h"
 #include "reports/fig8_report.h"
 #include "reports/interior_points_report.h"
+#include "reports/lattice_fit_report.h"
+#include "reports/lattices_report.h"
 #include "reports/locators_report.h"
+#include "reports/mesher_quality_report.h"
 #include "reports/table1_report.h"
 #include "tools/progress_bar.h"
 
@@ -68,6 +72,36 @@ bool run_interior_points(const ExperimentOptions& options) {
   return true;
 }
 
+/// Did every surface and every run of our own go well?
+bool our_rows_are_ok(const QualityStudy& study, bool (*is_ours)(const QualityRow&)) {
+  for (const QualityCase& c : study.cases) {
+    if (!c.reason.empty()) return false;
+    for (const QualityRow& row : c.rows)
+      if (is_ours(row) && !row.ok()) return false;
+  }
+  return true;
+}
+
+bool every_row(const QualityRow& /*row*/) {
+  return true;
+}
+
+bool run_quality(const ExperimentOptions& options) {
+  return our_rows_are_ok(measure_and_report("quality", options, measure_mesher_quality), is_ours);
+}
+
+bool run_lattices(const ExperimentOptions& options) {
+  return our_rows_are_ok(measure_and_report("lattices", options, measure_lattices), every_row);
+}
+
+bool run_ablation(const ExperimentOptions& options) {
+  return our_rows_are_ok(measure_and_report("ablation", options, measure_ablation), every_row);
+}
+
+bool run_lattice_fit(const ExperimentOptions& options) {
+  return our_rows_are_ok(measure_and_report("lattice-fit", options, measure_lattice_fit), every_row);
+}
+
 }  // namespace
 
 std::span<const ReproducibleExperiment> reproducible_experiments() {
@@ -78,6 +112,10 @@ std::span<const ReproducibleExperiment> reproducible_experiments() {
       {"locators", "grid, octree and cavity on even and on graded surfaces", "5 minutes", run_locators},
       {"interior-points", "do interior points never harm existence, as the paper says?", "4 minutes",
        run_interior_points},
+      {"quality", "our tetrahedra beside those of other meshers, at equal numbers of them", "30 minutes", run_quality},
+      {"lattices", "FCC, BCC and SC, before and after improvement", "1 minute", run_lattices},
+      {"ablation", "swaps only, smoothing only, both", "1 minute", run_ablation},
+      {"lattice-fit", "how near to the surface lattice points should be", "2 minutes", run_lattice_fit},
   };
   return all;
 }

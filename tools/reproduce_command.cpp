@@ -54,7 +54,9 @@ std::string footer() {
          "Example: the paper's Table 1\n"
          "  ccdt reproduce table1 -o build/table1\n"
          "Example: the three locators, on a part of your own as well\n"
-         "  ccdt reproduce locators -o build/locators --input part.stl\n";
+         "  ccdt reproduce locators -o build/locators --input part.stl\n"
+         "Example: quality beside other meshers on parts alone, without the paper's models\n"
+         "  ccdt reproduce quality -o build/quality --models none --input parts/*.off\n";
 }
 
 void add_limits(CLI::App& verb, ReproduceCommand& command) {
@@ -69,21 +71,24 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
   verb.add_option("--runs", command.options.runs, "counted runs of each case")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
-  verb.add_option("--scale", command.options.scale,
-                  "factor of the models' edge lengths: more than 1 is coarser and faster")
+  verb.add_option(
+          "--scale", command.options.scale,
+          "factor of the models' edge lengths, divisor of numbers of tetrahedra: more than 1 is coarser and faster")
       ->check(positive_number())
       ->capture_default_str();
   std::vector<std::string> models, others;
   for (const Solid& solid : solids()) models.emplace_back(solid.name);
+  models.emplace_back("none");
   for (const Mesher& m : meshers())
     if (m.name != "ccdt") others.push_back(m.name);
   verb.add_option("--models", command.options.models,
-                  "measure only these, separated by commas; default: all models of the experiment")
+                  "measure only these, separated by commas; default: all models of the experiment; none: files alone")
       ->delimiter(',')
       ->check(CLI::IsMember(models).description(""));
-  verb.add_option("--input", command.options.inputs, "locators, interior-points: files to measure as well")
+  verb.add_option("--input", command.options.inputs, "files to measure as well (not table1 and fig8)")
       ->check(CLI::ExistingFile);
-  verb.add_option("--beside", command.beside, "table1: other meshers to measure, separated by commas; default: all")
+  verb.add_option("--beside", command.beside,
+                  "table1, quality: other meshers to measure, separated by commas; default: all")
       ->delimiter(',')
       ->check(CLI::IsMember(others));
 }

@@ -1,0 +1,128 @@
+#include "bench/experiments/quality_study.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/experiments/lattice_fit.h"
+#include "bench/experiments/lattices.h"
+#include "bench/experiments/mesher_quality.h"
+
+namespace ccdt {
+namespace {
+
+QualityRow row(const std::string& variant, double mean_r, double worst_r, double dihedral) {
+  QualityRow made;
+  made.variant = variant;
+  made.quality.r = {1, mean_r, mean_r, 0.5 * (mean_r + worst_r), worst_r};
+  made.quality.dihedral_degrees = {dihedral, 180 - dihedral, {}};
+  made.is_comparable = true;
+  return made;
+}
+
+TEST(Criteria, KnowWhichWayIsBetter) {
+  const Quality quality = row("a", 1.2, 3, 18).quality;
+  EXPECT_EQ(value_of(quality, Criterion::mean_r), 1.2);
+  EXPECT_EQ(value_of(quality, Criterion::p99_r), 2.1);
+  EXPECT_EQ(value_of(quality, Criterion::worst_r), 3);
+  EXPECT_EQ(value_of(quality, Criterion::smallest_dihedral), 18);
+  EXPECT_EQ(value_of(quality, Criterion::largest_dihedral), 162);
+  for (const Criterion criterion : lattice_criteria) {
+    EXPECT_EQ(is_better(criterion, 2, 1), criterion == Criterion::smallest_dihedral);
+    EXPECT_FALSE(is_better(criterion, 1, 1));
+  }
+}
+
+TEST(MesherQuality, ComparesWithTheBestOfTheOthersByEachCriterion) {
+  QualityCase c;
+  c.rows = {row("ccdt fcc", 1.2, 3, 17), row("ccdt bcc", 1.1, 2, 30), row("tetgen", 1.5, 8, 10),
+            row("gmsh-hxt", 1.4, 4, 18)};
+  const auto verdicts = judge(c, c.rows[0]);
+  ASSERT_EQ(verdicts.size(), 4u);
+  EXPECT_EQ(verdicts[0].best_variant, "gmsh-hxt");
+  EXPECT_EQ(verdicts[0].best, 1.4);
+  EXPECT_TRUE(verdicts[0].is_better());
+  EXPECT_TRUE(verdicts[2].is_better());
+  EXPECT_FALSE(verdicts[3].is_better());  // HXT has the larger smallest angle
+  EXPECT_TRUE(judge(c, c.rows[1])[3].is_better());
+}
+
+TEST(MesherQuality, DoesNotCompareWithOtherCountsOrFailures) {
+  QualityCase c;
+  c.rows = {row("ccdt fcc", 1.2, 3, 17), row("tetgen", 1.1, 2, 30), row("cgal-mesh3", 1, 2, 40)};
+  c.rows[1].is_comparable = false;
+  c.rows[2].status = RunStatus::crashed;
+  const auto verdicts = judge(c, c.rows[0]);
+  EXPECT_TRUE(verdicts[0].best_variant.empty());
+  EXPECT_FALSE(verdicts[0].is_better());
+  c.rows[0].status = RunStatus::failed;
+  EXPECT_TRUE(judge(c, c.rows[0]).empty());
+}
+
+TEST(MesherQuality, BlamesTheSurfaceForAnAngleBetweenItsFacetsAlone) {
+  EXPECT_TRUE(forbids_dihedral({{60, {}}, {12, {}}}, 18));
+  EXPECT_FALSE(forbids_dihedral({{5, {}}, {90, {}}}, 18));
+}
+
+QualityCase lattices_case(double fcc, double bcc, double sc) {
+  QualityCase c;
+  for (const std::string suffix : {"", " improved"}) {
+    c.rows.push_back(row("fcc" + suffix, fcc, 2 * fcc, 20));
+    c.rows.push_back(row("bcc" + suffix, bcc, 2 * bcc, 20));
+    c.rows.push_back(row("sc" + suffix, sc, 2 * sc, 10));
+  }
+  return c;
+}
+
+TEST(Lattices, ConfirmTheClaimOnlyIfFccAloneIsBestInEveryCase) {
+  Lattices lattices;
+  lattices.cases = {lattices_case(1.1, 1.2, 1.3), lattices_case(1.15, 1.2, 1.5)};
+  EXPECT_TRUE(lattice_claims(lattices)[0].is_confirmed());
+  EXPECT_FALSE(lattice_claims(lattices)[3].is_confirmed());  // smallest dihedral: a tie with bcc
+  EXPECT_EQ(lattice_claims(lattices)[3].best, (std::array<std::uint64_t, 3>{2, 2, 0}));
+  lattices.cases.push_back(lattices_case(1.2, 1.1, 1.3));
+  EXPECT_FALSE(lattice_claims(lattices)[0].is_confirmed());
+  EXPECT_EQ(lattice_claims(lattices)[0].best, (std::array<std::uint64_t, 3>{2, 1, 0}));
+  EXPECT_EQ(lattice_claims(lattices).size(), 2 * lattice_criteria.size());
+}
+
+TEST(Lattices, LeaveOutCasesInWhichOneFailed) {
+  Lattices lattices;
+  lattices.cases = {lattices_case(1.1, 1.2, 1.3)};
+  lattices.cases[0].rows[5].status = RunStatus::failed;
+  const auto claims = lattice_claims(lattices);
+  EXPECT_EQ(claims.front().cases, 1u);
+  EXPECT_EQ(claims.back().cases, 0u);
+  EXPECT_FALSE(claims.back().is_confirmed());
+}
+
+TEST(LatticeFit, HasTheDefaultAmongItsSettings) {
+  const auto settings = lattice_settings();
+  EXPECT_EQ(std::ranges::count(settings, default_lattice_setting()), 1);
+  EXPECT_EQ(name_of(LatticeSetting{1.1, 0.5}), "sphere 1.1, clearance 0.5");
+}
+
+TEST(LatticeFit, RanksSettingsOverAllCases) {
+  LatticeFit fit;
+  fit.cases.resize(2);
+  const auto settings = lattice_settings();
+  for (QualityCase& c : fit.cases)
+    for (std::size_t i = 0; i < settings.size(); ++i)
+      c.rows.push_back(row(name_of(settings[i]), 1.2, i == 3 ? 2 : 8, i == 3 ? 20 : 10));
+  auto summaries = summarize(fit);
+  ASSERT_EQ(summaries.size(), settings.size());
+  const double n = static_cast<double>(settings.size());
+  // Best alone in p99, worst r and the angle, tied with all in mean r.
+  EXPECT_NEAR(summaries[3].rank, (3 + (n + 1) / 2) / 4, 1e-12);
+  EXPECT_NEAR(summaries[0].rank, (3 * (n + 2) / 2 + (n + 1) / 2) / 4, 1e-12);
+  EXPECT_NEAR(summaries[3].worst_r, 2, 1e-12);
+  fit.cases[0].rows[0].status = RunStatus::failed;
+  fit.cases[1].rows[0].quality.r.max = 32;
+  summaries = summarize(fit);  // of the second case alone
+  EXPECT_NEAR(summaries[0].worst_r, 32, 1e-12);
+  fit.cases.pop_back();
+  EXPECT_TRUE(summarize(fit).empty());
+}
+
+}  // namespace
+}  // namespace ccdt
