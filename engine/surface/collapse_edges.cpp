@@ -39,6 +39,11 @@ bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t alon
 // What a collapse is for: to have no short edges, or to make the worst triangle around better.
 enum class Aim { length, angle };
 
+// The longest edges that it may make, in units of the wanted length.
+double longest(Aim aim) {
+  return aim == Aim::length ? too_long : 1.3 * too_long;
+}
+
 // Are the triangles and edges that the collapse would make good enough?
 bool has_good_result(const WorkingMesh& m, HalfedgeHandle h, Aim aim) {
   const VertexHandle from = m.mesh.from_vertex_handle(h), to = m.mesh.to_vertex_handle(h);
@@ -47,7 +52,7 @@ bool has_good_result(const WorkingMesh& m, HalfedgeHandle h, Aim aim) {
   for (auto out = m.mesh.cvoh_iter(from); out.is_valid(); ++out) {
     const VertexHandle n = m.mesh.to_vertex_handle(*out);
     if (n != to && !is_apex(m, h, n)) {
-      if (m.edge_length(n, to) > too_long * m.wanted_length(n, to) || !runs_along_surface(m, n, to)) return false;
+      if (m.edge_length(n, to) > longest(aim) * m.wanted_length(n, to) || !runs_along_surface(m, n, to)) return false;
     }
     if (m.mesh.is_boundary(*out)) continue;
     if (m.is_frozen(m.mesh.face_handle(*out))) return false;
@@ -114,11 +119,12 @@ Passage passage(const WorkingMesh& m, std::uint32_t knot, std::uint32_t link) {
   return {link, other, on.ends[i], back.ends[j], on.arc[i], back.arc[j]};
 }
 
-bool may_become_straight(const WorkingMesh& m, const Passage& p) {
+bool may_become_straight(const WorkingMesh& m, const Passage& p, Aim aim) {
   const Point3 a = m.knots[p.previous].position, b = m.knots[p.next].position;
-  const double size = length(b - a);
-  if (p.previous == p.next || size > too_long * m.wanted_length(p.previous, p.next)) return false;
-  if (m.features.curves[m.links[p.to_next].curve].deviation(p.previous_arc, p.next_arc) > most_deviation * size)
+  const double size = length(b - a), wanted = m.wanted_length(p.previous, p.next);
+  if (p.previous == p.next || size > longest(aim) * wanted) return false;
+  if (m.features.curves[m.links[p.to_next].curve].deviation(p.previous_arc, p.next_arc) >
+      most_deviation * (aim == Aim::length ? size : std::max(size, wanted)))
     return false;
   return !are_joined(m, p.previous, p.next);
 }
@@ -126,7 +132,7 @@ bool may_become_straight(const WorkingMesh& m, const Passage& p) {
 bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link, Aim aim) {
   if (m.knots[knot].is_fixed) return false;
   const Passage p = passage(m, knot, link);
-  if (!may_become_straight(m, p)) return false;
+  if (!may_become_straight(m, p, aim)) return false;
   const std::vector<Sheet> sheets = sheets_at(m, knot, p.next);
   if (sheets.size() != m.knots[knot].copies.size()) return false;
   for (const auto& [h, back] : sheets)

@@ -87,11 +87,13 @@ double angle_around(const WorkingMesh& m, const WorkingMesh::Knot& knot, const P
 }
 
 // Would the links still be as near to the curve as they have to be, or as they are?
-bool follows_curve(const WorkingMesh& m, const KnotOnCurve& at, double arc, const Point3& p, double now) {
+bool follows_curve(const WorkingMesh& m, std::uint32_t knot, const KnotOnCurve& at, double arc, const Point3& p,
+                   double now) {
   const FeatureCurve& curve = m.features.curves[at.curve];
   for (int i = 0; i < 2; ++i) {
     const double deviation = curve.deviation(arc, at.arcs[i]);
-    if (deviation > most_deviation * length(m.knots[at.others[i]].position - p) &&
+    const double size = std::max(length(m.knots[at.others[i]].position - p), m.wanted_length(knot, at.others[i]));
+    if (deviation > most_deviation * size &&
         deviation > curve.deviation(now, at.arcs[i]))
       return false;
   }
@@ -112,7 +114,7 @@ bool improve_knot(WorkingMesh& m, std::uint32_t k) {
     for (const double arc : {best - step * reach, best + step * reach}) {
       const Point3 p = curve.at(arc);
       const double there = angle_around(m, knot, p);
-      if (there <= angle || !follows_curve(m, at, arc, p, now)) continue;
+      if (there <= angle || !follows_curve(m, k, at, arc, p, now)) continue;
       best = arc;
       angle = there;
     }
