@@ -66,17 +66,18 @@ bool has_good_result(const WorkingMesh& m, HalfedgeHandle h, Aim aim) {
                            : may_replace(before.worst, after.worst, good_quality);
 }
 
-bool stays_near_surface(const WorkingMesh& m, HalfedgeHandle h) {
+bool stays_near_surface(const WorkingMesh& m, HalfedgeHandle h, Aim aim) {
+  const double most = aim == Aim::length ? most_deviation : most_deviation_of_improved;
   const VertexHandle from = m.mesh.from_vertex_handle(h), to = m.mesh.to_vertex_handle(h);
   for (auto n = m.mesh.cvv_iter(from); n.is_valid(); ++n)
-    if (*n != to && !is_apex(m, h, *n) && !is_near_surface(m, *n, to)) return false;
+    if (*n != to && !is_apex(m, h, *n) && !is_near_surface(m, *n, m.point(to), most)) return false;
   return true;
 }
 
 bool try_collapse(WorkingMesh& m, HalfedgeHandle h, Aim aim) {
   const VertexHandle from = m.mesh.from_vertex_handle(h);
   if (knot_of(m, from) != none || m.at(from).is_frozen || !m.mesh.is_collapse_ok(h)) return false;
-  if (would_join_knots(m, h, none) || !has_good_result(m, h, aim) || !stays_near_surface(m, h)) return false;
+  if (would_join_knots(m, h, none) || !has_good_result(m, h, aim) || !stays_near_surface(m, h, aim)) return false;
   m.mesh.collapse(h);
   return true;
 }
@@ -124,7 +125,7 @@ bool may_become_straight(const WorkingMesh& m, const Passage& p, Aim aim) {
   const double size = length(b - a), wanted = m.wanted_length(p.previous, p.next);
   if (p.previous == p.next || size > longest(aim) * wanted) return false;
   if (m.features.curves[m.links[p.to_next].curve].deviation(p.previous_arc, p.next_arc) >
-      most_deviation * (aim == Aim::length ? size : std::max(size, wanted)))
+      (aim == Aim::length ? most_deviation * size : most_deviation_of_improved * std::max(size, wanted)))
     return false;
   return !are_joined(m, p.previous, p.next);
 }
@@ -137,7 +138,7 @@ bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link, A
   if (sheets.size() != m.knots[knot].copies.size()) return false;
   for (const auto& [h, back] : sheets)
     if (m.at(m.mesh.from_vertex_handle(h)).is_frozen || !m.mesh.is_collapse_ok(h) ||
-        would_join_knots(m, h, p.previous) || !has_good_result(m, h, aim) || !stays_near_surface(m, h))
+        would_join_knots(m, h, p.previous) || !has_good_result(m, h, aim) || !stays_near_surface(m, h, aim))
       return false;
   for (const auto& [h, back] : sheets) m.mesh.collapse(h);
   m.knots[knot].is_alive = false;

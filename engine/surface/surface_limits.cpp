@@ -12,10 +12,10 @@ bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
   return std::fabs(dot(along, m.at(a).normal)) <= limit && std::fabs(dot(along, m.at(b).normal)) <= limit;
 }
 
-bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q) {
+bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, double most) {
   if (m.is_flat(a)) return true;
   const Point3 p = m.point(a);
-  return m.closest.is_within(most_deviation * std::max(length(q - p), m.at(a).wanted), m.at(a).patch, 0.5 * (p + q),
+  return m.closest.is_within(most * std::max(length(q - p), m.at(a).wanted), m.at(a).patch, 0.5 * (p + q),
                              m.at(a).near);
 }
 

@@ -6,8 +6,11 @@
 namespace ccdt {
 
 /// How far an edge may be from the original surface or feature in its middle, as a fraction of its length: a circle
-/// stays a hexagon at least.
+/// keeps eighteen edges at least.
 inline constexpr double most_deviation = 0.044;
+
+/// The same for the edges that improve bad triangles: a circle keeps fifteen edges.
+inline constexpr double most_deviation_of_improved = 0.055;
 
 /// Edges are split above and collapsed below these multiples of the wanted length (Botsch and Kobbelt 2004).
 inline constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
@@ -17,7 +20,7 @@ inline constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
 bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
 
 /// Is the middle of an edge between two vertices of a patch, or one and a place for another, within the bound?
-bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q);
+bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, double most = most_deviation);
 inline bool is_near_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
   return is_near_surface(m, a, m.point(b));
 }

@@ -84,8 +84,8 @@ inline double share_of_good_edges(const InputPlc& plc, double length) {
   return good / all;
 }
 
-/// The angle, in degrees, that one triangle in a hundred has a smaller one than.
-inline double smallest_angle_of_99_percent(const InputPlc& plc) {
+/// The smallest angle of each triangle, in degrees, in ascending order.
+inline std::vector<double> smallest_angles(const InputPlc& plc) {
   std::vector<double> smallest;
   for (const auto& t : plc.triangles) {
     double angle = 180;
@@ -97,7 +97,20 @@ inline double smallest_angle_of_99_percent(const InputPlc& plc) {
     smallest.push_back(angle);
   }
   std::sort(smallest.begin(), smallest.end());
+  return smallest;
+}
+
+/// The angle, in degrees, that one triangle in a hundred has a smaller one than.
+inline double smallest_angle_of_99_percent(const InputPlc& plc) {
+  const std::vector<double> smallest = smallest_angles(plc);
   return smallest[smallest.size() / 100];
+}
+
+inline double mean_edge_length(const InputPlc& plc) {
+  const auto edges = triangles_at_edges(plc);
+  double sum = 0;
+  for (const auto& [edge, triangles] : edges) sum += distance(plc.vertices[edge[0]], plc.vertices[edge[1]]);
+  return sum / static_cast<double>(edges.size());
 }
 
 /// The volume of the chambers of each region; 0 is also what has no region.
