@@ -225,10 +225,11 @@ TEST(RemeshedParts, MeshAtEveryEdgeLengthAndKeepTheirVolume) {
     const InputPlc input = read_plc(file);
     const double before = inside_volume(build_plc(input));
     for (const double factor : {1.0, 2.0, 4.0}) {
-      if (name == "cheese" && factor != 2) continue;  // the mesher takes many seconds for it
+      if (name == "cheese" && factor != 2) continue;  // its bores take seconds
       SCOPED_TRACE(name + " " + std::to_string(factor));
       const InputPlc result = remeshed(input, factor * mean_edge_length(input));
       EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.02 * factor * before);
+      if (name == "cheese") continue;  // the mesher takes many seconds for it
       MeshOptions options;
       options.lattice = Lattice::none;
       EXPECT_GT(mesh_plc(result, options).counts.tetrahedra, 0u);
