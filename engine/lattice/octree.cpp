@@ -162,8 +162,8 @@ class Builder {
                last_high = as_array(last.high);
     unsigned children = 0xFF;
     for (std::size_t k = 0; k < 3; ++k) {
-      const bool in_lower = (low[k] <= first_high[k]) & (high[k] >= first_low[k]);
-      const bool in_upper = (low[k] <= last_high[k]) & (high[k] >= last_low[k]);
+      const bool in_lower = low[k] <= first_high[k] && high[k] >= first_low[k];
+      const bool in_upper = low[k] <= last_high[k] && high[k] >= last_low[k];
       children &= (in_lower ? lower[k] : 0u) | (in_upper ? 0xFFu & ~lower[k] : 0u);
     }
     return children;

@@ -15,8 +15,8 @@ struct ClosedBox {
 
   // Which of the six fails is as good as random: all are asked, without branches.
   bool meets(const ClosedBox& o) const {
-    return ((low.x <= o.high.x) & (o.low.x <= high.x) & (low.y <= o.high.y) & (o.low.y <= high.y) &
-            (low.z <= o.high.z) & (o.low.z <= high.z)) != 0;
+    return (int{low.x <= o.high.x} & int{o.low.x <= high.x} & int{low.y <= o.high.y} & int{o.low.y <= high.y} &
+            int{low.z <= o.high.z} & int{o.low.z <= high.z}) != 0;
   }
 };
 
