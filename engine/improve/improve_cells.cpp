@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 
 #include "engine/improve/insert_vertex.h"
 #include "engine/improve/remove_edge.h"
@@ -50,6 +51,7 @@ class Improving {
     return options_.time > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= options_.time;
   }
 
+  void tidy(std::vector<BadCell>& bad) const;
   bool pass(Effort effort, const Progress& progress);
   bool improve(std::uint32_t cell, Effort effort);
   bool swap(std::uint32_t cell);
@@ -84,10 +86,22 @@ ImproveCounts Improving::run(const Progress& progress) {
     effort = Effort::greatest;
     for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
   }
-  std::erase_if(found_, [&](const BadCell& bad) { return is_stale(bad); });
+  tidy(found_);
   counts_.bad_cells_left = found_.size();
   counts_.stop = found_.empty() ? ImproveStop::target : time_is_up() ? ImproveStop::time : ImproveStop::stuck;
   return counts_;
+}
+
+/// Leaves one entry for each cell that is still bad, the least tried, and the worst first. A cell that a moved vertex
+/// has made good and another one bad again has two.
+void Improving::tidy(std::vector<BadCell>& bad) const {
+  std::erase_if(bad, [&](const BadCell& b) { return is_stale(b); });
+  for (BadCell& b : bad) b.worth = x_.worths[b.cell];
+  std::ranges::sort(bad, [](const BadCell& a, const BadCell& b) {
+    return std::tie(a.worth, a.cell, a.tries, a.tried_at) < std::tie(b.worth, b.cell, b.tries, b.tried_at);
+  });
+  const auto rest = std::ranges::unique(bad, {}, &BadCell::cell);
+  bad.erase(rest.begin(), rest.end());
 }
 
 /// Tries each bad cell once, unless nothing around it has changed since it was tried in vain.
@@ -95,11 +109,7 @@ ImproveCounts Improving::run(const Progress& progress) {
 bool Improving::pass(Effort effort, const Progress& progress) {
   queue_.swap(found_);
   found_.clear();
-  std::erase_if(queue_, [&](const BadCell& bad) { return is_stale(bad); });
-  for (BadCell& bad : queue_) bad.worth = x_.worths[bad.cell];
-  std::ranges::sort(queue_, [](const BadCell& a, const BadCell& b) {
-    return a.worth != b.worth ? a.worth < b.worth : a.cell < b.cell;
-  });
+  tidy(queue_);
   const std::uint64_t changes = x_.changes;
   std::uint64_t done = 0;
   for (BadCell& bad : queue_) {

@@ -9,7 +9,7 @@ enum class ImproveStop {
   none,    ///< it was not asked for
   target,  ///< every tetrahedron is as good as was asked for
   time,    ///< the time was up
-  stuck    ///< nothing that it can do makes any of the remaining tetrahedra better
+  stuck    ///< each of the remaining tetrahedra was tried in vain, the last time or several times
 };
 
 /// How often each change was made, and why improvement stopped.

@@ -1,0 +1,277 @@
+#include "engine/improve/improve_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "engine/improve/remove_edge.h"
+#include "engine/improve/remove_faces.h"
+#include "engine/tests/improve_checks.h"
+
+namespace ccdt {
+namespace {
+
+using namespace improve_test;
+
+constexpr double spacing = 1099511627776.0;  // 2^40 grid units
+
+/// A cube of n x n x n small cubes, filled with the Delaunay tetrahedra of their corners, each of which has moved by a
+/// random amount where it was free to: in its face, along its edge, or anywhere inside.
+struct Cube {
+  Model model;
+  std::vector<Freedom> freedom;  ///< of the vertices on the boundary
+};
+
+/// The axes along which a vertex is at an end of the cube.
+std::array<bool, 3> at_end(const Point3& p, int n) {
+  std::array<bool, 3> result = {};
+  for (std::size_t i = 0; i < 3; ++i) result[i] = as_array(p)[i] == 0 || as_array(p)[i] == n * spacing;
+  return result;
+}
+
+Freedom freedom_of(const std::array<bool, 3>& fixed) {
+  std::vector<Point3> steps;
+  if (!fixed[0]) steps.push_back({1, 0, 0});
+  if (!fixed[1]) steps.push_back({0, 1, 0});
+  if (!fixed[2]) steps.push_back({0, 0, 1});
+  Freedom freedom;
+  freedom.dimensions = static_cast<int>(steps.size());
+  if (steps.size() == 3) return freedom;
+  if (!steps.empty()) freedom.u = steps[0];
+  if (steps.size() == 2) freedom.v = steps[1];
+  return freedom;
+}
+
+/// The corners of the small cubes, those on the boundary first.
+std::vector<Point3> moved_corners(int n, double jitter, std::mt19937& random) {
+  std::uniform_real_distribution<double> part(-jitter, jitter);
+  std::vector<Point3> boundary, inside;
+  for (int i = 0; i < (n + 1) * (n + 1) * (n + 1); ++i) {
+    std::array<double, 3> p = {double(i % (n + 1)), double(i / (n + 1) % (n + 1)), double(i / (n + 1) / (n + 1))};
+    bool is_inside = true;
+    for (double& x : p) {
+      const bool is_fixed = x == 0 || x == n;
+      is_inside = is_inside && !is_fixed;
+      x = is_fixed ? x * spacing : std::round((x + part(random)) * spacing);
+    }
+    (is_inside ? inside : boundary).push_back({p[0], p[1], p[2]});
+  }
+  boundary.insert(boundary.end(), inside.begin(), inside.end());
+  return boundary;
+}
+
+/// The side of the cube that a face is on: one bit for each that all of its corners are on.
+template <std::size_t Corners>
+std::uint32_t common_sides(const std::vector<Point3>& points, const std::array<std::uint32_t, Corners>& corners,
+                           int n) {
+  std::uint32_t sides = 63;
+  for (const std::uint32_t v : corners)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (as_array(points[v])[i] != 0) sides &= ~(1u << i);
+      if (as_array(points[v])[i] != n * spacing) sides &= ~(8u << i);
+    }
+  return sides;
+}
+
+void add_face(Model& model, const Triangle& face, int n) {
+  model.faces.push_back(face);
+  model.facet_of_face.push_back(common_sides(model.points, face, n));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge edge = {face[i], face[(i + 1) % 3]};
+    const std::uint32_t sides = common_sides(model.points, edge, n);
+    if ((sides & (sides - 1)) != 0) model.segments.push_back(edge);
+  }
+}
+
+Cube cube_of(int n, double jitter, unsigned seed) {
+  std::mt19937 random(seed);
+  Cube cube;
+  cube.model.points = moved_corners(n, jitter, random);
+  const auto size = static_cast<std::uint32_t>(cube.model.points.size());
+  cube.model.first_interior = size - static_cast<std::uint32_t>((n - 1) * (n - 1) * (n - 1));
+  for (std::uint32_t v = 0; v < cube.model.first_interior; ++v)
+    cube.freedom.push_back(freedom_of(at_end(cube.model.points[v], n)));
+  const Delaunay delaunay = build_delaunay(cube.model.points);
+  for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
+    const auto& v = delaunay.cells[c].vertices;
+    if (delaunay.is_finite(c))
+      cube.model.cells.push_back(v);
+    else if (!delaunay.is_dead(c))
+      add_face(cube.model, {v[0], v[1], v[2]}, n);
+  }
+  cube.model.regions.assign(cube.model.cells.size(), 5);
+  return cube;
+}
+
+struct Case {
+  Cube cube;
+  ImproveOptions options;
+  const std::vector<Freedom>& freedom() const {
+    static const std::vector<Freedom> none;
+    return options.boundary == BoundaryRule::slide ? cube.freedom : none;
+  }
+};
+
+template <class Visit>
+void visit_cases(const Visit& visit) {
+  unsigned seed = 0;
+  for (const double jitter : {0.0, 0.3, 0.49}) {
+    const Cube cube = cube_of(3, jitter, ++seed);
+    for (const Improvement improvement : {Improvement::swap, Improvement::smooth, Improvement::all})
+      for (const Objective objective : {Objective::r, Objective::dihedral})
+        for (const BoundaryRule boundary : {BoundaryRule::keep, BoundaryRule::slide}) {
+          SCOPED_TRACE("jitter " + std::to_string(jitter) + ", improvement " +
+                       std::to_string(static_cast<int>(improvement)) + ", objective " +
+                       std::to_string(static_cast<int>(objective)) + ", boundary " +
+                       std::to_string(static_cast<int>(boundary)));
+          visit(Case{cube, {improvement, objective, boundary, 45, 1.5, 0}});
+        }
+  }
+}
+
+double worst_worth(const CellComplex& x) {
+  double worst = 2;
+  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
+    if (!x.is_dead(c)) worst = std::min(worst, x.worths[c]);
+  return worst;
+}
+
+std::vector<std::uint32_t> bad_cells(const CellComplex& x, const QualityGoal& goal) {
+  std::vector<std::uint32_t> bad;
+  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
+    if (!x.is_dead(c) && x.worths[c] < worth_of_goal(goal)) bad.push_back(c);
+  return bad;
+}
+
+TEST(Improving, FillsTheSameSpaceExactlyAndIsNeverWorse) {
+  int slid = 0;
+  visit_cases([&](const Case& c) {
+    const QualityGoal goal = goal_of(c.options);
+    CellComplex x = complex_of(c.cube.model, goal);
+    Invariants before = invariants_of(x);
+    const double worst = worst_worth(x);
+    EXPECT_GT(improve_cells(x, c.freedom(), c.options).bad_cells, 0u);
+    expect_consistent(x, goal);
+    Invariants after = invariants_of(x);
+    if (c.options.boundary == BoundaryRule::slide && c.options.improvement != Improvement::swap) {
+      slid += before.places != after.places;
+      before.places = after.places = {};
+    }
+    EXPECT_TRUE(after == before);
+    EXPECT_GE(worst_worth(x), worst);
+  });
+  EXPECT_GT(slid, 0);
+}
+
+TEST(Improving, CountsWhatItDid) {
+  visit_cases([](const Case& c) {
+    const QualityGoal goal = goal_of(c.options);
+    CellComplex x = complex_of(c.cube.model, goal);
+    const std::size_t bad_before = bad_cells(x, goal).size(), vertices = x.points.size();
+    const std::vector<Point3> points = x.points;
+    const std::set<Tetrahedron> cells = cells_of(x);
+    const ImproveCounts counts = improve_cells(x, c.freedom(), c.options);
+    EXPECT_EQ(counts.bad_cells, bad_before);
+    EXPECT_EQ(counts.bad_cells_left, bad_cells(x, goal).size());
+    EXPECT_EQ(counts.stop, counts.bad_cells_left == 0 ? ImproveStop::target : ImproveStop::stuck);
+    EXPECT_EQ(counts.moved_vertices == 0, std::equal(points.begin(), points.end(), x.points.begin()));
+    EXPECT_LE(counts.facet_flips, counts.removed_edges);
+    EXPECT_TRUE(c.options.improvement != Improvement::swap || counts.moved_vertices == 0);
+    if (c.options.improvement == Improvement::smooth) {
+      EXPECT_TRUE(cells_of(x) == cells);
+      EXPECT_EQ(counts.removed_edges + counts.removed_faces, 0u);
+    }
+    if (c.options.improvement == Improvement::all) return;
+    EXPECT_EQ(counts.inserted_vertices + counts.collapsed_edges, 0u);
+    EXPECT_EQ(x.points.size(), vertices);
+  });
+}
+
+TEST(Improving, HasTheSameResultAgain) {
+  visit_cases([](const Case& c) {
+    const QualityGoal goal = goal_of(c.options);
+    CellComplex x = complex_of(c.cube.model, goal), y = x;
+    improve_cells(x, c.freedom(), c.options);
+    improve_cells(y, c.freedom(), c.options);
+    EXPECT_TRUE(x.points == y.points);
+    EXPECT_TRUE(cells_of(x) == cells_of(y));
+  });
+}
+
+TEST(Improving, ThatFindsNoMoreSwapsLeavesNone) {
+  visit_cases([](const Case& c) {
+    if (c.options.improvement != Improvement::swap) return;
+    const QualityGoal goal = goal_of(c.options);
+    CellComplex x = complex_of(c.cube.model, goal);
+    std::uint64_t changes = 0;
+    do {  // it gives cells up that were tried several times; another run tries them all
+      changes = x.changes;
+      improve_cells(x, c.freedom(), c.options);
+    } while (x.changes != changes);
+    Change change;
+    for (const std::uint32_t cell : bad_cells(x, goal)) {
+      for (std::uint32_t edge = 0; edge < 6; ++edge)
+        EXPECT_FALSE(plan_edge_removal(x, goal, cell, edge, x.worths[cell], change) && all_positive(x, change));
+      for (std::uint32_t face = 0; face < 4; ++face)
+        EXPECT_FALSE(plan_face_removal(x, goal, cell, face, x.worths[cell], change) && all_positive(x, change));
+    }
+  });
+}
+
+TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
+  PlanCounts all;
+  for (const double jitter : {0.0, 0.49}) {
+    for (const Objective objective : {Objective::r, Objective::dihedral}) {
+      const QualityGoal goal{objective, 1, 1};
+      const CellComplex x = complex_of(cube_of(3, jitter, 7).model, goal);
+      const PlanCounts counts = expect_every_plan_is_sound(x, goal);
+      all.edge_removals += counts.edge_removals, all.face_removals += counts.face_removals;
+      all.facet_flips += counts.facet_flips, all.collapses += counts.collapses, all.insertions += counts.insertions;
+    }
+  }
+  EXPECT_GT(all.edge_removals, 0);
+  EXPECT_GT(all.face_removals, 0);
+  EXPECT_GT(all.facet_flips, 0);
+  EXPECT_GT(all.collapses, 0);
+  EXPECT_GT(all.insertions, 0);
+}
+
+TEST(Improving, NoneChangesNothing) {
+  ImproveOptions options;
+  const QualityGoal goal = goal_of(options);
+  CellComplex x = complex_of(cube_of(3, 0.4, 1).model, goal);
+  const CellComplex before = x;
+  EXPECT_EQ(improve_cells(x, {}, options).stop, ImproveStop::none);
+  EXPECT_TRUE(cells_of(x) == cells_of(before));
+  EXPECT_TRUE(x.points == before.points);
+}
+
+TEST(Improving, ReachesATargetThatIsLow) {
+  ImproveOptions options{Improvement::all, Objective::dihedral, BoundaryRule::keep, 5, 2, 0};
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const QualityGoal goal = goal_of(options);
+    CellComplex x = complex_of(cube_of(4, 0.4, seed).model, goal);
+    EXPECT_LT(worst_worth(x), goal.sine);
+    EXPECT_EQ(improve_cells(x, {}, options).stop, ImproveStop::target);
+    EXPECT_GE(worst_worth(x), goal.sine);
+  }
+}
+
+TEST(Improving, StopsWhenTheTimeIsUpWithAMeshThatIsWhole) {
+  ImproveOptions options{Improvement::all, Objective::r, BoundaryRule::keep, 60, 1, 1e-9};
+  const QualityGoal goal = goal_of(options);
+  for (const double time : {1e-9, 1e-3, 1e-2}) {
+    options.time = time;
+    CellComplex x = complex_of(cube_of(7, 0.4, 3).model, goal);
+    const Invariants before = invariants_of(x);
+    const ImproveCounts counts = improve_cells(x, {}, options);
+    EXPECT_EQ(counts.stop, ImproveStop::time);
+    EXPECT_EQ(counts.bad_cells_left, bad_cells(x, goal).size());
+    expect_consistent(x, goal);
+    EXPECT_TRUE(invariants_of(x) == before);
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
