@@ -50,7 +50,7 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
 std::vector<Point3> to_world(const Plc& plc, std::span<const Point3> points, std::span<const Tetrahedron> tetrahedra) {
   std::vector<Point3> world(points.size());
   for (std::size_t v = 0; v < world.size(); ++v)
-    world[v] = v < plc.world.size() ? plc.world[v] : plc.grid.to_world(points[v]);
+    world[v] = v < plc.world.size() && points[v] == plc.vertices[v] ? plc.world[v] : plc.grid.to_world(points[v]);
   // A vertex that goes back to the grid may invert a tetrahedron of another: look again until all are right. All
   // inverted ones are found before any vertex moves, so that their order does not matter.
   std::vector<bool> on_grid(plc.world.size(), false);

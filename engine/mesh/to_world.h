@@ -12,7 +12,7 @@ namespace ccdt {
 
 /// The vertices of a mesh in the units of the input. Input vertices get their original coordinates back wherever every
 /// tetrahedron around stays positively oriented in the coordinates that are written, exactly tested; elsewhere they
-/// stay where the grid has put them.
+/// stay where the grid has put them, and where improvement has moved them.
 ///
 /// \param points     grid units; those of the PLC's vertices come first
 /// \throw MeshError  a tetrahedron is inverted by writing its vertices as doubles: the part is too far from the origin

@@ -14,27 +14,6 @@ namespace {
 
 using namespace mesh_test;
 
-struct Named {
-  const char* name;
-  InputPlc plc;
-};
-
-std::vector<Named> small_inputs() {
-  return {{"cube", unit_cube()},
-          {"L", l_shape()},
-          {"Schoenhardt's polyhedron", plc_test::schoenhardt()},
-          {"cube with a cubic hole", cube_with_cubic_hole()},
-          {"cube within a cube", cube_within_cube()},
-          {"two cubes", two_cubes()},
-          {"two cubes as a surface", two_cubes_as_surface()},
-          {"slit", cube_with_slit()},
-          {"dangling facet", cube_with_dangling_facet()},
-          {"dangling segment", cube_with_dangling_segment()},
-          {"floating segment", cube_with_floating_segment()},
-          {"turnstile", cube_with_turnstile()},
-          {"two bars", two_bars()}};
-}
-
 TEST(Agreement, SmallInputs) {
   for (const auto& [name, plc] : small_inputs()) {
     SCOPED_TRACE(name);

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <random>
 
-#include "bench/verify/verify.h"
-
 namespace ccdt::mesh_test {
 namespace {
 
@@ -44,12 +42,16 @@ void expect_same_cells(const TetMesh& a, const TetMesh& b) {
   EXPECT_TRUE(cells_of_a == cells_of_b);
 }
 
-void expect_verified(const InputPlc& input, const TetMesh& mesh) {
-  EXPECT_TRUE(mesh.constrained_delaunay);
-  const Verification verification = verify(input, mesh);
+void expect_right(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options) {
+  const Verification verification = verify(input, mesh, options);
   for (const Check& check : verification.checks)
     EXPECT_FALSE(check.required && check.failed > 0) << check.name << ": " << check.failed << " of " << check.checked
                                                      << " " << (check.examples.empty() ? "" : check.examples.front());
+}
+
+void expect_verified(const InputPlc& input, const TetMesh& mesh) {
+  EXPECT_TRUE(mesh.constrained_delaunay);
+  expect_right(input, mesh);
 }
 
 MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection protection) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/verify/verify.h"
 #include "engine/mesher.h"
 
 namespace ccdt::mesh_test {
@@ -14,7 +15,10 @@ std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh);
 
 void expect_same_cells(const TetMesh& a, const TetMesh& b);
 
-/// The independent verification finds nothing wrong, and the mesh claims to be constrained Delaunay.
+/// The independent verification finds nothing wrong.
+void expect_right(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options = {});
+
+/// The same, and the mesh claims to be constrained Delaunay.
 void expect_verified(const InputPlc& input, const TetMesh& mesh);
 
 /// Meshes with one lattice, verifies, and expects the very same tetrahedra without the face protection check.

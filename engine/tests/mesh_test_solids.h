@@ -143,6 +143,29 @@ inline InputPlc two_bars() {
   return plc;
 }
 
+/// An input, and what to call it in a message.
+struct Named {
+  const char* name;
+  InputPlc plc;
+};
+
+/// One of each kind.
+inline std::vector<Named> small_inputs() {
+  return {{"cube", unit_cube()},
+          {"L", l_shape()},
+          {"Schoenhardt's polyhedron", plc_test::schoenhardt()},
+          {"cube with a cubic hole", cube_with_cubic_hole()},
+          {"cube within a cube", cube_within_cube()},
+          {"two cubes", two_cubes()},
+          {"two cubes as a surface", two_cubes_as_surface()},
+          {"slit", cube_with_slit()},
+          {"dangling facet", cube_with_dangling_facet()},
+          {"dangling segment", cube_with_dangling_segment()},
+          {"floating segment", cube_with_floating_segment()},
+          {"turnstile", cube_with_turnstile()},
+          {"two bars", two_bars()}};
+}
+
 /// The convex hull of random points on the unit sphere.
 inline InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
   InputPlc plc;
