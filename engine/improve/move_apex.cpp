@@ -17,6 +17,7 @@ constexpr double first_length = 0.1;  ///< of a step, per unit of the gradient
 constexpr double longest_step = 0.4;
 constexpr double reach = 0.3;        ///< functions that are greater than the least by more do not matter to a step
 constexpr double least_gain = 1e-3;  ///< that is worth a step
+constexpr double worthwhile = 1.05;  ///< times the worst: a gain for which good tetrahedra may become bad
 constexpr double largest_coordinate = 0x1p51 + 0x1p20;
 
 /// Takes the part of a vector out that leads off the plane or the line.
@@ -64,6 +65,12 @@ std::optional<Point3> round_move(const Freedom& freedom, const Point3& move) {
 
 bool all_positive(std::span<const StarFace> faces, const Point3& apex) {
   return std::all_of(faces.begin(), faces.end(), [&](const StarFace& f) { return orient3d(f.a, f.b, f.c, apex) > 0; });
+}
+
+std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
+  return static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), [&](const StarFace& f) {
+    return worth(goal, f.a, f.b, f.c, apex) < worth_of_goal(goal);
+  }));
 }
 
 /// Where the search begins: the apex or the mean of the corners of the star.
@@ -135,6 +142,8 @@ double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const
   if (largest_of(place) > largest_coordinate) return worst;
   const double there = worst_of_star(faces, goal, place);
   if (!(there > worst) || !all_positive(faces, place)) return worst;
+  // A worst that can hardly be mended would else, step by step, draw all around it down to where it is.
+  if (there < worthwhile * worst && count_bad(faces, goal, place) > count_bad(faces, goal, apex)) return worst;
   apex = place;
   return there;
 }

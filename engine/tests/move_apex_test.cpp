@@ -259,6 +259,28 @@ TEST(MoveApex, NeverMakesAStarWorse) {
       for (const QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r, usual}) move_checked(goal, {}, star);
 }
 
+TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
+  const auto bad = [](const Star& star) {
+    return std::count_if(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
+      return worth(usual, f.a, f.b, f.c, star.apex) < worth_of_goal(usual);
+    });
+  };
+  int small_gains = 0, great_gains = 0;
+  for (const double jitter : {0.3, 0.4, 0.6, 1.0}) {
+    for (Star& star : jittered_stars(jitter, 10)) {
+      const auto bad_before = bad(star);
+      const auto [before, after] = move_checked(usual, {}, star);
+      if (bad(star) > bad_before) {
+        EXPECT_GE(after, 1.05 * before);
+        ++great_gains;
+      }
+      if (after > before && after < 1.05 * before) ++small_gains;
+    }
+  }
+  EXPECT_GT(small_gains, 0);
+  EXPECT_GT(great_gains, 0);
+}
+
 TEST(MoveApex, LeavesAStarAloneThatIsGoodEnough) {
   Star star{octahedron(0x1p40), {0x1p36, 0, 0}};
   const auto [before, after] = move_checked(usual, {}, star);
