@@ -69,7 +69,6 @@ struct CellComplex {
   std::uint64_t changes = 0;    ///< so far
   std::uint32_t questions = 0;  ///< so far
 
-  const Point3& point(std::uint32_t v) const { return points[v]; }
   bool is_dead(std::uint32_t cell) const { return cells[cell].vertices[0] == ghost_vertex; }
   bool is_interior(std::uint32_t v) const { return v >= first_interior; }
   bool is_wall(std::uint32_t code) const { return (walls[cell_of(code)] >> face_of(code) & 1) != 0; }

@@ -46,7 +46,7 @@ bool all_positive(const CellComplex& complex, const Change& change);
 /// \return the places of the new cells
 const std::vector<std::uint32_t>& apply_change(CellComplex& complex, const Change& change);
 
-/// Cells of the complex have moved with a vertex: remembers it.
+/// Remembers that something around these vertices is not what it was at the last change.
 void note_change(CellComplex& complex, const std::array<std::uint32_t, 4>& vertices);
 
 }  // namespace ccdt

@@ -13,7 +13,7 @@ inline constexpr std::uint32_t longest_ring = 8;
 /// three is the swap 3-2, one of four 4-4. An edge on a facet that is no segment is removed from each side of it: swaps
 /// 2-2 and 4-4 on facets, and larger ones.
 ///
-/// \param edge   of the cell, 0 to 5: between its vertices `edge_corners[edge][0]` and `[1]`
+/// \param edge   of the cell, 0 to 5: between its vertices 0 1, 0 2, 0 3, 1 2, 1 3, 2 3
 /// \param least  the plan must be worth more; no less than the worth of the cell
 /// \return       is there such a plan? It is in `change`
 bool plan_edge_removal(const CellComplex& complex, const QualityGoal& goal, std::uint32_t cell, std::uint32_t edge,
