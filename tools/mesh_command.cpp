@@ -233,9 +233,11 @@ void add_improvement(CLI::App& verb, ImproveOptions& options) {
   verb.add_option("--target-dihedral", options.target_dihedral,
                   "degrees: improve until no dihedral angle is smaller, nor larger than 180 less this")
       ->check(CLI::Range(0.0, 60.0))
+      ->check(non_negative_number())  // a range lets a number pass that is none
       ->capture_default_str();
   verb.add_option("--target-r", options.target_r, "improve until no tetrahedron is worse; with --objective r")
       ->check(CLI::Range(1.0, 1e6))
+      ->check(positive_number())
       ->capture_default_str();
   verb.add_option("--improve-time", options.time, "stop improvement after so many seconds; 0: no limit")
       ->check(non_negative_number())

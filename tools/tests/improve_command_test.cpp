@@ -1,0 +1,149 @@
+#include <nlohmann/json.hpp>
+
+#include "engine/io/tet_mesh_files.h"
+#include "engine/io/write_plc.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "tools/tests/program.h"
+
+// Improvement as a person asks for it, by the options of the program.
+
+namespace ccdt {
+namespace {
+
+using Json = nlohmann::json;
+using namespace mesh_test;
+
+class ImproveCommand : public Program {
+ protected:
+  /// Meshes with a report, and expects that the independent check finds the mesh right.
+  /// \return the report
+  Json mesh(const std::string& file, const std::string& options, const std::string& verify_options = "") {
+    SCOPED_TRACE(file + " " + options);
+    const Outcome made = run("mesh " + file + " -o mesh.vtu --report report.json " + options);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(made.err, "");
+    const Outcome verified = run("verify " + file + " mesh.vtu --report checks.json " + verify_options);
+    EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+    return Json::parse(text_of(work() / "report.json"));
+  }
+
+  /// Has `ccdt verify` checked a property that the mesh must have?
+  bool is_required(const std::string& property) const {
+    const Json checks = Json::parse(text_of(work() / "checks.json"));
+    for (const Json& check : checks.at("checks"))
+      if (check.at("name") == property) return check.at("required");
+    ADD_FAILURE() << property << " was not checked";
+    return false;
+  }
+
+  TetMesh written() const { return read_tet_mesh(work() / "mesh.vtu"); }
+};
+
+TEST_F(ImproveCommand, ImprovesByEveryMeansAndReportsIt) {
+  write_plc(gridded_cube(4), work() / "cube.off");
+  const double worst = mesh("cube.off", "--improve none")["quality"]["r"]["max"];
+  for (const std::string improve : {"swap", "smooth", "all"})
+    for (const std::string objective : {"r", "dihedral"}) {
+      const Json report = mesh("cube.off", "--improve " + improve + " --objective " + objective +
+                                               " --target-dihedral 35 --target-r 1.25 --improve-time 60");
+      EXPECT_EQ(report["options"]["improve"], improve);
+      EXPECT_EQ(report["options"]["objective"], objective);
+      EXPECT_EQ(report["options"]["boundary"], "keep");
+      EXPECT_EQ(report["options"]["target_dihedral"], 35);
+      EXPECT_EQ(report["options"]["target_r"], 1.25);
+      EXPECT_EQ(report["options"]["improve_time"], 60);
+      const Json& counts = report["counts"]["improve"];
+      EXPECT_GT(counts["bad_cells"], 0);
+      EXPECT_EQ(counts["stop"], counts["bad_cells_left"] == 0 ? "target" : "stuck");
+      EXPECT_GT(report["seconds"]["improve"], 0);
+      EXPECT_LT(report["seconds"]["improve"], report["seconds"]["mesh"]);
+      if (objective == "r") {
+        EXPECT_LE(report["quality"]["r"]["max"], worst);
+      }
+      EXPECT_EQ(counts["moved_vertices"] == 0, improve == "swap");
+      EXPECT_EQ(counts["removed_edges"] == 0 && counts["removed_faces"] == 0, improve == "smooth");
+    }
+}
+
+TEST_F(ImproveCommand, ImprovesByAllMeansWithTheBoundaryKeptUnlessToldOtherwise) {
+  write_plc(gridded_cube(4), work() / "cube.off");
+  const Json usual = mesh("cube.off", "");
+  EXPECT_EQ(usual["options"]["improve"], "all");
+  EXPECT_EQ(usual["options"]["objective"], "r");
+  EXPECT_EQ(usual["options"]["boundary"], "keep");
+  const Json none = mesh("cube.off", "--improve none");
+  EXPECT_EQ(none["options"]["improve"], "none");
+  EXPECT_EQ(none["counts"]["improve"]["stop"], "none");
+  EXPECT_EQ(none["seconds"]["improve"], 0);
+}
+
+TEST_F(ImproveCommand, BoundaryVerticesSlideWhereTheyMay) {
+  for (const InputPlc& plc : {gridded_plate(4, 0.1), rotated(oblique, gridded_cube(3))}) {
+    write_plc(plc, work() / "part.off");
+    const Json report = mesh("part.off", "--boundary slide --target-dihedral 45", "--boundary slide");
+    EXPECT_EQ(report["options"]["boundary"], "slide");
+  }
+}
+
+TEST_F(ImproveCommand, RegionsSlitsAndDanglingPartsStay) {
+  for (const auto& [name, plc] : small_inputs()) {
+    SCOPED_TRACE(name);
+    write_plc(plc, work() / "part.poly");
+    mesh("part.poly", "--edge-length 0.8 --target-dihedral 45");
+  }
+}
+
+TEST_F(ImproveCommand, WithoutALatticeTheMeshStaysConstrainedDelaunayUnlessImprovementIsAskedFor) {
+  write_plc(rotated(oblique, l_shape()), work() / "part.off");
+  const Json bare = mesh("part.off", "--lattice none", "--constrained-delaunay yes");
+  EXPECT_EQ(bare["options"]["improve"], "none");
+  EXPECT_EQ(bare["counts"]["improve"]["stop"], "none");
+  EXPECT_TRUE(is_required("locally Delaunay faces"));
+  const Json asked = mesh("part.off", "--lattice none --improve swap --target-dihedral 60");
+  EXPECT_EQ(asked["options"]["improve"], "swap");
+  EXPECT_NE(asked["counts"]["improve"]["stop"], "none");
+}
+
+TEST_F(ImproveCommand, SaysWhyItStopped) {
+  write_plc(gridded_cube(6), work() / "cube.off");
+  const auto stop = [&](const std::string& options) { return mesh("cube.off", options)["counts"]["improve"]["stop"]; };
+  EXPECT_EQ(stop("--target-dihedral 1 --target-r 1000"), "target");
+  EXPECT_EQ(stop("--target-dihedral 60"), "stuck");
+  EXPECT_EQ(stop("--target-dihedral 60 --improve-time 1e-9"), "time");
+}
+
+TEST_F(ImproveCommand, ImprovedMeshDoesNotClaimToBeDelaunay) {
+  write_plc(gridded_cube(4), work() / "cube.off");
+  mesh("cube.off", "--improve none");
+  EXPECT_TRUE(is_required("locally Delaunay faces"));
+  const Json report = mesh("cube.off", "--target-dihedral 45");
+  EXPECT_GT(report["counts"]["improve"]["moved_vertices"], 0);
+  EXPECT_FALSE(is_required("locally Delaunay faces, not claimed"));
+}
+
+TEST_F(ImproveCommand, WritesTheSameMeshAgain) {
+  write_plc(rotated(oblique, gridded_cube(4)), work() / "cube.off");
+  mesh("cube.off", "--target-dihedral 40");
+  const TetMesh first = written();
+  mesh("cube.off", "--target-dihedral 40 --delaunay wrap --locator grid");
+  EXPECT_TRUE(first.vertices == written().vertices);
+  EXPECT_TRUE(first.tetrahedra == written().tetrahedra);
+}
+
+TEST_F(ImproveCommand, WrongValuesAreWrongUsage) {
+  write_plc(unit_cube(), work() / "cube.off");
+  for (const std::string options :
+       {"--improve", "--improve flip", "--improve 9", "--objective volume", "--objective", "--boundary move",
+        "--boundary", "--target-dihedral 61", "--target-dihedral -1", "--target-dihedral nan", "--target-dihedral all",
+        "--target-r 0.9", "--target-r nan", "--improve-time -1", "--improve-time nan", "--improve-time soon"}) {
+    const Outcome outcome = run("mesh cube.off -o mesh.vtu " + options);
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+    EXPECT_NE(outcome.err, "") << options;
+    EXPECT_EQ(outcome.out, "") << options;
+    EXPECT_EQ(file_count(), 1u) << options;
+  }
+  EXPECT_EQ(run("verify cube.off cube.off --boundary move").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace ccdt
