@@ -172,12 +172,15 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "write a report of the run there (JSON, schema ccdt.run/1), also of a failure");
 }
 
-/// An option whose values are names.
+/// An option whose values are names. The transformer alone would take the numbers behind them as well.
 template <class Value>
 void add_choice(CLI::App& verb, const char* name, Value& target,
                 const std::vector<std::pair<std::string, Value>>& values, const char* what, const char* standard) {
+  std::vector<std::string> names;
+  for (const auto& value : values) names.push_back(value.first);
   verb.add_option(name, target, what)
       ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+      ->transform(CLI::IsMember(names, CLI::ignore_case).description(""))  // comes first
       ->default_str(standard);
 }
 

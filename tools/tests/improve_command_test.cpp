@@ -133,7 +133,7 @@ TEST_F(ImproveCommand, WritesTheSameMeshAgain) {
 TEST_F(ImproveCommand, WrongValuesAreWrongUsage) {
   write_plc(unit_cube(), work() / "cube.off");
   for (const std::string options :
-       {"--improve", "--improve flip", "--improve 9", "--objective volume", "--objective", "--boundary move",
+       {"--improve", "--improve flip", "--improve 1", "--objective volume", "--objective", "--boundary move",
         "--boundary", "--target-dihedral 61", "--target-dihedral -1", "--target-dihedral nan", "--target-dihedral all",
         "--target-r 0.9", "--target-r nan", "--improve-time -1", "--improve-time nan", "--improve-time soon"}) {
     const Outcome outcome = run("mesh cube.off -o mesh.vtu " + options);
