@@ -25,9 +25,9 @@ std::vector<std::string> verdict(const Lattices& lattices) {
       std::string& list = claim.is_confirmed() ? confirmed : refuted;
       list += (list.empty() ? "" : ", ") + std::string(name_of(claim.criterion));
     }
-    const std::string meshes = improved ? "after improvement" : "before improvement";
-    if (!confirmed.empty()) lines.push_back("That FCC is best is confirmed " + meshes + " by: " + confirmed);
-    if (!refuted.empty()) lines.push_back("That FCC is best is not confirmed " + meshes + " by: " + refuted);
+    const std::string meshes = improved ? "after improvement by: " : "before improvement by: ";
+    if (!confirmed.empty()) lines.push_back(("That FCC is best is confirmed " + meshes).append(confirmed));
+    if (!refuted.empty()) lines.push_back(("That FCC is best is not confirmed " + meshes).append(refuted));
   }
   return lines;
 }

@@ -72,8 +72,7 @@ std::vector<std::string> mesher_quality_definitions() {
           "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge length.",
           "ccdt: --improve all; tetgen: -pYq1.414/10a; cgal-mesh3: with perturbation and exudation.",
           "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
-          "An angle between two facets of the surface forbids larger dihedral angles: a tetrahedron has to fit into "
-          "it.",
+          "An angle between two facets forbids larger dihedral angles: a tetrahedron has to fit into it.",
           "A small angle of a triangle forbids none, but is the reason for bad tetrahedra next to it.",
           "A size at which a run takes more than 10 s has at most three counted runs.",
       });
