@@ -132,14 +132,13 @@ bool Improving::pass(Effort effort, const Progress& progress) {
 }
 
 bool Improving::improve(std::uint32_t cell, Effort effort) {
-  const std::uint32_t generation = x_.generations[cell];
   const bool swaps = options_.improvement != Improvement::smooth;
   const bool smooths = options_.improvement != Improvement::swap;
   if (swaps && swap(cell)) return true;
   bool improved = false;
   if (smooths && smooth(cell, effort)) {
     improved = true;
-    if (x_.generations[cell] != generation || !is_bad(cell)) return true;
+    if (!is_bad(cell)) return true;
   }
   const bool everything = effort == Effort::greatest && options_.improvement == Improvement::all;
   return (everything && insert_or_collapse(cell)) || improved;
@@ -148,20 +147,19 @@ bool Improving::improve(std::uint32_t cell, Effort effort) {
 /// The best of all swaps that a cell has part in.
 bool Improving::swap(std::uint32_t cell) {
   double least = x_.worths[cell];
-  bool is_planned = false;
-  const auto consider = [&](bool is_better) {
+  std::uint64_t* count = nullptr;  // of what the best plan removes
+  const auto consider = [&](bool is_better, std::uint64_t& removed) {
     if (!is_better) return;
     least = worst_of(plan_.new_cells);
-    is_planned = true;
+    count = &removed;
     std::swap(plan_, best_);
   };
-  for (std::uint32_t edge = 0; edge < 6; ++edge) consider(plan_edge_removal(x_, goal_, cell, edge, least, plan_));
-  for (std::uint32_t face = 0; face < 4; ++face) consider(plan_face_removal(x_, goal_, cell, face, least, plan_));
-  if (!is_planned || !all_positive(x_, best_)) return false;
-  if (best_.new_cells.size() > best_.old_cells.size())
-    ++counts_.removed_faces;
-  else
-    ++counts_.removed_edges;
+  for (std::uint32_t edge = 0; edge < 6; ++edge)
+    consider(plan_edge_removal(x_, goal_, cell, edge, least, plan_), counts_.removed_edges);
+  for (std::uint32_t face = 0; face < 4; ++face)
+    consider(plan_face_removal(x_, goal_, cell, face, least, plan_), counts_.removed_faces);
+  if (count == nullptr || !all_positive(x_, best_)) return false;
+  ++*count;
   counts_.facet_flips += best_.flips.size();
   apply(best_);
   return true;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/improve/improve_cells.h"
 #include "engine/improve/insert_vertex.h"
 #include "engine/improve/remove_edge.h"
 #include "engine/improve/remove_faces.h"
@@ -124,6 +125,14 @@ TEST(Changes, RingsUpToTheLongestGiveWayToTwoTetrahedraForEachOfTheirTriangles) 
     EXPECT_EQ(cells_of(x).size(), 2 * (size - 2));
     EXPECT_FALSE(has_edge(x, 0, 1));
   }
+}
+
+TEST(Changes, RingThatGivesWayToMoreTetrahedraCountsAsARemovedEdge) {
+  CellComplex x = complex_of(ring_of(5), by_shape);
+  const ImproveCounts counts = improve_cells(x, {}, {.improvement = Improvement::swap});
+  EXPECT_EQ(x.cells.size() - x.free_cells.size(), 6u);
+  EXPECT_EQ(counts.removed_edges, 1u);
+  EXPECT_EQ(counts.removed_faces, 0u);
 }
 
 TEST(Changes, LongerRingIsLeftAlone) {
