@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
+#include "baselines/tests/shapes.h"
 #include "engine/plc/build_plc.h"
 #include "models/solids.h"
 
@@ -40,21 +39,7 @@ TEST(SurfaceMeasures, DoNotDependOnHowTrianglesAreOriented) {
 TEST(SurfaceMeasures, MeasureAnglesInsideTheDomainAlone) {
   // A cube in which a wedge is missing: the sharp edge is outside, the domain has 360 - 11.3 degrees there.
   InputPlc plc = wedge(0.2);
-  const auto first = static_cast<std::uint32_t>(plc.vertices.size());
-  for (int i = 0; i < 8; ++i) plc.vertices.push_back({i & 1 ? 3.0 : -3, i & 2 ? 3.0 : -3, i & 4 ? 3.0 : -3});
-  const std::array<std::array<std::uint32_t, 3>, 12> cube = {{{0, 2, 1},
-                                                              {1, 2, 3},
-                                                              {4, 5, 6},
-                                                              {5, 7, 6},
-                                                              {0, 1, 4},
-                                                              {1, 5, 4},
-                                                              {2, 6, 3},
-                                                              {3, 6, 7},
-                                                              {0, 4, 2},
-                                                              {2, 4, 6},
-                                                              {1, 3, 5},
-                                                              {3, 7, 5}}};
-  for (const auto& t : cube) plc.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  shapes::add_cube(plc, -3, 3);
   const Plc built = build_plc(plc);
   EXPECT_NEAR(smallest_angles(built).dihedral.degrees, 90, 1e-6);
   EXPECT_NEAR(enclosed_volume(built), 216 - 0.1, 1e-9);
