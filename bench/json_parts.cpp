@@ -18,6 +18,20 @@ Json environment_json(const Environment& e) {
           {"libraries", e.libraries}};
 }
 
+Environment environment_from_json(const Json& j) {
+  Environment e;
+  e.cpu = j.at("cpu");
+  e.cores = j.at("cores");
+  e.load_average = j.at("load_average");
+  e.system = j.at("system");
+  e.compiler = j.at("compiler");
+  e.flags = j.at("flags");
+  e.build_type = j.at("build_type");
+  e.revision = j.at("revision");
+  for (const auto& [name, version] : j.at("libraries").items()) e.libraries[name] = version;
+  return e;
+}
+
 namespace {
 
 Json improve_json(const ImproveCounts& c) {

@@ -53,20 +53,6 @@ RunRecord::Option option_from(const Json& value) {
   return number_from_json(value);
 }
 
-Environment environment_from(const Json& j) {
-  Environment e;
-  e.cpu = j.at("cpu");
-  e.cores = j.at("cores");
-  e.load_average = j.at("load_average");
-  e.system = j.at("system");
-  e.compiler = j.at("compiler");
-  e.flags = j.at("flags");
-  e.build_type = j.at("build_type");
-  e.revision = j.at("revision");
-  for (const auto& [name, version] : j.at("libraries").items()) e.libraries[name] = version;
-  return e;
-}
-
 ImproveStop improve_stop(const std::string& name) {
   for (const ImproveStop stop : {ImproveStop::target, ImproveStop::time, ImproveStop::stuck})
     if (name == name_of(stop)) return stop;
@@ -133,7 +119,7 @@ RunRecord record_from(const Json& j) {
     }
     for (const auto& [setting, words] : value.items()) r.mesher_settings.emplace_back(setting, words);
   }
-  r.environment = environment_from(j.at("environment"));
+  r.environment = environment_from_json(j.at("environment"));
   r.counts = counts_from(j.at("counts"));
   seconds_from(j.at("seconds"), r);
   r.peak_rss_bytes = j.at("peak_rss_bytes");

@@ -72,7 +72,7 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
   verb.add_option(
-          "--scale", command.options.scale,
+          "--scale", command.options.tetrahedra,
           "factor of the models' edge lengths, divisor of numbers of tetrahedra: more than 1 is coarser and faster")
       ->check(positive_number())
       ->capture_default_str();

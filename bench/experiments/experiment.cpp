@@ -1,6 +1,7 @@
 #include "bench/experiments/experiment.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/errors.h"
 
@@ -8,7 +9,18 @@ namespace ccdt {
 
 Circumstances start_experiment(const ExperimentOptions& options) {
   for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
-  return {capture_environment(), options.runs, options.limits};
+  return {.environment = capture_environment(),
+          .runs = options.runs,
+          .confidence = Bootstrap{}.confidence,
+          .limits = options.limits,
+          .tetrahedra = options.tetrahedra,
+          .scale = options.scale,
+          .command = options.command};
+}
+
+double edge_factor(const ExperimentOptions& options) {
+  constexpr double usual_tetrahedra = 100000;
+  return std::cbrt(usual_tetrahedra / options.tetrahedra);
 }
 
 bool is_asked_for(const ExperimentOptions& options, std::string_view model) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/child_process.h"
-#include "bench/environment.h"
+#include "bench/results/experiment_result.h"
 #include "bench/statistics.h"
 
 namespace ccdt {
@@ -17,23 +17,21 @@ struct ExperimentOptions {
   std::filesystem::path program;                     ///< the `ccdt` that is run
   std::filesystem::path folder;                      ///< models, meshes and records go here; exists
   int runs = 5;                                      ///< counted runs a case; one more before them is not counted
-  double scale = 1;                                  ///< factor of the models' edge lengths
+  double tetrahedra = 100000;                        ///< about how many a model is to get
+  std::string scale = "paper";                       ///< as the user said it
+  std::string command = {};                          ///< that repeats the experiment
   std::vector<std::string> models;                   ///< to measure; empty: all that the experiment has
   std::optional<std::vector<std::string>> beside;    ///< other meshers to measure; none: all of this build
   std::vector<std::filesystem::path> inputs;         ///< files to measure as well, where the experiment takes files
   Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
 };
 
-/// Under which circumstances an experiment was made; part of its result.
-struct Circumstances {
-  Environment environment;
-  int runs = 0;
-  Limits limits;
-};
-
 /// Makes the folders of an experiment: models, meshes, runs.
 /// \return  the circumstances, as they are before the first run
 Circumstances start_experiment(const ExperimentOptions& options);
+
+/// What an edge length that makes about 100,000 tetrahedra is to be multiplied with, to make as many as are wanted.
+double edge_factor(const ExperimentOptions& options);
 
 /// Has the user asked for this model?
 bool is_asked_for(const ExperimentOptions& options, std::string_view model);

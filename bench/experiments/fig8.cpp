@@ -12,13 +12,12 @@
 namespace ccdt {
 namespace {
 
-/// The edge lengths of a model that make about 10^4 and 10^6 vertices.
-struct Range {
-  const char* model;
-  double coarsest, finest;
+struct Model {
+  const char* name;
+  double edge_length;  ///< for about 100,000 tetrahedra
 };
-constexpr std::array<Range, 3> ranges = {{{"piston", 3.0, 0.6}, {"bracket", 2.2, 0.45}, {"stepping-pole", 2.2, 0.45}}};
-constexpr int size_count = 8;  ///< a factor of 10^(2/7) = 1.93 in vertices from one to the next
+constexpr std::array<Model, 3> models = {{{"piston", 2.32}, {"bracket", 1.73}, {"stepping-pole", 1.62}}};
+constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
 
 struct Strategy {
   const char* id;
@@ -41,22 +40,23 @@ struct Size {
   double edge_length;
 };
 
-std::vector<Size> sizes_of(const Range& range, double scale) {
+/// From a tenth of the tetrahedra that are wanted to ten times as many, within the limits of the solid.
+std::vector<Size> sizes_of(const Model& model, const ExperimentOptions& options) {
   std::vector<Size> sizes;
-  const auto solid = std::ranges::find(solids(), range.model, &Solid::name);
+  const auto solid = std::ranges::find(solids(), model.name, &Solid::name);
   for (int i = 0; i < size_count; ++i) {
-    const double part = static_cast<double>(i) / (size_count - 1);
-    const double edge_length = scale * range.coarsest * std::pow(range.finest / range.coarsest, part);
+    const double decades = 2 * static_cast<double>(i) / (size_count - 1) - 1;
+    const double edge_length = edge_factor(options) * model.edge_length * std::pow(10, -decades / 3);
     if (edge_length >= solid->finest && edge_length <= solid->coarsest) sizes.push_back({i, edge_length});
   }
   return sizes;
 }
 
 /// The cases of one size, one a strategy that goes that far.
-std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Range& range, const Size& size) {
-  const std::string stem = "fig8-" + std::string(range.model) + "-" + std::to_string(size.number);
+std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Model& model, const Size& size) {
+  const std::string stem = "fig8-" + std::string(model.name) + "-" + std::to_string(size.number);
   const auto surface = options.folder / "models" / (stem + ".poly");
-  write_plc(make_solid(range.model, size.edge_length), surface);
+  write_plc(make_solid(model.name, size.edge_length), surface);
   std::vector<MeasuredCase> cases;
   for (const Strategy& strategy : strategies()) {
     if (size.number >= strategy.sizes) continue;
@@ -84,9 +84,9 @@ Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
   return point;
 }
 
-void measure_size(const ExperimentOptions& options, const Range& range, const Size& size, Fig8Model& model,
+void measure_size(const ExperimentOptions& options, const Model& model, const Size& size, Fig8Model& result,
                   const std::function<void(const std::string&)>& announce) {
-  std::vector<MeasuredCase> cases = plan(options, range, size);
+  std::vector<MeasuredCase> cases = plan(options, model, size);
   int runs = options.runs;
   for (int number = 0; number <= runs; ++number) {
     for (MeasuredCase& measured : cases) {
@@ -97,18 +97,18 @@ void measure_size(const ExperimentOptions& options, const Range& range, const Si
   }
   for (const MeasuredCase& measured : cases) {
     std::filesystem::remove(measured.what.output);  // gigabytes in all
-    std::ranges::find(model.series, measured.name, &Fig8Series::id)->points.push_back(point_of(measured, size));
+    std::ranges::find(result.series, measured.name, &Fig8Series::id)->points.push_back(point_of(measured, size));
   }
 }
 
-Fig8Model measure_model(const ExperimentOptions& options, const Range& range,
+Fig8Model measure_model(const ExperimentOptions& options, const Model& model,
                         const std::function<void(const std::string&)>& announce) {
-  Fig8Model model{range.model, {}};
-  for (const Strategy& strategy : strategies()) model.series.push_back({strategy.id, strategy.label, {}, {}});
-  for (const Size& size : sizes_of(range, options.scale)) measure_size(options, range, size, model, announce);
-  for (std::size_t i = 0; i < model.series.size(); ++i)
-    model.series[i].fits = fit_series(model.series[i], strategies()[i].with_front);
-  return model;
+  Fig8Model result{model.name, {}};
+  for (const Strategy& strategy : strategies()) result.series.push_back({strategy.id, strategy.label, {}, {}});
+  for (const Size& size : sizes_of(model, options)) measure_size(options, model, size, result, announce);
+  for (std::size_t i = 0; i < result.series.size(); ++i)
+    result.series[i].fits = fit_series(result.series[i], strategies()[i].with_front);
+  return result;
 }
 
 }  // namespace
@@ -152,16 +152,16 @@ Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress) {
   Fig8 fig8;
   fig8.how = start_experiment(options);
   std::uint64_t cases = 0, done = 0;
-  for (const Range& range : ranges)
-    for (const Size& size : sizes_of(range, options.scale))
+  for (const Model& model : models)
+    for (const Size& size : sizes_of(model, options))
       for (const Strategy& strategy : strategies())
-        cases += is_asked_for(options, range.model) && size.number < strategy.sizes;
+        cases += is_asked_for(options, model.name) && size.number < strategy.sizes;
   check_something_is_measured(cases, "fig8");
   const std::uint64_t total = cases * static_cast<std::uint64_t>(options.runs + 1);
-  for (const Range& range : ranges)
-    if (is_asked_for(options, range.model))
+  for (const Model& model : models)
+    if (is_asked_for(options, model.name))
       fig8.models.push_back(measure_model(
-          options, range, [&](const std::string& what) { report(progress, what, std::min(done++, total), total); }));
+          options, model, [&](const std::string& what) { report(progress, what, std::min(done++, total), total); }));
   return fig8;
 }
 

@@ -180,8 +180,8 @@ void measure_source(const ExperimentOptions& options, const StudyPlan& plan, con
   } catch (const Error& error) {
     reason = error.what();
   }
-  for (const std::uint64_t size : plan.sizes) {
-    const auto wanted = static_cast<std::uint64_t>(static_cast<double>(size) / options.scale);
+  {
+    const auto wanted = static_cast<std::uint64_t>(options.tetrahedra);
     const std::string stem = plan.experiment + "-" + std::to_string(study.cases.size()) + "-" +
                              std::filesystem::path(source.name).stem().string() + "-" + std::to_string(wanted);
     if (read) {

@@ -13,7 +13,7 @@ namespace ccdt {
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length) {
   const auto solid = std::ranges::find(solids(), name, &Solid::name);
-  const double scaled = std::clamp(options.scale * edge_length, solid->finest, solid->coarsest);
+  const double scaled = std::clamp(edge_factor(options) * edge_length, solid->finest, solid->coarsest);
   std::ostringstream file;
   file << experiment << "-" << name << "-" << scaled << ".poly";
   SurfaceFile surface{name, options.folder / "models" / file.str(), scaled};

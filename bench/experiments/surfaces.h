@@ -14,8 +14,8 @@ struct SurfaceFile {
   double edge_length = 0;  ///< of the model; 0: a file of the user's
 };
 
-/// Writes one of our solids, with its edge length times the scale (but within the limits of the solid), for an
-/// experiment.
+/// Writes one of our solids for an experiment, with an edge length that is meant for 100,000 tetrahedra and changed for
+/// the number that is wanted (but within the limits of the solid).
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length);
 

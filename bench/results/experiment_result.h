@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/child_process.h"
+#include "bench/environment.h"
+#include "bench/json_parts.h"
+#include "bench/results/result_table.h"
+
+namespace ccdt {
+
+/// Under which circumstances an experiment was made; part of its result.
+struct Circumstances {
+  Environment environment;
+  int runs = 0;  ///< counted runs a case, after one that is not counted
+  double confidence = 0.95;
+  Limits limits;          ///< of each run
+  double tetrahedra = 0;  ///< about how many a model was given
+  std::string scale;      ///< as it was asked for: "quick", "paper", "large", or that number
+  std::string command;    ///< that repeats the experiment
+};
+
+/// A mesh that is kept for pictures and the viewer.
+struct KeptMesh {
+  std::string file;        ///< of schema `ccdt.mesh/1`, relative to the folder
+  std::string title;       ///< for people
+  std::string run;         ///< the file of the run that made it
+  bool is_figure = false;  ///< drawn as a picture of its own, cut open
+};
+
+/// What an experiment found: what is written as JSON of schema `ccdt.experiment/1`. Reports are made of it alone.
+struct ExperimentResult {
+  std::string name;     ///< as on the command line
+  std::string title;    ///< for people
+  std::string section;  ///< of the paper: "6, Fig. 8"
+  Circumstances how = {};
+  std::vector<std::string> definitions = {};  ///< what the rows mean, one sentence each
+  std::vector<ResultTable> tables = {};
+  std::vector<std::string> findings = {};  ///< what the tables say, one sentence each; computed
+  std::vector<std::string> problems = {};  ///< what went wrong, one sentence each
+  std::vector<KeptMesh> meshes = {};
+  std::vector<std::string> raw_files = {};  ///< JSON of other programs, kept as they wrote it; relative to the folder
+  bool is_good = true;  ///< nothing of our own failed or gave what it must not; others' failures are rows and no more
+};
+
+/// Null if there is no such table.
+const ResultTable* find_table(const ExperimentResult& result, std::string_view name);
+
+/// The parts that other documents have as well.
+Json cell_json(const Cell& cell);
+Json table_json(const ResultTable& table);
+Json kept_mesh_json(const KeptMesh& mesh);
+
+/// As JSON of schema `ccdt.experiment/1`, indented. Numbers that are not finite become null.
+std::string to_json(const ExperimentResult& result);
+/// \throw InputError  no JSON of that schema
+ExperimentResult experiment_result_from_json(const std::string& text);
+
+/// Writes FOLDER/NAME.json, whole or not at all. \throw OutputError
+void write_experiment_result(const ExperimentResult& result, const std::filesystem::path& folder);
+/// \throw InputError  cannot be read, or no JSON of that schema
+ExperimentResult read_experiment_result(const std::filesystem::path& file);
+
+}  // namespace ccdt

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "engine/mesh/tet_mesh.h"
+
+namespace ccdt {
+
+/// Bytes deflated (zlib format), in base64.
+std::string packed(const void* data, std::size_t size);
+
+/// Writes a mesh as JSON of schema `ccdt.mesh/1`, small enough for a page: single precision, deflated, in base64.
+/// \throw OutputError
+void write_kept_mesh(const TetMesh& mesh, const std::string& title, const std::filesystem::path& file);
+
+}  // namespace ccdt
