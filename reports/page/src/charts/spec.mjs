@@ -1,0 +1,102 @@
+import config from "../../../charts/config.json" with { type: "json" };
+import { chartData } from "./chart_data.mjs";
+import { inSeriesOrder, seriesStyles } from "./series.mjs";
+import { sized } from "./sizes.mjs";
+import { textsOf } from "./texts.mjs";
+import { textWidth } from "./text_width.mjs";
+import { chartConfig, colourIn } from "./themes.mjs";
+
+const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
+const ORDERED_CHANNELS = ["x", "y", "xOffset", "yOffset", "facet"];
+const SYMBOL_ROOM = 34;  // of a legend's entry, beside its text
+
+/** Calls a function for each definition of a channel, at any depth. */
+function eachChannel(spec, visit) {
+  for (const [channel, definition] of Object.entries(spec.encoding ?? {}))
+    if (definition && !Array.isArray(definition)) visit(channel, definition);
+  if (spec.facet?.field) visit("facet", spec.facet);
+  for (const part of [spec.spec, ...(spec.layer ?? []), ...(spec.hconcat ?? []), ...(spec.vconcat ?? [])])
+    if (part) eachChannel(part, visit);
+}
+
+function isText(definition) {
+  return definition.field !== undefined && ["nominal", "ordinal"].includes(definition.type);
+}
+
+/** A legend's entries in as many columns as there is room for. */
+function legendColumns(values, width) {
+  const widest = Math.max(...values.map((value) => textWidth(value, 10.5)));
+  return Math.max(1, Math.min(values.length, Math.floor(width / (widest + SYMBOL_ROOM))));
+}
+
+function styleSeries(channel, definition, values, theme, width) {
+  const styles = seriesStyles(values);
+  const range = styles.map(({ colour, shape, dash }) =>
+    channel === "shape" ? shape : channel === "strokeDash" ? dash : colourIn(theme, colour));
+  definition.scale = { domain: values, range };
+  if (definition.legend !== null) definition.legend = { columns: legendColumns(values, width), ...definition.legend };
+}
+
+// Lines at the powers of ten alone: a logarithmic axis has a tick for each digit.
+const POWERS_OF_TEN = {
+  condition: { test: "abs(log(datum.value) / LN10 - round(log(datum.value) / LN10)) < 1e-6", value: 1 },
+  value: 0,
+};
+
+/** A logarithmic axis ends where the data end, with few lines. */
+function completeLogarithmic(definition) {
+  definition.scale = { nice: false, padding: 10, ...definition.scale };
+  if (definition.axis !== null && !definition.axis?.values)
+    definition.axis = { gridOpacity: POWERS_OF_TEN, ...definition.axis };
+}
+
+/** What the layers of a chart say of themselves: {"color": {"datum": "the paper"}}. */
+function datumsOf(spec, channel) {
+  const datums = [];
+  eachChannel(spec, (name, definition) => {
+    if (name === channel && typeof definition.datum === "string") datums.push(definition.datum);
+  });
+  return [...new Set(datums)];
+}
+
+/**
+ * What a chart leaves to us: series look as in the configuration, texts come in the order of the tables.
+ * A channel with a scale or an order of its own keeps it.
+ */
+function completeChannels(spec, data, theme, width) {
+  eachChannel(spec, (channel, definition) => {
+    if (SERIES_CHANNELS.includes(channel) && typeof definition.datum === "string")
+      styleSeries(channel, definition, datumsOf(spec, channel), theme, width);
+    if (definition.scale?.type === "log") completeLogarithmic(definition);
+    if (!isText(definition)) return;
+    const values = textsOf(data, definition.field);
+    if (values.length === 0) return;
+    if (SERIES_CHANNELS.includes(channel) && definition.scale === undefined)
+      styleSeries(channel, definition, inSeriesOrder(values), theme, width);
+    if (ORDERED_CHANNELS.includes(channel) && definition.sort === undefined) definition.sort = inSeriesOrder(values);
+  });
+}
+
+/**
+ * From a chart of a report to Vega-Lite with data.
+ * @param {object} section  of the report
+ * @param {object} chart    one of the section's charts
+ * @param {object} options
+ * @param {import("./themes.mjs").Theme} options.theme
+ * @param {number} options.width  pixels that the whole chart may take
+ * @param {number} [options.room]  what of the width is not for the cells of facets
+ * @param {string} [options.font]
+ * @param {(row: object, table: object) => boolean} [options.passes]  a filter of the rows
+ * @returns {object} a specification of Vega-Lite
+ */
+export function completeSpec(section, chart, { theme = "light", width = config.columnWidth, room, font, passes } = {}) {
+  const data = chartData(section, chart, passes);
+  const spec = structuredClone(chart.spec);
+  completeChannels(spec, data, theme, width);
+  return {
+    $schema: "https://vega.github.io/schema/vega-lite/v6.json",
+    ...sized(spec, data, width, room),
+    datasets: data,
+    config: chartConfig(theme, font),
+  };
+}

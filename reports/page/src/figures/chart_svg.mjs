@@ -1,0 +1,25 @@
+import config from "../../../charts/config.json" with { type: "json" };
+import { drawn } from "../charts/draw.mjs";
+import { measureWithoutCanvas } from "../charts/measure_text.mjs";
+
+measureWithoutCanvas();
+
+/** Titles and captions stand in the SVG for readers that cannot see it. */
+function described(svg, chart) {
+  const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  const words = `<title>${escaped(chart.title)}</title><desc>${escaped(chart.caption)}</desc>`;
+  return svg.replace(/(<svg[^>]*>)/, (tag) => tag.replace("<svg", '<svg role="img"') + words) + "\n";
+}
+
+/**
+ * A chart for print: light, and as wide as a column of a journal, or two.
+ * @returns {Promise<string>} SVG
+ */
+export async function chartSvg(section, chart) {
+  const width = chart.spec.usermeta?.columns === 1 ? config.columnWidth : config.textWidth;
+  const { view, warnings } = await drawn(section, chart, { theme: "light", width });
+  for (const words of warnings) console.error(`${section.name}, ${chart.name}: ${words}`);
+  const svg = await view.toSVG();
+  view.finalize();
+  return described(svg, chart);
+}

@@ -1,0 +1,39 @@
+import { execFile } from "node:child_process";
+import { availableParallelism, cpus } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+
+const PIXELS_PER_CSS_PIXEL = "4";  // 384 a printed inch
+
+const run = promisify(execFile);
+
+/** What rsvg-convert is asked for. A CSS pixel is 1/96 inch, in the PDF as well. */
+function jobsOf(folder, name) {
+  const from = join(folder, `${name}.svg`);
+  return [
+    ["--format=pdf", "--dpi-x=96", "--dpi-y=96", `--output=${join(folder, `${name}.pdf`)}`, from],
+    ["--format=png", `--zoom=${PIXELS_PER_CSS_PIXEL}`, `--output=${join(folder, `${name}.png`)}`, from],
+  ];
+}
+
+/**
+ * PDF and PNG of each NAME.svg of a folder.
+ * @returns {Promise<string>} in one line what could not be done; else empty
+ */
+export async function convertAll(folder, names) {
+  const jobs = names.flatMap((name) => jobsOf(folder, name));
+  const failed = new Set();
+  const work = async () => {
+    for (let job = jobs.shift(); job; job = jobs.shift()) {
+      try {
+        await run("rsvg-convert", job);
+      } catch (error) {
+        if (error.code === "ENOENT") failed.add("there is no rsvg-convert (Debian: librsvg2-bin)");
+        else failed.add(`rsvg-convert: ${String(error.stderr || error.message).trim().split("\n")[0]}`);
+        if (error.code === "ENOENT") jobs.length = 0;
+      }
+    }
+  };
+  await Promise.all(Array.from({ length: Math.min(availableParallelism?.() ?? cpus().length, 8) }, work));
+  return failed.size === 0 ? "" : `No PDF or PNG of some figures: ${[...failed].join("; ")}`;
+}
