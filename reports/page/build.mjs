@@ -2,7 +2,8 @@
  * Bundles the page and the program that draws the figures, or the tests.
  *
  *   node build.mjs page WORK OUT    OUT/page.html, OUT/render_figures.mjs, OUT/charts/*.json
- *   node build.mjs tests WORK       WORK/tests/unit_tests.mjs, WORK/tests/NAME_test.mjs of tests/browser
+ *   node build.mjs tests WORK       WORK/tests/unit_tests.mjs, WORK/tests/validate.mjs, and WORK/tests/NAME_test.mjs of
+ *                                   tests/browser
  *
  * WORK is a folder in which `npm ci` has been run: the libraries are there, not beside the sources. A file
  * WORK/page.d or WORK/tests.d tells the build system what went in.
@@ -75,7 +76,7 @@ function testsIn(folder) {
     .map((entry) => `./${folder}/${entry.name}`);
 }
 
-/** The unit tests together are one program; each test that takes a browser is one of its own. */
+/** The unit tests together are one program; the validator and each test that takes a browser are programs of their own. */
 async function buildTests(esbuild, common, work) {
   const out = join(work, "tests");
   rmSync(out, { recursive: true, force: true });
@@ -88,12 +89,13 @@ async function buildTests(esbuild, common, work) {
     stdin: { contents: testsIn("tests").map((file) => `import "${file}";`).join("\n"), resolveDir: source },
     outfile: join(out, "unit_tests.mjs"),
   });
-  const browser = await esbuild.build({
-    ...node, entryPoints: testsIn("tests/browser"), outdir: out, outExtension: { ".js": ".mjs" },
+  const programs = await esbuild.build({
+    ...node, entryPoints: [...testsIn("tests/browser"), "./tests/validate.mjs"], outdir: out, entryNames: "[name]",
+    outExtension: { ".js": ".mjs" },
   });
   writeFileSync(join(out, "built"), "");
   const folders = [join(source, "tests"), join(source, "tests/browser")];
-  writeDependencies(join(work, "tests.d"), join(out, "built"), [...folders, ...readFiles(unit, browser)]);
+  writeDependencies(join(work, "tests.d"), join(out, "built"), [...folders, ...readFiles(unit, programs)]);
 }
 
 const [what, workArgument, outArgument] = process.argv.slice(2);

@@ -1,12 +1,14 @@
 /**
  * Draws the figures of a report: node render_figures.mjs REPORT.json OUT
  *
- * Each chart becomes OUT/EXPERIMENT-CHART.svg, and .pdf and .png of it.
+ * Each chart becomes OUT/EXPERIMENT-CHART.svg, and .pdf and .png of it; each mesh that was kept for a picture becomes
+ * OUT/EXPERIMENT-MESH.svg, .pdf and .png. Meshes are read from the folder of REPORT.json.
  */
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { chartSvg } from "./chart_svg.mjs";
 import { convertAll } from "./convert.mjs";
+import { meshFigures } from "./mesh_figures.mjs";
 
 /** @returns {Promise<{name: string, svg: string}[]>} */
 async function chartFigures(report) {
@@ -19,7 +21,9 @@ async function chartFigures(report) {
 
 async function main(reportFile, folder) {
   const report = JSON.parse(readFileSync(reportFile, "utf8"));
-  const figures = await chartFigures(report);
+  const meshes = await meshFigures(report, dirname(reportFile));
+  for (const words of meshes.trouble) console.error(`No picture of ${words}`);
+  const figures = [...(await chartFigures(report)), ...meshes.figures];
   mkdirSync(folder, { recursive: true });
   for (const { name, svg } of figures) writeFileSync(join(folder, `${name}.svg`), svg);
   const trouble = await convertAll(folder, figures.map(({ name }) => name));

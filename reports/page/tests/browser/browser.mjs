@@ -1,0 +1,48 @@
+import { existsSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+
+import { chromium } from "playwright-core";
+
+const PROGRAM = process.env.CCDT_CHROMIUM ?? "/usr/bin/chromium";
+
+/** Without a screen, a graphics card and a word to anybody: WebGL is computed by SwiftShader. */
+const FLAGS = [
+  "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+  "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+];
+
+export const LAPTOP = { width: 1366, height: 800 };
+export const PHONE = { width: 390, height: 844 };
+
+/** @throws {Error} that says what to install */
+export async function startBrowser() {
+  if (!existsSync(PROGRAM)) {
+    throw new Error(`This test looks at the page with ${PROGRAM}, which is not here; "tools/setup test" installs it.`);
+  }
+  return chromium.launch({ executablePath: PROGRAM, args: FLAGS });
+}
+
+/**
+ * Opens a page from disk. All that it must not do is collected as text: errors, warnings, and asking for anything but
+ * itself.
+ * @param {import("playwright-core").Browser} browser
+ * @param {string} file
+ * @param {object} [options]  of the browser's context: `viewport`, `colorScheme`, ...
+ * @returns {Promise<{page: import("playwright-core").Page, troubles: string[]}>}
+ */
+export async function openPage(browser, file, options = {}) {
+  const context = await browser.newContext({ viewport: LAPTOP, colorScheme: "light", ...options });
+  const page = await context.newPage();
+  const address = pathToFileURL(file).href;
+  const troubles = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) troubles.push(`console ${message.type()}: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => troubles.push(`uncaught: ${error.message}`));
+  page.on("request", (request) => {
+    const url = request.url();
+    if (url.split("#")[0] !== address && !url.startsWith("data:") && !url.startsWith("blob:")) troubles.push(`asked for ${url}`);
+  });
+  await page.goto(address);
+  return { page, troubles };
+}
