@@ -6,23 +6,23 @@ import { shadesOf } from "./shading.mjs";
 import { visibleFaces } from "./visible_faces.mjs";
 
 /** The smallest and the largest width of an edge, and its share of a triangle's, in units of the picture. */
-const EDGE_WIDTH = { smallest: 0.12, largest: 0.6, share: 0.05 };
+const EDGE_WIDTH = { smallest: 0.06, largest: 0.35, share: 0.05 };
 
 /**
  * Draws a mesh cut open, as papers do: the quarter towards the observer is taken away, in whole tetrahedra, or the half
  * where the quarter shows the inside of some of the regions only. What is laid open has another colour than the surface.
  * @param {object} kept  a mesh of schema `ccdt.mesh/1`
  * @param {object} [options]
- * @param {number} [options.width]      of the picture, in its units; the height follows from the mesh
+ * @param {number} [options.size]       of the longer side of the picture, in its units; the other follows from the mesh
  * @param {number} [options.azimuth]    degrees: where the observer is, about the z axis from the x axis
  * @param {number} [options.elevation]  degrees above the xy plane
  * @returns {Promise<string>} SVG
  * @throws {Error} when the mesh cannot be unpacked
  */
-export async function meshPicture(kept, { width = 800, azimuth = -62, elevation = 28 } = {}) {
+export async function meshPicture(kept, { size = 480, azimuth = -62, elevation = 28 } = {}) {
   const mesh = await unpackMesh(kept);
   const faces = cutOpen(mesh, kept.vertices, azimuth);
-  const projection = project(mesh.points, faces.corners, viewOf(azimuth, elevation), width);
+  const projection = project(mesh.points, faces.corners, viewOf(azimuth, elevation), size);
   return svgOf(mesh, faces, projection);
 }
 
@@ -64,12 +64,12 @@ function viewOf(azimuth, elevation) {
   };
 }
 
-// In parallel, what is drawn fills the width; y downwards as in SVG, depth towards the observer.
-function project(points, drawn, { right, up, towards }, width) {
+// In parallel, what is drawn fills the picture; y downwards as in SVG, depth towards the observer.
+function project(points, drawn, { right, up, towards }, size) {
   const drawnPoints = new Float32Array(3 * drawn.length).map((_, i) => points[3 * drawn[Math.floor(i / 3)] + (i % 3)]);
   const across = extentAlong(drawnPoints, right), along = extentAlong(drawnPoints, up);
-  const margin = 0.01 * width;
-  const scale = (width - 2 * margin) / (across.high - across.low || 1);
+  const margin = 0.01 * size;
+  const scale = (size - 2 * margin) / (Math.max(across.high - across.low, along.high - along.low) || 1);
   const coordinates = new Float32Array(points.length);
   for (let i = 0; i < points.length; i += 3) {
     const dot = (v) => v[0] * points[i] + v[1] * points[i + 1] + v[2] * points[i + 2];
@@ -77,7 +77,8 @@ function project(points, drawn, { right, up, towards }, width) {
     coordinates[i + 1] = margin + scale * (along.high - dot(up));
     coordinates[i + 2] = scale * dot(towards);
   }
-  return { coordinates, width, height: scale * (along.high - along.low) + 2 * margin };
+  const [width, height] = [across, along].map(({ low, high }) => Math.ceil(scale * (high - low) + 2 * margin));
+  return { coordinates, width, height };
 }
 
 function svgOf(mesh, faces, { coordinates, width, height }) {
@@ -95,8 +96,8 @@ function svgOf(mesh, faces, { coordinates, width, height }) {
   }
   const edge = (EDGE_WIDTH.share * edgeLengths) / Math.max(1, order.length);
   const edgeWidth = Math.min(EDGE_WIDTH.largest, Math.max(EDGE_WIDTH.smallest, edge));
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height.toFixed(0)}" ` +
-    `viewBox="0 0 ${width} ${height.toFixed(2)}" role="img">\n<title>${escaped(mesh.title)}, cut open</title>\n` +
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
+    `viewBox="0 0 ${width} ${height}" role="img">\n<title>${escaped(mesh.title)}, cut open</title>\n` +
     `<g stroke="#1c2733" stroke-width="${edgeWidth.toFixed(2)}" stroke-linejoin="round">\n${paths.join("\n")}\n</g>\n</svg>\n`;
 }
 

@@ -1,5 +1,5 @@
 /** Pixels of the depth buffer across one unit of the picture. */
-const PIXELS = 2;
+const PIXELS = 4;
 
 /**
  * Which faces are seen, the farthest first: drawn in this order, each covers what is behind it. What nothing is seen of
