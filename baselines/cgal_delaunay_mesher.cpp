@@ -18,7 +18,11 @@ using DataStructure =
     CGAL::Triangulation_data_structure_3<VertexBase, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, DataStructure>;
 
-MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions&, const Progress& progress) {
+MesherSettings settings_of_cgal_delaunay(const InputPlc& /*input*/, const MeshOptions& /*options*/) {
+  return {{"kernel", "Exact_predicates_inexact_constructions_kernel"}, {"order", "Hilbert curve (median)"}};
+}
+
+MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const InputPlc merged = merge_equal_vertices(input);
   std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
   points.reserve(merged.vertices.size());
@@ -32,7 +36,7 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions&, const Pro
 
   MesherRun run;
   run.result.seconds.delaunay = run.result.seconds.mesh = seconds;
-  run.settings = {{"kernel", "Exact_predicates_inexact_constructions_kernel"}, {"order", "Hilbert curve (median)"}};
+  run.settings = settings_of_cgal_delaunay(input, options);
   run.notes = {"the Delaunay tetrahedralization of the vertices fills their convex hull and knows no facets"};
   TetMesh& mesh = run.result.mesh;
   mesh.vertices = merged.vertices;
@@ -53,8 +57,9 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions&, const Pro
 }  // namespace
 
 Mesher cgal_delaunay_mesher() {
-  return {"cgal-delaunay", CGAL_VERSION_STR, "CGAL Delaunay_triangulation_3 of the vertices alone (their convex hull)",
-          "GPL-3.0-or-later", run_cgal_delaunay};
+  return {
+      "cgal-delaunay",    CGAL_VERSION_STR,  "CGAL Delaunay_triangulation_3 of the vertices alone (their convex hull)",
+      "GPL-3.0-or-later", run_cgal_delaunay, settings_of_cgal_delaunay};
 }
 
 }  // namespace ccdt

@@ -127,7 +127,8 @@ bool is_improved(const MeshOptions& options) {
   return options.improve.improvement != Improvement::none;
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const Sizes& sizes, const MeshOptions& options) {
+MesherSettings settings_of_mesh3(const InputPlc& input, const MeshOptions& options) {
+  const Sizes sizes(target_edge_length(input, options));
   const char* improved = is_improved(options) ? "on" : "off";
   return {{"domain", "Polyhedral_complex_mesh_domain_3"},
           {"feature_angle", digits(sizes.feature_angle)},
@@ -164,7 +165,7 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
   const auto patches = patches_of(plc);
   const Sizes sizes(target_edge_length(input, options));
   MesherRun run;
-  run.settings = settings_of(sizes, options);
+  run.settings = settings_of_mesh3(input, options);
   run.notes = {"the surface is remeshed: the input's triangles are approximated, not kept"};
   report(progress, "mesh_3", 0, 0);
   const auto begin = std::chrono::steady_clock::now();
@@ -184,8 +185,8 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
 }  // namespace
 
 Mesher cgal_mesh3_mesher() {
-  return {"cgal-mesh3", CGAL_VERSION_STR, "CGAL Mesh_3: Delaunay refinement that approximates the surface",
-          "GPL-3.0-or-later", run_cgal_mesh3};
+  return {"cgal-mesh3",       CGAL_VERSION_STR, "CGAL Mesh_3: Delaunay refinement that approximates the surface",
+          "GPL-3.0-or-later", run_cgal_mesh3,   settings_of_mesh3};
 }
 
 }  // namespace ccdt

@@ -70,6 +70,11 @@ double regular_tetrahedron_volume(double edge_length) {
   return edge_length * edge_length * edge_length / (6 * std::sqrt(2.0));
 }
 
+double largest_tetrahedron_volume(double edge_length) {
+  constexpr double largest_to_average = 2;
+  return largest_to_average * regular_tetrahedron_volume(edge_length);
+}
+
 void orient_positively(TetMesh& mesh) {
   double total = 0;  // of the sum, because rounding may turn the sign of a single sliver
   for (const auto& t : mesh.tetrahedra) total += signed_volume(mesh, t);

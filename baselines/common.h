@@ -17,8 +17,22 @@ double target_edge_length(const InputPlc& input, const MeshOptions& options);
 /// Volume of the regular tetrahedron of this edge length.
 double regular_tetrahedron_volume(double edge_length);
 
+/// Volume of the largest tetrahedron of a mesh of this edge length: twice that of the regular one, which is about the
+/// average.
+double largest_tetrahedron_volume(double edge_length);
+
 /// Makes all tetrahedra positively oriented, given that they are all oriented alike.
 void orient_positively(TetMesh& mesh);
+
+/// Gives vertices of a mesh that was written and read the coordinates back that the input has: those that equal an
+/// input vertex's in 16 or 15 digits, or in single precision, as programs read and write them, wherever all tetrahedra
+/// around surely stay positively oriented.
+/// \return  how many have other coordinates now
+std::size_t restore_coordinates(const std::vector<Point3>& input, TetMesh& mesh);
+
+/// Fills `mesh.faces` of a mesh of a program that writes none: the faces of one tetrahedron, and of two that are of
+/// different regions. Their markers are 0.
+void add_boundary_faces(TetMesh& mesh);
 
 /// Removes the tetrahedra that an even number of shells of facets encloses (`InputPlc::Inside::even_odd`), with the
 /// faces, edges and vertices that nothing uses any more. `mesh.faces` are the faces on facets.

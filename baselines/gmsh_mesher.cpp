@@ -10,6 +10,7 @@
 #include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
+#include "baselines/program_log.h"
 #include "engine/base/errors.h"
 #include "engine/io/output_file.h"
 #include "engine/io/tet_mesh_files.h"
@@ -88,9 +89,9 @@ DiscreteModel discrete_model(const Plc& plc) {
   return model;
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const InputPlc& input, const MeshOptions& options) {
-  std::vector<std::pair<std::string, std::string>> settings = {
-      {"Mesh.Algorithm3D", "10"}, {"Mesh.Optimize", options.improve.improvement == Improvement::none ? "0" : "1"}};
+MesherSettings settings_of_gmsh(const InputPlc& input, const MeshOptions& options) {
+  MesherSettings settings = {{"Mesh.Algorithm3D", "10"},
+                             {"Mesh.Optimize", options.improve.improvement == Improvement::none ? "0" : "1"}};
   const bool bare = options.lattice == Lattice::none;
   if (options.edge_length == 0 && !bare) {
     settings.emplace_back("Mesh.MeshSizeExtendFromBoundary", "1");
@@ -105,8 +106,8 @@ std::vector<std::pair<std::string, std::string>> settings_of(const InputPlc& inp
 }
 
 /// The script that Gmsh runs: the discrete surfaces from a file, the volumes between them, and the settings.
-void write_script(const DiscreteModel& model, const std::string& surface,
-                  const std::vector<std::pair<std::string, std::string>>& settings, const std::filesystem::path& file) {
+void write_script(const DiscreteModel& model, const std::string& surface, const MesherSettings& settings,
+                  const std::filesystem::path& file) {
   io::OutputFile script(file);
   script << "Merge \"" << surface << "\";\n";
   for (std::size_t v = 0; v < model.volumes.size(); ++v) {
@@ -125,7 +126,6 @@ void write_script(const DiscreteModel& model, const std::string& surface,
 
 /// What Gmsh says of its work.
 struct Log {
-  std::string version = "unknown";
   double mesh_seconds = 0;      ///< "Done meshing 3D (Wall 1.5s, ...": all of HXT, and what Gmsh does around it
   double optimize_seconds = 0;  ///< "tOptimize = 1.2": the part of that which is improvement
   std::string error;            ///< the first
@@ -143,8 +143,6 @@ Log read_log(const std::filesystem::path& file) {
   Log log;
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
-    if (const auto at = line.find("[Gmsh "); at != std::string::npos)
-      log.version = line.substr(at + 6, line.find_first_of(",]", at) - at - 6);
     if (line.starts_with("Error") && log.error.empty()) log.error = line.substr(line.find_first_not_of(" :", 5));
     for (const char* work : {"Done meshing 3D (Wall", "Done optimizing mesh (Wall"})
       log.mesh_seconds += number_behind(line, work);
@@ -153,31 +151,12 @@ Log read_log(const std::filesystem::path& file) {
   return log;
 }
 
-/// A number as Gmsh writes it: with 16 digits, one fewer than would read back bit for bit.
-double as_gmsh_writes(double value) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.16g", value);
-  return std::strtod(text.data(), nullptr);
-}
-
-std::array<double, 3> as_gmsh_writes(const Point3& p) {
-  return {as_gmsh_writes(p.x), as_gmsh_writes(p.y), as_gmsh_writes(p.z)};
-}
-
-/// Gives the surface's vertices the coordinates back that the input has.
-void restore_coordinates(const std::vector<Point3>& input, TetMesh& mesh) {
-  std::map<std::array<double, 3>, Point3> known;
-  for (const Point3& p : input) known.try_emplace(as_gmsh_writes(p), p);
-  for (Point3& p : mesh.vertices)
-    if (const auto found = known.find({p.x, p.y, p.z}); found != known.end()) p = found->second;
-}
-
 TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const Plc& plc) {
   TetMesh mesh = read_tet_mesh(file);
-  restore_coordinates(plc.world, mesh);
   for (int& region : mesh.regions) region = plc.chambers[model.volumes.at(static_cast<std::size_t>(region) - 1)].region;
   for (int& marker : mesh.face_markers) marker = model.patches.at(static_cast<std::size_t>(marker) - 1).marker;
   orient_positively(mesh);
+  restore_coordinates(plc.world, mesh);
   return mesh;
 }
 
@@ -190,7 +169,7 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   const TemporaryFolder folder;
   const auto file = [&](const char* name) { return folder.path() / name; };
   MesherRun run;
-  run.settings = settings_of(input, options);
+  run.settings = settings_of_gmsh(input, options);
   write_tet_mesh(model.triangles, file("surface.msh"));
   write_script(model, "surface.msh", run.settings, file("model.geo"));
   report(progress, "gmsh", 0, 0);
@@ -202,7 +181,6 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
     fail("Gmsh ended with code " + std::to_string(code) + (log.error.empty() ? "" : ": " + log.error), input.name,
          "try another mesher, or check the surface there");
 
-  run.settings.emplace_back("gmsh", log.version);
   run.result.seconds.improve = log.optimize_seconds;
   run.result.seconds.mesh = log.mesh_seconds;
   run.result.mesh = read_back(file("volume.msh"), model, plc);
@@ -211,14 +189,21 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   return run;
 }
 
+/// `gmsh --version` prints it alone.
+std::string version_of_gmsh() {
+  const auto program = find_program(program_name, program_variable);
+  return program ? version_of_program({program->string(), "--version"}, "^[0-9]+[.][^ ]*") : unknown_version;
+}
+
 }  // namespace
 
 std::optional<Mesher> gmsh_hxt_mesher() {
   const auto program = find_program(program_name, program_variable);
   if (!program) return std::nullopt;
-  return Mesher{"gmsh-hxt", "as found",
-                "Gmsh's HXT, run as the program " + program->string() + ": refines and optimizes", "GPL-2.0-or-later",
-                run_gmsh};
+  return Mesher{
+      "gmsh-hxt",         "",       "Gmsh's HXT, run as the program " + program->string() + ": refines and optimizes",
+      "GPL-2.0-or-later", run_gmsh, settings_of_gmsh,
+      version_of_gmsh};
 }
 
 }  // namespace ccdt

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "baselines/mesher.h"
+#include "baselines/mesher_description.h"
 
 namespace ccdt {
 
@@ -22,5 +23,8 @@ Mesher cgal_delaunay_mesher();
 /// CCDT_GMSH says. None where there is no such program. It keeps the surface's triangles and fills the inside with
 /// tetrahedra of the edge length asked for, or of those of the surface.
 std::optional<Mesher> gmsh_hxt_mesher();
+
+/// A mesher of somebody's own. Its version command is run once, when its version is asked for.
+Mesher described_mesher(const MesherDescription& description);
 
 }  // namespace ccdt

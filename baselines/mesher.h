@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,26 +11,45 @@
 
 namespace ccdt {
 
+/// How a mesher is asked, in its own words: {"switches", "pQ"}.
+using MesherSettings = std::vector<std::pair<std::string, std::string>>;
+
 /// What a mesher made, and how it was asked to.
 struct MesherRun {
   MeshResult result;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< in the mesher's own words, e.g. {"switches", "pQ"}
+  MesherSettings settings;
   std::vector<std::string> notes;  ///< what a reader of the result has to know, one sentence each
 };
 
 /// One way to make a tetrahedral mesh: our engine or somebody else's program, behind one function.
 struct Mesher {
-  std::string name;     ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay, gmsh-hxt
-  std::string version;  ///< of the library; of an external program the settings of a run say it
+  std::string name;  ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay, gmsh-hxt; of a description its own
+  std::string version;  ///< of a library; empty for a program, which is asked by `version_of`
   std::string what;     ///< one line for people
   std::string licence;
-  MesherRun (*run)(const InputPlc&, const MeshOptions&, const Progress&);  ///< throws as `mesh_plc`
+  std::function<MesherRun(const InputPlc&, const MeshOptions&, const Progress&)> run;  ///< throws as `mesh_plc`
+  /// What `run` will ask for; so that it is known of a run that crashes. Null: the options say it all.
+  std::function<MesherSettings(const InputPlc&, const MeshOptions&)> settings = {};
+  std::function<std::string()> ask_version = {};  ///< of a program; null for a library
 };
 
 /// All meshers that this build has, ours first.
 std::span<const Mesher> meshers();
 
-/// \throw Error  no such mesher in this build; names those that there are
-const Mesher& mesher(std::string_view name);
+/// Is this the name of a file that describes a mesher, and not that of a mesher of this build?
+bool is_mesher_description(std::string_view name_or_file);
+
+/// A mesher of this build, or the one that a file describes (baselines/mesher_description.h), whose name ends in
+/// ".json"; it is read once.
+///
+/// \throw Error       no such mesher in this build; names those that there are
+/// \throw InputError  the description cannot be read, is wrong, or names a mesher of this build
+const Mesher& mesher(std::string_view name_or_file);
+
+/// The version that is used here; "unknown" if a program does not say it or is not there.
+std::string version_of(const Mesher& mesher);
+
+/// What the mesher will ask for; empty if the options say it all.
+MesherSettings settings_of(const Mesher& mesher, const InputPlc& input, const MeshOptions& options);
 
 }  // namespace ccdt

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesher.h"
@@ -26,6 +27,27 @@ std::vector<Mesher> meshers_of_this_build() {
   return all;
 }
 
+std::string names_of_all() {
+  std::string names;
+  for (const Mesher& m : meshers()) names += (names.empty() ? "" : ", ") + m.name;
+  return names;
+}
+
+/// One that was read before, else the one that the file describes.
+const Mesher& mesher_of_file(const std::string& file) {
+  static std::map<std::string, Mesher> known;
+  if (const auto found = known.find(file); found != known.end()) return found->second;
+  Mesher described = described_mesher(read_mesher_description(file));
+  const auto all = meshers();
+  if (std::ranges::find(all, described.name, &Mesher::name) != all.end()) {
+    Place place;
+    place.file = file;
+    throw InputError("/name: '" + described.name + "' is a mesher of this build", place,
+                     "give the description another name, or reports could not tell them apart");
+  }
+  return known.emplace(file, std::move(described)).first->second;
+}
+
 }  // namespace
 
 std::span<const Mesher> meshers() {
@@ -33,13 +55,25 @@ std::span<const Mesher> meshers() {
   return all;
 }
 
-const Mesher& mesher(std::string_view name) {
+bool is_mesher_description(std::string_view name_or_file) {
+  return name_or_file.ends_with(".json");
+}
+
+const Mesher& mesher(std::string_view name_or_file) {
+  if (is_mesher_description(name_or_file)) return mesher_of_file(std::string(name_or_file));
   const auto all = meshers();
-  const auto found = std::ranges::find(all, name, &Mesher::name);
+  const auto found = std::ranges::find(all, name_or_file, &Mesher::name);
   if (found != all.end()) return *found;
-  std::string known;
-  for (const Mesher& m : all) known += (known.empty() ? "" : ", ") + m.name;
-  throw Error("there is no mesher '" + std::string(name) + "' in this build", {}, "choose one of: " + known);
+  throw Error("there is no mesher '" + std::string(name_or_file) + "' in this build", {},
+              "choose one of: " + names_of_all() + "; or name a file .json that describes another");
+}
+
+std::string version_of(const Mesher& mesher) {
+  return mesher.ask_version ? mesher.ask_version() : mesher.version;
+}
+
+MesherSettings settings_of(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
+  return mesher.settings ? mesher.settings(input, options) : MesherSettings();
 }
 
 }  // namespace ccdt

@@ -18,15 +18,12 @@ namespace {
 /// degrees: ten keeps slivers out, and of larger angles the manual says that they need not be reached.
 constexpr const char* quality_switch = "q1.414/10";
 
-/// The largest tetrahedron of a refined mesh has about twice the volume of the average one.
-constexpr double largest_to_average = 2;
-
 /// `p`: the constrained Delaunay tetrahedralization of a piecewise linear complex; `Y`, `q`, `a`: refined inside, with
 /// the surface kept as our engine keeps it, and a bound on the volume; `A`: region attributes; `Q`: quiet.
 std::string switches_for(const InputPlc& input, const MeshOptions& options) {
   std::string switches = "p";
   if (options.lattice != Lattice::none) {
-    const double bound = largest_to_average * regular_tetrahedron_volume(target_edge_length(input, options));
+    const double bound = largest_tetrahedron_volume(target_edge_length(input, options));
     switches += std::string("Y") + quality_switch;
     if (bound > 0) switches += "a" + digits(bound);
   }
@@ -242,6 +239,10 @@ Outcome call_tetgen(const InputPlc& input, const std::string& switches) {
   return outcome;
 }
 
+MesherSettings settings_of_tetgen(const InputPlc& input, const MeshOptions& options) {
+  return {{"switches", switches_for(input, options)}};
+}
+
 MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const InputPlc merged = merge_equal_vertices(input);
   if (merged.vertices.size() < 4) fail("there are fewer than four vertices", input, "");
@@ -250,7 +251,7 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
   Outcome outcome = call_tetgen(merged, switches);
 
   MesherRun run;
-  run.settings = {{"switches", switches}};
+  run.settings = settings_of_tetgen(input, options);
   run.result.seconds.mesh = outcome.seconds[0];
   TetMesh& mesh = run.result.mesh;
   mesh = std::move(outcome.mesh);
@@ -263,8 +264,12 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
 }  // namespace
 
 Mesher tetgen_mesher() {
-  return {"tetgen", CCDT_TETGEN_VERSION, "TetGen: constrained Delaunay tetrahedralization and Delaunay refinement",
-          "AGPL-3.0-or-later", run_tetgen};
+  return {"tetgen",
+          CCDT_TETGEN_VERSION,
+          "TetGen: constrained Delaunay tetrahedralization and Delaunay refinement",
+          "AGPL-3.0-or-later",
+          run_tetgen,
+          settings_of_tetgen};
 }
 
 }  // namespace ccdt

@@ -218,7 +218,7 @@ std::string_view name_of(ImproveStop stop) {
 RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
   RunRecord record;
   record.environment = capture_environment();
-  record.mesher = {mesher.name, mesher.version, mesher.name == "ccdt" ? record.environment.revision : ""};
+  record.mesher = {mesher.name, version_of(mesher), mesher.name == "ccdt" ? record.environment.revision : ""};
   record.input.name = input.name;
   record.input.vertices = input.vertices.size();
   record.input.facets = input.facet_count();

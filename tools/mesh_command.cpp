@@ -81,6 +81,15 @@ InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progr
   return surface;
 }
 
+/// A mesher that ends its process, or is ended by a limit, leaves this behind: what was asked of whom.
+void leave_provisional_record(const MeshCommand& command, const RunRecord& record) {
+  if (command.report.empty()) return;
+  RunRecord unfinished = record;
+  unfinished.status = RunStatus::crashed;
+  unfinished.reason = "the process ended before its run did";
+  write_run_record(unfinished, command.report);
+}
+
 /// Reads, meshes, measures and writes; what is known of the run so far is in the record at every moment.
 void mesh_file(const MeshCommand& command, RunRecord& record) {
   ProgressBar bar;
@@ -103,6 +112,9 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
     check_are_different(options.background.mesh_name, command.output);
   }
   record.read_seconds = read_seconds;
+
+  record.mesher_settings = settings_of(chosen, input, options);
+  leave_provisional_record(command, record);
 
   MesherRun run = chosen.run(input, options, progress);
   record.peak_rss_bytes = peak_rss_bytes();  // of the mesher, not of what measures it
@@ -151,9 +163,9 @@ std::string footer() {
   for (const Mesher& m : meshers()) {
     std::string name = m.name;
     name.resize(15, ' ');
-    text += "  " + name + m.what + " (" + m.version + ", " + m.licence + ")\n";
+    text += "  " + name + m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.licence + ")\n";
   }
-  return text +
+  return text + "  FILE.json      any other, as the file describes it; baselines/described has examples\n" +
          "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"
          "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
          "Example: edges inside as the size function part.sol says, which belongs to the mesh part.mesh\n"
@@ -185,9 +197,9 @@ void add_choice(CLI::App& verb, const char* name, Value& target,
 }
 
 void add_strategies(CLI::App& verb, MeshCommand& command) {
-  std::vector<std::string> names;
-  for (const Mesher& m : meshers()) names.push_back(m.name);
-  verb.add_option("--mesher", command.mesher, "who meshes")->check(CLI::IsMember(names))->capture_default_str();
+  verb.add_option("--mesher", command.mesher, "who meshes: one of those below, or a file .json that describes another")
+      ->check(known_mesher())
+      ->capture_default_str();
 
   add_choice<bool>(verb, "--face-protection", command.options.face_protection, {{"on", true}, {"off", false}},
                    "on, off: check first which faces are Delaunay, or send all through the front", "on");

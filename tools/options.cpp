@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "baselines/mesher.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -32,6 +33,17 @@ CLI::Validator positive_number() {
 
 CLI::Validator non_negative_number() {
   return CLI::Validator([](std::string& text) { return complaint(text, 0, true); }, ">= 0");
+}
+
+CLI::Validator known_mesher() {
+  return CLI::Validator(
+      [](std::string& text) {
+        if (is_mesher_description(text)) return std::string();  // its faults are those of an input
+        std::vector<std::string> names;
+        for (const Mesher& m : meshers()) names.push_back(m.name);
+        return CLI::IsMember(names)(text);
+      },
+      "");
 }
 
 void check_can_be_written(const std::filesystem::path& file) {

@@ -41,6 +41,15 @@ TEST(RunProgram, LogsWhatIsPrintedAndTellsHowItEnded) {
   EXPECT_THROW(run_program({"/bin/sh"}, folder.path() / "nowhere" / "log"), std::system_error);
 }
 
+TEST(RunProgram, RunsInAFolderAndWithVariablesOfItsOwn) {
+  const TemporaryFolder folder;
+  const auto log = folder.path() / "log";
+  const ProgramSurroundings there{folder.path(), {{variable, "a word"}, {"HOME", "/nowhere"}}};
+  EXPECT_EQ(run_program({"/bin/sh", "-c", "pwd -P; echo \"$CCDT_TEST_PROGRAM $HOME\""}, log, there), 0);
+  EXPECT_EQ(text_of(log), std::filesystem::canonical(folder.path()).string() + "\na word /nowhere\n");
+  EXPECT_EQ(run_program({"/bin/sh"}, log, {folder.path() / "nowhere", {}}), 127);
+}
+
 TEST(TemporaryFolder, IsGoneAfterwards) {
   std::filesystem::path path;
   {

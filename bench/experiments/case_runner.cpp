@@ -14,18 +14,16 @@ std::vector<std::string> command_of(const std::filesystem::path& program, const 
   return command;
 }
 
-/// The record of a child that could not write one itself.
-RunRecord record_of_the_dead(const Case& what, const ChildResult& child) {
+/// The record of a child that ended before it knew what it was to do.
+RunRecord record_of_the_dead(const Case& what) {
   RunRecord record;
   record.environment = capture_environment();
   const Mesher& asked = mesher(what.mesher);
-  record.mesher = {asked.name, asked.version, asked.name == "ccdt" ? record.environment.revision : ""};
+  record.mesher = {asked.name, version_of(asked), asked.name == "ccdt" ? record.environment.revision : ""};
   record.input.name = what.input.string();
   std::string words;
   for (const std::string& option : what.options) words += (words.empty() ? "" : " ") + option;
   record.options = {{"command_line", words}};
-  record.status = child.status;
-  record.reason = child.reason;
   return record;
 }
 
@@ -35,10 +33,14 @@ RunRecord run_case(const std::filesystem::path& program, const Case& what, const
                    const Limits& limits) {
   std::filesystem::remove(report);  // or that of an earlier experiment would be taken for this one's
   const ChildResult child = run_child(command_of(program, what, report), limits);
-  // A child that has failed by itself says more in its own record than its last words do.
-  const bool wrote_it = child.status == RunStatus::ok || child.status == RunStatus::failed;
-  if (wrote_it && std::filesystem::exists(report)) return read_run_record(report);
-  RunRecord record = record_of_the_dead(what, child);
+  const bool wrote_one = std::filesystem::exists(report);
+  RunRecord record = wrote_one ? read_run_record(report) : record_of_the_dead(what);
+  // A child that has failed by itself says more in its own record than its last words do; but what it wrote before it
+  // crashed says only what it was to do.
+  const bool ended_by_itself = child.status == RunStatus::ok || child.status == RunStatus::failed;
+  if (wrote_one && ended_by_itself && record.status != RunStatus::crashed) return record;
+  record.status = child.status;
+  record.reason = child.reason;
   write_run_record(record, report);
   return record;
 }

@@ -1,0 +1,250 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "baselines/common.h"
+#include "baselines/known_meshers.h"
+#include "baselines/placeholders.h"
+#include "baselines/program_log.h"
+#include "engine/base/errors.h"
+#include "engine/io/output_file.h"
+#include "engine/io/tet_mesh_files.h"
+#include "engine/io/write_plc.h"
+#include "engine/plc/build_plc.h"
+
+namespace ccdt {
+namespace {
+
+constexpr const char* input_stem = "input";
+
+using Description = MesherDescription;
+
+Place place_of(const std::string& file) {
+  Place place;
+  place.file = file;
+  return place;
+}
+
+bool holds(ChoiceCondition condition, const InputPlc& input, const MeshOptions& options) {
+  switch (condition) {
+    case ChoiceCondition::interior_points:
+      return options.lattice != Lattice::none;
+    case ChoiceCondition::improvement:
+      return options.improve.improvement != Improvement::none;
+    case ChoiceCondition::edge_length:
+      return options.edge_length > 0;
+    case ChoiceCondition::regions:
+      return !input.regions.empty();
+  }
+  return false;
+}
+
+std::string absolute_folder_of(const Description& description) {
+  return std::filesystem::absolute(description.file).parent_path().lexically_normal().string();
+}
+
+std::string input_name(const Description& description) {
+  return std::string(input_stem) + "." + description.input_format;
+}
+
+/// \param folder  of the run
+std::vector<Placeholder> values_for(const Description& description, const InputPlc& input, const MeshOptions& options,
+                                    const std::string& folder) {
+  const double edge_length = target_edge_length(input, options);
+  std::vector<Placeholder> values = {{"input", input_name(description)},
+                                     {"stem", input_stem},
+                                     {"folder", folder},
+                                     {"here", absolute_folder_of(description)},
+                                     {"edge_length", digits(edge_length)},
+                                     {"max_volume", digits(largest_tetrahedron_volume(edge_length))}};
+  std::vector<Placeholder> chosen;
+  for (const Choice& choice : description.choices)
+    chosen.push_back(
+        {choice.name, filled(holds(choice.condition, input, options) ? choice.text_if : choice.text_else, values)});
+  values.insert(values.end(), chosen.begin(), chosen.end());
+  return values;
+}
+
+std::vector<std::string> filled_words(const std::vector<std::string>& words, const std::vector<Placeholder>& values) {
+  std::vector<std::string> all;
+  for (const std::string& word : words) all.push_back(filled(word, values));
+  return all;
+}
+
+/// The program of a command: with a slash, from the folder of the description; else on PATH.
+std::optional<std::filesystem::path> program_of(const Description& description, const std::string& name) {
+  if (name.find('/') == std::string::npos) return find_on_path(name);
+  const auto file = std::filesystem::path(absolute_folder_of(description)) / name;
+  return std::filesystem::exists(file) ? std::optional(file) : std::nullopt;
+}
+
+/// As one would type it.
+std::string command_line(const std::vector<std::string>& command) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=+,:@%";
+  std::string line;
+  for (const std::string& word : command) {
+    const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
+    line += (line.empty() ? "" : " ") + (is_plain ? word : "'" + word + "'");
+  }
+  return line;
+}
+
+MesherSettings settings_of_described(const Description& description, const InputPlc& input,
+                                     const MeshOptions& options) {
+  const std::vector<Placeholder> values = values_for(description, input, options, "{folder}");
+  MesherSettings settings = {{"description", description.file.string()},
+                             {"command", command_line(filled_words(description.command, values))}};
+  for (const auto& [name, text] : description.files) settings.emplace_back(name, filled(text, values));
+  for (const auto& [name, value] : description.environment)
+    settings.emplace_back("environment " + name, filled(value, values));
+  return settings;
+}
+
+/// The input with triangles for facets that are polygons, unless the format is one of PLCs: programs that read surfaces
+/// want triangles.
+InputPlc as_its_format_has_it(const Description& description, const InputPlc& input, const MeshOptions& options) {
+  const bool keeps_polygons = description.input_format == "poly" || description.input_format == "smesh";
+  if (keeps_polygons || input.polygon_facets.empty()) return merge_equal_vertices(input);
+  const Plc plc = build_plc(input, {.flatness = options.flatness});
+  InputPlc triangles = input;
+  triangles.vertices = plc.world;
+  triangles.triangles.clear();
+  triangles.triangle_markers.clear();
+  triangles.triangle_numbers.clear();
+  triangles.polygon_facets.clear();
+  for (const Facet& facet : plc.facets)
+    for (const auto& [a, b, c] : facet.triangles) {
+      triangles.triangles.push_back({a.value, b.value, c.value});
+      triangles.triangle_markers.push_back(facet.marker);
+    }
+  for (auto& segment : triangles.segments)
+    for (std::uint32_t& v : segment) v = plc.vertex_of_input[v].value;
+  return triangles;
+}
+
+void write_input(const Description& description, const InputPlc& input, const std::filesystem::path& folder) {
+  try {
+    write_plc(input, folder / input_name(description));
+  } catch (const OutputError& error) {
+    throw MeshError(description.name + " reads ." + description.input_format + ": " + error.what(),
+                    place_of(input.name), "leave that out, or choose a mesher that reads .poly");
+  }
+}
+
+void write_files(const Description& description, const std::vector<Placeholder>& values,
+                 const std::filesystem::path& folder) {
+  for (const auto& [name, text] : description.files) {
+    io::OutputFile file(folder / name);
+    file << filled(text, values);
+    file.commit();
+  }
+}
+
+/// Runs the program in the folder.
+/// \return  wall-clock seconds of the call
+double call(const Description& description, const InputPlc& input, const std::vector<Placeholder>& values,
+            const std::filesystem::path& folder, const std::filesystem::path& log) {
+  std::vector<std::string> command = filled_words(description.command, values);
+  const auto program = program_of(description, command[0]);
+  if (!program)
+    throw InputError("/command/0: there is no program '" + command[0] + "' here", place_of(description.file.string()),
+                     description.install.empty() ? "install it, or give its path" : description.install);
+  command[0] = program->string();
+  ProgramSurroundings surroundings{folder, {}};
+  for (const auto& [name, value] : description.environment)
+    surroundings.environment.emplace_back(name, filled(value, values));
+  const auto begin = std::chrono::steady_clock::now();
+  const int code = run_program(command, log, surroundings);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (std::ranges::find(description.success_codes, code) == description.success_codes.end())
+    throw MeshError(description.name + " ended with code " + std::to_string(code) +
+                        (code > 128 && code < 192 ? ", by signal " + std::to_string(code - 128) : "") +
+                        "; its last words: " + last_words(log),
+                    place_of(input.name), "try another mesher, or check the surface there");
+  return seconds;
+}
+
+TetMesh read_output(const Description& description, const InputPlc& input, const std::string& name,
+                    const std::filesystem::path& folder, const std::filesystem::path& log) {
+  if (!std::filesystem::exists(folder / name))
+    throw MeshError(description.name + " wrote no file " + name + "; its last words: " + last_words(log),
+                    place_of(input.name), "try another mesher, or correct /output in " + description.file.string());
+  try {
+    return read_tet_mesh(folder / name);
+  } catch (const InputError& error) {
+    const long long line = error.place().line;
+    throw MeshError("what " + description.name + " wrote cannot be read: " + name +
+                        (line > 0 ? ", line " + std::to_string(line) : "") + ": " + error.what(),
+                    place_of(input.name), "try another mesher, or correct /output in " + description.file.string());
+  }
+}
+
+/// Makes of what a program wrote what our own meshers return.
+void tidy(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& notes) {
+  orient_positively(mesh);
+  if (const std::size_t restored = restore_coordinates(input.vertices, mesh); restored > 0)
+    notes.push_back(std::to_string(restored) +
+                    " vertices of the input got their coordinates back, which were rounded on their way");
+  if (mesh.faces.empty()) add_boundary_faces(mesh);
+  if (input.inside == InputPlc::Inside::even_odd) keep_odd_chambers(mesh);
+  mesh.constrained_delaunay = false;
+}
+
+MesherRun run_described(const Description& description, const InputPlc& input, const MeshOptions& options,
+                        const Progress& progress) {
+  const InputPlc given = as_its_format_has_it(description, input, options);
+  const TemporaryFolder temporary;
+  const auto folder = temporary.path() / "run", log = temporary.path() / "log";
+  std::filesystem::create_directory(folder);
+  const std::vector<Placeholder> values = values_for(description, input, options, folder.string());
+  write_input(description, given, folder);
+  write_files(description, values, folder);
+  report(progress, description.name, 0, 0);
+
+  MesherRun run;
+  run.settings = settings_of_described(description, input, options);
+  const double wall_seconds = call(description, input, values, folder, log);
+  const auto said = description.seconds_pattern.empty() ? std::nullopt : sum_in_log(log, description.seconds_pattern);
+  run.result.seconds.mesh = said.value_or(wall_seconds);
+  if (!said) run.notes.emplace_back("the seconds are those of the whole call, with its start, reading and writing");
+  run.result.mesh = read_output(description, input, filled(description.output, values), folder, log);
+  tidy(given, run.result.mesh, run.notes);
+  if (run.result.mesh.tetrahedra.empty())
+    throw MeshError(description.name + " made no tetrahedra inside; its last words: " + last_words(log),
+                    place_of(input.name), "try another mesher, or check whether the surface is closed");
+  run.result.counts = count_elements(given, run.result.mesh);
+  return run;
+}
+
+std::string ask_version(const Description& description) {
+  if (description.version_command.empty()) return unknown_version;
+  std::vector<std::string> command =
+      filled_words(description.version_command, {{"here", absolute_folder_of(description)}});
+  const auto program = program_of(description, command[0]);
+  if (!program) return unknown_version;
+  command[0] = program->string();
+  return version_of_program(command, description.version_pattern);
+}
+
+}  // namespace
+
+Mesher described_mesher(const MesherDescription& description) {
+  const auto asked = std::make_shared<std::string>();
+  return {description.name,
+          "",
+          description.what,
+          description.licence,
+          [=](const InputPlc& input, const MeshOptions& options, const Progress& progress) {
+            return run_described(description, input, options, progress);
+          },
+          [=](const InputPlc& input, const MeshOptions& options) {
+            return settings_of_described(description, input, options);
+          },
+          [=] {
+            if (asked->empty()) *asked = ask_version(description);
+            return *asked;
+          }};
+}
+
+}  // namespace ccdt
