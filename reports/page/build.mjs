@@ -2,7 +2,7 @@
  * Bundles the page and the program that draws the figures, or the tests.
  *
  *   node build.mjs page WORK OUT    OUT/page.html, OUT/render_figures.mjs, OUT/charts/*.json
- *   node build.mjs tests WORK       WORK/tests/unit_tests.mjs, WORK/tests/validate.mjs, and WORK/tests/NAME_test.mjs of
+ *   node build.mjs tests WORK       WORK/tests/unit_tests.mjs, validate.mjs, write_page.mjs, and NAME_test.mjs of
  *                                   tests/browser
  *
  * WORK is a folder in which `npm ci` has been run: the libraries are there, not beside the sources. A file
@@ -76,7 +76,7 @@ function testsIn(folder) {
     .map((entry) => `./${folder}/${entry.name}`);
 }
 
-/** The unit tests together are one program; the validator and each test that takes a browser are programs of their own. */
+/** The unit tests together are one program; what is run on reports is in programs of its own. */
 async function buildTests(esbuild, common, work) {
   const out = join(work, "tests");
   rmSync(out, { recursive: true, force: true });
@@ -90,8 +90,8 @@ async function buildTests(esbuild, common, work) {
     outfile: join(out, "unit_tests.mjs"),
   });
   const programs = await esbuild.build({
-    ...node, entryPoints: [...testsIn("tests/browser"), "./tests/validate.mjs"], outdir: out, entryNames: "[name]",
-    outExtension: { ".js": ".mjs" },
+    ...node, entryPoints: [...testsIn("tests/browser"), "./tests/validate.mjs", "./tests/fixture/write_page.mjs"],
+    outdir: out, entryNames: "[name]", outExtension: { ".js": ".mjs" },
   });
   writeFileSync(join(out, "built"), "");
   const folders = [join(source, "tests"), join(source, "tests/browser")];

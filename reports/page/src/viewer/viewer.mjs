@@ -101,7 +101,7 @@ function listenToPage(viewer) {
     scene.setLineColours(viewer.scene, { edge: colour("edge"), outline: colour("outline"), marked: colour("marked") });
     askDraw(viewer);
   };
-  new MutationObserver(takeTheme).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+  document.addEventListener("themechange", takeTheme);
   takeTheme();
 }
 
