@@ -1,5 +1,5 @@
 import assert from "node:assert/strict";
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
@@ -10,9 +10,10 @@ import { kept, regularTetrahedron } from "./small_meshes.mjs";
 const validators = validatorsOf(process.env.CCDT_REPORTS);
 const mesh = kept(regularTetrahedron);
 
-test("every schema of the project is one that the validator takes", () => {
-  const names = [...validators.keys()].sort();
-  assert.deepEqual(names, ["ccdt.claims/1", "ccdt.experiment/1", "ccdt.mesh/1", "ccdt.report/1", "ccdt.run/1"]);
+test("every schema of the project is one that the validator takes, those of reports among them", () => {
+  const files = readdirSync(process.env.CCDT_REPORTS).filter((name) => name.endsWith(".schema.json"));
+  assert.equal(validators.size, files.length);
+  for (const kind of ["claims", "experiment", "mesh", "report", "run"]) assert.ok(validators.has(`ccdt.${kind}/1`), kind);
 });
 
 test("a file is valid only with all that its schema asks for", () => {
