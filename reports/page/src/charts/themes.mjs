@@ -1,10 +1,25 @@
 import config from "../../../charts/config.json" with { type: "json" };
 
-/** @typedef {"light"|"dark"} Theme */
+/**
+ * Light and dark hold their colours; "page" asks the page's style for them, so that a chart follows its theme.
+ * @typedef {"light"|"dark"|"page"} Theme
+ */
+
+function fromPage(colours) {
+  return Object.fromEntries(Object.keys(colours).map((name) => [name, `var(--chart-${name})`]));
+}
+
+function paletteOf(theme) {
+  return theme === "page" ? fromPage(config.palettes.light) : config.palettes[theme];
+}
+
+function frameOf(theme) {
+  return theme === "page" ? { ...fromPage(config.themes.light), background: null } : config.themes[theme];
+}
 
 /** @returns {string} */
 export function colourIn(theme, name) {
-  return config.palettes[theme][name];
+  return paletteOf(theme)[name];
 }
 
 /**
@@ -13,8 +28,8 @@ export function colourIn(theme, name) {
  * @param {string} font
  */
 export function chartConfig(theme, font = config.font) {
-  const { background, text, quiet, axis, grid } = config.themes[theme];
-  const named = Object.fromEntries(Object.entries(config.palettes[theme]).map(([name, colour]) => [name, colour]));
+  const { background, text, quiet, axis, grid } = frameOf(theme);
+  const named = paletteOf(theme);
   return {
     background,
     font,
@@ -34,13 +49,12 @@ export function chartConfig(theme, font = config.font) {
       symbolStrokeWidth: 1.6, labelLimit: 260, columnPadding: 14, rowPadding: 3, offset: 8, padding: 0,
     },
     title: { color: text, fontSize: 12, anchor: "start", fontWeight: "bold", offset: 8 },
-    point: { filled: true, size: 42, opacity: 1, color: named.blue },
+    point: { tooltip: { content: "data" }, filled: true, size: 42, opacity: 1, color: named.blue },
     line: { strokeWidth: 1.6, color: named.blue },
-    rule: { strokeWidth: 1.2, color: named.grey },
+    rule: { tooltip: { content: "data" }, strokeWidth: 1.2, color: named.grey },
     tick: { color: named.ink, thickness: 1.6 },
-    bar: { color: named.blue },
+    bar: { tooltip: { content: "data" }, color: named.blue },
     text: { color: text, fontSize: 10 },
-    mark: { tooltip: { content: "data" } },
     aria: false,
   };
 }

@@ -1,6 +1,6 @@
-import config from "../../../charts/config.json" with { type: "json" };
 import { drawn } from "../charts/draw.mjs";
 import { measureWithoutCanvas } from "../charts/measure_text.mjs";
+import { printWidth } from "../charts/print.mjs";
 
 measureWithoutCanvas();
 
@@ -16,8 +16,7 @@ function described(svg, chart) {
  * @returns {Promise<string>} SVG
  */
 export async function chartSvg(section, chart) {
-  const width = chart.spec.usermeta?.columns === 1 ? config.columnWidth : config.textWidth;
-  const { view, warnings } = await drawn(section, chart, { theme: "light", width });
+  const { view, warnings } = await drawn(section, chart, { theme: "light", width: printWidth(chart) });
   for (const words of warnings) console.error(`${section.name}, ${chart.name}: ${words}`);
   const svg = await view.toSVG();
   view.finalize();

@@ -1,7 +1,57 @@
+import { contents } from "./contents.mjs";
 import { append, element } from "./dom.mjs";
-import { embeddedReport } from "./embedded.mjs";
+import { embeddedMeshes, embeddedReport } from "./embedded.mjs";
+import { environmentSection } from "./environment_section.mjs";
+import { experimentSection } from "./experiment_section.mjs";
+import { counted } from "./numbers.mjs";
+import { rawFilesSection } from "./raw_files_section.mjs";
+import { defineChartColours, themeSwitch } from "./theme.mjs";
+import { verdictCounts, verdictSection } from "./verdicts.mjs";
 
+function summary(report) {
+  const made = report.experiments.filter(({ status }) => status !== "missing");
+  const processors = [...new Set(made.map(({ environment }) => environment?.cpu).filter(Boolean))];
+  return `${counted(report.claims.length, "claim")} of the paper, tested by ${counted(made.length, "experiment")} ` +
+    `and ${counted(Object.keys(report.runs).length, "run")}${processors.length > 0 ? ` on ${processors.join(" and ")}` : ""}.`;
+}
+
+function header(report) {
+  return element("header.page", {},
+    element("div.title", {}, element("h1", {}, report.title), themeSwitch()),
+    element("p.summary", {}, summary(report)),
+    element("p.counts", {}, verdictCounts(report)));
+}
+
+function footer() {
+  return element("footer.page", {}, element("p", {}, "The paper: Y.-J. Yang, J.-H. Yong, J.-G. Sun, ",
+    element("cite", {}, "An algorithm for tetrahedral mesh generation based on conforming constrained Delaunay tetrahedralization"),
+    ", Computers & Graphics 29 (2005). This page is one file and loads nothing."));
+}
+
+function sectionTitles(report) {
+  return report.experiments.map(({ name, title, status }) => ({ id: `experiment-${name}`, title, note: status === "ok" ? "" : `(${status})` }));
+}
+
+function show(report) {
+  document.title = report.title;
+  const parts = [
+    verdictSection(report),
+    ...report.experiments.map((section) => experimentSection(report, section)),
+    environmentSection(report),
+    rawFilesSection(report),
+  ];
+  const { node, follow } = contents([
+    { id: "verdicts", title: "The paper's claims" }, ...sectionTitles(report),
+    { id: "environment", title: "Environment and meshers" }, { id: "files", title: "Raw data" },
+  ]);
+  append(document.getElementById("page"), [
+    element("a.skip", { href: "#main" }, "Skip to the verdicts"), header(report),
+    element("div.columns", {}, node, element("main", { id: "main" }, parts)), footer(),
+  ]);
+  follow();
+}
+
+defineChartColours();
 const report = embeddedReport();
-const page = document.getElementById("page");
-if (report === null) append(page, element("p", {}, "This is the page of a report before ccdt report has put one in."));
-else append(page, element("h1", {}, report.title));
+if (report) show(report);
+else append(document.getElementById("page"), element("p", {}, "There is no report in this page: ccdt report puts one in."));

@@ -1,0 +1,82 @@
+import { chartView } from "./chart_view.mjs";
+import { commandLine } from "./copy.mjs";
+import { csvOf } from "./csv.mjs";
+import { element, list } from "./dom.mjs";
+import { baseName, download } from "./downloads.mjs";
+import { filterControls } from "./filter_controls.mjs";
+import { passes } from "./filters.mjs";
+import { counted, numberText } from "./numbers.mjs";
+import { tableView } from "./table_view.mjs";
+
+const FILTERED_AFTER = 150;  // milliseconds without another change; then charts are drawn anew
+
+function limitsText(limits) {
+  const parts = [];
+  if (limits?.seconds > 0) parts.push(`${numberText(limits.seconds)} s`);
+  if (limits?.memory_bytes > 0) parts.push(`${numberText(limits.memory_bytes / 2 ** 30)} GiB`);
+  return parts.length > 0 ? `limits of a run: ${parts.join(", ")}` : "";
+}
+
+/** How it was measured, in a line. */
+function circumstances(section) {
+  const { scale, tetrahedra, runs, confidence } = section;
+  return [
+    scale ? `scale ${scale}` : "",
+    tetrahedra ? `about ${numberText(tetrahedra)} tetrahedra a model` : "",
+    runs ? `${counted(runs, "counted run")} a case` : "",
+    confidence ? `${numberText(100 * confidence)}% intervals` : "",
+    limitsText(section.limits),
+  ].filter(Boolean).join(" · ");
+}
+
+function missingSection(section) {
+  return [
+    element("p.problem", { "data-missing": section.name }, `This experiment is missing: ${section.reason || "it has not been made"}.`),
+    element("p.label", {}, "This command makes it:"),
+    commandLine(section.command),
+  ];
+}
+
+function dataTables(section) {
+  const tables = section.tables.filter((table) => table.data);
+  if (tables.length === 0 && section.raw_files.length === 0) return null;
+  const buttons = tables.map((table) => element("button.small", { type: "button",
+    onclick: () => download(`${section.name}-${table.name}.csv`, csvOf(table), "text/csv") }, `${table.title} (CSV)`));
+  const files = section.raw_files.map((file) => element("a.file", { href: file }, baseName(file)));
+  return element("p.actions.data", {}, element("span.quiet", {}, "Data: "), buttons, files);
+}
+
+function results(report, section) {
+  const charts = section.charts.map((chart) => chartView(report, section, chart));
+  const tables = section.tables.filter((table) => !table.data && table.rows.length > 0).map((table) => tableView(report, section, table));
+  let pending = 0;
+  const controls = filterControls(section, (state) => {
+    const filter = (row, table) => passes(state, row, table);
+    for (const table of tables) table.show(filter);
+    clearTimeout(pending);
+    pending = setTimeout(() => { for (const chart of charts) chart.show(filter); }, FILTERED_AFTER);
+  });
+  return [controls, charts.map(({ node }) => node), tables.map(({ node }) => node), dataTables(section)];
+}
+
+function failure(section) {
+  return section.status === "failed" ? element("p.problem", {}, section.reason || "Something of our own went wrong here; see below.") : null;
+}
+
+/** One experiment: what it found, its charts, its tables. */
+export function experimentSection(report, section) {
+  const id = `experiment-${section.name}`;
+  const head = [
+    element("h2", { id: `${id}-title` }, section.title),
+    element("p.lead", {}, [section.section ? `Section ${section.section} of the paper` : "", circumstances(section)].filter(Boolean).join(" · ")),
+  ];
+  const body = section.status === "missing" ? missingSection(section) : [
+    failure(section),
+    list("ul.findings", section.findings),
+    section.problems.length > 0 ? element("div.problem", {}, element("h4", {}, "What went wrong"), list("ul", section.problems)) : null,
+    results(report, section),
+    section.definitions.length > 0 ? element("details.definitions", {}, element("summary", {}, "What the rows mean"), list("ul", section.definitions)) : null,
+    element("details.definitions", {}, element("summary", {}, "Repeat this experiment"), commandLine(section.command)),
+  ];
+  return element("section.part", { id, "data-experiment": section.name, "data-status": section.status, "aria-labelledby": `${id}-title` }, head, body);
+}

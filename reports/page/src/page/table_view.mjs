@@ -1,0 +1,129 @@
+import { csvOf } from "./csv.mjs";
+import { element } from "./dom.mjs";
+import { download } from "./downloads.mjs";
+import { cellText, commonDecimals, counted, estimateTexts, isEstimate, sortKey } from "./numbers.mjs";
+import { openTrace, traceButton } from "./trace.mjs";
+
+const ROWS_AT_FIRST = 12;
+const MOST_ROWS_WITHOUT_BUTTON = 16;
+
+/** Columns with something in them. */
+function shownColumns(table) {
+  return table.columns
+    .filter(({ name }) => table.rows.some((row) => sortKey(row.values[name]) !== null))
+    .map((column) => {
+      const cells = table.rows.map((row) => row.values[column.name]);
+      return { ...column, isNumeric: cells.some((cell) => typeof cell === "number" || isEstimate(cell)), decimals: commonDecimals(cells) };
+    });
+}
+
+function cellContent(cell, decimals) {
+  if (!isEstimate(cell)) return cellText(cell, decimals);
+  const { value, interval } = estimateTexts(cell);
+  return [value, interval ? element("span.interval", {}, ` ${interval}`) : null];
+}
+
+/** "piston, with check": what a row is of. */
+export function rowTitle(table, row) {
+  return table.columns
+    .filter(({ name, kind }) => kind === "label" && name !== "status" && row.values[name])
+    .map(({ name }) => row.values[name])
+    .join(", ");
+}
+
+/** Everything that a row says, for the trace and the tooltips of charts. */
+export function rowFacts(table, row) {
+  return table.columns
+    .filter(({ name, kind }) => kind !== "label" && sortKey(row.values[name]) !== null)
+    .map(({ name, title, unit }) => `${title}: ${cellText(row.values[name])}${unit ? ` ${unit}` : ""}`);
+}
+
+/** Opens the trace of a row. */
+export function traceRow(report, table, row) {
+  openTrace(report, rowTitle(table, row) || table.title, rowFacts(table, row), row.runs);
+}
+
+function compare(a, b) {
+  if (a === null || b === null) return (a === null) - (b === null);
+  if (typeof a === "number" && typeof b === "number") return a - b;
+  return String(a).localeCompare(String(b), "en", { numeric: true });
+}
+
+function sortedRows(rows, sorting) {
+  if (sorting === null) return rows;
+  const { name, descending } = sorting;
+  const keyed = rows.map((row) => ({ row, key: sortKey(row.values[name]) }));
+  // What has no value comes last, whichever way.
+  keyed.sort((a, b) => (a.key === null || b.key === null ? compare(a.key, b.key) : (descending ? -1 : 1) * compare(a.key, b.key)));
+  return keyed.map(({ row }) => row);
+}
+
+function headCell(column, sorting, sort) {
+  const state = sorting?.name === column.name ? (sorting.descending ? "descending" : "ascending") : "none";
+  const unit = column.unit ? element("span.unit", {}, ` ${column.unit}`) : null;
+  return element(column.isNumeric ? "th.number" : "th", { scope: "col", "aria-sort": state },
+    element("button.sort", { type: "button", "data-column": column.name, onclick: () => sort(column.name) }, column.title, unit,
+      element("span.arrow", { "aria-hidden": "true" }, state === "descending" ? "↓" : state === "ascending" ? "↑" : "")));
+}
+
+function bodyRow(report, table, columns, row, isFolded) {
+  const status = row.values.status;
+  const cells = columns.map(({ name, isNumeric, decimals, kind }, index) => {
+    const content = cellContent(row.values[name], decimals);
+    const classes = `${isNumeric ? ".number" : ""}${kind === "note" ? ".note" : ""}`;
+    const body = name === "status" ? element("span.status", { "data-status": status }, content) : content;
+    return index === 0 ? element(`th${classes}`, { scope: "row" }, body) : element(`td${classes}`, {}, body);
+  });
+  const trace = traceButton(row.runs, rowTitle(table, row), () => traceRow(report, table, row));
+  return element(isFolded ? "tr.folded" : "tr", {}, cells, element("td.trace-cell", {}, trace));
+}
+
+/**
+ * A table that can be sorted, filtered and traced.
+ * @param {object} report
+ * @param {object} section
+ * @param {object} table
+ * @returns {{node: Element, show: (passes: (row: object, table: object) => boolean) => void}}
+ */
+export function tableView(report, section, table) {
+  const columns = shownColumns(table);
+  let sorting = null, rows = table.rows, isUnfolded = false;
+
+  const head = element("thead"), body = element("tbody");
+  const count = element("span.quiet", { "aria-live": "polite" });
+  const unfold = element("button.small.unfold", { type: "button" });
+  const save = element("button.small", { type: "button", "aria-label": `Download ${table.title} as CSV`,
+    onclick: () => download(`${section.name}-${table.name}.csv`, csvOf(table, rows), "text/csv") }, "CSV");
+  unfold.addEventListener("click", () => { isUnfolded = !isUnfolded; draw(); });
+
+  const sort = (name) => {
+    const isSame = sorting?.name === name;
+    sorting = isSame && sorting.descending ? null : { name, descending: isSame };
+    draw();
+    head.querySelector(`[data-column="${name}"]`).focus();
+  };
+
+  function draw() {
+    const mustFold = rows.length > MOST_ROWS_WITHOUT_BUTTON && !isUnfolded;
+    head.replaceChildren(element("tr", {}, columns.map((column) => headCell(column, sorting, sort)),
+      element("th.trace-cell", { scope: "col" }, element("span.unseen", {}, "Runs"))));
+    body.replaceChildren(...sortedRows(rows, sorting).map((row, index) =>
+      bodyRow(report, table, columns, row, mustFold && index >= ROWS_AT_FIRST)));
+    count.textContent = rows.length === table.rows.length ? "" : `${rows.length} of ${counted(table.rows.length, "row")}`;
+    unfold.hidden = rows.length <= MOST_ROWS_WITHOUT_BUTTON;
+    unfold.textContent = mustFold ? `Show all ${counted(rows.length, "row")}` : "Show fewer rows";
+    unfold.setAttribute("aria-expanded", String(!mustFold));
+  }
+  draw();
+
+  const id = `${section.name}-${table.name}`;
+  const node = element("section.table", { id, "data-table": `${section.name}/${table.name}`, "aria-labelledby": `${id}-title` },
+    element("header", {}, element("h4", { id: `${id}-title` }, table.title), count, element("span.actions", {}, save)),
+    element("div.scroll", { tabindex: 0, role: "region", "aria-labelledby": `${id}-title` }, element("table", {}, head, body)),
+    unfold);
+  const show = (passes) => {
+    rows = table.rows.filter((row) => passes(row, table));
+    draw();
+  };
+  return { node, show };
+}
