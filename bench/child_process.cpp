@@ -42,7 +42,7 @@ struct Descriptor {
 };
 
 /// The life of the child between fork and exec: only async-signal-safe calls.
-[[noreturn]] void become(char* const* arguments, int null, int errors, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, const char* folder, int null, int errors, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever interrupts the benchmark does not want orphans
   if (getppid() != parent) _exit(cannot_execute);
@@ -51,7 +51,7 @@ struct Descriptor {
   dup2(null, STDIN_FILENO);
   dup2(null, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
-  execv(arguments[0], arguments);
+  if (*folder == '\0' || chdir(folder) == 0) execv(arguments[0], arguments);
   constexpr std::string_view message = "the program cannot be started";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
   _exit(cannot_execute);
@@ -126,7 +126,8 @@ RunStatus run_status(std::string_view name) {
   return static_cast<RunStatus>(found - status_names.begin());
 }
 
-ChildResult run_child(const std::vector<std::string>& command, const Limits& limits) {
+ChildResult run_child(const std::vector<std::string>& command, const Limits& limits,
+                      const std::filesystem::path& folder) {
   std::vector<std::string> copies = command;
   std::vector<char*> arguments;
   arguments.reserve(copies.size() + 1);
@@ -139,7 +140,7 @@ ChildResult run_child(const std::vector<std::string>& command, const Limits& lim
   const auto begin = Clock::now();
   const pid_t child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot start a child process");
-  if (child == 0) become(arguments.data(), null.value, errors.value, parent);
+  if (child == 0) become(arguments.data(), folder.c_str(), null.value, errors.value, parent);
   setpgid(child, child);  // here as well, lest a kill of the group comes before the child has made it
 
   const Descriptor child_descriptor(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,9 @@ struct ChildResult {
 /// Memory is watched a hundred times a second instead of limited by the kernel, because that knows only limits of
 /// address space, which sanitizers and allocators reserve far more of than they use.
 ///
-/// \param command  path of the program, then its arguments
-ChildResult run_child(const std::vector<std::string>& command, const Limits& limits = {});
+/// \param command  absolute path of the program, then its arguments
+/// \param folder   where it runs; empty: where this process does
+ChildResult run_child(const std::vector<std::string>& command, const Limits& limits = {},
+                      const std::filesystem::path& folder = {});
 
 }  // namespace ccdt

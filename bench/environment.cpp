@@ -70,6 +70,14 @@ Environment capture_environment() {
   return environment;
 }
 
+std::vector<std::string> command_line() {
+  std::vector<std::string> words;
+  std::ifstream file("/proc/self/cmdline");
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  if (!words.empty()) words[0] = std::filesystem::path(words[0]).filename().string();
+  return words;
+}
+
 std::uint64_t peak_rss_bytes() {
   rusage children{};
   getrusage(RUSAGE_CHILDREN, &children);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace ccdt {
 
@@ -18,6 +19,9 @@ struct Environment {
 };
 
 Environment capture_environment();
+
+/// The command line of this process, its program by its bare name: {"ccdt", "mesh", "part.stl", ...}.
+std::vector<std::string> command_line();
 
 /// The largest resident memory so far of this process, or of a child that it has waited for. Unlike getrusage's, its
 /// own starts anew at exec: a program is not blamed for the memory of the one that started it.

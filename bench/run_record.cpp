@@ -119,6 +119,7 @@ RunRecord record_from(const Json& j) {
     }
     for (const auto& [setting, words] : value.items()) r.mesher_settings.emplace_back(setting, words);
   }
+  r.command = j.value("command", r.command);
   r.environment = environment_from_json(j.at("environment"));
   r.counts = counts_from(j.at("counts"));
   seconds_from(j.at("seconds"), r);
@@ -256,6 +257,7 @@ std::string to_json(const RunRecord& r) {
                  {"facets", r.input.facets},
                  {"segments", r.input.segments}}},
                {"options", options_json(r)},
+               {"command", r.command},
                {"environment", environment_json(r.environment)},
                {"counts", counts_json(r.counts)},
                {"seconds", seconds_json(r)},

@@ -27,6 +27,7 @@ struct RunRecord {
   } input;
   std::vector<std::pair<std::string, Option>> options;
   std::vector<std::pair<std::string, std::string>> mesher_settings;  ///< in the mesher's own words
+  std::vector<std::string> command;  ///< that made it, in the folder where it ran; empty if nobody knows
   Environment environment;
   MeshCounts counts;
   StageSeconds seconds;

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "reports/numbers.h"
+#include "bench/results/numbers.h"
 
 namespace ccdt {
 namespace {

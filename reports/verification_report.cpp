@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/json_parts.h"
-#include "reports/numbers.h"
+#include "bench/results/numbers.h"
 #include "reports/text_table.h"
 
 namespace ccdt {

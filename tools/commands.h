@@ -14,5 +14,6 @@ void add_model_command(CLI::App& app, ExitCode& exit_code);
 void add_mesh_command(CLI::App& app, ExitCode& exit_code);
 void add_verify_command(CLI::App& app, ExitCode& exit_code);
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code);
+void add_report_command(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace ccdt

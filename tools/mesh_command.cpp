@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "baselines/mesher.h"
+#include "bench/results/numbers.h"
 #include "bench/run_record.h"
 #include "bench/sha256.h"
 #include "engine/base/errors.h"
@@ -11,7 +12,6 @@
 #include "engine/io/tet_mesh_files.h"
 #include "engine/io/write_plc.h"
 #include "engine/surface/remesh_surface.h"
-#include "reports/numbers.h"
 #include "reports/run_summary.h"
 #include "tools/commands.h"
 #include "tools/options.h"
@@ -60,6 +60,7 @@ void check_files(const MeshCommand& command) {
 
 RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
   RunRecord record = start_record(mesher(command.mesher), input, command.options);
+  record.command = command_line();
   if (command.remesh) {
     record.set_option("surface", "remesh");
     record.set_option("sharp_angle", command.sharp_angle);

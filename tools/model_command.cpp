@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "bench/results/numbers.h"
 #include "engine/io/write_plc.h"
 #include "models/solids.h"
-#include "reports/numbers.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 

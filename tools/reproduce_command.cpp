@@ -1,58 +1,140 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdio>
 #include <memory>
 
 #include "baselines/mesher.h"
+#include "bench/experiments/registry.h"
 #include "models/solids.h"
+#include "reports/result_text.h"
 #include "tools/commands.h"
-#include "tools/experiments.h"
 #include "tools/options.h"
+#include "tools/print_report.h"
+#include "tools/progress_bar.h"
+#include "tools/share_folder.h"
 
 namespace ccdt {
 namespace {
 
 constexpr double bytes_per_gibibyte = 1024.0 * 1024 * 1024;
 
+/// How large experiments are, by name.
+struct NamedScale {
+  const char* name;
+  double tetrahedra;
+  const char* what;
+};
+constexpr std::array<NamedScale, 3> named_scales = {
+    {{"quick", 10000, "10,000 tetrahedra a model: all in 3 minutes on two cores"},
+     {"paper", 100000, "100,000: about what the paper's figures show"},
+     {"large", 1000000, "10^6, and in fig8 to 10^7: hours, and 16 GiB"}}};
+
+constexpr const char* claims_name = "claims";
+
 struct ReproduceCommand {
-  std::vector<std::string> experiments = {"table1"};
+  std::vector<std::string> experiments;
   std::string folder;
   ExperimentOptions options;
   std::vector<std::string> beside;
   double memory_gibibytes = 0;
 };
 
+/// \throw CLI::ValidationError  neither a name nor a number
+double tetrahedra_of(const std::string& scale) {
+  const auto named = std::ranges::find(named_scales, scale, &NamedScale::name);
+  if (named != named_scales.end()) return named->tetrahedra;
+  constexpr double fewest = 100, most = 1e8;
+  double tetrahedra = 0;
+  const auto [end, error] = std::from_chars(scale.data(), scale.data() + scale.size(), tetrahedra);
+  const bool is_number = error == std::errc() && end == scale.data() + scale.size();
+  if (!is_number || !(tetrahedra >= fewest && tetrahedra <= most))
+    throw CLI::ValidationError("--scale", "'" + scale +
+                                              "' is none of quick, paper, large, and no number of tetrahedra "
+                                              "from 100 to 10^8");
+  return tetrahedra;
+}
+
+/// What is asked for, in the order of reports.
+std::vector<const KnownExperiment*> chosen(const ReproduceCommand& command) {
+  const auto is_named = [&](const std::string& name) {
+    return std::ranges::find(command.experiments, name) != command.experiments.end();
+  };
+  std::vector<const KnownExperiment*> experiments;
+  for (const KnownExperiment& known : known_experiments()) {
+    const bool is_usual = command.experiments.empty() && known.is_usual;
+    if (is_usual || is_named(known.name) || (known.is_claimed && is_named(claims_name))) experiments.push_back(&known);
+  }
+  return experiments;
+}
+
+/// The command that does this experiment alone in the same way.
+std::string command_of(const KnownExperiment& known, const ReproduceCommand& command) {
+  const ExperimentOptions& options = command.options;
+  std::string text = "ccdt reproduce " + known.name + " --scale " + options.scale;
+  const auto add_list = [&](const char* name, const std::vector<std::string>& values, char separator) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text += (i == 0 ? " " + std::string(name) + " " : std::string(1, separator)) + values[i];
+  };
+  if (options.runs != ExperimentOptions().runs) text += " --runs " + std::to_string(options.runs);
+  add_list("--models", options.models, ',');
+  add_list("--beside", command.beside, ',');
+  add_list("--input", std::vector<std::string>(options.inputs.begin(), options.inputs.end()), ' ');
+  return text + " -o .";
+}
+
+/// Measures with a progress bar, writes the result to the folder and prints it.
+/// \return  did everything of our own go well?
+bool reproduce(const KnownExperiment& known, ReproduceCommand& command) {
+  command.options.command = command_of(known, command);
+  const ExperimentResult result = [&] {
+    ProgressBar bar;
+    return known.measure(command.options, bar.progress());
+  }();
+  write_experiment_result(result, command.options.folder);
+  std::printf("%s\n", to_terminal(result).c_str());
+  return result.is_good;
+}
+
 /// \return  did everything of our own go well?
 bool run(ReproduceCommand& command) {
   ExperimentOptions& options = command.options;
-  options.program = std::filesystem::read_symlink("/proc/self/exe");
+  options.tetrahedra = tetrahedra_of(options.scale);
+  options.program = own_program();
   options.folder = command.folder;
   if (!command.beside.empty()) options.beside = command.beside;
   options.limits.memory_bytes = static_cast<std::uint64_t>(command.memory_gibibytes * bytes_per_gibibyte);
   std::filesystem::create_directories(options.folder);
-  check_can_be_written(options.folder / "table1.json");
-  bool is_good = true, is_first = true;
-  for (const ReproducibleExperiment& experiment : reproducible_experiments()) {
-    if (std::ranges::find(command.experiments, experiment.name) == command.experiments.end()) continue;
-    if (!is_first) std::puts("");
-    is_first = false;
-    is_good = experiment.run(options) && is_good;
-  }
+  check_can_be_written(options.folder / "report.json");
+  bool is_good = true;
+  for (const KnownExperiment* known : chosen(command)) is_good = reproduce(*known, command) && is_good;
+  make_report(options.folder);
   return is_good;
 }
 
+std::string padded(std::string name) {
+  constexpr std::size_t width = 17;
+  name.resize(width, ' ');
+  return "  " + name;
+}
+
 std::string footer() {
-  std::string text = "Experiments, with their time on two cores:\n";
-  for (const ReproducibleExperiment& e : reproducible_experiments()) {
-    std::string name = e.name;
-    name.resize(17, ' ');
-    text += "  " + name + e.what + " (" + e.time + ")\n";
-  }
+  std::string text = "Experiments; without one, all but those in brackets:\n";
+  for (const KnownExperiment& e : known_experiments())
+    text += padded(e.name) + (e.is_usual ? e.what : "[" + e.what + "]") + "\n";
+  text += padded(claims_name) + "all experiments that a claim of the paper is tested by\n\nScales:\n";
+  for (const NamedScale& scale : named_scales) text += padded(scale.name) + scale.what + "\n";
   return text +
-         "\nEvery run is a process of its own; its report stays in DIR/runs, that of the experiment in DIR as "
-         "Markdown\n"
-         "and JSON (fig8 also as CSV, one row a run). A case that fails is a row with the reason.\n\n"
-         "Example: the paper's Table 1\n"
-         "  ccdt reproduce table1 -o build/table1\n"
+         "\nEvery run is a process of its own; its report stays in DIR/runs, that of an experiment is DIR/NAME.json. A "
+         "case\n"
+         "that fails is a row with the reason. Tables, figures and the page are then made of all experiments in DIR, "
+         "as "
+         "by\n"
+         "`ccdt report DIR`.\n\n"
+         "Example: the whole paper, in minutes\n"
+         "  ccdt reproduce -o build/reproduction\n"
+         "Example: the paper's Table 1 and Fig. 8, as large as there\n"
+         "  ccdt reproduce table1 fig8 --scale paper -o build/paper\n"
          "Example: the three locators, on a part of your own as well\n"
          "  ccdt reproduce locators -o build/locators --input part.stl\n"
          "Example: quality beside other meshers on parts alone, without the paper's models\n"
@@ -71,10 +153,8 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
   verb.add_option("--runs", command.options.runs, "counted runs of each case")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
-  verb.add_option(
-          "--scale", command.options.tetrahedra,
-          "factor of the models' edge lengths, divisor of numbers of tetrahedra: more than 1 is coarser and faster")
-      ->check(positive_number())
+  verb.add_option("--scale", command.options.scale,
+                  "quick, paper, large, or about how many tetrahedra a model is to get")
       ->capture_default_str();
   std::vector<std::string> models, others;
   for (const Solid& solid : solids()) models.emplace_back(solid.name);
@@ -85,10 +165,10 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
                   "measure only these, separated by commas; default: all models of the experiment; none: files alone")
       ->delimiter(',')
       ->check(CLI::IsMember(models).description(""));
-  verb.add_option("--input", command.options.inputs, "files to measure as well (not table1 and fig8)")
+  verb.add_option("--input", command.options.inputs, "files to measure as well (not table1 and figures)")
       ->check(CLI::ExistingFile);
   verb.add_option("--beside", command.beside,
-                  "table1, quality: other meshers to measure, separated by commas; default: all")
+                  "other meshers to measure, separated by commas; default: all of this build")
       ->delimiter(',')
       ->check(CLI::IsMember(others));
 }
@@ -98,9 +178,10 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ReproduceCommand>();
   CLI::App* verb = app.add_subcommand("reproduce", "run the paper's experiments, end to end, to a report");
-  std::vector<std::string> names;
-  for (const ReproducibleExperiment& e : reproducible_experiments()) names.push_back(e.name);
-  verb->add_option("EXPERIMENT", command->experiments, "which (listed below); default: table1")
+  command->options.scale = named_scales[0].name;
+  std::vector<std::string> names = {claims_name};
+  for (const KnownExperiment& e : known_experiments()) names.push_back(e.name);
+  verb->add_option("EXPERIMENT", command->experiments, "which (listed below); default: all")
       ->check(CLI::IsMember(names).description(""));
   verb->add_option("-o,--output", command->folder, "folder of the report; made if need be")->required();
   add_what_to_measure(*verb, *command);

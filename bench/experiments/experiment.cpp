@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baselines/mesher.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -25,6 +26,11 @@ double edge_factor(const ExperimentOptions& options) {
 
 bool is_asked_for(const ExperimentOptions& options, std::string_view model) {
   return options.models.empty() || std::ranges::find(options.models, model) != options.models.end();
+}
+
+bool is_measured(const ExperimentOptions& options, std::string_view mesher) {
+  if (options.beside && mesher != "ccdt") return std::ranges::find(*options.beside, mesher) != options.beside->end();
+  return std::ranges::find(meshers(), mesher, &Mesher::name) != meshers().end();
 }
 
 void check_something_is_measured(std::size_t cases, std::string_view experiment) {

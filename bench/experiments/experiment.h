@@ -36,6 +36,9 @@ double edge_factor(const ExperimentOptions& options);
 /// Has the user asked for this model?
 bool is_asked_for(const ExperimentOptions& options, std::string_view model);
 
+/// Does this build have the mesher, and has the user not left it out? Ours always takes part.
+bool is_measured(const ExperimentOptions& options, std::string_view mesher);
+
 /// \throw InputError  there is nothing to measure, because none of the models that were asked for is part of it
 void check_something_is_measured(std::size_t cases, std::string_view experiment);
 

@@ -22,17 +22,39 @@ constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one 
 struct Strategy {
   const char* id;
   const char* label;
+  const char* mesher;
   std::vector<std::string> options;
   int sizes;  ///< how many, from the coarsest
-  bool with_front;
 };
 
-const std::vector<Strategy>& strategies() {
+const std::vector<Strategy>& all_strategies() {
   static const std::vector<Strategy> all = {
-      {"insert", "with check", {"--delaunay", "insert", "--face-protection", "on"}, size_count, false},
-      {"wrap", "with check, wrap", {"--delaunay", "wrap", "--face-protection", "on"}, 5, false},
-      {"without_check", "without check", {"--delaunay", "insert", "--face-protection", "off"}, 5, true}};
+      {"insert", "with check", "ccdt", {"--delaunay", "insert", "--face-protection", "on"}, size_count},
+      {"wrap", "with check, wrap", "ccdt", {"--delaunay", "wrap", "--face-protection", "on"}, 5},
+      {"without_check", "without check", "ccdt", {"--delaunay", "insert", "--face-protection", "off"}, 5},
+      {"without_check_grid",
+       "without check, paper's grid",
+       "ccdt",
+       {"--delaunay", "insert", "--face-protection", "off", "--locator", "grid"},
+       5},
+      {"cgal-delaunay", "CGAL Delaunay, same vertices", "cgal-delaunay", {}, 6},
+      {"tetgen", "TetGen, its own vertices", "tetgen", {}, 5},
+      {"cgal-mesh3", "CGAL Mesh_3, its own vertices", "cgal-mesh3", {"--improve", "none"}, 4}};
   return all;
+}
+
+/// Those of this build that are asked for.
+std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
+  std::vector<Strategy> strategies;
+  std::ranges::copy_if(all_strategies(), std::back_inserter(strategies),
+                       [&](const Strategy& s) { return is_measured(options, s.mesher); });
+  return strategies;
+}
+
+/// What Fig. 8 shows of a run: the CDT of ours, all of others.
+double timed_seconds(std::string_view id, const StageSeconds& seconds) {
+  const auto strategy = std::ranges::find(all_strategies(), id, &Strategy::id);
+  return strategy->mesher == std::string("ccdt") ? cdt_seconds(seconds) : seconds.mesh;
 }
 
 struct Size {
@@ -57,30 +79,34 @@ std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Model& mo
   const std::string stem = "fig8-" + std::string(model.name) + "-" + std::to_string(size.number);
   const auto surface = options.folder / "models" / (stem + ".poly");
   write_plc(make_solid(model.name, size.edge_length), surface);
+  const auto mesh_of = [&](const std::string& id) { return options.folder / "meshes" / (stem + "-" + id + ".node"); };
   std::vector<MeasuredCase> cases;
-  for (const Strategy& strategy : strategies()) {
+  for (const Strategy& strategy : strategies_of(options)) {
     if (size.number >= strategy.sizes) continue;
     std::vector<std::string> words = strategy.options;
-    words.insert(words.end(), {"--improve", "none", "--grading", "0"});
+    if (strategy.mesher == std::string("ccdt")) words.insert(words.end(), {"--improve", "none", "--grading", "0"});
+    const bool takes_our_vertices = strategy.mesher == std::string("cgal-delaunay");
     cases.push_back({strategy.id,
                      stem + "-" + strategy.id,
-                     {"ccdt", surface, options.folder / "meshes" / (stem + "-" + strategy.id + ".vtu"), words}});
+                     {strategy.mesher, takes_our_vertices ? mesh_of("insert") : surface, mesh_of(strategy.id), words}});
   }
   return cases;
 }
 
 /// How many counted runs a size gets, now that each case has run once.
 int runs_of(const ExperimentOptions& options, std::span<const MeasuredCase> cases) {
-  const bool is_long =
-      std::ranges::any_of(cases, [](const auto& c) { return cdt_seconds(c.first.seconds) > long_run_seconds; });
+  const bool is_long = std::ranges::any_of(
+      cases, [](const auto& c) { return timed_seconds(c.name, c.first.seconds) > long_run_seconds; });
   return is_long ? std::min(options.runs, counted_long_runs) : options.runs;
 }
 
 Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
-  Fig8Point point{size.edge_length, measured.first.counts, {}, {}, measured.first.status, measured.first.reason};
+  Fig8Point point{size.edge_length,      measured.first.counts, {}, {}, measured.first.status,
+                  measured.first.reason, run_files(measured)};
   if (measured.failed()) return point;
   for (const RunRecord& run : measured.counted) point.samples.push_back(run.seconds);
-  point.cdt = median_estimate(samples_of(measured.counted, cdt_seconds));
+  point.seconds = median_estimate(
+      samples_of(measured.counted, [&](const StageSeconds& s) { return timed_seconds(measured.name, s); }));
   return point;
 }
 
@@ -96,7 +122,9 @@ void measure_size(const ExperimentOptions& options, const Model& model, const Si
     if (number == 0) runs = runs_of(options, cases);
   }
   for (const MeasuredCase& measured : cases) {
-    std::filesystem::remove(measured.what.output);  // gigabytes in all
+    if (measured.name != "insert")  // whose vertices are the input of others
+      for (const char* ending : {".node", ".ele", ".face", ".edge"})
+        std::filesystem::remove(std::filesystem::path(measured.what.output).replace_extension(ending));
     std::ranges::find(result.series, measured.name, &Fig8Series::id)->points.push_back(point_of(measured, size));
   }
 }
@@ -104,32 +132,38 @@ void measure_size(const ExperimentOptions& options, const Model& model, const Si
 Fig8Model measure_model(const ExperimentOptions& options, const Model& model,
                         const std::function<void(const std::string&)>& announce) {
   Fig8Model result{model.name, {}};
-  for (const Strategy& strategy : strategies()) result.series.push_back({strategy.id, strategy.label, {}, {}});
+  for (const Strategy& strategy : strategies_of(options))
+    result.series.push_back({strategy.id, strategy.label, strategy.mesher, {}, {}});
   for (const Size& size : sizes_of(model, options)) measure_size(options, model, size, result, announce);
-  for (std::size_t i = 0; i < result.series.size(); ++i)
-    result.series[i].fits = fit_series(result.series[i], strategies()[i].with_front);
+  for (Fig8Series& series : result.series) series.fits = fit_series(series);
   return result;
 }
 
 }  // namespace
 
-std::vector<Fig8Fit> fit_series(const Fig8Series& series, bool with_front) {
+std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
   std::vector<Fig8Fit> fits;
-  const auto add = [&](const char* id, double (*seconds)(const StageSeconds&)) {
+  const auto add = [&](const char* quantity, const auto& seconds_of) {
     std::vector<double> vertices, medians;
     for (const Fig8Point& point : series.points) {
-      if (!point.cdt) continue;
+      if (!point.seconds) continue;
       std::vector<double> samples;
-      for (const StageSeconds& s : point.samples) samples.push_back(seconds(s));
+      for (const StageSeconds& s : point.samples) samples.push_back(seconds_of(s));
       if (median(samples) <= 0) continue;  // shorter than a tick of the clock
       vertices.push_back(static_cast<double>(point.counts.vertices));
       medians.push_back(median(samples));
     }
-    if (vertices.size() >= 3) fits.push_back({id, fit_line(vertices, medians), fit_power(vertices, medians)});
+    if (vertices.size() < 3) return;
+    const auto [least, most] = std::ranges::minmax(vertices);
+    fits.push_back({quantity, vertices.size(), least, most, fit_line(vertices, medians), fit_power(vertices, medians)});
   };
+  if (series.mesher != "ccdt") {
+    add("mesh", [](const StageSeconds& s) { return s.mesh; });
+    return fits;
+  }
   add("cdt", cdt_seconds);
   add("delaunay", [](const StageSeconds& s) { return s.delaunay; });
-  if (with_front) add("front", [](const StageSeconds& s) { return s.front; });
+  if (series.id.starts_with("without_check")) add("front", [](const StageSeconds& s) { return s.front; });
   return fits;
 }
 
@@ -139,6 +173,9 @@ std::vector<std::string> fig8_definitions() {
       "Seconds of the CDT: the stages delaunay, face_check, front and label of a run.",
       "With check: Delaunay by insertion. Wrap: Delaunay face by face in a uniform grid, as in the paper.",
       "Without check: Delaunay by insertion, and every face goes through the front.",
+      "Paper's grid: the front finds its vertices with the uniform grid of section 4 (--locator grid).",
+      "Seconds of the other meshers: the call of the library that makes the mesh.",
+      "Same vertices: all those of our mesh with the check. Its own: refined to the edge length of the surface.",
       "What is not named here is done as by default; the records of the runs have all options.",
       "Wrap's Delaunay stage does not hold the tetrahedralization of the input alone, which edge protection needs.",
       "Exponent: slope of the logarithms of median seconds over those of vertices; 1 is linear.",
@@ -154,7 +191,7 @@ Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress) {
   std::uint64_t cases = 0, done = 0;
   for (const Model& model : models)
     for (const Size& size : sizes_of(model, options))
-      for (const Strategy& strategy : strategies())
+      for (const Strategy& strategy : strategies_of(options))
         cases += is_asked_for(options, model.name) && size.number < strategy.sizes;
   check_something_is_measured(cases, "fig8");
   const std::uint64_t total = cases * static_cast<std::uint64_t>(options.runs + 1);

@@ -23,20 +23,23 @@ struct Fig8Point {
   double edge_length = 0;  ///< units of the model
   MeshCounts counts;
   std::vector<StageSeconds> samples;  ///< of the counted runs, in order
-  std::optional<Estimate> cdt;        ///< none if a run failed
+  std::optional<Estimate> seconds;    ///< of the CDT; of other meshers, of all; none if a run failed
   RunStatus status = RunStatus::ok;
   std::string reason;
+  std::vector<std::string> runs = {};  ///< files of the runs
 };
 
 /// How the seconds of a stage grow with the number of vertices: medians over the points that went well.
 struct Fig8Fit {
-  std::string id;  ///< cdt, delaunay, front
-  LineFit line;    ///< seconds over vertices
-  LineFit power;   ///< logarithms of both
+  std::string quantity;  ///< cdt, delaunay, front; mesh: all that another mesher does
+  std::size_t points = 0;
+  double least_vertices = 0, most_vertices = 0;
+  LineFit line;   ///< seconds over vertices
+  LineFit power;  ///< logarithms of both
 };
 
 struct Fig8Series {
-  std::string id, label;  ///< insert, wrap, without_check
+  std::string id, label, mesher;  ///< id: insert, wrap, without_check, or that of the mesher
   std::vector<Fig8Point> points;
   std::vector<Fig8Fit> fits;  ///< none with fewer than three points
 };
@@ -52,20 +55,18 @@ struct Fig8 {
   std::vector<Fig8Model> models;
 };
 
-/// Measures the paper's models in sizes that about double, from 10^4 vertices to 10^6 (with the check) and to more than
-/// 10^5 (Delaunay by `wrap`, and without the check). The strategies take turns at each size. Sizes that `scale` makes
-/// too coarse for a model are left out.
+/// Measures the paper's models in eight sizes over two decades, from a tenth of the wanted number of tetrahedra to ten
+/// times as many; what is slow, at the coarser of these only. The strategies take turns at each size. Sizes that a
+/// model cannot have are left out.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress = {});
 
-/// Fits to the points of a series; `with_front` as well to the front alone.
-std::vector<Fig8Fit> fit_series(const Fig8Series& series, bool with_front);
+/// Fits to the points of a series.
+std::vector<Fig8Fit> fit_series(const Fig8Series& series);
 
-/// As JSON of schema `ccdt.fig8/1`.
-std::string to_json(const Fig8& fig8);
-/// One row a counted run, with a heading.
-std::string to_csv(const Fig8& fig8);
+/// As tables, with what they say.
+ExperimentResult result_of(const Fig8& fig8);
 
 /// What the rows mean, one sentence each.
 std::vector<std::string> fig8_definitions();

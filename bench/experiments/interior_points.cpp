@@ -41,7 +41,7 @@ std::vector<SurfaceFile> surfaces(const ExperimentOptions& options) {
       before = std::move(vertices);
     }
   }
-  for (const auto& input : options.inputs) files.push_back({input.string(), input});
+  std::ranges::copy(take_inputs(options), std::back_inserter(files));
   return files;
 }
 
@@ -49,10 +49,10 @@ InteriorCase run(const ExperimentOptions& options, const SurfaceFile& surface, L
                  std::uint64_t number) {
   std::vector<std::string> words = options_of(rule);
   words.insert(words.end(), {"--improve", "none", "--lattice", std::string(name_of(lattice))});
-  const auto record = options.folder / "runs" / ("interior-points-" + std::to_string(number) + ".json");
-  const RunRecord run =
-      run_case(options.program, {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},
-               record, options.limits);
+  const std::string record = "runs/interior-points-" + std::to_string(number) + ".json";
+  const RunRecord run = run_case(options.program, options.folder,
+                                 {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},
+                                 options.folder / record, options.limits);
   return {surface.name,
           surface.edge_length,
           lattice,
@@ -60,7 +60,8 @@ InteriorCase run(const ExperimentOptions& options, const SurfaceFile& surface, L
           run.counts.interior_vertices,
           run.counts.dropped_interior_vertices,
           run.status,
-          run.reason};
+          run.reason,
+          {record}};
 }
 
 template <class Chosen>

@@ -27,6 +27,7 @@ struct InteriorCase {
   std::uint64_t dropped = 0;  ///< points that would have destroyed a protected edge
   RunStatus status = RunStatus::ok;
   std::string reason;
+  std::vector<std::string> runs = {};  ///< files of the runs
 };
 
 /// What became of the interior points of all inputs.
@@ -51,8 +52,8 @@ InteriorPoints measure_interior_points(const ExperimentOptions& options, const P
 
 std::string_view name_of(InteriorRule rule);
 
-/// As JSON of schema `ccdt.interior-points/1`.
-std::string to_json(const InteriorPoints& points);
+/// As tables, with what they say.
+ExperimentResult result_of(const InteriorPoints& points);
 
 /// What the rows mean, one sentence each.
 std::vector<std::string> interior_points_definitions();

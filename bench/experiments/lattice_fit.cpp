@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "baselines/common.h"
+#include "bench/results/cells.h"
+#include "bench/results/numbers.h"
 
 namespace ccdt {
 namespace {
@@ -82,6 +83,44 @@ std::vector<SettingSummary> summarize(const LatticeFit& fit) {
   return summaries;
 }
 
+namespace {
+
+ResultTable settings_table(const LatticeFit& fit) {
+  ResultTable table{"settings",
+                    "The settings",
+                    {{"setting", "setting", ColumnKind::label},
+                     {"rank", "rank"},
+                     {"mean_r", "mean r"},
+                     {"p99_r", "99% of r below"},
+                     {"worst_r", "worst r"},
+                     {"largest_worst_r", "worst r of all"},
+                     {"smallest_dihedral", "smallest dihedral", ColumnKind::figure, "degrees"},
+                     {"least_dihedral", "smallest of all", ColumnKind::figure, "degrees"},
+                     {"improve_seconds", "improvement", ColumnKind::time, "s"}}};
+  for (const SettingSummary& s : summarize(fit))
+    table.rows.push_back({{cell_of(name_of(s.setting)), s.rank, s.mean_r, s.p99_r, s.worst_r, s.largest_worst_r,
+                           s.smallest_dihedral, s.least_dihedral, s.improve_seconds},
+                          {}});
+  return table;
+}
+
+std::vector<std::string> findings_of(const LatticeFit& fit) {
+  const std::vector<SettingSummary> summaries = summarize(fit);
+  if (summaries.empty()) return {"There is no surface on which every setting went well."};
+  const auto usual = std::ranges::find(summaries, default_lattice_setting(), &SettingSummary::setting);
+  auto best = std::ranges::min_element(summaries, {}, &SettingSummary::rank);
+  if (usual->rank <= best->rank) best = usual;  // as good as any
+  std::vector<std::string> lines = {"The best setting is " + name_of(best->setting) + ", with a mean rank of " +
+                                    rounded(best->rank) + " among " + std::to_string(summaries.size())};
+  if (best->setting == usual->setting)
+    lines.emplace_back("It is the default");
+  else
+    lines.push_back("The default, " + name_of(usual->setting) + ", has a mean rank of " + rounded(usual->rank));
+  return lines;
+}
+
+}  // namespace
+
 std::vector<std::string> lattice_fit_definitions() {
   std::vector<std::string> definitions = study_definitions();
   definitions.insert(
@@ -98,31 +137,27 @@ std::vector<std::string> lattice_fit_definitions() {
 }
 
 LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress) {
-  std::vector<QualityVariant> variants;
+  StudyPlan plan{.experiment = "lattice-fit",
+                 .models = paper_models(),
+                 .labels = {{"setting", "setting", ColumnKind::label}},
+                 .variants = {},
+                 .equal_counts = false,
+                 .once = true};
   for (const LatticeSetting& setting : lattice_settings())
-    variants.push_back({name_of(setting),
-                        "ccdt",
-                        {"--lattice", "fcc", "--improve", "all", "--sphere-factor", digits(setting.sphere_factor),
-                         "--clearance", digits(setting.clearance)}});
-  return {measure_study(options, {"lattice-fit", {50000}, variants, false, true}, progress)};
+    plan.variants.push_back({name_of(setting),
+                             "ccdt",
+                             {"--lattice", "fcc", "--improve", "all", "--sphere-factor", digits(setting.sphere_factor),
+                              "--clearance", digits(setting.clearance)},
+                             {name_of(setting)}});
+  return {measure_study(options, plan, progress)};
 }
 
-std::string to_json(const LatticeFit& fit) {
-  Json json = study_json("ccdt.lattice-fit/1", lattice_fit_definitions(), fit);
-  json["default"] = name_of(default_lattice_setting());
-  json["summary"] = Json::array();
-  for (const SettingSummary& s : summarize(fit))
-    json["summary"].push_back({{"sphere_factor", s.setting.sphere_factor},
-                               {"clearance", s.setting.clearance},
-                               {"rank", s.rank},
-                               {"mean_r", s.mean_r},
-                               {"p99_r", s.p99_r},
-                               {"worst_r", s.worst_r},
-                               {"smallest_dihedral", s.smallest_dihedral},
-                               {"largest_worst_r", s.largest_worst_r},
-                               {"least_dihedral", s.least_dihedral},
-                               {"improve_seconds", s.improve_seconds}});
-  return to_text(json);
+ExperimentResult result_of(const LatticeFit& fit) {
+  ExperimentResult result = study_result(fit);
+  result.definitions = lattice_fit_definitions();
+  result.tables.insert(result.tables.begin(), settings_table(fit));
+  result.findings = findings_of(fit);
+  return result;
 }
 
 }  // namespace ccdt

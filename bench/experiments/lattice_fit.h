@@ -35,13 +35,13 @@ struct SettingSummary {
 /// In the order of the settings; empty without such a case.
 std::vector<SettingSummary> summarize(const LatticeFit& fit);
 
-/// Tries all settings on every surface, at about 50,000 tetrahedra, with the FCC lattice and all of the improvement.
+/// Tries all settings on every surface with the FCC lattice and all of the improvement.
 ///
 /// \throw InputError, OutputError  as `measure_study`
 LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress = {});
 
-/// As JSON of schema `ccdt.lattice-fit/1`.
-std::string to_json(const LatticeFit& fit);
+/// As tables, with what they say.
+ExperimentResult result_of(const LatticeFit& fit);
 
 /// What the rows mean, one sentence each.
 std::vector<std::string> lattice_fit_definitions();

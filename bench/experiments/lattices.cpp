@@ -1,8 +1,8 @@
 #include "bench/experiments/lattices.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "bench/results/cells.h"
 #include "bench/run_record.h"
 
 namespace ccdt {
@@ -20,7 +20,8 @@ std::vector<QualityVariant> variants() {
     for (const Lattice lattice : all_lattices)
       all.push_back({variant_name(lattice, improved),
                      "ccdt",
-                     {"--lattice", std::string(name_of(lattice)), "--improve", improved ? "all" : "none"}});
+                     {"--lattice", std::string(name_of(lattice)), "--improve", improved ? "all" : "none"},
+                     {std::string(name_of(lattice)), improved ? "yes" : "no"}});
   return all;
 }
 
@@ -35,6 +36,41 @@ void take(const QualityCase& c, LatticeClaim& claim) {
   ++claim.cases;
   for (std::size_t i = 0; i < values.size(); ++i)
     claim.best[i] += std::ranges::none_of(values, [&](double v) { return is_better(claim.criterion, v, values[i]); });
+}
+
+/// In how many cases each lattice is the best.
+ResultTable best_table(const Lattices& lattices) {
+  ResultTable table{"best",
+                    "The best lattice",
+                    {{"criterion", "by", ColumnKind::label},
+                     {"improved", "improved", ColumnKind::label},
+                     {"confirmed", "FCC alone is the best in every case"},
+                     {"cases", "cases"},
+                     {"fcc", "FCC best"},
+                     {"bcc", "BCC best"},
+                     {"sc", "SC best"}}};
+  for (const LatticeClaim& claim : lattice_claims(lattices))
+    table.rows.push_back(
+        {{cell_of(name_of(claim.criterion)), cell_of(claim.improved), cell_of(claim.is_confirmed()),
+          cell_of(claim.cases), cell_of(claim.best[0]), cell_of(claim.best[1]), cell_of(claim.best[2])},
+         {}});
+  return table;
+}
+
+std::vector<std::string> findings_of(const Lattices& lattices) {
+  std::vector<std::string> lines;
+  for (const bool improved : {false, true}) {
+    std::string confirmed, refuted;
+    for (const LatticeClaim& claim : lattice_claims(lattices)) {
+      if (claim.improved != improved || claim.cases == 0) continue;
+      std::string& list = claim.is_confirmed() ? confirmed : refuted;
+      list += (list.empty() ? "" : ", ") + std::string(name_of(claim.criterion));
+    }
+    const std::string meshes = improved ? "after improvement by: " : "before improvement by: ";
+    if (!confirmed.empty()) lines.push_back(("That FCC is best is confirmed " + meshes).append(confirmed));
+    if (!refuted.empty()) lines.push_back(("That FCC is best is not confirmed " + meshes).append(refuted));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -64,19 +100,22 @@ std::vector<std::string> lattices_definitions() {
 }
 
 Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress) {
-  return {measure_study(options, {"lattices", {50000}, variants(), false, true}, progress)};
+  const StudyPlan plan{
+      .experiment = "lattices",
+      .models = paper_models(),
+      .labels = {{"lattice", "lattice", ColumnKind::label}, {"improved", "improved", ColumnKind::label}},
+      .variants = variants(),
+      .equal_counts = false,
+      .once = true};
+  return {measure_study(options, plan, progress)};
 }
 
-std::string to_json(const Lattices& lattices) {
-  Json json = study_json("ccdt.lattices/1", lattices_definitions(), lattices);
-  json["claims"] = Json::array();
-  for (const LatticeClaim& claim : lattice_claims(lattices))
-    json["claims"].push_back({{"criterion", name_of(claim.criterion)},
-                              {"improved", claim.improved},
-                              {"cases", claim.cases},
-                              {"best", {{"fcc", claim.best[0]}, {"bcc", claim.best[1]}, {"sc", claim.best[2]}}},
-                              {"fcc_is_best", claim.is_confirmed()}});
-  return to_text(json);
+ExperimentResult result_of(const Lattices& lattices) {
+  ExperimentResult result = study_result(lattices);
+  result.definitions = lattices_definitions();
+  result.tables.insert(result.tables.begin(), best_table(lattices));
+  result.findings = findings_of(lattices);
+  return result;
 }
 
 }  // namespace ccdt

@@ -25,13 +25,13 @@ struct LatticeClaim {
 /// One for each criterion, before and after improvement.
 std::vector<LatticeClaim> lattice_claims(const Lattices& lattices);
 
-/// Measures FCC, BCC and SC at the same edge length on every surface, at about 50,000 tetrahedra.
+/// Measures FCC, BCC and SC at the same edge length on every surface.
 ///
 /// \throw InputError, OutputError  as `measure_study`
 Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress = {});
 
-/// As JSON of schema `ccdt.lattices/1`.
-std::string to_json(const Lattices& lattices);
+/// As tables, with what they say.
+ExperimentResult result_of(const Lattices& lattices);
 
 /// What the rows mean, one sentence each.
 std::vector<std::string> lattices_definitions();

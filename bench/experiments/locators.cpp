@@ -55,7 +55,7 @@ std::vector<Group> plan(const ExperimentOptions& options) {
   for (const Model& model : models)
     if (is_asked_for(options, model.name))
       add(write_solid(options, "locators", model.name, model.edge_length), model.kind);
-  for (const auto& input : options.inputs) add({input.string(), input}, SurfaceKind::input);
+  for (const SurfaceFile& input : take_inputs(options)) add(input, SurfaceKind::input);
   return groups;
 }
 
@@ -64,7 +64,7 @@ LocatorsCase evaluate(const Group& group) {
   const auto front_seconds = [](const StageSeconds& s) { return s.front; };
   for (std::size_t i = 0; i < all_locators.size(); ++i) {
     const MeasuredCase& measured = group.cases[i];
-    LocatorsRow row{all_locators[i], {}, {}, measured.first.status, measured.first.reason};
+    LocatorsRow row{all_locators[i], {}, {}, measured.first.status, measured.first.reason, run_files(measured)};
     if (!measured.failed()) {
       result.counts = measured.first.counts;
       row.samples = samples_of(measured.counted, front_seconds);

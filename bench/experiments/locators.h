@@ -17,6 +17,7 @@ struct LocatorsRow {
   std::optional<Estimate> seconds;  ///< none if a run failed
   RunStatus status = RunStatus::ok;
   std::string reason;
+  std::vector<std::string> runs = {};  ///< files of the runs
 };
 
 enum class SurfaceKind {
@@ -56,8 +57,8 @@ Locators measure_locators(const ExperimentOptions& options, const Progress& prog
 
 std::string_view name_of(SurfaceKind kind);
 
-/// As JSON of schema `ccdt.locators/1`.
-std::string to_json(const Locators& locators);
+/// As tables, with what they say.
+ExperimentResult result_of(const Locators& locators);
 
 /// What the rows mean, one sentence each.
 std::vector<std::string> locators_definitions();

@@ -15,9 +15,19 @@ struct MeasuredCase {
   std::string stem;  ///< of the names of its records: "piston-with_check"
   Case what;
   std::vector<RunRecord> counted = {};
-  RunRecord first = {};  ///< of the run that is not counted, or of the one that failed
+  RunRecord first = {};       ///< of the run that is not counted, or of the one that failed
+  std::size_t first_run = 0;  ///< the number of that run
   bool failed() const { return first.status != RunStatus::ok; }
 };
+
+/// The files of the runs that a row of this case stands on, relative to the folder: the counted ones, or the one that
+/// failed.
+std::vector<std::string> run_files(const MeasuredCase& measured);
+
+/// Keeps the mesh that the case has just made, for pictures: in meshes/STEM.json.
+/// \pre it has not failed, and its mesh is still there
+/// \throw OutputError
+KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title);
 
 /// Runs a case once, unless it has failed before; run 0 is not counted. Its record goes to runs/STEM-NUMBER.json.
 /// \throw OutputError  the record cannot be written

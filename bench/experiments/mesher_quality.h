@@ -5,10 +5,6 @@
 
 namespace ccdt {
 
-/// What we aim at.
-inline constexpr double wanted_mean_r = 1.20, wanted_worst_r = 3, wanted_dihedral = 18;
-inline constexpr double wanted_speed = 0.7e6;  ///< tetrahedra a second, all stages together
-
 /// Our meshes beside those of other meshers, at equal numbers of tetrahedra.
 struct MesherQuality : QualityStudy {};
 
@@ -24,21 +20,16 @@ struct Verdict {
 /// By all judged criteria, against the comparable rows of other meshers. None if the row itself failed.
 std::vector<Verdict> judge(const QualityCase& c, const QualityRow& ours);
 
-/// Is it a row of our engine?
-bool is_ours(const QualityRow& row);
-
-/// Does the surface itself forbid that all dihedral angles of a mesh that keeps it reach this many degrees? Only an
-/// angle between facets does: some tetrahedron has to fit into it.
-bool forbids_dihedral(const SurfaceAngles& angles, double degrees);
-
-/// Measures ccdt with its FCC and its BCC lattice, TetGen, Mesh_3 and HXT (what of these the build has, or the machine)
-/// on every surface at about 50,000 and 500,000 tetrahedra.
+/// Measures ccdt with its FCC lattice, improved and not, and with BCC, and TetGen, Mesh_3 and HXT (what of these the
+/// build has, or the machine) on every surface, at equal numbers of tetrahedra.
 ///
+/// \param experiment  begins the names of its files
 /// \throw InputError, OutputError  as `measure_study`
-MesherQuality measure_mesher_quality(const ExperimentOptions& options, const Progress& progress = {});
+MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std::string& experiment,
+                                     const std::vector<std::string>& models, const Progress& progress = {});
 
-/// As JSON of schema `ccdt.quality/1`.
-std::string to_json(const MesherQuality& quality);
+/// As tables, with what they say. Without name and title.
+ExperimentResult result_of(const MesherQuality& quality);
 
 /// What the rows mean, one sentence each.
 std::vector<std::string> mesher_quality_definitions();

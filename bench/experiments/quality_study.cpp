@@ -1,9 +1,7 @@
 #include "bench/experiments/quality_study.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include "baselines/common.h"
 #include "bench/experiments/count_search.h"
@@ -13,8 +11,6 @@
 namespace ccdt {
 namespace {
 
-constexpr std::array models = {"piston", "bracket", "stepping-pole"};
-
 constexpr int counted_long_quality_runs = 3;
 
 /// A solid's name or a file, to be read when its turn comes.
@@ -23,9 +19,9 @@ struct Source {
   bool is_solid = false;
 };
 
-std::vector<Source> sources_of(const ExperimentOptions& options) {
+std::vector<Source> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
   std::vector<Source> sources;
-  for (const char* model : models)
+  for (const std::string& model : plan.models)
     if (is_asked_for(options, model)) sources.push_back({model, true});
   for (const auto& input : options.inputs) sources.push_back({input.string(), false});
   return sources;
@@ -42,9 +38,9 @@ struct Work {
   const ExperimentOptions& options;
   const StudyPlan& plan;
   const SurfaceSource& source;
-  std::string stem;                          ///< of the names of its files
-  std::map<std::string, double>& stretches;  ///< of each variant: its edge length over the surface's, at the last size
-  std::vector<MeasuredCase> cases;           ///< one a variant
+  std::string stem;                 ///< of the names of its files
+  std::vector<MeasuredCase> cases;  ///< one a variant
+  std::vector<KeptMesh> meshes = {};
 
   std::filesystem::path mesh() const { return options.folder / "meshes" / (plan.experiment + ".vtu"); }
 
@@ -85,8 +81,6 @@ EvenSurface find_surface(const Work& work, double wanted) {
 /// Runs a variant for the first time, at the edge length that makes as many tetrahedra as the first variant has.
 void run_at_equal_count(Work& work, const QualityVariant& variant, const EvenSurface& surface) {
   const double wanted = static_cast<double>(work.cases.front().first.counts.tetrahedra);
-  const auto known = work.stretches.find(variant.name);
-  const double stretch = known == work.stretches.end() ? 1 : known->second;
   MeasuredCase tried, best;
   const auto count_of = [&](double edge_length) -> std::optional<std::uint64_t> {
     tried = work.case_of(variant, surface.file, edge_length);
@@ -98,8 +92,7 @@ void run_at_equal_count(Work& work, const QualityVariant& variant, const EvenSur
     if (tried.failed()) return {};
     return tried.first.counts.tetrahedra;
   };
-  const auto found = search_edge_length({.wanted = wanted, .first = stretch * surface.edge_length}, count_of);
-  if (found) work.stretches[variant.name] = found->edge_length / surface.edge_length;
+  search_edge_length({.wanted = wanted, .first = surface.edge_length}, count_of);
   work.cases.push_back(best);
 }
 
@@ -108,6 +101,13 @@ void run_first(Work& work, const QualityVariant& variant, const EvenSurface& sur
   if (work.plan.equal_counts && has_reference) return run_at_equal_count(work, variant, surface);
   work.cases.push_back(work.case_of(variant, surface.file, surface.edge_length));
   run_once(work.options, work.cases.back(), 0);
+}
+
+/// Keeps the mesh that a variant has just made, if it is wanted and not too large.
+void keep_small_mesh(Work& work, const MeasuredCase& measured) {
+  if (!work.plan.keeps_meshes || measured.failed()) return;
+  if (measured.first.counts.tetrahedra > most_kept_tetrahedra) return;
+  work.meshes.push_back(keep_mesh(work.options, measured, work.source.name + ", " + measured.name));
 }
 
 /// Counts the runs after the first, in turn; or the first itself, if it is the only one.
@@ -121,7 +121,10 @@ void run_counted(Work& work) {
       std::ranges::any_of(work.cases, [](const auto& c) { return c.first.seconds.mesh > long_quality_run_seconds; });
   const int runs = is_long ? std::min(work.options.runs, counted_long_quality_runs) : work.options.runs;
   for (int number = 1; number <= runs; ++number)
-    for (MeasuredCase& measured : work.cases) run_once(work.options, measured, number);
+    for (MeasuredCase& measured : work.cases) {
+      run_once(work.options, measured, number);
+      if (number == 1) keep_small_mesh(work, measured);
+    }
 }
 
 /// The edge length among the options of a case.
@@ -130,9 +133,12 @@ double asked_edge_length(const MeasuredCase& measured) {
   return std::stod(*(std::ranges::find(words, "--edge-length") + 1));
 }
 
-QualityRow row_of(const MeasuredCase& measured, const MeasuredCase& reference) {
+QualityRow row_of(const MeasuredCase& measured, const QualityVariant& variant, const MeasuredCase& reference) {
   QualityRow row;
   row.variant = measured.name;
+  row.labels = variant.labels;
+  row.runs = run_files(measured);
+  row.is_ours = variant.mesher == "ccdt";
   row.edge_length = asked_edge_length(measured);
   row.status = measured.first.status;
   row.reason = measured.first.reason;
@@ -164,15 +170,15 @@ QualityCase measure_case(Work& work, std::uint64_t wanted, const std::function<v
     run_first(work, variant, result.surface);
   }
   run_counted(work);
-  for (const MeasuredCase& measured : work.cases) result.rows.push_back(row_of(measured, work.cases.front()));
+  for (std::size_t i = 0; i < work.cases.size(); ++i)
+    result.rows.push_back(row_of(work.cases[i], work.plan.variants[i], work.cases.front()));
   std::filesystem::remove(work.mesh());
   return result;
 }
 
-/// All sizes of a source. One that cannot be read is a case without rows, not the end of the experiment.
+/// A source. One that cannot be read is a case without rows, not the end of the experiment.
 void measure_source(const ExperimentOptions& options, const StudyPlan& plan, const Source& source, QualityStudy& study,
                     const std::function<void(const std::string&)>& announce) {
-  std::map<std::string, double> stretches;
   std::optional<SurfaceSource> read;
   std::string reason;
   try {
@@ -180,24 +186,27 @@ void measure_source(const ExperimentOptions& options, const StudyPlan& plan, con
   } catch (const Error& error) {
     reason = error.what();
   }
-  {
-    const auto wanted = static_cast<std::uint64_t>(options.tetrahedra);
-    const std::string stem = plan.experiment + "-" + std::to_string(study.cases.size()) + "-" +
-                             std::filesystem::path(source.name).stem().string() + "-" + std::to_string(wanted);
-    if (read) {
-      Work work{options, plan, *read, stem, stretches, {}};
-      study.cases.push_back(measure_case(work, wanted, announce));
-    } else {
-      QualityCase unread;
-      unread.name = source.name;
-      unread.wanted = wanted;
-      unread.reason = reason;
-      study.cases.push_back(unread);
-    }
+  const auto wanted = static_cast<std::uint64_t>(options.tetrahedra);
+  const std::string stem = plan.experiment + "-" + std::to_string(study.cases.size()) + "-" +
+                           std::filesystem::path(source.name).stem().string();
+  if (read) {
+    Work work{options, plan, *read, stem, {}};
+    study.cases.push_back(measure_case(work, wanted, announce));
+    study.meshes.insert(study.meshes.end(), work.meshes.begin(), work.meshes.end());
+    return;
   }
+  QualityCase unread;
+  unread.name = source.name;
+  unread.wanted = wanted;
+  unread.reason = reason;
+  study.cases.push_back(unread);
 }
 
 }  // namespace
+
+std::vector<std::string> paper_models() {
+  return {"piston", "bracket", "stepping-pole"};
+}
 
 std::vector<std::string> study_definitions() {
   return {
@@ -215,10 +224,11 @@ std::vector<std::string> study_definitions() {
 QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& plan, const Progress& progress) {
   QualityStudy study;
   study.how = start_experiment(options);
+  study.labels = plan.labels;
   if (plan.once) study.how.runs = 1;
-  const std::vector<Source> sources = sources_of(options);
+  const std::vector<Source> sources = sources_of(options, plan);
   check_something_is_measured(sources.size(), plan.experiment);
-  const std::uint64_t total = sources.size() * plan.sizes.size() * (plan.variants.size() + 1);
+  const std::uint64_t total = sources.size() * (plan.variants.size() + 1);
   std::uint64_t done = 0;
   const auto announce = [&](const std::string& what) { report(progress, what, std::min(done++, total), total); };
   for (const Source& source : sources) measure_source(options, plan, source, study, announce);

@@ -21,6 +21,15 @@ SurfaceFile write_solid(const ExperimentOptions& options, const std::string& exp
   return surface;
 }
 
+std::vector<SurfaceFile> take_inputs(const ExperimentOptions& options) {
+  std::vector<SurfaceFile> files;
+  for (const auto& input : options.inputs) {
+    files.push_back({input.string(), options.folder / "models" / input.filename()});
+    std::filesystem::copy_file(input, files.back().file, std::filesystem::copy_options::overwrite_existing);
+  }
+  return files;
+}
+
 double edge_ratio(const InputPlc& plc) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   const auto add_loop = [&](const auto& loop) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/experiments/experiment.h"
 #include "engine/plc/input.h"
@@ -18,6 +19,10 @@ struct SurfaceFile {
 /// the number that is wanted (but within the limits of the solid).
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length);
+
+/// Copies the user's files to the experiment's folder, so that its runs can be repeated there.
+/// \throw InputError, OutputError  a file cannot be copied
+std::vector<SurfaceFile> take_inputs(const ExperimentOptions& options);
 
 /// The length of the longest edge over that of the shortest; 1 if there is none.
 double edge_ratio(const InputPlc& plc);

@@ -46,7 +46,7 @@ class ModelExperiment {
     std::vector<MeasuredCase> cases;
     const auto add = [&](const char* name, const char* mesher, const std::filesystem::path& input,
                          std::vector<std::string> more) {
-      if (!is_measured(mesher)) return;
+      if (!is_measured(options_, mesher)) return;
       cases.push_back({name, std::string(model_.name) + "-" + name, {mesher, input, mesh_file(name), std::move(more)}});
     };
     add("with_check", "ccdt", surface_file(), {"--improve", "none", "--face-protection", "on"});
@@ -77,12 +77,6 @@ class ModelExperiment {
   std::filesystem::path points_file() const { return in_folder("models", "-with-interior-vertices.poly"); }
   std::filesystem::path mesh_file(const std::string& name) const { return in_folder("meshes", "-" + name + ".node"); }
 
-  bool is_measured(std::string_view mesher) const {
-    if (options_.beside && mesher != "ccdt")
-      return std::ranges::find(*options_.beside, mesher) != options_.beside->end();
-    return std::ranges::find(meshers(), mesher, &Mesher::name) != meshers().end();
-  }
-
   InputPlc surface() const { return make_solid(model_.name, edge_length_); }
 
   /// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and
@@ -112,8 +106,8 @@ class ModelExperiment {
 
 Table1Row row_of(const MeasuredCase& measured, std::string id, std::string label,
                  double (*seconds)(const StageSeconds&), std::optional<double> paper = {}) {
-  Table1Row row{std::move(id),         std::move(label),     {}, {}, paper, measured.first.counts,
-                measured.first.status, measured.first.reason};
+  Table1Row row{std::move(id),         std::move(label),   {}, {}, paper, measured.first.counts, measured.first.status,
+                measured.first.reason, run_files(measured)};
   if (measured.failed()) return row;
   row.samples = samples_of(measured.counted, seconds);
   row.seconds = median_estimate(row.samples);
@@ -127,14 +121,19 @@ Table1Ratio ratio_of(const Table1Model& model, std::string id, std::string label
   const auto a = row(above), b = row(below);
   if (a == model.rows.end() || b == model.rows.end()) return ratio;
   if (a->seconds && b->seconds && b->seconds->value > 0) ratio.value = ratio_of_medians(a->samples, b->samples);
+  ratio.runs = a->runs;
+  if (b->runs != a->runs) ratio.runs.insert(ratio.runs.end(), b->runs.begin(), b->runs.end());
   if (a->paper_seconds && b->paper_seconds) ratio.paper = *a->paper_seconds / *b->paper_seconds;
   return ratio;
 }
 
 /// The check against the Delaunay stage of the very same run: paired, so the machine's moods cancel out.
 Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperModel& paper) {
-  Table1Ratio ratio{
-      "with_check/delaunay", "with check / Delaunay", {}, paper.with_check_seconds / paper.delaunay_seconds};
+  Table1Ratio ratio{"with_check/delaunay",
+                    "with check / Delaunay",
+                    {},
+                    paper.with_check_seconds / paper.delaunay_seconds,
+                    run_files(with_check)};
   const auto in_a_run = [](const StageSeconds& s) { return cdt_seconds(s) / s.delaunay; };
   if (!with_check.failed()) ratio.value = median_estimate(samples_of(with_check.counted, in_a_run));
   return ratio;

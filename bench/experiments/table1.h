@@ -20,12 +20,14 @@ struct Table1Row {
   MeshCounts counts;
   RunStatus status = RunStatus::ok;
   std::string reason;
+  std::vector<std::string> runs = {};  ///< files of the runs
 };
 
 struct Table1Ratio {
   std::string id, label;
   std::optional<Estimate> value;
   std::optional<double> paper;
+  std::vector<std::string> runs = {};  ///< files of all runs that it is made of
 };
 
 /// What a unit of work costs, in microseconds; medians.
@@ -56,8 +58,11 @@ struct Table1 {
 /// \throw OutputError  a file of the experiment cannot be written
 Table1 measure_table1(const ExperimentOptions& options, const Progress& progress = {});
 
-/// As JSON of schema `ccdt.table1/1`.
-std::string to_json(const Table1& table);
+/// The paper lets every face go through the front at more than this many times the cost of Delaunay; so should we.
+inline constexpr double least_gain = 8;
+
+/// As tables, with what they say.
+ExperimentResult result_of(const Table1& table);
 
 /// What the rows mean, one sentence each; part of every form of the table.
 std::vector<std::string> table1_definitions();

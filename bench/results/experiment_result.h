@@ -33,9 +33,9 @@ struct KeptMesh {
 
 /// What an experiment found: what is written as JSON of schema `ccdt.experiment/1`. Reports are made of it alone.
 struct ExperimentResult {
-  std::string name;     ///< as on the command line
-  std::string title;    ///< for people
-  std::string section;  ///< of the paper: "6, Fig. 8"
+  std::string name = {};     ///< as on the command line
+  std::string title = {};    ///< for people
+  std::string section = {};  ///< of the paper: "6, Fig. 8"
   Circumstances how = {};
   std::vector<std::string> definitions = {};  ///< what the rows mean, one sentence each
   std::vector<ResultTable> tables = {};

@@ -1,0 +1,98 @@
+#include "bench/experiments/registry.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "bench/experiments/fig7.h"
+#include "bench/experiments/fig8.h"
+#include "bench/experiments/improvement.h"
+#include "bench/experiments/interior_points.h"
+#include "bench/experiments/lattice_fit.h"
+#include "bench/experiments/lattices.h"
+#include "bench/experiments/locators.h"
+#include "bench/experiments/mesher_quality.h"
+#include "bench/experiments/table1.h"
+
+namespace ccdt {
+namespace {
+
+using Measure = std::function<ExperimentResult(const ExperimentOptions&, const Progress&)>;
+
+/// Of an experiment that first measures and then says what it found.
+template <class Measured>
+Measure in_two_steps(Measured (*measure)(const ExperimentOptions&, const Progress&)) {
+  return [measure](const ExperimentOptions& options, const Progress& progress) {
+    return result_of(measure(options, progress));
+  };
+}
+
+/// The quality of one of the paper's models, which is then not among the user's choices.
+Measure quality_figure(const std::string& name, const std::string& model) {
+  return [name, model](const ExperimentOptions& options, const Progress& progress) {
+    ExperimentOptions own = options;
+    own.inputs.clear();
+    return result_of(measure_mesher_quality(own, name, {model}, progress));
+  };
+}
+
+ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
+  return result_of(measure_mesher_quality(options, "quality", paper_models(), progress));
+}
+
+/// Gives the result the names that all other results of the experiment have.
+Measure named(const KnownExperiment& known) {
+  return [known](const ExperimentOptions& options, const Progress& progress) {
+    ExperimentResult result = known.measure(options, progress);
+    result.name = known.name;
+    result.title = known.title;
+    result.section = known.section;
+    return result;
+  };
+}
+
+std::vector<KnownExperiment> all_experiments() {
+  const std::string quality_words = "tetrahedra beside those of other meshers, at equal numbers of them";
+  std::vector<KnownExperiment> all = {
+      {"table1", "Table 1: the CDT with and without the face protection check", "6, Table 1",
+       "Delaunay, the CDT with and without the check, and other meshers", true, true, in_two_steps(measure_table1)},
+      {"fig7", "Fig. 7: the meshes of the three models", "6, Fig. 7", "pictures of them, cut open", true, false,
+       measure_fig7},
+      {"fig8", "Fig. 8: time against size", "6, Fig. 8", "time against size over two decades, and how it grows", true,
+       true, in_two_steps(measure_fig8)},
+      {"fig9", "Fig. 9: quality of the piston's tetrahedra", "6, Fig. 9", "the piston's " + quality_words, true, true,
+       quality_figure("fig9", "piston")},
+      {"fig10", "Fig. 10: quality of the bracket's tetrahedra", "6, Fig. 10", "the bracket's " + quality_words, true,
+       true, quality_figure("fig10", "bracket")},
+      {"fig11", "Fig. 11: quality of the stepping pole's tetrahedra", "6, Fig. 11",
+       "the stepping pole's " + quality_words, true, true, quality_figure("fig11", "stepping-pole")},
+      {"lattices", "Lattices: is FCC the best?", "3", "FCC, BCC and SC, before and after improvement", true, true,
+       in_two_steps(measure_lattices)},
+      {"locators", "Locators: who finds the front's vertices and occluders fastest", "4",
+       "grid, octree and cavity on even and on graded surfaces", true, false, in_two_steps(measure_locators)},
+      {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
+       false, in_two_steps(measure_improvement)},
+      {"interior-points", "Interior points: do they never harm existence?", "3",
+       "do interior points never harm existence, as the paper says?", true, true,
+       in_two_steps(measure_interior_points)},
+      {"quality", "Quality: our tetrahedra beside those of other meshers", "6",
+       "all three models and files of yours beside other meshers", false, false, measure_quality},
+      {"lattice-fit", "Lattice fit: how near to the surface should lattice points be?", "3",
+       "many settings of --sphere-factor and --clearance", false, false, in_two_steps(measure_lattice_fit)},
+  };
+  for (KnownExperiment& known : all) known.measure = named(known);
+  return all;
+}
+
+}  // namespace
+
+std::span<const KnownExperiment> known_experiments() {
+  static const std::vector<KnownExperiment> all = all_experiments();
+  return all;
+}
+
+const KnownExperiment* known_experiment(std::string_view name) {
+  const auto found = std::ranges::find(known_experiments(), name, &KnownExperiment::name);
+  return found == known_experiments().end() ? nullptr : &*found;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "bench/experiments/experiment.h"
+#include "engine/base/progress.h"
+
+namespace ccdt {
+
+/// An experiment that `ccdt reproduce` knows.
+struct KnownExperiment {
+  std::string name;
+  std::string title;       ///< for people
+  std::string section;     ///< of the paper
+  std::string what;        ///< one line for people
+  bool is_usual = true;    ///< done when none is named
+  bool is_claimed = true;  ///< a claim of the paper is tested by it
+
+  /// Measures. The result has name, title and section of this entry.
+  std::function<ExperimentResult(const ExperimentOptions&, const Progress&)> measure;
+};
+
+/// In the order in which reports show them.
+std::span<const KnownExperiment> known_experiments();
+
+/// Null if there is none of that name.
+const KnownExperiment* known_experiment(std::string_view name);
+
+}  // namespace ccdt

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/results/experiment_result.h"
+#include "reports/chart.h"
+#include "reports/claims/claim.h"
+
+namespace ccdt {
+
+/// An experiment as a report shows it.
+struct ReportSection {
+  ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
+  bool is_missing = false;
+  std::string reason;  ///< why it is missing
+  std::vector<Chart> charts;
+};
+
+/// What a reader needs to repeat a run.
+struct RunLine {
+  std::string command;  ///< in the folder of the report; it overwrites nothing. Empty if nobody knows
+  std::string status;
+  std::string mesher, version;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< in the mesher's own words
+};
+
+/// All that a report shows.
+struct Report {
+  std::string title;
+  std::vector<PaperClaim> claims;
+  std::vector<ReportSection> sections;
+  std::map<std::string, RunLine> runs;  ///< by file, relative to the folder
+};
+
+/// What the JSON of a folder says. An experiment that is missing or cannot be read is a section that says so, a run
+/// that is missing a line that does.
+///
+/// \throw InputError  the folder has no experiment at all
+Report read_report(const std::filesystem::path& folder, std::span<const Chart> charts);
+
+/// Gives sections their charts, of which all tables are there.
+void add_charts(std::span<const Chart> charts, ReportSection& section);
+
+/// As JSON of schema `ccdt.report/1`, and of schema `ccdt.claims/1` its claims alone.
+Json report_json(const Report& report);
+Json claims_json(const Report& report);
+
+}  // namespace ccdt
