@@ -5,6 +5,9 @@ import { chromium } from "playwright-core";
 
 const PROGRAM = process.env.CCDT_CHROMIUM ?? "/usr/bin/chromium";
 
+/** What Chromium says of its own way of computing WebGL, when a picture is taken of it: no word of the page. */
+const DRIVER_MESSAGE = /GL Driver Message \(OpenGL, Performance,/;
+
 /** Without a screen, a graphics card and a word to anybody: WebGL is computed by SwiftShader. */
 const FLAGS = [
   "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
@@ -36,7 +39,8 @@ export async function openPage(browser, file, options = {}) {
   const address = pathToFileURL(file).href;
   const troubles = [];
   page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type())) troubles.push(`console ${message.type()}: ${message.text()}`);
+    const isTrouble = ["error", "warning"].includes(message.type()) && !DRIVER_MESSAGE.test(message.text());
+    if (isTrouble) troubles.push(`console ${message.type()}: ${message.text()}`);
   });
   page.on("pageerror", (error) => troubles.push(`uncaught: ${error.message}`));
   page.on("request", (request) => {

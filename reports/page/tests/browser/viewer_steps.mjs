@@ -22,6 +22,17 @@ export async function changed(page, name, before) {
   await page.waitForFunction(([key, old]) => document.querySelector("[data-viewer]").dataset[key] !== old, [name, before]);
 }
 
+/** Shows the whole mesh. @returns {Promise<number>} how many tetrahedra it has */
+export async function uncut(page) {
+  const { axis, shown } = await viewerOf(page);
+  const before = await shown();
+  if (!(await axis("none").isChecked())) {
+    await axis("none").check();
+    await changed(page, "shownTetrahedra", String(before));
+  }
+  return shown();
+}
+
 /** Moves a slider to a share of its length, as a hand would. */
 export async function slide(locator, share) {
   await locator.evaluate((input, part) => {
