@@ -55,7 +55,7 @@ const group = (title, ...children) => element("fieldset", {}, element("legend", 
 const labelled = (text, ...children) => element("label", {}, element("span", {}, text), children);
 const slider = (name, steps) => element("input", { type: "range", min: 0, max: steps, step: 1, "data-control": name });
 const output = (name) => element("output", { "data-output": name });
-const button = (name, text) => element("button", { type: "button", "data-control": name }, text);
+const button = (name, text) => element("button.small", { type: "button", "data-control": name }, text);
 
 function select(name, choices) {
   return element("select", { "data-control": name }, choices.map(([value, text]) => element("option", { value }, text)));

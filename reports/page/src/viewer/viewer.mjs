@@ -1,4 +1,6 @@
+import { commandLine } from "../page/copy.mjs";
 import { element } from "../page/dom.mjs";
+import { openTrace, traceButton } from "../page/trace.mjs";
 import { createAxesMark } from "./axes_mark.mjs";
 import { resetChoices, setWorstCount, takeCutAxis, takeThreshold, takeWorstCount } from "./choices.mjs";
 import { control, createControls } from "./controls.mjs";
@@ -105,7 +107,7 @@ function listenToPage(viewer) {
   takeTheme();
 }
 
-async function openMesh(viewer, keptMeshes, { file, run }, runs) {
+async function openMesh(viewer, keptMeshes, { file, title, run }, runs) {
   delete viewer.container.dataset.viewerMesh;
   viewer.opening = file;
   let viewed;
@@ -123,11 +125,8 @@ async function openMesh(viewer, keptMeshes, { file, run }, runs) {
   resize(viewer);
   resetChoices(viewer);
   update(viewer);
-  viewer.source.replaceChildren(...sourceOf(file, run, runs[run]));
+  const traceRun = traceButton([run], title, () => openTrace({ runs }, title, [], [run]));
+  viewer.source.replaceChildren(element("span.quiet", {}, `${file}, made by this command:`), traceRun,
+    commandLine(runs[run]?.command ?? "not in this report"));
   viewer.container.dataset.viewerMesh = file;
-}
-
-function sourceOf(file, run, record) {
-  const origin = element("span", {}, `${file} is from ${run}`, record ? ", made by" : "");
-  return record ? [origin, element("code", {}, record.command)] : [origin];
 }

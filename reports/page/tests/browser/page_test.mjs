@@ -224,5 +224,7 @@ laptopTest("each mesh of the report can be chosen", async (page) => {
     await control("mesh").selectOption(String(place));
     await page.waitForSelector(`[data-viewer][data-viewer-mesh="${name}"]`);
     assert.ok(Number(await viewer.getAttribute("data-shown-tetrahedra")) > 0, name);
+    const { run } = report.experiments.flatMap(({ meshes }) => meshes).find((mesh) => mesh.file === name);
+    assert.equal(await viewer.locator(".command code").textContent(), report.runs[run].command);
   }
 });
