@@ -21,7 +21,7 @@ function columnsOf(spec, data, width, room) {
  * @param {number} width  pixels
  * @param {number} room   what of the width is not for the cells of the facets
  */
-export function sized(spec, data, width, room = FIRST_ROOM) {
+export function sized(spec, data, width, room) {
   if (!spec.facet) return { ...spec, width, autosize: { type: "fit-x", contains: "padding" } };
   const columns = columnsOf(spec, data, width, FIRST_ROOM);
   const cell = Math.max(56, (width - room - GAP * (columns - 1)) / columns);

@@ -1,13 +1,15 @@
 import config from "../../../charts/config.json" with { type: "json" };
 import { chartData } from "./chart_data.mjs";
 import { inSeriesOrder, seriesStyles } from "./series.mjs";
-import { sized } from "./sizes.mjs";
+import { FIRST_ROOM, sized } from "./sizes.mjs";
 import { textsOf } from "./texts.mjs";
 import { textWidth } from "./text_width.mjs";
-import { chartConfig, colourIn } from "./themes.mjs";
+import { chartConfig, colourIn, PAGE_TEXT_SCALE } from "./themes.mjs";
 
 const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
 const ORDERED_CHANNELS = ["x", "y", "xOffset", "yOffset", "facet"];
+const HALF_A_LINE = 6.5;
+const LONGEST_LABEL = 0.28;  // of the width, in one line
 const SYMBOL_ROOM = 34;  // of a legend's entry, beside its text
 
 /** Calls a function for each definition of a channel, at any depth. */
@@ -23,9 +25,26 @@ function isText(definition) {
   return definition.field !== undefined && ["nominal", "ordinal"].includes(definition.type);
 }
 
+/** A text in two lines of about the same width. */
+export function inTwoLines(text) {
+  const spaces = [...text.matchAll(/ /g)].map(({ index }) => index);
+  if (spaces.length === 0) return [text];
+  const middle = spaces.reduce((best, at) => (Math.abs(at - text.length / 2) < Math.abs(best - text.length / 2) ? at : best));
+  return [text.slice(0, middle), text.slice(middle + 1)];
+}
+
+/** Long names of rows take two lines where they would leave little room for the rows. */
+function wrapLabels(definition, values, width) {
+  const long = values.filter((value) => textWidth(value, 10 * PAGE_TEXT_SCALE) > LONGEST_LABEL * width);
+  if (long.length === 0 || definition.axis === null) return;
+  const lines = JSON.stringify(Object.fromEntries(long.map((value) => [value, inTwoLines(value)])));
+  const raised = { condition: { test: `isArray(${lines}[datum.value])`, value: -HALF_A_LINE }, value: 0 };
+  definition.axis = { ...definition.axis, labelExpr: `${lines}[datum.value] || datum.value`, labelOffset: raised };
+}
+
 /** A legend's entries in as many columns as there is room for. */
 function legendColumns(values, width) {
-  const widest = Math.max(...values.map((value) => textWidth(value, 10.5)));
+  const widest = Math.max(...values.map((value) => textWidth(value, 10.5 * PAGE_TEXT_SCALE)));
   return Math.max(1, Math.min(values.length, Math.floor(width / (widest + SYMBOL_ROOM))));
 }
 
@@ -63,16 +82,17 @@ function datumsOf(spec, channel) {
  * What a chart leaves to us: series look as in the configuration, texts come in the order of the tables.
  * A channel with a scale or an order of its own keeps it.
  */
-function completeChannels(spec, data, theme, width) {
+function completeChannels(spec, data, { theme, width, room }) {
   eachChannel(spec, (channel, definition) => {
     if (SERIES_CHANNELS.includes(channel) && typeof definition.datum === "string")
-      styleSeries(channel, definition, datumsOf(spec, channel), theme, width);
+      styleSeries(channel, definition, datumsOf(spec, channel), theme, width - room);
     if (definition.scale?.type === "log") completeLogarithmic(definition);
     if (!isText(definition)) return;
     const values = textsOf(data, definition.field);
     if (values.length === 0) return;
     if (SERIES_CHANNELS.includes(channel) && definition.scale === undefined)
-      styleSeries(channel, definition, inSeriesOrder(values), theme, width);
+      styleSeries(channel, definition, inSeriesOrder(values), theme, width - room);
+    if (channel === "y") wrapLabels(definition, values, width);
     if (ORDERED_CHANNELS.includes(channel) && definition.sort === undefined) definition.sort = inSeriesOrder(values);
   });
 }
@@ -89,10 +109,10 @@ function completeChannels(spec, data, theme, width) {
  * @param {(row: object, table: object) => boolean} [options.passes]  a filter of the rows
  * @returns {object} a specification of Vega-Lite
  */
-export function completeSpec(section, chart, { theme = "light", width = config.columnWidth, room, font, passes } = {}) {
+export function completeSpec(section, chart, { theme = "light", width = config.columnWidth, room = FIRST_ROOM, font, passes } = {}) {
   const data = chartData(section, chart, passes);
   const spec = structuredClone(chart.spec);
-  completeChannels(spec, data, theme, width);
+  completeChannels(spec, data, { theme, width, room });
   return {
     $schema: "https://vega.github.io/schema/vega-lite/v6.json",
     ...sized(spec, data, width, room),

@@ -5,6 +5,9 @@ import config from "../../../charts/config.json" with { type: "json" };
  * @typedef {"light"|"dark"|"page"} Theme
  */
 
+// A page is read at a greater distance than paper.
+export const PAGE_TEXT_SCALE = 1.18;
+
 function fromPage(colours) {
   return Object.fromEntries(Object.keys(colours).map((name) => [name, `var(--chart-${name})`]));
 }
@@ -30,31 +33,32 @@ export function colourIn(theme, name) {
 export function chartConfig(theme, font = config.font) {
   const { background, text, quiet, axis, grid } = frameOf(theme);
   const named = paletteOf(theme);
+  const size = (points) => points * (theme === "page" ? PAGE_TEXT_SCALE : 1);
   return {
     background,
     font,
     padding: { left: 2, top: 4, right: 6, bottom: 2 },
     view: { stroke: null, continuousWidth: config.columnWidth, continuousHeight: 200 },
     axis: {
-      labelColor: quiet, labelFontSize: 10, titleColor: text, titleFontSize: 11, titleFontWeight: "normal",
+      labelColor: quiet, labelFontSize: size(10), titleColor: text, titleFontSize: size(11), titleFontWeight: "normal",
       titlePadding: 7, domainColor: axis, tickColor: axis, tickSize: 4, gridColor: grid, gridWidth: 0.75,
       labelPadding: 3, labelLimit: 200,
     },
     axisX: { grid: false },
     header: {
-      labelColor: text, labelFontSize: 11, labelFontWeight: "bold", labelPadding: 5, title: null, labelLimit: 260,
+      labelColor: text, labelFontSize: size(11), labelFontWeight: "bold", labelPadding: 5, title: null, labelLimit: 260,
     },
     legend: {
-      orient: "top", direction: "horizontal", title: null, labelColor: text, labelFontSize: 10.5, symbolSize: 60,
+      orient: "top", direction: "horizontal", title: null, labelColor: text, labelFontSize: size(10.5), symbolSize: 60,
       symbolStrokeWidth: 1.6, labelLimit: 260, columnPadding: 14, rowPadding: 3, offset: 8, padding: 0,
     },
-    title: { color: text, fontSize: 12, anchor: "start", fontWeight: "bold", offset: 8 },
+    title: { color: text, fontSize: size(12), anchor: "start", fontWeight: "bold", offset: 8 },
     point: { tooltip: { content: "data" }, filled: true, size: 42, opacity: 1, color: named.blue },
     line: { strokeWidth: 1.6, color: named.blue },
     rule: { tooltip: { content: "data" }, strokeWidth: 1.2, color: named.grey },
     tick: { color: named.ink, thickness: 1.6 },
     bar: { tooltip: { content: "data" }, color: named.blue },
-    text: { color: text, fontSize: 10 },
+    text: { color: text, fontSize: size(10) },
     aria: false,
   };
 }

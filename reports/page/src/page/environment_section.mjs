@@ -10,7 +10,7 @@ function definitions(pairs) {
 
 function loadsText(loads) {
   const low = Math.min(...loads), high = Math.max(...loads);
-  return low === high ? numberText(low) : `${numberText(low)} to ${numberText(high)}`;
+  return low === high ? numberText(low, 2) : `${numberText(low, 2)} to ${numberText(high, 2)}`;
 }
 
 function environmentEntry({ environment, loads, sections }, isOnlyOne) {

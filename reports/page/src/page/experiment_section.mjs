@@ -46,8 +46,14 @@ function dataTables(section) {
   return element("p.actions.data", {}, element("span.quiet", {}, "Data: "), buttons, files);
 }
 
+/** As the charts themselves say; else as they come. */
+function inOrder(charts) {
+  const rank = (chart) => chart.spec.usermeta?.order ?? 0;
+  return [...charts].sort((a, b) => rank(a) - rank(b));
+}
+
 function results(report, section) {
-  const charts = section.charts.map((chart) => chartView(report, section, chart));
+  const charts = inOrder(section.charts).map((chart) => chartView(report, section, chart));
   const tables = section.tables.filter((table) => !table.data && table.rows.length > 0).map((table) => tableView(report, section, table));
   let pending = 0;
   const controls = filterControls(section, (state) => {
@@ -74,6 +80,7 @@ export function experimentSection(report, section) {
     failure(section),
     list("ul.findings", section.findings),
     section.problems.length > 0 ? element("div.problem", {}, element("h4", {}, "What went wrong"), list("ul", section.problems)) : null,
+    section.meshes.length > 0 ? element("p", {}, element("a", { href: "#meshes" }, "Look at its meshes")) : null,
     results(report, section),
     section.definitions.length > 0 ? element("details.definitions", {}, element("summary", {}, "What the rows mean"), list("ul", section.definitions)) : null,
     element("details.definitions", {}, element("summary", {}, "Repeat this experiment"), commandLine(section.command)),

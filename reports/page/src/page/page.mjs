@@ -1,8 +1,10 @@
+import { mountViewer } from "../viewer/viewer.mjs";
 import { contents } from "./contents.mjs";
 import { append, element } from "./dom.mjs";
 import { embeddedMeshes, embeddedReport } from "./embedded.mjs";
 import { environmentSection } from "./environment_section.mjs";
 import { experimentSection } from "./experiment_section.mjs";
+import { meshSection } from "./mesh_section.mjs";
 import { counted } from "./numbers.mjs";
 import { rawFilesSection } from "./raw_files_section.mjs";
 import { defineChartColours, themeSwitch } from "./theme.mjs";
@@ -34,14 +36,17 @@ function sectionTitles(report) {
 
 function show(report) {
   document.title = report.title;
+  const meshes = meshSection(report, embeddedMeshes(), mountViewer);
   const parts = [
     verdictSection(report),
     ...report.experiments.map((section) => experimentSection(report, section)),
+    meshes,
     environmentSection(report),
     rawFilesSection(report),
   ];
   const { node, follow } = contents([
     { id: "verdicts", title: "The paper's claims" }, ...sectionTitles(report),
+    ...(meshes ? [{ id: "meshes", title: "Meshes" }] : []),
     { id: "environment", title: "Environment and meshers" }, { id: "files", title: "Raw data" },
   ]);
   append(document.getElementById("page"), [

@@ -4,20 +4,29 @@ import { download } from "./downloads.mjs";
 import { cellText, commonDecimals, counted, estimateTexts, isEstimate, sortKey } from "./numbers.mjs";
 import { openTrace, traceButton } from "./trace.mjs";
 
+const STATUS = "status";
 const ROWS_AT_FIRST = 12;
 const MOST_ROWS_WITHOUT_BUTTON = 16;
 
-/** Columns with something in them. */
+/**
+ * Columns with something to say. Why a value is missing is said beside the status; that all is well, not at all.
+ */
 function shownColumns(table) {
+  const hasStatus = table.columns.some(({ name }) => name === STATUS);
+  const says = ({ name, kind }) => {
+    if (kind === "note" && hasStatus) return false;
+    return table.rows.some((row) => sortKey(row.values[name]) !== null && (name !== STATUS || row.values[name] !== "ok"));
+  };
   return table.columns
-    .filter(({ name }) => table.rows.some((row) => sortKey(row.values[name]) !== null))
+    .filter(says)
     .map((column) => {
       const cells = table.rows.map((row) => row.values[column.name]);
       return { ...column, isNumeric: cells.some((cell) => typeof cell === "number" || isEstimate(cell)), decimals: commonDecimals(cells) };
     });
 }
 
-function cellContent(cell, decimals) {
+function cellContent(cell, decimals, kind) {
+  if (kind === "note" && !cell) return null;
   if (!isEstimate(cell)) return cellText(cell, decimals);
   const { value, interval } = estimateTexts(cell);
   return [value, interval ? element("span.interval", {}, ` ${interval}`) : null];
@@ -25,10 +34,10 @@ function cellContent(cell, decimals) {
 
 /** "piston, with check": what a row is of. */
 export function rowTitle(table, row) {
-  return table.columns
-    .filter(({ name, kind }) => kind === "label" && name !== "status" && row.values[name])
-    .map(({ name }) => row.values[name])
-    .join(", ");
+  const labels = table.columns
+    .filter(({ name, kind }) => kind === "label" && name !== STATUS && row.values[name])
+    .map(({ name }) => row.values[name]);
+  return [...new Set(labels)].join(", ");
 }
 
 /** Everything that a row says, for the trace and the tooltips of charts. */
@@ -58,20 +67,31 @@ function sortedRows(rows, sorting) {
   return keyed.map(({ row }) => row);
 }
 
+const UNIT_WORDS = { s: "second", ms: "millisecond", "µs": "microsecond", "°": "degree", "%": "percent" };
+
+/** Is the unit in the title already? */
+function saysUnit({ title, unit }) {
+  return title.includes(UNIT_WORDS[unit] ?? unit);
+}
+
 function headCell(column, sorting, sort) {
   const state = sorting?.name === column.name ? (sorting.descending ? "descending" : "ascending") : "none";
-  const unit = column.unit ? element("span.unit", {}, ` ${column.unit}`) : null;
+  const unit = column.unit && !saysUnit(column) ? element("span.unit", {}, ` (${column.unit})`) : null;
   return element(column.isNumeric ? "th.number" : "th", { scope: "col", "aria-sort": state },
-    element("button.sort", { type: "button", "data-column": column.name, onclick: () => sort(column.name) }, column.title, unit,
+    element("button.sort", { type: "button", "data-column": column.name, onclick: () => sort(column.name) }, element("span", {}, column.title, unit),
       element("span.arrow", { "aria-hidden": "true" }, state === "descending" ? "↓" : state === "ascending" ? "↑" : "")));
 }
 
+function statusContent(table, row) {
+  const notes = table.columns.filter(({ kind }) => kind === "note").map(({ name }) => row.values[name]).filter(Boolean);
+  return [element("span.status", { "data-status": row.values[STATUS] }, row.values[STATUS]), notes.map((note) => element("span.quiet", {}, ` ${note}`))];
+}
+
 function bodyRow(report, table, columns, row, isFolded) {
-  const status = row.values.status;
   const cells = columns.map(({ name, isNumeric, decimals, kind }, index) => {
-    const content = cellContent(row.values[name], decimals);
-    const classes = `${isNumeric ? ".number" : ""}${kind === "note" ? ".note" : ""}`;
-    const body = name === "status" ? element("span.status", { "data-status": status }, content) : content;
+    const content = cellContent(row.values[name], decimals, kind);
+    const classes = `${isNumeric ? ".number" : ""}${kind === "note" || name === STATUS ? ".note" : ""}`;
+    const body = name === STATUS ? statusContent(table, row) : content;
     return index === 0 ? element(`th${classes}`, { scope: "row" }, body) : element(`td${classes}`, {}, body);
   });
   const trace = traceButton(row.runs, rowTitle(table, row), () => traceRow(report, table, row));
