@@ -9,7 +9,7 @@ const loader = {
   sanitize: async (address) => ({ href: address }),
 };
 
-const MOST_FITTINGS = 3;
+const MOST_FITTINGS = 4;
 const CLOSE_ENOUGH = 3;  // pixels
 
 /** Keeps what is wrong with a chart instead of writing it to a console. */
@@ -20,18 +20,26 @@ function collector(words) {
   return logger;
 }
 
-/** A dashed outline would blur the shapes in a legend: where series have shapes, these alone are shown. */
+const DASHES_SIZE = 620;  // square pixels: a line of 25
+
+/**
+ * A dashed outline would blur the shapes in a legend: where series have shapes, these alone are shown. Where they are
+ * lines alone, these are long enough to show their dashes.
+ */
 function withClearLegends(spec) {
-  for (const legend of spec.legends ?? []) if (legend.shape) delete legend.strokeDash;
+  for (const legend of spec.legends ?? []) {
+    if (legend.shape) delete legend.strokeDash;
+    else if (legend.strokeDash) legend.symbolSize = DASHES_SIZE;
+  }
   return spec;
 }
 
 /** @returns {Promise<{view: vega.View, warnings: string[]}>} */
-async function run(spec, options) {
+async function run(spec) {
   const warnings = [];
   const logger = collector(warnings);
   const runtime = vega.parse(withClearLegends(compile(spec, { logger }).spec));
-  const view = new vega.View(runtime, { renderer: "none", loader, logger, ...options });
+  const view = new vega.View(runtime, { renderer: "none", loader, logger });
   await view.runAsync();
   return { view, warnings };
 }
@@ -45,17 +53,15 @@ async function widthOf(view) {
  * @param {object} section  of the report
  * @param {object} chart    of the section
  * @param {object} options  of `completeSpec`
- * @param {object} viewOptions  of the view: "renderer", "container", "tooltip"
- * @returns {Promise<{view: vega.View, warnings: string[]}>}
+ * @returns {Promise<{view: vega.View, warnings: string[]}>}  a view that has run, not yet in a page
  */
-export async function drawn(section, chart, options, viewOptions = {}) {
+export async function drawn(section, chart, options) {
   let room = FIRST_ROOM;
-  for (let fitting = 0; fitting < MOST_FITTINGS && chart.spec.facet; ++fitting) {
-    const { view } = await run(completeSpec(section, chart, { ...options, room }), {});
-    const excess = (await widthOf(view)) - options.width;
-    view.finalize();
-    if (excess <= 0 && excess > -CLOSE_ENOUGH) break;
+  for (let fitting = 1; ; ++fitting) {
+    const made = await run(completeSpec(section, chart, { ...options, room }));
+    const excess = (await widthOf(made.view)) - options.width;
+    if ((excess <= 0 && excess > -CLOSE_ENOUGH) || !chart.spec.facet || fitting === MOST_FITTINGS) return made;
+    made.view.finalize();
     room += excess + 1;
   }
-  return run(completeSpec(section, chart, { ...options, room }), viewOptions);
 }

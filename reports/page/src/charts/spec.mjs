@@ -10,7 +10,7 @@ const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
 const ORDERED_CHANNELS = ["x", "y", "xOffset", "yOffset", "facet"];
 const HALF_A_LINE = 6.5;
 const LONGEST_LABEL = 0.28;  // of the width, in one line
-const SYMBOL_ROOM = 34;  // of a legend's entry, beside its text
+const SYMBOL_ROOM = 30;  // of a legend's entry, beside its text
 
 /** Calls a function for each definition of a channel, at any depth. */
 function eachChannel(spec, visit) {
@@ -42,10 +42,21 @@ function wrapLabels(definition, values, width) {
   definition.axis = { ...definition.axis, labelExpr: `${lines}[datum.value] || datum.value`, labelOffset: raised };
 }
 
-/** A legend's entries in as many columns as there is room for. */
+/** How wide a legend is with its entries in so many columns, row by row. */
+function legendWidth(entries, columns) {
+  let width = 0;
+  for (let column = 0; column < columns; ++column)
+    width += Math.max(...entries.filter((_, index) => index % columns === column));
+  return width;
+}
+
+/** A legend's entries in as few rows as there is room for, and these as full as each other. */
 function legendColumns(values, width) {
-  const widest = Math.max(...values.map((value) => textWidth(value, 10.5 * PAGE_TEXT_SCALE)));
-  return Math.max(1, Math.min(values.length, Math.floor(width / (widest + SYMBOL_ROOM))));
+  const entries = values.map((value) => textWidth(value, 10.5 * PAGE_TEXT_SCALE) + SYMBOL_ROOM);
+  let columns = values.length;
+  while (columns > 1 && legendWidth(entries, columns) > width) --columns;
+  const rows = Math.ceil(values.length / columns);
+  return Math.ceil(values.length / rows);
 }
 
 function styleSeries(channel, definition, values, theme, width) {

@@ -59,10 +59,13 @@ export function chartView(report, section, chart) {
       return;
     }
     const container = element("div");
-    const made = await drawn(section, chart, { theme: "page", width, font: pageFont(), passes },
-      { container, renderer: "svg", tooltip: tooltipOf(section) });
-    if (turn !== wanted) return made.view.finalize();
+    const made = await drawn(section, chart, { theme: "page", width, font: pageFont(), passes });
+    if (turn !== wanted) {
+      made.view.finalize();
+      return;
+    }
     view = made.view;
+    await view.renderer("svg").tooltip(tooltipOf(section)).initialize(container).runAsync();
     view.addEventListener("click", (_, item) => {
       const found = rowOf(section, item?.datum);
       if (found?.row.runs.length > 0) traceRow(report, found.table, found.row);

@@ -13,8 +13,9 @@ import { verdictCounts, verdictSection } from "./verdicts.mjs";
 function summary(report) {
   const made = report.experiments.filter(({ status }) => status !== "missing");
   const processors = [...new Set(made.map(({ environment }) => environment?.cpu).filter(Boolean))];
-  return `${counted(report.claims.length, "claim")} of the paper, tested by ${counted(made.length, "experiment")} ` +
-    `and ${counted(Object.keys(report.runs).length, "run")}${processors.length > 0 ? ` on ${processors.join(" and ")}` : ""}.`;
+  const claims = report.claims.length > 0 ? `${counted(report.claims.length, "claim")} of the paper, tested by ` : "";
+  return `${claims}${counted(made.length, "experiment")} and ${counted(Object.keys(report.runs).length, "run")}` +
+    `${processors.length > 0 ? ` on ${processors.join(" and ")}` : ""}.`;
 }
 
 function header(report) {
@@ -45,12 +46,12 @@ function show(report) {
     rawFilesSection(report),
   ];
   const { node, follow } = contents([
-    { id: "verdicts", title: "The paper's claims" }, ...sectionTitles(report),
+    ...(report.claims.length > 0 ? [{ id: "verdicts", title: "The paper's claims" }] : []), ...sectionTitles(report),
     ...(meshes ? [{ id: "meshes", title: "Meshes" }] : []),
     { id: "environment", title: "Environment and meshers" }, { id: "files", title: "Raw data" },
   ]);
   append(document.getElementById("page"), [
-    element("a.skip", { href: "#main" }, "Skip to the verdicts"), header(report),
+    element("a.skip", { href: "#main" }, "Skip to the content"), header(report),
     element("div.columns", {}, node, element("main", { id: "main" }, parts)), footer(),
   ]);
   follow();

@@ -66,8 +66,9 @@ export function verdictCounts(report) {
     .map(({ verdict, count }) => badge(verdict, `${count} ${verdict}`));
 }
 
-/** The section of the verdicts. */
+/** The section of the verdicts; none without claims. */
 export function verdictSection(report) {
+  if (report.claims.length === 0) return null;
   return element("section.part", { id: "verdicts", "aria-labelledby": "verdicts-title" },
     element("h2", { id: "verdicts-title" }, "The paper's claims"),
     element("p.lead", {}, "Each claim of the paper, what was measured for it here, and what follows. Verdicts are computed from the measurements."),

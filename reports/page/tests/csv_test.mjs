@@ -1,0 +1,25 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { csvOf } from "../src/page/csv.mjs";
+
+const table = {
+  columns: [{ name: "model" }, { name: "seconds" }, { name: "reason" }],
+  rows: [
+    { values: { model: "piston", seconds: { value: 2.5, low: 2, high: 3 }, reason: null }, runs: ["runs/a.json", "runs/b.json"] },
+    { values: { model: "a, \"b\"", seconds: null, reason: "two\nlines" }, runs: [] },
+  ],
+};
+
+test("an estimate takes three columns, and what it stands on the last", () => {
+  const [head, first] = csvOf(table).split("\r\n");
+  assert.equal(head, "model,seconds,seconds_low,seconds_high,reason,runs");
+  assert.equal(first, "piston,2.5,2,3,,runs/a.json runs/b.json");
+});
+
+test("commas, quotes and line ends are kept in quotes", () => {
+  assert.ok(csvOf(table).includes('"a, ""b""",,,,"two\nlines",\r\n'));
+});
+
+test("only the rows that are shown are written", () => {
+  assert.equal(csvOf(table, table.rows.slice(0, 1)).split("\r\n").length, 3);
+});
