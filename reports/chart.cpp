@@ -12,7 +12,7 @@ namespace {
 /// What all charts have in common; whoever draws them has it.
 constexpr const char* shared_file = "config.json";
 
-Chart read_chart(const std::filesystem::path& file) {
+ReportChart read_chart(const std::filesystem::path& file) {
   try {
     const Json json = Json::parse(io::read_whole_file(file).bytes);
     return {json.at("experiment"), json.at("name"),   json.at("title"),
@@ -26,18 +26,18 @@ Chart read_chart(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<Chart> read_charts(const std::filesystem::path& folder) {
+std::vector<ReportChart> read_charts(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::exists(folder)) return {};
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".json" && entry.path().filename() != shared_file) files.push_back(entry.path());
   std::ranges::sort(files);
-  std::vector<Chart> charts;
+  std::vector<ReportChart> charts;
   for (const auto& file : files) charts.push_back(read_chart(file));
   return charts;
 }
 
-Json chart_json(const Chart& chart) {
+Json chart_json(const ReportChart& chart) {
   return {{"name", chart.name},
           {"title", chart.title},
           {"caption", chart.caption},

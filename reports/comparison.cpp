@@ -179,7 +179,7 @@ std::string name_from(const std::filesystem::path& into, const std::filesystem::
 }  // namespace
 
 Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
-                       const std::filesystem::path& into, std::span<const Chart> charts) {
+                       const std::filesystem::path& into, std::span<const ReportChart> charts) {
   const Report a = read_report(first, {}), b = read_report(second, {});
   Work work{.sides = {name_from(into, first), name_from(into, second)}, .experiment = {}, .counts = {}};
   ReportSection section;

@@ -13,6 +13,6 @@ namespace ccdt {
 /// \param into  the folder of the new report, which its files are named from
 /// \throw InputError  one of the folders has no experiment
 Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
-                       const std::filesystem::path& into, std::span<const Chart> charts);
+                       const std::filesystem::path& into, std::span<const ReportChart> charts);
 
 }  // namespace ccdt

@@ -78,8 +78,8 @@ ReportSection read_section(const std::filesystem::path& folder, const KnownExper
 
 }  // namespace
 
-void add_charts(std::span<const Chart> charts, ReportSection& section) {
-  for (const Chart& chart : charts) {
+void add_charts(std::span<const ReportChart> charts, ReportSection& section) {
+  for (const ReportChart& chart : charts) {
     const bool has_tables = std::ranges::all_of(chart.tables, [&](const std::string& name) {
       const ResultTable* table = find_table(section.result, name);
       return table != nullptr && !table->rows.empty();
@@ -88,7 +88,7 @@ void add_charts(std::span<const Chart> charts, ReportSection& section) {
   }
 }
 
-Report read_report(const std::filesystem::path& folder, std::span<const Chart> charts) {
+Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts) {
   Report report;
   report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization, measured again";
   for (const KnownExperiment& known : known_experiments()) {

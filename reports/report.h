@@ -18,7 +18,7 @@ struct ReportSection {
   ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
   bool is_missing = false;
   std::string reason;  ///< why it is missing
-  std::vector<Chart> charts;
+  std::vector<ReportChart> charts;
 };
 
 /// What a reader needs to repeat a run.
@@ -41,10 +41,10 @@ struct Report {
 /// that is missing a line that does.
 ///
 /// \throw InputError  the folder has no experiment at all
-Report read_report(const std::filesystem::path& folder, std::span<const Chart> charts);
+Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts);
 
 /// Gives sections their charts, of which all tables are there.
-void add_charts(std::span<const Chart> charts, ReportSection& section);
+void add_charts(std::span<const ReportChart> charts, ReportSection& section);
 
 /// As JSON of schema `ccdt.report/1`, and of schema `ccdt.claims/1` its claims alone.
 Json report_json(const Report& report);

@@ -36,7 +36,7 @@ Json section_json(const ReportSection& section) {
   const ExperimentResult& result = section.result;
   Json tables = Json::array(), charts = Json::array(), meshes = Json::array();
   for (const ResultTable& table : result.tables) tables.push_back(table_json(table));
-  for (const Chart& chart : section.charts) charts.push_back(chart_json(chart));
+  for (const ReportChart& chart : section.charts) charts.push_back(chart_json(chart));
   for (const KeptMesh& mesh : result.meshes) meshes.push_back(kept_mesh_json(mesh));
   Json json = {{"name", result.name},
                {"title", result.title},

@@ -39,7 +39,7 @@ const std::vector<Strategy>& all_strategies() {
        5},
       {"cgal-delaunay", "CGAL Delaunay, same vertices", "cgal-delaunay", {}, 6},
       {"tetgen", "TetGen, its own vertices", "tetgen", {}, 5},
-      {"cgal-mesh3", "CGAL Mesh_3, its own vertices", "cgal-mesh3", {"--improve", "none"}, 4}};
+      {"cgal-mesh3", "CGAL Mesh_3, its own vertices", "cgal-mesh3", {"--improve", "none"}, 3}};
   return all;
 }
 
@@ -93,13 +93,6 @@ std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Model& mo
   return cases;
 }
 
-/// How many counted runs a size gets, now that each case has run once.
-int runs_of(const ExperimentOptions& options, std::span<const MeasuredCase> cases) {
-  const bool is_long = std::ranges::any_of(
-      cases, [](const auto& c) { return timed_seconds(c.name, c.first.seconds) > long_run_seconds; });
-  return is_long ? std::min(options.runs, counted_long_runs) : options.runs;
-}
-
 Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
   Fig8Point point{size.edge_length,      measured.first.counts, {}, {}, measured.first.status,
                   measured.first.reason, run_files(measured)};
@@ -113,14 +106,11 @@ Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
 void measure_size(const ExperimentOptions& options, const Model& model, const Size& size, Fig8Model& result,
                   const std::function<void(const std::string&)>& announce) {
   std::vector<MeasuredCase> cases = plan(options, model, size);
-  int runs = options.runs;
-  for (int number = 0; number <= runs; ++number) {
+  for (int number = 0; number <= options.runs; ++number)
     for (MeasuredCase& measured : cases) {
       announce(measured.stem);
       run_once(options, measured, number);
     }
-    if (number == 0) runs = runs_of(options, cases);
-  }
   for (const MeasuredCase& measured : cases) {
     if (measured.name != "insert")  // whose vertices are the input of others
       for (const char* ending : {".node", ".ele", ".face", ".edge"})
@@ -181,7 +171,7 @@ std::vector<std::string> fig8_definitions() {
       "Exponent: slope of the logarithms of median seconds over those of vertices; 1 is linear.",
       "Slope: of the straight line through the median seconds over the vertices; R2: its share of the variance.",
       "Intervals of both are Student's t for 95% confidence.",
-      "A size at which a CDT takes more than 30 s has at most three counted runs.",
+      "What takes long has at most three counted runs.",
   };
 }
 

@@ -14,10 +14,6 @@ namespace ccdt {
 /// The exponent that we claim for the growth of the time with the number of vertices; 1 is linear.
 inline constexpr double claimed_exponent = 1.10;
 
-/// Cases whose CDT takes longer than this in their first run are counted at most three times.
-inline constexpr double long_run_seconds = 30;
-inline constexpr int counted_long_runs = 3;
-
 /// One size of one model, meshed with one strategy.
 struct Fig8Point {
   double edge_length = 0;  ///< units of the model

@@ -1,5 +1,7 @@
 #include "bench/experiments/measured_case.h"
 
+#include <algorithm>
+
 #include "bench/results/kept_mesh.h"
 #include "engine/io/tet_mesh_files.h"
 
@@ -12,6 +14,15 @@ std::string run_file(const MeasuredCase& measured, std::size_t number) {
 }
 
 }  // namespace
+
+double long_run_seconds(const ExperimentOptions& options) {
+  return options.tetrahedra / 10000;
+}
+
+bool is_counted(const ExperimentOptions& options, const MeasuredCase& measured, int number) {
+  const bool is_long = measured.first.seconds.mesh > long_run_seconds(options);
+  return number <= (is_long ? std::min(options.runs, counted_long_runs) : options.runs);
+}
 
 std::vector<std::string> run_files(const MeasuredCase& measured) {
   if (measured.failed() || measured.counted.empty()) return {run_file(measured, measured.first_run)};
@@ -27,7 +38,7 @@ KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measure
 }
 
 void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number) {
-  if (measured.failed()) return;
+  if (measured.failed() || !is_counted(options, measured, number)) return;
   const auto report = options.folder / run_file(measured, static_cast<std::size_t>(number));
   RunRecord record = run_case(options.program, options.folder, measured.what, report, options.limits);
   if (number > 0 && record.status == RunStatus::ok) {

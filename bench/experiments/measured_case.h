@@ -20,6 +20,14 @@ struct MeasuredCase {
   bool failed() const { return first.status != RunStatus::ok; }
 };
 
+/// Cases of which a run takes long are counted only so often. What is long depends on the scale: a second with 10,000
+/// tetrahedra a model.
+inline constexpr int counted_long_runs = 3;
+double long_run_seconds(const ExperimentOptions& options);
+
+/// Is the run of this number still to be made, now that the case has been run once?
+bool is_counted(const ExperimentOptions& options, const MeasuredCase& measured, int number);
+
 /// The files of the runs that a row of this case stands on, relative to the folder: the counted ones, or the one that
 /// failed.
 std::vector<std::string> run_files(const MeasuredCase& measured);

@@ -100,7 +100,7 @@ std::vector<std::string> mesher_quality_definitions() {
           "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a; cgal-mesh3: with perturbation and "
           "exudation.",
           "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
-          "A size at which a run takes more than 10 s has at most three counted runs.",
+          "What takes long has at most three counted runs.",
       });
   return definitions;
 }

@@ -11,8 +11,6 @@
 namespace ccdt {
 namespace {
 
-constexpr int counted_long_quality_runs = 3;
-
 /// A solid's name or a file, to be read when its turn comes.
 struct Source {
   std::string name;
@@ -117,10 +115,7 @@ void run_counted(Work& work) {
       if (!measured.failed()) measured.counted = {measured.first};
     return;
   }
-  const bool is_long =
-      std::ranges::any_of(work.cases, [](const auto& c) { return c.first.seconds.mesh > long_quality_run_seconds; });
-  const int runs = is_long ? std::min(work.options.runs, counted_long_quality_runs) : work.options.runs;
-  for (int number = 1; number <= runs; ++number)
+  for (int number = 1; number <= work.options.runs; ++number)
     for (MeasuredCase& measured : work.cases) {
       run_once(work.options, measured, number);
       if (number == 1) keep_small_mesh(work, measured);

@@ -15,9 +15,6 @@ namespace ccdt {
 /// How far the numbers of tetrahedra of two meshes may be apart for their quality to be compared, as a fraction.
 inline constexpr double equal_count_tolerance = 0.15;
 
-/// Cases of which a run takes longer than this are counted at most three times.
-inline constexpr double long_quality_run_seconds = 10;
-
 /// One way to fill a surface: a mesher with options.
 struct QualityVariant {
   std::string name;                      ///< for people

@@ -204,6 +204,7 @@ std::vector<std::string> table1_definitions() {
       "Its own vertices: refined to the edge length of the surface, by TetGen with pYq1.414a, which keeps the surface.",
       "Mesh_3 replaces the surface. It refines alone: nobody's improvement is in these times.",
       "Meshers other than ours are timed by the call of the library alone.",
+      "What takes long has at most three counted runs.",
   };
 }
 

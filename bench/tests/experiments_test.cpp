@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "bench/experiments/fig8.h"
 #include "bench/experiments/interior_points.h"
 #include "bench/experiments/locators.h"
+#include "bench/experiments/measured_case.h"
+#include "bench/experiments/registry.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/base/errors.h"
 
@@ -18,6 +21,32 @@ TEST(Claim, HoldsOrFailsOnlyWithTheWholeInterval) {
   EXPECT_EQ(is_at_least({9, 8.5, 9.5}, 8), Claim::holds);
   EXPECT_EQ(is_at_least({9, 7.5, 9.5}, 8), Claim::undecided);
   EXPECT_EQ(is_at_least({7, 6.5, 7.5}, 8), Claim::fails);
+}
+
+TEST(Experiments, CountLongRunsLessOften) {
+  ExperimentOptions options;
+  options.tetrahedra = 20000;
+  MeasuredCase measured;
+  measured.first.seconds.mesh = 1.9;
+  EXPECT_TRUE(is_counted(options, measured, 5));
+  EXPECT_FALSE(is_counted(options, measured, 6));
+  measured.first.seconds.mesh = 2.1;
+  EXPECT_TRUE(is_counted(options, measured, 3));
+  EXPECT_FALSE(is_counted(options, measured, 4));
+}
+
+TEST(Experiments, MakeEdgesLongerForFewerTetrahedra) {
+  ExperimentOptions options;
+  EXPECT_DOUBLE_EQ(edge_factor(options), 1);
+  options.tetrahedra = 12500;
+  EXPECT_DOUBLE_EQ(edge_factor(options), 2);
+}
+
+TEST(Registry, NamesEveryExperimentOnceAndGivesItsNameToTheResult) {
+  std::set<std::string> names;
+  for (const KnownExperiment& known : known_experiments()) EXPECT_TRUE(names.insert(known.name).second) << known.name;
+  EXPECT_EQ(known_experiment("fig8")->section, "6, Fig. 8");
+  EXPECT_EQ(known_experiment("fig12"), nullptr);
 }
 
 TEST(Experiments, MeasureAllModelsUnlessSomeAreAskedFor) {
@@ -53,34 +82,39 @@ Fig8Point point_of_size(std::uint64_t n, double exponent) {
   seconds.delaunay = 1e-6 * std::pow(static_cast<double>(n), exponent);
   seconds.front = 2e-6 * static_cast<double>(n);
   point.samples.assign(5, seconds);
-  point.cdt = Estimate{seconds.delaunay + seconds.front, 0, 0};
+  point.seconds = Estimate{seconds.delaunay + seconds.front, 0, 0};
   return point;
 }
 
 TEST(Fig8, FitsEachStageOnItsOwn) {
-  Fig8Series series;
+  Fig8Series series{"without_check", "without check", "ccdt", {}, {}};
   for (const std::uint64_t n : {10000, 20000, 40000, 80000}) series.points.push_back(point_of_size(n, 1.5));
-  const auto fits = fit_series(series, true);
+  const auto fits = fit_series(series);
   ASSERT_EQ(fits.size(), 3u);
-  EXPECT_EQ(fits[0].id, "cdt");
+  EXPECT_EQ(fits[0].quantity, "cdt");
   EXPECT_GT(fits[0].power.slope.value, 1.4);
   EXPECT_LT(fits[0].power.slope.value, 1.5);
-  EXPECT_EQ(fits[1].id, "delaunay");
+  EXPECT_EQ(fits[1].quantity, "delaunay");
   EXPECT_NEAR(fits[1].power.slope.value, 1.5, 1e-9);
-  EXPECT_EQ(fits[2].id, "front");
+  EXPECT_EQ(fits[2].quantity, "front");
   EXPECT_NEAR(fits[2].power.slope.value, 1, 1e-9);
   EXPECT_NEAR(fits[2].line.slope.value, 2e-6, 1e-12);
-  EXPECT_EQ(fit_series(series, false).size(), 2u);
+  EXPECT_EQ(fits[0].least_vertices, 10000);
+  EXPECT_EQ(fits[0].most_vertices, 80000);
+  series.id = "insert";
+  EXPECT_EQ(fit_series(series).size(), 2u);
+  series.mesher = "tetgen";
+  ASSERT_EQ(fit_series(series).size(), 0u);  // it tells no seconds of all of its work
 }
 
 TEST(Fig8, LeavesOutFailedPointsAndDoesNotFitTwo) {
-  Fig8Series series;
+  Fig8Series series{"insert", "with check", "ccdt", {}, {}};
   for (const std::uint64_t n : {10000, 20000, 40000}) series.points.push_back(point_of_size(n, 1));
   series.points.push_back(point_of_size(80000, 7));
-  series.points.back().cdt = {};
-  EXPECT_NEAR(fit_series(series, false)[0].power.slope.value, 1, 1e-9);
-  series.points[0].cdt = {};
-  EXPECT_TRUE(fit_series(series, false).empty());
+  series.points.back().seconds = {};
+  EXPECT_NEAR(fit_series(series)[0].power.slope.value, 1, 1e-9);
+  series.points[0].seconds = {};
+  EXPECT_TRUE(fit_series(series).empty());
 }
 
 TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
