@@ -13,6 +13,10 @@ test("other numbers have four significant digits", () => {
   assert.equal(numberText(12345.678), "12,346");
 });
 
+test("what is rounded to zero has no sign", () => {
+  assert.equal(numberText(-0.004, 1), "0.0");
+});
+
 test("very small numbers have an exponent", () => {
   assert.equal(numberText(0.0000123), "1.23×10⁻⁵");
   assert.equal(numberText(-0.0000123), "-1.23×10⁻⁵");

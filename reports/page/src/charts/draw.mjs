@@ -60,7 +60,7 @@ export async function drawn(section, chart, options) {
   for (let fitting = 1; ; ++fitting) {
     const made = await run(completeSpec(section, chart, { ...options, room }));
     const excess = (await widthOf(made.view)) - options.width;
-    if ((excess <= 0 && excess > -CLOSE_ENOUGH) || !chart.spec.facet || fitting === MOST_FITTINGS) return made;
+    if ((excess <= 0 && excess > -CLOSE_ENOUGH) || fitting === MOST_FITTINGS) return made;
     made.view.finalize();
     room += excess + 1;
   }

@@ -5,14 +5,12 @@ import config from "../../../charts/config.json" with { type: "json" };
  * @typedef {{colour: string, shape: string, dash: number[]}} SeriesStyle
  */
 
-function known(value) {
-  const name = value.toLowerCase();
-  return config.series.find((style) => style.values.includes(name));
-}
-
+/** Where the configuration has a name, or what the name starts with; after all if it does not. */
 function rankOf(value) {
-  const rank = config.series.findIndex((style) => style.values.includes(value.toLowerCase()));
-  return rank < 0 ? config.series.length : rank;
+  const name = value.toLowerCase();
+  const exact = config.series.findIndex(({ values }) => values?.includes(name));
+  const start = config.series.findIndex(({ starts }) => starts?.some((word) => name.startsWith(word)));
+  return exact >= 0 ? exact : start >= 0 ? start : config.series.length;
 }
 
 /** Our own series first, then the others as the configuration has them, then what it does not know, as it comes. */
@@ -33,7 +31,7 @@ export function seriesStyles(values) {
   const taken = new Set();
   const take = (style) => (taken.add(style.colour), { colour: style.colour, shape: style.shape, dash: style.dash });
   const styles = values.map((value) => {
-    const style = known(value);
+    const style = config.series[rankOf(value)];
     return style && !taken.has(style.colour) ? take(style) : null;
   });
   let next = 0;

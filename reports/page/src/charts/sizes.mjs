@@ -1,6 +1,7 @@
 import { textsOf } from "./texts.mjs";
 
 const NARROWEST_CELL = 190;
+const NARROWEST_PLOT = 56;
 const GAP = 18;
 
 /** What the axes and the legend may take of a chart's width before it has been drawn. */
@@ -19,12 +20,12 @@ function columnsOf(spec, data, width, room) {
  * @param {object} spec   of Vega-Lite, a single view or facets
  * @param {Object<string, object[]>} data
  * @param {number} width  pixels
- * @param {number} room   what of the width is not for the cells of the facets
+ * @param {number} room   what of the width is not for the plot, or the cells of facets
  */
 export function sized(spec, data, width, room) {
-  if (!spec.facet) return { ...spec, width, autosize: { type: "fit-x", contains: "padding" } };
+  if (!spec.facet) return { ...spec, width: Math.max(NARROWEST_PLOT, width - room) };
   const columns = columnsOf(spec, data, width, FIRST_ROOM);
-  const cell = Math.max(56, (width - room - GAP * (columns - 1)) / columns);
+  const cell = Math.max(NARROWEST_PLOT, (width - room - GAP * (columns - 1)) / columns);
   return {
     ...spec,
     columns,

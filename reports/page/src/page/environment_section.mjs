@@ -24,13 +24,17 @@ function environmentEntry({ environment, loads, sections }, isOnlyOne) {
     ]));
 }
 
+/** Many sizes are told by their range; the runs have each. */
 function valuesText(values) {
+  const numbers = values.map(Number);
+  if (values.length > MOST_VALUES && numbers.every(Number.isFinite))
+    return `${numberText(Math.min(...numbers))} to ${numberText(Math.max(...numbers))} (${values.length} values)`;
   return values.length <= MOST_VALUES ? values.join(", ") : `${values.slice(0, MOST_VALUES).join(", ")} and ${values.length - MOST_VALUES} more`;
 }
 
 function mesherRow({ mesher, version, runs, settings }) {
   const texts = settings.map(({ name, values }) => element("div", {}, element("code", {}, name), ` ${valuesText(values)}`));
-  return element("tr", {}, element("th", { scope: "row" }, mesher), element("td", {}, version), element("td.number", {}, numberText(runs)), element("td", {}, texts));
+  return element("tr", {}, element("th", { scope: "row" }, mesher || element("span.quiet", {}, "not recorded")), element("td", {}, version), element("td.number", {}, numberText(runs)), element("td", {}, texts));
 }
 
 /** On what machine, with which programs and settings. */

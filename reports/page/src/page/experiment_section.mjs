@@ -8,6 +8,8 @@ import { passes } from "./filters.mjs";
 import { counted, numberText } from "./numbers.mjs";
 import { tableView } from "./table_view.mjs";
 
+const MOST_FINDINGS = 8;
+const FINDINGS_AT_FIRST = 6;
 const FILTERED_AFTER = 150;  // milliseconds without another change; then charts are drawn anew
 
 function limitsText(limits) {
@@ -46,6 +48,14 @@ function dataTables(section) {
   return element("p.actions.data", {}, element("span.quiet", {}, "Data: "), buttons, files);
 }
 
+/** The first findings, and the rest on demand. */
+function findings({ findings: all }) {
+  if (all.length <= MOST_FINDINGS) return list("ul.findings", all);
+  const rest = all.length - FINDINGS_AT_FIRST;
+  return [list("ul.findings", all.slice(0, FINDINGS_AT_FIRST)),
+    element("details.definitions", {}, element("summary", {}, `${rest} more findings`), list("ul", all.slice(FINDINGS_AT_FIRST)))];
+}
+
 /** As the charts themselves say; else as they come. */
 function inOrder(charts) {
   const rank = (chart) => chart.spec.usermeta?.order ?? 0;
@@ -78,7 +88,7 @@ export function experimentSection(report, section) {
   ];
   const body = section.status === "missing" ? missingSection(section) : [
     failure(section),
-    list("ul.findings", section.findings),
+    findings(section),
     section.problems.length > 0 ? element("div.problem", {}, element("h4", {}, "What went wrong"), list("ul", section.problems)) : null,
     section.meshes.length > 0 ? element("p", {}, element("a", { href: "#meshes" }, "Look at its meshes")) : null,
     results(report, section),

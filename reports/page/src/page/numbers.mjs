@@ -9,7 +9,8 @@ function magnitude(number) {
 }
 
 function grouped(number, decimals) {
-  return number.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
+  const rounded = Number(number.toFixed(decimals)) || 0;  // never -0
+  return rounded.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 }
 
 function scientific(number) {

@@ -7,6 +7,7 @@ import { openTrace, traceButton } from "./trace.mjs";
 const STATUS = "status";
 const ROWS_AT_FIRST = 12;
 const MOST_ROWS_WITHOUT_BUTTON = 16;
+const LONG_TEXT = 44;  // characters; longer ones are wrapped
 
 /**
  * Columns with something to say. Why a value is missing is said beside the status; that all is well, not at all.
@@ -21,7 +22,8 @@ function shownColumns(table) {
     .filter(says)
     .map((column) => {
       const cells = table.rows.map((row) => row.values[column.name]);
-      return { ...column, isNumeric: cells.some((cell) => typeof cell === "number" || isEstimate(cell)), decimals: commonDecimals(cells) };
+      const isLong = cells.some((cell) => typeof cell === "string" && cell.length > LONG_TEXT);
+      return { ...column, isLong, isNumeric: cells.some((cell) => typeof cell === "number" || isEstimate(cell)), decimals: commonDecimals(cells) };
     });
 }
 
@@ -82,20 +84,24 @@ function headCell(column, sorting, sort) {
       element("span.arrow", { "aria-hidden": "true" }, state === "descending" ? "↓" : state === "ascending" ? "↑" : "")));
 }
 
+function hasRuns(table) {
+  return table.rows.some((row) => row.runs.length > 0);
+}
+
 function statusContent(table, row) {
   const notes = table.columns.filter(({ kind }) => kind === "note").map(({ name }) => row.values[name]).filter(Boolean);
   return [element("span.status", { "data-status": row.values[STATUS] }, row.values[STATUS]), notes.map((note) => element("span.quiet", {}, ` ${note}`))];
 }
 
 function bodyRow(report, table, columns, row, isFolded) {
-  const cells = columns.map(({ name, isNumeric, decimals, kind }, index) => {
+  const cells = columns.map(({ name, isNumeric, isLong, decimals, kind }, index) => {
     const content = cellContent(row.values[name], decimals, kind);
-    const classes = `${isNumeric ? ".number" : ""}${kind === "note" || name === STATUS ? ".note" : ""}`;
+    const classes = `${isNumeric ? ".number" : ""}${isLong ? ".long" : ""}${kind === "note" || name === STATUS ? ".note" : ""}`;
     const body = name === STATUS ? statusContent(table, row) : content;
     return index === 0 ? element(`th${classes}`, { scope: "row" }, body) : element(`td${classes}`, {}, body);
   });
   const trace = traceButton(row.runs, rowTitle(table, row), () => traceRow(report, table, row));
-  return element(isFolded ? "tr.folded" : "tr", {}, cells, element("td.trace-cell", {}, trace));
+  return element(isFolded ? "tr.folded" : "tr", {}, cells, hasRuns(table) ? element("td.trace-cell", {}, trace) : null);
 }
 
 /**
@@ -126,7 +132,7 @@ export function tableView(report, section, table) {
   function draw() {
     const mustFold = rows.length > MOST_ROWS_WITHOUT_BUTTON && !isUnfolded;
     head.replaceChildren(element("tr", {}, columns.map((column) => headCell(column, sorting, sort)),
-      element("th.trace-cell", { scope: "col" }, element("span.unseen", {}, "Runs"))));
+      hasRuns(table) ? element("th.trace-cell", { scope: "col" }, element("span.unseen", {}, "Runs")) : null));
     body.replaceChildren(...sortedRows(rows, sorting).map((row, index) =>
       bodyRow(report, table, columns, row, mustFold && index >= ROWS_AT_FIRST)));
     count.textContent = rows.length === table.rows.length ? "" : `${rows.length} of ${counted(table.rows.length, "row")}`;

@@ -16,7 +16,7 @@ function valueCell(cell) {
   return [value, interval ? element("span.interval", {}, ` ${interval}`) : null];
 }
 
-const HOLDS = new Map([[true, "✓ holds"], [false, "✕ does not hold"], [null, ""]]);
+const HOLDS = new Map([[true, "✓ holds"], [false, "✕ does not hold"], [null, "undecided"]]);
 
 /** Where a measure was taken: its table, or the section if the table is not shown. */
 function linkTo(report, { experiment, table }) {
@@ -32,7 +32,7 @@ function measureRow(report, claim, measure) {
     element("th", { scope: "row" }, measure.what),
     element("td.number", {}, valueCell(measure.value)),
     element("td", {}, measure.bound),
-    element("td.holds", { "data-holds": String(measure.holds) }, HOLDS.get(measure.holds)),
+    element("td.holds", { "data-holds": String(measure.holds) }, measure.bound ? HOLDS.get(measure.holds) : null),
     element("td", {}, linkTo(report, measure)),
     element("td.trace-cell", {}, traceButton(measure.runs, measure.what, () => openTrace(report, measure.what, facts, measure.runs))));
 }
