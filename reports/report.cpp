@@ -67,7 +67,7 @@ ReportSection read_section(const std::filesystem::path& folder, const KnownExper
     }
     section.reason = "There is no " + known.name + ".json in this folder.";
   } catch (const InputError& error) {
-    section.reason = error.what();
+    section.reason = known.name + ".json cannot be used: " + error.what();
   }
   section.is_missing = true;
   section.result.name = known.name;

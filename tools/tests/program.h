@@ -22,6 +22,7 @@ struct Outcome {
 class Program : public testing::Test {
  protected:
   Program() {
+    setenv("CCDT_NODE", "none", 1);  // figures take seconds, and have a test of their own
     std::string name = testing::TempDir() + "/ccdt-test-XXXXXX";
     folder_ = mkdtemp(name.data());
     std::filesystem::create_directory(folder_ / "work");
@@ -30,9 +31,11 @@ class Program : public testing::Test {
 
   std::filesystem::path work() const { return folder_ / "work"; }
 
-  Outcome run(const std::string& arguments) const {
+  Outcome run(const std::string& arguments) const { return run_in(".", arguments); }
+
+  Outcome run_in(const std::string& folder, const std::string& arguments) const {
     const auto quoted = [](const std::filesystem::path& path) { return "'" + path.string() + "'"; };
-    const std::string command = "cd " + quoted(work()) + " && " + quoted(CCDT_PROGRAM) + " " + arguments +
+    const std::string command = "cd " + quoted(work() / folder) + " && " + quoted(CCDT_PROGRAM) + " " + arguments +
                                 " </dev/null >" + quoted(folder_ / "out") + " 2>" + quoted(folder_ / "err");
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out"), text_of(folder_ / "err")};

@@ -1,90 +1,160 @@
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
+#include "tools/tests/experiment_json.h"
 #include "tools/tests/program.h"
 
 namespace ccdt {
 namespace {
 
-using Json = nlohmann::json;
-
 TEST_F(Program, ReproducesTable1AtACoarseScale) {
   // Mesh_3 needs seconds for the smallest features of the models, however coarse they are.
   const bool with_tetgen = run("mesh --help").out.find("  tetgen ") != std::string::npos;
   const Outcome outcome =
-      run(std::string("reproduce table1 -o report --scale 4") + (with_tetgen ? " --beside tetgen" : ""));
+      run(std::string("reproduce table1 -o report --scale 2000") + (with_tetgen ? " --beside tetgen" : ""));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("602.25"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("602.2"), std::string::npos) << outcome.out;
 
   const Json table = Json::parse(text_of(work() / "report/table1.json"));
-  EXPECT_EQ(table["schema"], "ccdt.table1/1");
-  ASSERT_EQ(table["models"].size(), 3u);
-  for (const Json& model : table["models"]) {
-    EXPECT_EQ(model["same_tetrahedra"], true);
-    for (const Json& row : model["rows"]) {
-      if (row["status"] != "ok") continue;
-      EXPECT_EQ(row["samples"].size(), 5u) << row;
-      EXPECT_LE(row["seconds"]["low"], row["seconds"]["median"]) << row;
-      EXPECT_GE(row["seconds"]["high"], row["seconds"]["median"]) << row;
-    }
-    const std::string record = "report/runs/" + model["name"].get<std::string>() + "-with_check-5.json";
-    EXPECT_EQ(Json::parse(text_of(work() / record))["schema"], "ccdt.run/1");
+  EXPECT_EQ(table["schema"], "ccdt.experiment/1");
+  EXPECT_EQ(table["command"],
+            std::string("ccdt reproduce table1 --scale 2000") + (with_tetgen ? " --beside tetgen" : "") + " -o .");
+  for (const Json& row : rows_of(table, "sizes")) EXPECT_EQ(row["values"]["same_tetrahedra"], "yes");
+  EXPECT_EQ(rows_of(table, "sizes").size(), 3u);
+  for (const Json& row : rows_of(table, "times")) {
+    if (row["values"]["status"] != "ok") continue;
+    const Json& seconds = row["values"]["seconds"];
+    EXPECT_GE(row["runs"].size(), 3u) << row;
+    EXPECT_LE(seconds["low"], seconds["value"]) << row;
+    EXPECT_GE(seconds["high"], seconds["value"]) << row;
+    for (const Json& file : row["runs"])
+      EXPECT_EQ(Json::parse(text_of(work() / "report" / file.get<std::string>()))["schema"], "ccdt.run/1");
   }
-  EXPECT_NE(text_of(work() / "report/table1.md").find("| ratios"), std::string::npos);
+  EXPECT_NE(text_of(work() / "report/table1.md").find("## Ratios"), std::string::npos);
 }
 
 TEST_F(Program, ReproducesFig8AtACoarseScale) {
-  const Outcome outcome = run("reproduce fig8 -o report --scale 5 --models stepping-pole");
+  const Outcome outcome = run("reproduce fig8 -o report --scale 2000 --models stepping-pole --beside cgal-delaunay");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("Is it linear?"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("the exponent is"), std::string::npos) << outcome.out;
   const Json fig8 = Json::parse(text_of(work() / "report/fig8.json"));
-  EXPECT_EQ(fig8["schema"], "ccdt.fig8/1");
-  ASSERT_EQ(fig8["models"].size(), 1u);
-  std::size_t runs = 0;
-  for (const Json& series : fig8["models"][0]["series"]) {
-    const Json& points = series["points"];
-    ASSERT_GE(points.size(), 3u);
-    EXPECT_GT(points.back()["counts"]["vertices"], points.front()["counts"]["vertices"]);
-    for (const Json& point : points) runs += point["samples"].size();
-    EXPECT_EQ(series["fits"].size(), series["id"] == "without_check" ? 3u : 2u) << series;
+  std::map<std::string, std::vector<double>> sizes;
+  for (const Json& row : rows_of(fig8, "points")) sizes[row["values"]["strategy"]].push_back(row["values"]["vertices"]);
+  EXPECT_EQ(sizes.size(), 5u);
+  for (const auto& [strategy, vertices] : sizes) {
+    ASSERT_GE(vertices.size(), 3u) << strategy;
+    EXPECT_TRUE(std::ranges::is_sorted(vertices)) << strategy;
   }
-  std::istringstream csv(text_of(work() / "report/fig8.csv"));
-  std::size_t lines = 0;
-  for (std::string line; std::getline(csv, line);) ++lines;
-  EXPECT_EQ(lines, runs + 1);
-  EXPECT_TRUE(std::filesystem::is_empty(work() / "report/meshes"));
+  std::map<std::string, int> fits;
+  for (const Json& row : rows_of(fig8, "fits")) ++fits[row["values"]["strategy"]];
+  EXPECT_EQ(fits["with check"], 2);
+  EXPECT_EQ(fits["without check"], 3);
+  EXPECT_EQ(fits["CGAL Delaunay, same vertices"], 1);
+  EXPECT_EQ(rows_of(fig8, "lines").size(), 2 * sizes.size());
 }
 
 TEST_F(Program, ReproducesTheLocatorsOnSolidsAndOnAFile) {
   ASSERT_EQ(run("model torus --edge-length 0.3 -o torus.off").exit_code, 0);
   const Outcome outcome =
-      run("reproduce locators -o report --scale 6 --models bracket,graded-cube,rough-sphere --input torus.off");
+      run("reproduce locators -o report --scale 1000 --models bracket,graded-cube,rough-sphere --input torus.off");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("factor of 181"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("differ by a factor of"), std::string::npos) << outcome.out;
   const Json locators = Json::parse(text_of(work() / "report/locators.json"));
-  EXPECT_EQ(locators["schema"], "ccdt.locators/1");
-  ASSERT_EQ(locators["cases"].size(), 6u);  // the last two with the check off and on
-  for (const Json& c : locators["cases"]) {
-    ASSERT_EQ(c["rows"].size(), 3u);
-    for (const Json& row : c["rows"]) EXPECT_EQ(row["samples"].size(), 5u);
-    EXPECT_GT(c["counts"]["front_tetrahedra"], c["kind"] == "input" && c["face_protection"] ? -1 : 0) << c;
+  EXPECT_EQ(rows_of(locators, "sizes").size(), 6u);  // the last two with the check off and on
+  EXPECT_EQ(rows_of(locators, "front").size(), 6 * 3u);
+  for (const Json& row : rows_of(locators, "front")) {
+    EXPECT_GE(row["runs"].size(), 3u);
+    EXPECT_GT(row["values"]["front_tetrahedra"], row["values"]["face_protection"] == "off" ? 0 : -1) << row;
   }
 }
 
 TEST_F(Program, ReproducesTheInteriorPointsOfASolidAndAFile) {
   ASSERT_EQ(run("model sphere --edge-length 0.5 -o sphere.off").exit_code, 0);
   const Outcome outcome =
-      run("reproduce interior-points -o report --scale 2 --models schoenhardt,cube --input sphere.off");
+      run("reproduce interior-points -o report --scale 10000 --models schoenhardt,cube --input sphere.off");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   const Json points = Json::parse(text_of(work() / "report/interior-points.json"));
-  EXPECT_EQ(points["schema"], "ccdt.interior-points/1");
   std::set<std::string> inputs;
-  for (const Json& c : points["cases"]) inputs.insert(c["input"].get<std::string>());
+  for (const Json& row : rows_of(points, "cases")) inputs.insert(row["values"]["model"].get<std::string>());
   EXPECT_EQ(inputs, (std::set<std::string>{"schoenhardt", "cube", "sphere.off"}));
-  for (const Json& sums : points["summary"]) EXPECT_GT(sums["placed"], 0) << sums;
+  for (const Json& row : rows_of(points, "rules")) EXPECT_GT(row["values"]["interior_vertices"], 0) << row;
   EXPECT_NE(text_of(work() / "report/interior-points.md").find("What this says"), std::string::npos);
+}
+
+/// Figure 7 alone, which is quick.
+class SmallReport : public Program {
+ protected:
+  SmallReport() { outcome_ = run("reproduce fig7 -o report --scale 1000 --models piston"); }
+  Json report() const { return Json::parse(text_of(work() / "report/report.json")); }
+
+  Outcome outcome_;
+};
+
+TEST_F(SmallReport, IsMadeFromTheJsonAloneAgainAndAgain) {
+  ASSERT_EQ(outcome_.exit_code, 0) << outcome_.out << outcome_.err;
+  const std::string before = text_of(work() / "report/report.json");
+  for (const char* made :
+       {"report/report.json", "report/claims.json", "report/fig7.md", "report/tables/fig7-meshes.csv"})
+    ASSERT_TRUE(std::filesystem::remove(work() / made)) << made;
+  ASSERT_EQ(run("report report").exit_code, 0);
+  EXPECT_EQ(text_of(work() / "report/report.json"), before);
+  for (const char* made : {"report/claims.json", "report/fig7.md", "report/tables/fig7-meshes.csv",
+                           "report/tables/fig7-meshes.md", "report/tables/fig7-meshes.tex"})
+    EXPECT_FALSE(text_of(work() / made).empty()) << made;
+}
+
+TEST_F(SmallReport, SaysWhatIsMissing) {
+  std::size_t missing = 0;
+  const Json sections = report()["experiments"];
+  for (const Json& section : sections) {
+    if (section["name"] == "fig7") continue;
+    ++missing;
+    EXPECT_EQ(section["status"], "missing");
+    EXPECT_NE(outcome_.out.find(section["command"].get<std::string>()), std::string::npos) << section["command"];
+  }
+  EXPECT_GE(missing, 9u);
+}
+
+TEST_F(SmallReport, HasACommandThatRepeatsEachRun) {
+  const Json rows = rows_of(report()["experiments"][1], "meshes");
+  const std::string file = rows[0]["runs"][0];
+  const std::string command = report()["runs"][file]["command"];
+  ASSERT_TRUE(command.starts_with("ccdt mesh ")) << command;
+  const Outcome again = run_in("report", command.substr(5));
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const Json first = Json::parse(text_of(work() / "report" / file));
+  const Json second = Json::parse(text_of(work() / "report/again.json"));
+  EXPECT_EQ(first["counts"], second["counts"]);
+  EXPECT_EQ(first["quality"], second["quality"]);
+  EXPECT_EQ(first["counts"]["tetrahedra"], rows[0]["values"]["tetrahedra"]);
+}
+
+TEST_F(SmallReport, RepeatedIsTheSameBitForBit) {
+  ASSERT_EQ(run("reproduce fig7 -o again --scale 1000 --models piston").exit_code, 0);
+  const Outcome outcome = run("report report again");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json comparison = Json::parse(text_of(work() / "again/comparison/report.json"))["experiments"][0];
+  EXPECT_TRUE(rows_of(comparison, "differences").empty()) << comparison;
+  EXPECT_GT(rows_of(comparison, "summary")[0]["values"]["figures"], 0);
+}
+
+TEST_F(Program, ReportRefusesAFolderWithoutExperiments) {
+  std::filesystem::create_directory(work() / "empty");
+  const Outcome outcome = run("report empty");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("ccdt reproduce"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run("report nowhere").exit_code, 2);
+}
+
+TEST_F(Program, ReproduceRefusesScalesThatAreNone) {
+  for (const char* scale : {"tiny", "0", "-5", "nan", "10x"}) {
+    const Outcome outcome = run(std::string("reproduce fig7 -o report --scale ") + scale);
+    EXPECT_EQ(outcome.exit_code, 2) << scale;
+    EXPECT_NE(outcome.err.find("quick, paper, large"), std::string::npos) << outcome.err;
+  }
 }
 
 TEST_F(Program, ReproduceRefusesModelsThatAnExperimentDoesNotHave) {

@@ -14,7 +14,8 @@ export async function meshFigures(report, folder) {
     for (const { file } of meshes.filter(({ figure }) => figure)) {
       try {
         const svg = await meshPicture(JSON.parse(readFileSync(join(folder, file), "utf8")));
-        figures.push({ name: `${name}-${basename(file, ".json")}`, svg });
+        const mesh = basename(file, ".json");
+        figures.push({ name: mesh.startsWith(`${name}-`) ? mesh : `${name}-${mesh}`, svg });
       } catch (error) {
         trouble.push(`${file}: ${error.message}`);
       }
