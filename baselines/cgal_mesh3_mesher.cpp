@@ -138,6 +138,8 @@ MesherSettings settings_of_mesh3(const InputPlc& input, const MeshOptions& optio
           {"facet_distance", digits(sizes.facet_distance)},
           {"cell_radius_edge_ratio", digits(sizes.cell_radius_edge)},
           {"cell_size", digits(sizes.cell)},
+          {"lloyd", "off"},
+          {"odt", "off"},
           {"perturb", improved},
           {"exude", improved}};
 }

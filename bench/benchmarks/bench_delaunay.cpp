@@ -1,40 +1,49 @@
 // What is measured: the Delaunay tetrahedralization of points that are in memory, from the plain array of points to the
 // finished structure, on one thread; the release of the structure is not within.
 //
-//   delaunay/ccdt/...   build_delaunay, vertex by vertex; the sorting along a Hilbert curve is within
-//   delaunay/wrap/...   wrap_delaunay, the paper's way: face by face in a uniform grid, which is made within; it is
-//   given
-//                       the ranks that decide ties, those of build_delaunay, so that both have one result
-//   delaunay/cgal/...   CGAL's Delaunay_triangulation_3 with its kernel of exact predicates, given the same points, of
-//                       the very same coordinates, as a range
+//   delaunay/insert/...  build_delaunay, vertex by vertex; the sorting along a Hilbert curve is within
+//   delaunay/wrap/...    wrap_delaunay, the paper's way: face by face in a uniform grid, which is made within; it is
+//                        given the ranks that decide ties, those of build_delaunay, so that both have one result
+//   delaunay/cgal/...    CGAL's Delaunay_triangulation_3 with its kernel of exact predicates, given the same points, of
+//                        the very same coordinates, as a range
+//   delaunay/tetgen/...  TetGen's library without switches but for silence; it returns a list of tetrahedra, whose
+//                        making is within
 //
-//   .../random/N        N uniformly distributed points, snapped to the grid
-//   .../lattice/N       N points of a perfect face-centred lattice in random order: almost all spheres have more than
-//                       four points on them, which is the common case in the mesher
-//   .../MODEL/N         the about N vertices of a mesh of the model, those of its surface first
-//   .../FILE            the same for a file given by --input
+//   .../random/N         N uniformly distributed points, snapped to the grid
+//   .../lattice/N        N points of a perfect face-centred lattice in random order: almost all spheres have more than
+//                        four points on them, which is the common case in the mesher
+//   .../MODEL/N          the about N vertices of a mesh of the model, those of its surface first
+//   .../FILE             the same for a file given by --input
 //
-// "vertices" are the points, "cells" the finite tetrahedra. Before anything is timed, the results are compared: ccdt
-// and wrap must have the very same tetrahedra; ccdt and CGAL the same volume and, for random points, the same number of
-// tetrahedra (the others have many Delaunay tetrahedralizations). Compare by ratio within one run.
+// "vertices" are the points, "cells" the finite tetrahedra. Before anything is timed, the results are compared: insert
+// and wrap must have the very same tetrahedra; the others the same volume as insert and, for random points, the same
+// number of tetrahedra (the other points have many Delaunay tetrahedralizations). Compare by ratio within one run.
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "bench/benchmarks/benchmark_main.h"
 #include "bench/benchmarks/point_sets.h"
+#include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/wrap_delaunay.h"
 
 #ifdef CCDT_WITH_CGAL_MESHERS
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#endif
+
+#ifdef CCDT_WITH_TETGEN
+#define TETLIBRARY
+#include <tetgen.h>
 #endif
 
 namespace ccdt::benchmarks {
@@ -68,8 +77,8 @@ struct Outcome {
   }
 };
 
-struct Ccdt {
-  static constexpr const char* name = "ccdt";
+struct Insert {
+  static constexpr const char* name = "insert";
   static constexpr std::int64_t largest = 1000000;
   using Input = std::vector<Point3>;
   using Result = Delaunay;
@@ -96,13 +105,13 @@ struct Wrap {
     return input;
   }
   static Result build(const Input& input) { return wrap_delaunay(input); }
-  static Outcome outcome(const Result& d) { return Ccdt::outcome(d); }
+  static Outcome outcome(const Result& d) { return Insert::outcome(d); }
 };
 
 #ifdef CCDT_WITH_CGAL_MESHERS
 struct Cgal {
   static constexpr const char* name = "cgal";
-  static constexpr std::int64_t largest = Ccdt::largest;
+  static constexpr std::int64_t largest = Insert::largest;
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Input = std::vector<Kernel::Point_3>;
   using Result = CGAL::Delaunay_triangulation_3<Kernel>;
@@ -127,37 +136,78 @@ struct Cgal {
   }
 };
 
-std::string compare_with_cgal(const std::string& set, const std::vector<Point3>& points, const Delaunay& d) {
-  const Outcome ours = Ccdt::outcome(d);
-  const Outcome theirs = Cgal::outcome(Cgal::build(Cgal::prepare(points)));
-  if (set == "random" && ours.cells != theirs.cells)
-    return "ccdt has " + std::to_string(ours.cells) + " cells, CGAL " + std::to_string(theirs.cells);
-  if (std::fabs(ours.volume - theirs.volume) > 1e-9 * theirs.volume) return "ccdt and CGAL fill different volumes";
-  return {};
-}
 #endif
 
-/// Why the results are not all right; empty if they are.
-std::string compare(const std::string& set, const std::vector<Point3>& points) {
-  const Delaunay d = build_delaunay(points);
-  if (points.size() <= largest_wrapped &&
-      sorted(finite_cells(d)) != sorted(finite_cells(Wrap::build(Wrap::prepare(points)))))
-    return "ccdt and wrap have different cells";
-#ifdef CCDT_WITH_CGAL_MESHERS
-  return compare_with_cgal(set, points, d);
-#else
-  // The hull of random points is nearly known.
-  const double cube = 0x1p156, volume = Ccdt::outcome(d).volume;
-  if (set == "random" && !(volume > 0.9 * cube && volume <= cube)) return "ccdt does not fill the cube";
-  return {};
+#ifdef CCDT_WITH_TETGEN
+struct TetGen {
+  static constexpr const char* name = "tetgen";
+  static constexpr std::int64_t largest = Insert::largest;
+  using Input = std::unique_ptr<tetgenio>;
+  using Result = std::unique_ptr<tetgenio>;
+
+  static Input prepare(const std::vector<Point3>& points) {
+    auto input = std::make_unique<tetgenio>();
+    input->numberofpoints = static_cast<int>(points.size());
+    input->pointlist = new REAL[3 * points.size()];
+    REAL* coordinate = input->pointlist;
+    for (const Point3& p : points)
+      for (const double value : as_array(p)) *coordinate++ = value;
+    return input;
+  }
+  static Result build(const Input& input) {
+    auto result = std::make_unique<tetgenio>();
+    std::string switches = "Q";
+    try {
+      tetrahedralize(switches.data(), input.get(), result.get());
+    } catch (int code) {
+      throw MeshError("TetGen stopped with code " + std::to_string(code), {}, "");
+    }
+    return result;
+  }
+  static Outcome outcome(const Result& result) {
+    Outcome outcome;
+    const auto corner = [&](int v) -> Point3 {
+      const REAL* p = result->pointlist + 3 * static_cast<std::ptrdiff_t>(v);
+      return {p[0], p[1], p[2]};
+    };
+    for (int t = 0; t < result->numberoftetrahedra; ++t) {
+      const int* v = result->tetrahedronlist + 4 * static_cast<std::ptrdiff_t>(t);
+      outcome.add_cell(corner(v[0]), corner(v[1]), corner(v[2]), corner(v[3]));
+    }
+    return outcome;
+  }
+};
 #endif
+
+/// What insertion makes of a set; once for each.
+const Outcome& reference(const PointSet& set, std::int64_t size) {
+  static std::map<std::pair<std::string, std::int64_t>, Outcome> known;
+  const auto at = known.find({set.name, size});
+  if (at != known.end()) return at->second;
+  return known[{set.name, size}] = Insert::outcome(build_delaunay(kept_points(set, size)));
 }
 
-/// Compared once for each set, whoever comes first.
+/// Why a result is not right; empty if it is.
+template <class Program>
 std::string find_fault(const PointSet& set, std::int64_t size) {
-  static std::map<std::pair<std::string, std::int64_t>, std::string> found;
-  const auto at = found.find({set.name, size});
-  return at != found.end() ? at->second : found[{set.name, size}] = compare(set.name, kept_points(set, size));
+  const std::vector<Point3>& points = kept_points(set, size);
+  if constexpr (std::is_same_v<Program, Insert>) {
+    // The hull of random points is nearly known; apart from that, all others are compared with this one.
+    const double cube = 0x1p156, volume = reference(set, size).volume;
+    return set.name == "random" && !(volume > 0.9 * cube && volume <= cube) ? "it does not fill the cube" : "";
+  } else if constexpr (std::is_same_v<Program, Wrap>) {
+    const Tetrahedra inserted = sorted(finite_cells(build_delaunay(points)));
+    return inserted == sorted(finite_cells(Wrap::build(Wrap::prepare(points))))
+               ? ""
+               : "insert and wrap have different cells";
+  } else {
+    const Outcome& ours = reference(set, size);
+    const Outcome theirs = Program::outcome(Program::build(Program::prepare(points)));
+    if (set.name == "random" && ours.cells != theirs.cells)
+      return "it has " + std::to_string(theirs.cells) + " cells, insert " + std::to_string(ours.cells);
+    if (std::fabs(ours.volume - theirs.volume) > 1e-9 * ours.volume) return "it and insert fill different volumes";
+    return {};
+  }
 }
 
 template <class Program>
@@ -179,7 +229,7 @@ void add(const PointSet& set) {
   Family family{.name = std::string("delaunay/") + Program::name + "/" + set.name,
                 .sizes = set.sizes,
                 .complexity = benchmark::oN,
-                .find_fault = [set](std::int64_t size) { return find_fault(set, size); },
+                .find_fault = [set](std::int64_t size) { return find_fault<Program>(set, size); },
                 .measure = [set](benchmark::State& state,
                                  std::int64_t size) { measure<Program>(state, kept_points(set, size)); }};
   std::erase_if(family.sizes, [](std::int64_t size) { return size > Program::largest; });
@@ -187,7 +237,7 @@ void add(const PointSet& set) {
 }
 
 std::vector<PointSet> point_sets(const Files& files) {
-  const std::vector<std::int64_t> sizes = {10000, 30000, 100000, 300000, 1000000};
+  const std::vector<std::int64_t> sizes = {1000, 3000, 10000, 30000, 100000, 300000, 1000000};
   std::vector<PointSet> sets = {
       {"random", sizes, [](std::int64_t n) { return random_points(static_cast<std::size_t>(n), 2005); }},
       {"lattice", sizes, [](std::int64_t n) { return lattice_points(static_cast<std::size_t>(n), 2005); }}};
@@ -208,10 +258,13 @@ int main(int argc, char** argv) {
   using namespace ccdt::benchmarks;
   return run_benchmarks(argc, argv, [](const Files& files) {
     for (const PointSet& set : point_sets(files)) {
-      add<Ccdt>(set);
+      add<Insert>(set);
       add<Wrap>(set);
 #ifdef CCDT_WITH_CGAL_MESHERS
       add<Cgal>(set);
+#endif
+#ifdef CCDT_WITH_TETGEN
+      add<TetGen>(set);
 #endif
     }
   });

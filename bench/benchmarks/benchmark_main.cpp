@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -16,6 +17,13 @@ namespace {
 using Faults = std::map<std::int64_t, std::string>;
 
 bool any_fault = false;
+
+/// What the user wants of all families.
+struct Wanted {
+  std::int64_t largest = std::numeric_limits<std::int64_t>::max();  ///< size
+  bool no_complexity = false;
+};
+Wanted wanted;
 
 std::string look_for_fault(const Family& family, std::int64_t size) {
   try {
@@ -43,7 +51,9 @@ std::vector<std::string> with_defaults(int argc, char** argv) {
 
 void print_help() {
   std::cout << "Measures one stage of the mesher; what exactly is said at the top of its source.\n\n"
-               "  --input FILE   measure this part too, a file that \"ccdt mesh\" reads; may be repeated\n\n";
+               "  --input FILE   measure this part too, a file that \"ccdt mesh\" reads; may be repeated\n"
+               "  --largest N    leave out sizes above N\n"
+               "  --no-complexity  fit no complexity (Google Benchmark 1.7 crashes at fits through faults alone)\n\n";
   benchmark::PrintDefaultHelp();
 }
 
@@ -59,6 +69,9 @@ std::string check_names(const Files& files) {
 }  // namespace
 
 void add_family(const Family& family) {
+  std::vector<std::int64_t> sizes = family.sizes;
+  std::erase_if(sizes, [](std::int64_t size) { return size > wanted.largest; });
+  if (sizes.empty() && !family.sizes.empty()) return;
   auto* added = benchmark::RegisterBenchmark(family.name.c_str(),
                                              [family, faults = std::make_shared<Faults>()](benchmark::State& state) {
                                                const std::int64_t size = family.sizes.empty() ? 0 : state.range(0);
@@ -67,8 +80,8 @@ void add_family(const Family& family) {
                                                family.measure(state, size);
                                              });
   added->Unit(benchmark::kMillisecond);
-  for (const std::int64_t size : family.sizes) added->Arg(size);
-  if (family.sizes.size() > 1) added->Complexity(family.complexity);
+  for (const std::int64_t size : sizes) added->Arg(size);
+  if (sizes.size() > 1 && !wanted.no_complexity) added->Complexity(family.complexity);
 }
 
 void add_stage(const StageBenchmark& stage, const Files& files) {
@@ -118,6 +131,8 @@ int run_benchmarks(int argc, char** argv, const std::function<void(const Files&)
   Files files;
   CLI::App app;
   app.add_option("--input", files)->check(CLI::ExistingFile)->allow_extra_args(false);
+  app.add_option("--largest", wanted.largest)->check(CLI::PositiveNumber);
+  app.add_flag("--no-complexity", wanted.no_complexity);
   try {
     app.parse(count, arguments.data());
   } catch (const CLI::ParseError& error) {

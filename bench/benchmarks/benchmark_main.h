@@ -68,8 +68,8 @@ void time_runs(benchmark::State& state, const Run& run) {
 }
 
 /// The program: reads the arguments, has the benchmarks added and runs them. The arguments are those of Google
-/// Benchmark and `--input FILE`, as often as wanted. Repetitions are interleaved by default, so that all strategies see
-/// the same machine.
+/// Benchmark, `--input FILE` as often as wanted, `--largest N` and `--no-complexity`. Repetitions are interleaved by
+/// default, so that all strategies see the same machine.
 ///
 /// \return  the exit code: 1 if a benchmark found a fault, 2 if the arguments are wrong
 int run_benchmarks(int argc, char** argv, const std::function<void(const Files&)>& add_all);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bench/experiments/delaunay.h"
 #include "bench/experiments/fig7.h"
 #include "bench/experiments/fig8.h"
 #include "bench/experiments/improvement.h"
@@ -69,6 +70,8 @@ std::vector<KnownExperiment> all_experiments() {
        in_two_steps(measure_lattices)},
       {"locators", "Locators: who finds the front's vertices and occluders fastest", "4",
        "grid, octree and cavity on even and on graded surfaces", true, false, in_two_steps(measure_locators)},
+      {"delaunay", "Delaunay: insertion and wrapping beside CGAL and TetGen", "5",
+       "the Delaunay tetrahedralization of the same points by four programs", true, false, measure_delaunay},
       {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
        false, in_two_steps(measure_improvement)},
       {"interior-points", "Interior points: do they never harm existence?", "3",
