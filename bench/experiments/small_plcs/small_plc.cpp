@@ -1,0 +1,192 @@
+#include "bench/experiments/small_plcs/small_plc.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace ccdt::small {
+namespace {
+
+bool has(const Polygon& corners, Vertex v) {
+  return std::ranges::find(corners, v) != corners.end();
+}
+
+bool is_within_a_facet(const SmallPlc& plc, const std::vector<Vertex>& four) {
+  return std::ranges::any_of(all_facets(plc), [&](const Polygon& facet) {
+    return std::ranges::all_of(four, [&](Vertex v) { return has(facet, v); });
+  });
+}
+
+enum class Meeting { apart, touching, crossing, starting_on };
+
+/// How a ray from a point, given by its far end, meets a triangle.
+Meeting meet(const Point& from, const Point& end, const Point& p, const Point& q, const Point& r) {
+  const auto [least, most] =
+      std::minmax({orientation(from, end, p, q), orientation(from, end, q, r), orientation(from, end, r, p)});
+  if (least < 0 && most > 0) return Meeting::apart;
+  if (least == 0 || most == 0) return Meeting::touching;
+  if (orientation(p, q, r, from) == 0) return Meeting::starting_on;
+  return pierces(from, end, p, q, r) ? Meeting::crossing : Meeting::apart;
+}
+
+/// Does a ray from a point, in units of 1 / `scale`, cross the boundary an odd number of times? Not if the point is on
+/// the boundary.
+bool is_inside_scaled(const SmallPlc& plc, const Point& point, std::int64_t scale) {
+  constexpr int most_rays = 100;
+  for (std::int64_t i = 0; i < most_rays; ++i) {
+    // So long that it ends outside; turned until it meets no edge.
+    const Point end = point + Point{20011, 3001 + 173 * i, 1009 + 311 * i};
+    std::map<Meeting, int> count;
+    for (const Polygon& facet : plc.boundary)
+      for (const auto& [a, b, c] : triangles_of(plc, facet))
+        ++count[meet(point, end, scale * plc.vertices[a], scale * plc.vertices[b], scale * plc.vertices[c])];
+    if (count[Meeting::touching] == 0) return count[Meeting::starting_on] == 0 && count[Meeting::crossing] % 2 == 1;
+  }
+  return false;  // on an edge of the boundary
+}
+
+/// Does the segment run across a facet of four corners, within its plane?
+bool is_diagonal(const Polygon& facet, const Edge& edge) {
+  return facet.size() == 4 && ((edge == edge_of(facet[0], facet[2])) || (edge == edge_of(facet[1], facet[3])));
+}
+
+std::string list_in_words(const std::vector<Polygon>& polygons) {
+  std::ostringstream text;
+  for (const Polygon& polygon : polygons) {
+    text << " (";
+    for (std::size_t i = 0; i < polygon.size(); ++i) text << (i == 0 ? "" : " ") << polygon[i];
+    text << ")";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+Edge edge_of(Vertex a, Vertex b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+Triangle triangle_of(Vertex a, Vertex b, Vertex c) {
+  Triangle triangle = {a, b, c};
+  std::ranges::sort(triangle);
+  return triangle;
+}
+
+Point area_vector(const SmallPlc& plc, const Polygon& polygon) {
+  const Point& first = plc.vertices[polygon[0]];
+  Point area;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    area = area + cross(plc.vertices[polygon[i - 1]] - first, plc.vertices[polygon[i]] - first);
+  return area;
+}
+
+std::vector<Triangle> triangles_of(const SmallPlc& plc, const Polygon& p) {
+  if (p.size() == 3) return {{p[0], p[1], p[2]}};
+  const Point area = area_vector(plc, p);
+  const bool first_diagonal =
+      dot(area_vector(plc, {p[0], p[1], p[2]}), area) > 0 && dot(area_vector(plc, {p[0], p[2], p[3]}), area) > 0;
+  if (first_diagonal) return {{p[0], p[1], p[2]}, {p[0], p[2], p[3]}};
+  return {{p[1], p[2], p[3]}, {p[1], p[3], p[0]}};
+}
+
+bool is_within(const SmallPlc& plc, const Polygon& polygon, const Triangle& triangle) {
+  Polygon in_order;
+  for (const Vertex v : polygon)
+    if (std::ranges::find(triangle, v) != triangle.end()) in_order.push_back(v);
+  // At a reflex corner three in order turn the other way.
+  return in_order.size() == 3 && dot(area_vector(plc, in_order), area_vector(plc, polygon)) > 0;
+}
+
+std::vector<Polygon> all_facets(const SmallPlc& plc) {
+  std::vector<Polygon> facets = plc.boundary;
+  facets.insert(facets.end(), plc.interior.begin(), plc.interior.end());
+  return facets;
+}
+
+std::vector<Edge> all_segments(const SmallPlc& plc) {
+  std::set<Edge> edges(plc.segments.begin(), plc.segments.end());
+  for (const Polygon& facet : all_facets(plc))
+    for (std::size_t i = 0; i < facet.size(); ++i) edges.insert(edge_of(facet[i], facet[(i + 1) % facet.size()]));
+  return {edges.begin(), edges.end()};
+}
+
+std::int64_t six_volumes(const SmallPlc& plc) {
+  std::int64_t sum = 0;
+  for (const Polygon& facet : plc.boundary) sum += dot(area_vector(plc, facet), plc.vertices[facet[0]]);
+  return sum;
+}
+
+bool is_inside(const SmallPlc& plc, const std::vector<Vertex>& simplex) {
+  Point sum;
+  for (const Vertex v : simplex) sum = sum + plc.vertices[v];
+  return is_inside_scaled(plc, sum, static_cast<std::int64_t>(simplex.size()));
+}
+
+bool is_generic(const SmallPlc& plc, bool may_be_cospherical) {
+  const auto& v = plc.vertices;
+  const auto n = static_cast<Vertex>(v.size());
+  for (Vertex a = 0; a < n; ++a)
+    for (Vertex b = 0; b < a; ++b)
+      for (Vertex c = 0; c < b; ++c)
+        for (Vertex d = 0; d < c; ++d) {
+          if (orientation(v[a], v[b], v[c], v[d]) == 0) {
+            if (!is_within_a_facet(plc, {a, b, c, d})) return false;
+            // Not on a circle either: with any other vertex that would be five on a sphere.
+            for (Vertex e = 0; e < n; ++e)
+              if (orientation(v[a], v[b], v[c], v[e]) != 0 && side_of_sphere(v[a], v[b], v[c], v[e], v[d]) == 0)
+                return false;
+            continue;
+          }
+          for (Vertex e = 0; e < d && !may_be_cospherical; ++e)
+            if (side_of_sphere(v[a], v[b], v[c], v[d], v[e]) == 0) return false;
+        }
+  return true;
+}
+
+bool is_valid(const SmallPlc& plc) {
+  const auto& v = plc.vertices;
+  const std::vector<Edge> segments = all_segments(plc);
+  for (const Polygon& facet : all_facets(plc)) {
+    if (std::ranges::any_of(segments, [&](const Edge& edge) { return is_diagonal(facet, edge); })) return false;
+    for (const auto& [a, b, c] : triangles_of(plc, facet))
+      for (const auto& [p, q] : segments)
+        if (pierces(v[p], v[q], v[a], v[b], v[c])) return false;
+  }
+  const auto is_in = [&](const auto& simplex) {
+    return is_inside(plc, std::vector<Vertex>(simplex.begin(), simplex.end()));
+  };
+  if (six_volumes(plc) <= 0 || !std::ranges::all_of(plc.segments, is_in)) return false;
+  return std::ranges::all_of(plc.interior, [&](const Polygon& f) { return is_in(triangles_of(plc, f).front()); });
+}
+
+InputPlc as_input(const SmallPlc& plc) {
+  InputPlc input;
+  input.name = "small PLC";
+  input.inside = InputPlc::Inside::seeds;
+  for (const Point& p : plc.vertices)
+    input.vertices.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+  for (const Polygon& facet : all_facets(plc)) {
+    PolygonFacet polygon;
+    polygon.polygons = {facet};
+    polygon.number = static_cast<std::uint32_t>(input.polygon_facets.size());
+    input.polygon_facets.push_back(polygon);
+  }
+  input.segments = plc.segments;
+  return input;
+}
+
+std::string in_words(const SmallPlc& plc) {
+  std::ostringstream text;
+  text << "vertices";
+  for (const Point& p : plc.vertices) text << " (" << p.x << " " << p.y << " " << p.z << ")";
+  text << "; boundary" << list_in_words(plc.boundary);
+  if (!plc.interior.empty()) text << "; facets inside" << list_in_words(plc.interior);
+  if (!plc.segments.empty()) {
+    text << "; segments";
+    for (const auto& [a, b] : plc.segments) text << " (" << a << " " << b << ")";
+  }
+  return text.str();
+}
+
+}  // namespace ccdt::small

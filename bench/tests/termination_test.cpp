@@ -1,0 +1,135 @@
+#include "bench/experiments/termination.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/experiments/stars.h"
+#include "engine/base/errors.h"
+#include "engine/plc/build_plc.h"
+
+namespace ccdt {
+namespace {
+
+const Star& star(std::string_view name) {
+  for (const Star& s : stars())
+    if (s.name == name) return s;
+  throw std::out_of_range("no such star");
+}
+
+MeshResult protect(const InputPlc& input, Protection protection) {
+  MeshOptions options;
+  options.protection = protection;
+  options.lattice = Lattice::none;
+  options.improve.improvement = Improvement::none;
+  return mesh_plc(input, options);
+}
+
+TEST(Stars, HaveTheAngleThatIsAskedFor) {
+  for (const std::string_view name : {"two segments", "three segments", "bundle", "wheel"})
+    for (const double degrees : {60.0, 20.0, 5.0})
+      for (const std::uint64_t variant : {0u, 3u})
+        EXPECT_NEAR(smallest_angle(build_plc(star(name).make(degrees, variant), {})), degrees, 1e-6) << name;
+  // About as wanted, to the nearest of an even distribution; and fins at this dihedral angle.
+  EXPECT_NEAR(smallest_angle(build_plc(star("urchin").make(20, 0), {})), 20, 4);
+  EXPECT_NEAR(smallest_angle(build_plc(star("fins").make(10, 0), {})), 10 * std::sqrt(3) / 2, 0.1);
+}
+
+TEST(Stars, AreTheSameEachTimeAndDifferByVariant) {
+  for (const Star& s : stars()) {
+    EXPECT_EQ(s.make(30, 1).vertices, s.make(30, 1).vertices);
+    EXPECT_NE(s.make(30, 1).vertices, s.make(30, 2).vertices);
+  }
+}
+
+TEST(MidpointSplitting, DoesNotEndInAWheelOfTenSpokesOfTwoLengths) {
+  const InputPlc wheel = star("wheel").make(36, 0);
+  EXPECT_THROW(protect(wheel, Protection::midpoint), LimitError);
+  EXPECT_EQ(protect(wheel, Protection::shell).counts.steiner_vertices, 5u);  // one on each longer spoke
+}
+
+TEST(MidpointSplitting, EndsInAWheelOfEightSpokes) {
+  EXPECT_EQ(protect(star("wheel").make(45, 0), Protection::midpoint).counts.steiner_vertices, 0u);
+}
+
+TEST(MidpointSplitting, DoesNotEndInAnUrchin) {
+  const InputPlc urchin = star("urchin").make(30, 0);
+  EXPECT_THROW(protect(urchin, Protection::midpoint), LimitError);
+  EXPECT_GT(protect(urchin, Protection::shell).counts.steiner_vertices, 0u);
+}
+
+TEST(MidpointSplitting, EndsForAFewSegmentsOrFinsEvenAtOneDegree) {
+  for (const std::string_view name : {"two segments", "three segments", "bundle", "fins"})
+    for (const std::uint64_t variant : {0u, 1u, 2u})
+      EXPECT_NO_THROW(protect(star(name).make(1, variant), Protection::midpoint)) << name;
+}
+
+TEST(ShellSplitting, EndsForAllStars) {
+  for (const Star& s : stars())
+    for (const double degrees : {36.0, 10.0})
+      for (const std::uint64_t variant : {0u, 1u})
+        EXPECT_NO_THROW(protect(s.make(degrees, variant), Protection::shell)) << s.name << " " << degrees;
+}
+
+TEST(SmallestAngle, IsOfSegmentsThatMeet) {
+  InputPlc tetrahedron;
+  tetrahedron.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  EXPECT_NEAR(smallest_angle(build_plc(tetrahedron, {})), 45, 1e-9);
+}
+
+TerminationCase stopped(const char* group, double degrees) {
+  return {.group = group,
+          .input = "0",
+          .degrees = degrees,
+          .smallest_angle = degrees,
+          .status = RunStatus::failed,
+          .reason = "a segment cannot be protected: it would have to be split into more than 2^20 pieces",
+          .run = "runs/stopped.json"};
+}
+
+TEST(Termination, TellsTheLimitFromOtherFailures) {
+  TerminationCase c = stopped("wheel", 30);
+  EXPECT_EQ(ending_of(c), Ending::stopped);
+  c.reason = "the facets enclose nothing";
+  EXPECT_EQ(ending_of(c), Ending::unknown);
+  c = stopped("wheel", 30);
+  c.status = RunStatus::timeout;
+  EXPECT_EQ(ending_of(c), Ending::unknown);
+  c.status = RunStatus::ok;
+  EXPECT_EQ(ending_of(c), Ending::ended);
+}
+
+TEST(Termination, ResultSaysAtWhichAnglesMidpointsEnded) {
+  TerminationCase ended = stopped("wheel", 60);
+  ended.status = RunStatus::ok;
+  ended.reason.clear();
+  ended.steiner_vertices = 7;
+  ended.deepest_level = 2;
+  TerminationCase shell = stopped("wheel", 30);
+  shell.status = RunStatus::ok;
+  shell.protection = Protection::shell;
+  TerminationCase bad = stopped("file", 0);
+  bad.input = "open.off";
+  bad.reason = "the surface is open";
+  const ExperimentResult result =
+      termination_result(std::vector{ended, stopped("wheel", 30), stopped("wheel", 20), shell, bad});
+  EXPECT_EQ(
+      result.findings.at(0),
+      "Midpoint, wheel: ended in 1 of 3 cases; from 60 degrees up it always ended; it did not at 30 to 20 degrees.");
+  EXPECT_EQ(result.findings.back(), "Shell on stars ended in 1 of 1 cases.");
+  const ResultTable& table = *find_table(result, "stars");
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(number_in(table, table.rows[0], "midpoint_ended"), 1);
+  EXPECT_EQ(number_in(table, table.rows[0], "midpoint_steiner_vertices"), 7);
+  EXPECT_EQ(number_in(table, table.rows[1], "midpoint_ended"), 0);
+  EXPECT_TRUE(std::isnan(number_in(table, table.rows[1], "midpoint_steiner_vertices")));
+  EXPECT_EQ(number_in(table, table.rows[1], "shell_ended"), 1);
+  const ResultTable& files = *find_table(result, "solids");
+  EXPECT_EQ(text_in(files, files.rows.at(0), "reason"), "the surface is open");
+  EXPECT_EQ(result.problems.size(), 1u);
+  EXPECT_TRUE(result.is_good);  // the user's file is not our fault
+}
+
+}  // namespace
+}  // namespace ccdt
