@@ -34,7 +34,7 @@ std::string with_hyphens(std::string text) {
 
 /// More lengths of the segments where more effort is wanted.
 std::uint64_t variants(const ExperimentOptions& options) {
-  constexpr double tetrahedra_per_variant = 10000, most = 20;
+  constexpr double tetrahedra_per_variant = 10000, most = 10;
   return static_cast<std::uint64_t>(std::clamp(std::round(options.tetrahedra / tetrahedra_per_variant), 1.0, most));
 }
 
