@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/stars.h"
 #include "bench/experiments/surfaces.h"
+#include "bench/results/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/read_plc.h"
 #include "engine/io/write_plc.h"
@@ -61,8 +61,8 @@ void add_solids(const ExperimentOptions& options, std::vector<Input>& inputs) {
           write_solid(options, "termination", std::string(solid.name), coarsening * solid.default_edge_length);
       std::vector<Point3> vertices = read_plc(surface.file).vertices;
       if (vertices == before) continue;  // as coarse as it gets, or always the same
-      const std::string stem = surface.file.stem().string();
-      inputs.push_back({"solid", stem.substr(std::string("termination-").size()), 0, stem, surface.file});
+      const std::string name = surface.name + " at " + rounded(surface.edge_length);
+      inputs.push_back({"solid", name, 0, surface.file.stem().string(), surface.file});
       before = std::move(vertices);
     }
   }
@@ -87,16 +87,16 @@ TerminationCase measure(const ExperimentOptions& options, const Input& input, do
   run_once(options, measured, 0);
   std::filesystem::remove(measured.what.output);
   const RunRecord& run = measured.first;
-  return {input.group,
-          input.name,
-          input.degrees,
-          smallest,
-          protection,
-          run.status,
-          run.reason,
-          run.counts.steiner_vertices,
-          run.counts.splits_by_level.size(),
-          "runs/" + stem + "-0.json"};
+  return {.group = input.group,
+          .input = input.name,
+          .degrees = input.degrees,
+          .smallest_angle = smallest,
+          .protection = protection,
+          .status = run.status,
+          .reason = run.reason,
+          .steiner_vertices = run.counts.steiner_vertices,
+          .deepest_level = run.counts.splits_by_level.size(),
+          .runs = run_files(measured)};
 }
 
 }  // namespace
@@ -107,8 +107,8 @@ ExperimentResult measure_termination(const ExperimentOptions& options, const Pro
   std::vector<Input> inputs;
   add_stars(options, inputs);
   add_solids(options, inputs);
-  for (const auto& file : options.inputs)
-    inputs.push_back({"file", file.string(), 0, "termination-file-" + std::to_string(inputs.size()), file});
+  for (const SurfaceFile& surface : take_inputs(options))
+    inputs.push_back({"file", surface.name, 0, "termination-" + surface.file.filename().string(), surface.file});
   check_something_is_measured(inputs.size(), "termination");
 
   std::vector<TerminationCase> cases;

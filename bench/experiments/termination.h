@@ -14,7 +14,7 @@ namespace ccdt {
 /// One input whose edges were protected in one way.
 struct TerminationCase {
   std::string group;          ///< the star, "solid", or "file"
-  std::string input;          ///< of a star: which variant
+  std::string input;          ///< name of the solid or file; of a star: which variant
   double degrees = 0;         ///< asked for, of a star
   double smallest_angle = 0;  ///< that segments enclose, in degrees
   Protection protection = Protection::midpoint;
@@ -22,7 +22,7 @@ struct TerminationCase {
   std::string reason = {};
   std::uint64_t steiner_vertices = 0;
   std::size_t deepest_level = 0;
-  std::string run = {};  ///< file of the run
+  std::vector<std::string> runs = {};  ///< files, relative to the folder
 };
 
 enum class Ending {
@@ -40,7 +40,7 @@ Ending ending_of(const TerminationCase& c);
 /// \throw InputError   none of the models that were asked for is part of it
 ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress = {});
 
-/// The result without its circumstances.
+/// The result without its circumstances, and without what every result of the experiment is called.
 ExperimentResult termination_result(std::span<const TerminationCase> cases);
 
 }  // namespace ccdt

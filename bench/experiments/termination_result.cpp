@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <functional>
 
 #include "bench/experiments/stars.h"
 #include "bench/experiments/termination.h"
+#include "bench/results/numbers.h"
 #include "bench/run_record.h"
 
 namespace ccdt {
@@ -68,6 +67,14 @@ Cell ending_cell(const TerminationCase& c) {
   return {};
 }
 
+std::string case_label(const TerminationCase& c) {
+  return is_star(c) ? degrees_in_words(c.degrees) + " degrees, variant " + c.input : c.input;
+}
+
+std::string words_of(const TerminationCase& c) {
+  return is_star(c) ? c.group + ", " + case_label(c) : c.input;
+}
+
 /// One row a run.
 ResultTable runs_table(const std::string& name, const std::string& title, const Cases& cases) {
   ResultTable table{name,
@@ -83,13 +90,12 @@ ResultTable runs_table(const std::string& name, const std::string& title, const 
                      {"reason", "reason", ColumnKind::note}}};
   for (const TerminationCase* c : cases) {
     const bool is_ok = c->status == RunStatus::ok;
-    const std::string label = is_star(*c) ? degrees_in_words(c->degrees) + " degrees, variant " + c->input : c->input;
     table.rows.push_back(
-        {{c->group, label, std::string(name_of(c->protection)), std::string(name_of(c->status)),
+        {{c->group, case_label(*c), std::string(name_of(c->protection)), std::string(name_of(c->status)),
           number_if(true, c->smallest_angle), ending_cell(*c),
           number_if(is_ok, static_cast<double>(c->steiner_vertices)),
           number_if(is_ok, static_cast<double>(c->deepest_level)), c->reason.empty() ? Cell{} : Cell(c->reason)},
-         {c->run}});
+         c->runs});
   }
   return table;
 }
@@ -135,14 +141,14 @@ ResultTable stars_table(std::span<const TerminationCase> cases) {
     add_summary(by_midpoint, row.cells);
     add_summary(by_shell, row.cells);
     for (const Cases& all : {by_midpoint, by_shell})
-      for (const TerminationCase* c : all) row.runs.push_back(c->run);
+      for (const TerminationCase* c : all) row.runs.insert(row.runs.end(), c->runs.begin(), c->runs.end());
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 std::string share(std::size_t part, std::size_t whole) {
-  return std::to_string(part) + " of " + std::to_string(whole);
+  return with_separators(part) + " of " + with_separators(whole);
 }
 
 /// Where the midpoints of one star ended, and where not.
@@ -156,14 +162,14 @@ std::string midpoint_finding(const std::string& star, const Cases& cases) {
     largest_stopped = std::max(largest_stopped, c->degrees);
     least_stopped = std::min(least_stopped, c->degrees);
   }
-  if (largest_stopped == 0) return ended + ", down to " + degrees_in_words(least) + " degrees.";
+  if (largest_stopped == 0) return ended + ", down to " + degrees_in_words(least) + " degrees";
   double least_safe = 180;
   for (const TerminationCase* c : cases)
     if (c->degrees > largest_stopped) least_safe = std::min(least_safe, c->degrees);
   const std::string safe = least_safe < 180 ? "from " + degrees_in_words(least_safe) + " degrees up it always ended"
                                             : "it was safe at no angle";
   return ended + "; " + safe + "; it did not at " + degrees_in_words(largest_stopped) + " to " +
-         degrees_in_words(least_stopped) + " degrees.";
+         degrees_in_words(least_stopped) + " degrees";
 }
 
 std::vector<std::string> findings_of(std::span<const TerminationCase> cases) {
@@ -177,7 +183,7 @@ std::vector<std::string> findings_of(std::span<const TerminationCase> cases) {
     const Cases chosen =
         those(cases, [&](const TerminationCase& c) { return c.protection == protection && is_chosen(c); });
     if (!chosen.empty())
-      findings.push_back(what + " ended in " + share(count(chosen, Ending::ended), chosen.size()) + " cases.");
+      findings.push_back(what + " ended in " + share(count(chosen, Ending::ended), chosen.size()) + " cases");
   };
   add("Midpoint on solids and files", Protection::midpoint, [](const TerminationCase& c) { return !is_star(c); });
   add("Shell on solids and files", Protection::shell, [](const TerminationCase& c) { return !is_star(c); });
@@ -195,7 +201,7 @@ Ending ending_of(const TerminationCase& c) {
 }
 
 ExperimentResult termination_result(std::span<const TerminationCase> cases) {
-  ExperimentResult result{.name = "termination", .title = "Does midpoint splitting end?", .section = "2"};
+  ExperimentResult result;
   result.definitions = definitions();
   result.tables = {stars_table(cases),
                    runs_table("solids", "Solids and files", those(cases, [](const auto& c) { return !is_star(c); })),
@@ -204,7 +210,8 @@ ExperimentResult termination_result(std::span<const TerminationCase> cases) {
   result.findings = findings_of(cases);
   for (const TerminationCase& c : cases) {
     if (ending_of(c) != Ending::unknown) continue;
-    result.problems.push_back(c.run + ": " + std::string(name_of(c.status)) + ": " + c.reason);
+    result.problems.push_back(words_of(c) + ", " + std::string(name_of(c.protection)) + ": " +
+                              std::string(name_of(c.status)) + ": " + c.reason);
     if (c.group != "file") result.is_good = false;
   }
   return result;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "bench/experiments/small_plcs/families.h"
+#include "bench/results/cells.h"
+#include "bench/results/numbers.h"
 #include "engine/io/write_plc.h"
 
 namespace ccdt {
@@ -60,16 +61,12 @@ std::vector<std::string> definitions() {
   return all;
 }
 
-Cell number(std::uint64_t count) {
-  return static_cast<double>(count);
-}
-
 ResultRow row_of(const FamilyTrials& f) {
-  const Cell agreements = f.is_cospherical ? Cell{} : number(f.cases - f.disagreements);
+  const Cell agreements = f.is_cospherical ? Cell{} : cell_of(f.cases - f.disagreements);
   const Cell note = has_counterexample(f) ? Cell(model_file(f) + ": " + small::in_words(f.counterexample)) : Cell{};
-  return {{f.name, f.is_cospherical ? "one sphere" : "general", number(f.cases), number(f.premise), number(f.dt),
-           number(f.against_if), number(f.against_only_if), number(f.edges_alone), number(f.edges_alone_loose),
-           number(f.edge_protected), number(f.edge_protected_without_cdt), agreements, note}};
+  return {{f.name, f.is_cospherical ? "one sphere" : "general", cell_of(f.cases), cell_of(f.premise), cell_of(f.dt),
+           cell_of(f.against_if), cell_of(f.against_only_if), cell_of(f.edges_alone), cell_of(f.edges_alone_loose),
+           cell_of(f.edge_protected), cell_of(f.edge_protected_without_cdt), agreements, note}};
 }
 
 ResultTable table_of(std::span<const FamilyTrials> families) {
@@ -93,7 +90,7 @@ ResultTable table_of(std::span<const FamilyTrials> families) {
 }
 
 std::string share(std::uint64_t part, std::uint64_t whole) {
-  return std::to_string(part) + " of " + std::to_string(whole);
+  return with_separators(part) + " of " + with_separators(whole);
 }
 
 std::vector<std::string> findings_of(std::span<const FamilyTrials> families) {
@@ -102,24 +99,24 @@ std::vector<std::string> findings_of(std::span<const FamilyTrials> families) {
   return {
       "If: " +
           share(general(&FamilyTrials::premise) - general(&FamilyTrials::against_if), general(&FamilyTrials::premise)) +
-          " PLCs in general position that are grazeable edge protected and face protected have a DT.",
+          " PLCs in general position that are grazeable edge protected and face protected have a DT",
       "Only if: " +
           share(general(&FamilyTrials::dt) - general(&FamilyTrials::against_only_if), general(&FamilyTrials::dt)) +
-          " PLCs in general position that have a DT are grazeable edge protected and face protected.",
+          " PLCs in general position that have a DT are grazeable edge protected and face protected",
       "The theorem's proviso: with all vertices on one sphere, " +
           share(on_sphere(&FamilyTrials::against_only_if), on_sphere(&FamilyTrials::dt)) +
           " PLCs with a DT are not protected, and " +
           share(on_sphere(&FamilyTrials::against_if), on_sphere(&FamilyTrials::premise)) +
-          " that are protected have no DT.",
+          " that are protected have no DT",
       "Where all faces were protected but an edge was not, the edge was of no facet in " +
-          share(general(&FamilyTrials::edges_alone_loose), general(&FamilyTrials::edges_alone)) + " PLCs.",
+          share(general(&FamilyTrials::edges_alone_loose), general(&FamilyTrials::edges_alone)) + " PLCs",
       "Section 2: " +
           share(general(&FamilyTrials::edge_protected) - general(&FamilyTrials::edge_protected_without_cdt),
                 general(&FamilyTrials::edge_protected)) +
-          " PLCs in general position that are grazeable edge protected have a CDT.",
+          " PLCs in general position that are grazeable edge protected have a CDT",
       "The engine and the exhaustive tests agree on " +
           share(general(&FamilyTrials::cases) - general(&FamilyTrials::disagreements), general(&FamilyTrials::cases)) +
-          " PLCs in general position.",
+          " PLCs in general position",
   };
 }
 
@@ -144,13 +141,13 @@ void add_trial(const small::Trial& trial, FamilyTrials& family) {
 }
 
 ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
-  ExperimentResult result{.name = "theorem1", .title = "Theorem 1, by exhaustive search", .section = "5.2"};
+  ExperimentResult result;
   result.definitions = definitions();
   result.tables = {table_of(families)};
   result.findings = findings_of(families);
   for (const FamilyTrials& family : families) {
     if (family.disagreements == 0) continue;
-    result.problems.push_back(family.name + ": " + std::to_string(family.disagreements) +
+    result.problems.push_back(family.name + ": " + with_separators(family.disagreements) +
                               " PLCs; the first: " + family.first_disagreement);
     result.is_good = false;
   }

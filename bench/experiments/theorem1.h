@@ -31,7 +31,7 @@ void add_trial(const small::Trial& trial, FamilyTrials& family);
 /// \throw OutputError  a file of the experiment cannot be written
 ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress = {});
 
-/// The result without its circumstances.
+/// The result without its circumstances, and without what every result of the experiment is called.
 ExperimentResult theorem1_result(std::span<const FamilyTrials> families);
 
 }  // namespace ccdt

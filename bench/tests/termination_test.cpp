@@ -85,7 +85,7 @@ TerminationCase stopped(const char* group, double degrees) {
           .smallest_angle = degrees,
           .status = RunStatus::failed,
           .reason = "a segment cannot be protected: it would have to be split into more than 2^20 pieces",
-          .run = "runs/stopped.json"};
+          .runs = {"runs/stopped.json"}};
 }
 
 TEST(Termination, TellsTheLimitFromOtherFailures) {
@@ -116,8 +116,8 @@ TEST(Termination, ResultSaysAtWhichAnglesMidpointsEnded) {
       termination_result(std::vector{ended, stopped("wheel", 30), stopped("wheel", 20), shell, bad});
   EXPECT_EQ(
       result.findings.at(0),
-      "Midpoint, wheel: ended in 1 of 3 cases; from 60 degrees up it always ended; it did not at 30 to 20 degrees.");
-  EXPECT_EQ(result.findings.back(), "Shell on stars ended in 1 of 1 cases.");
+      "Midpoint, wheel: ended in 1 of 3 cases; from 60 degrees up it always ended; it did not at 30 to 20 degrees");
+  EXPECT_EQ(result.findings.back(), "Shell on stars ended in 1 of 1 cases");
   const ResultTable& table = *find_table(result, "stars");
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_EQ(number_in(table, table.rows[0], "midpoint_ended"), 1);

@@ -214,7 +214,7 @@ TEST(Theorem1, HoldsAndTheEngineAgreesForRandomPlcsOfAllFamiliesInGeneralPositio
   for (const Family& family : families()) {
     Random random(2);
     std::uint64_t with_premise = 0, without = 0;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 60; ++i) {
       const Trial trial = try_plc(next_plc(family, random), family.is_cospherical);
       ASSERT_EQ(trial.disagreement, "") << in_words(trial.plc);
       const ProtectionState& protection = trial.protection;
@@ -223,8 +223,8 @@ TEST(Theorem1, HoldsAndTheEngineAgreesForRandomPlcsOfAllFamiliesInGeneralPositio
       ++(trial.protection.premise() ? with_premise : without);
     }
     // Or the family would say little.
-    EXPECT_GT(with_premise, 15u) << family.name;
-    EXPECT_GT(without, 15u) << family.name;
+    EXPECT_GT(with_premise, 5u) << family.name;
+    EXPECT_GT(without, 5u) << family.name;
   }
 }
 
