@@ -58,7 +58,7 @@ export function chartView(report, section, chart) {
       drawing.replaceChildren(element("p.quiet", {}, "Nothing passes the filters."));
       return;
     }
-    const container = element("div");
+    const container = element("div", { "aria-hidden": "true" });
     const made = await drawn(section, chart, { theme: "page", width, font: pageFont(), passes });
     if (turn !== wanted) {
       made.view.finalize();
@@ -81,7 +81,7 @@ export function chartView(report, section, chart) {
   };
 
   const node = element("figure.chart", { id, "data-chart": `${section.name}/${chart.name}` },
-    element("header", {}, element("h4", {}, chart.title), element("span.actions", {},
+    element("header", {}, element("h3.minor", {}, chart.title), element("span.actions", {},
       element("button.small", { type: "button", "aria-label": `Download ${chart.title} as SVG`, onclick: () => saveAsSvg(section, chart, passes) }, "SVG"),
       element("button.small", { type: "button", "aria-label": `Download ${chart.title} as PNG`, onclick: () => saveAsPng(section, chart, passes) }, "PNG"))),
     drawing, element("figcaption", {}, chart.caption));

@@ -44,7 +44,7 @@ export function environmentSection(report) {
   return element("section.part", { id: "environment", "aria-labelledby": "environment-title" },
     element("h2", { id: "environment-title" }, "Environment and meshers"),
     environments.map((entry) => environmentEntry(entry, environments.length === 1)),
-    element("h4", {}, "Meshers, with all settings of their runs"),
+    element("h3.minor", {}, "Meshers, with all settings of their runs"),
     element("div.scroll", { tabindex: 0, role: "region", "aria-label": "Meshers" }, element("table.meshers", {},
       element("thead", {}, element("tr", {}, ["Mesher", "Version"].map((head) => element("th", { scope: "col" }, head)),
         element("th.number", { scope: "col" }, "Runs"), element("th", { scope: "col" }, "Settings, in the mesher's own words"))),

@@ -89,7 +89,7 @@ export function experimentSection(report, section) {
   const body = section.status === "missing" ? missingSection(section) : [
     failure(section),
     findings(section),
-    section.problems.length > 0 ? element("div.problem", {}, element("h4", {}, "What went wrong"), list("ul", section.problems)) : null,
+    section.problems.length > 0 ? element("div.problem", {}, element("h3.minor", {}, "What went wrong"), list("ul", section.problems)) : null,
     section.meshes.length > 0 ? element("p", {}, element("a", { href: "#meshes" }, "Look at its meshes")) : null,
     results(report, section),
     section.definitions.length > 0 ? element("details.definitions", {}, element("summary", {}, "What the rows mean"), list("ul", section.definitions)) : null,

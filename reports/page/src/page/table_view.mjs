@@ -143,9 +143,9 @@ export function tableView(report, section, table) {
   draw();
 
   const id = `${section.name}-${table.name}`;
-  const node = element("section.table", { id, "data-table": `${section.name}/${table.name}`, "aria-labelledby": `${id}-title` },
-    element("header", {}, element("h4", { id: `${id}-title` }, table.title), count, element("span.actions", {}, save)),
-    element("div.scroll", { tabindex: 0, role: "region", "aria-labelledby": `${id}-title` }, element("table", {}, head, body)),
+  const node = element("div.table", { id, "data-table": `${section.name}/${table.name}` },
+    element("header", {}, element("h3.minor", {}, table.title), count, element("span.actions", {}, save)),
+    element("div.scroll", { tabindex: 0, role: "region", "aria-label": `${section.title}: ${table.title}` }, element("table", {}, head, body)),
     unfold);
   const show = (passes) => {
     rows = table.rows.filter((row) => passes(row, table));

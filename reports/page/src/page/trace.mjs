@@ -71,6 +71,6 @@ export function openTrace(report, title, facts, files) {
 /** The control that opens the runs of a row or a measure. */
 export function traceButton(files, what, open) {
   if (files.length === 0) return null;
-  return element("button.small.trace", { type: "button", "data-trace": "", "aria-label": `Trace ${what} to its runs`,
-    onclick: open }, counted(files.length, "run"));
+  return element("button.small.trace", { type: "button", "data-trace": "", onclick: open },
+    counted(files.length, "run"), element("span.unseen", {}, ` of ${what}`));
 }

@@ -41,7 +41,7 @@ const MOST_MEASURES_OPEN = 4;
 
 function measures(report, claim) {
   if (claim.measured.length === 0) return null;
-  const heads = ["Measured", "Value", "Asked", "", "Where", "Runs"];
+  const heads = ["Measured", "Value", "Asked", "Result", "Where", "Runs"];
   const table = element("div.scroll", { tabindex: 0, role: "region", "aria-label": `What was measured: ${claim.sentence}` },
     element("table", {}, element("thead", {}, element("tr", {}, heads.map((head, index) => element(index === 1 ? "th.number" : "th", { scope: "col" }, head)))),
       element("tbody", {}, claim.measured.map((measure) => measureRow(report, claim, measure)))));
