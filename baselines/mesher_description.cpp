@@ -82,7 +82,7 @@ std::string text_or_nothing(const Part& part, const std::string& name) {
 
 /// \param known  the placeholders that it may have
 std::string filled_text(const Part& part, const std::vector<std::string>& known) {
-  const std::string value = text(part);
+  std::string value = text(part);
   for (const std::string& name : placeholders_in(value))
     if (std::ranges::find(known, name) == known.end())
       fail(part, "there is no placeholder {" + name + "}; known are " + list_of(known));
@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> texts_by_name(const Part& part,
 }
 
 std::string pattern(const Part& part) {
-  const std::string value = text(part);
+  std::string value = text(part);
   try {
     const std::regex ignored(value);
   } catch (const std::regex_error& error) {
@@ -129,7 +129,7 @@ std::string pattern(const Part& part) {
 }
 
 std::string mesher_name(const Part& part) {
-  const std::string name = text(part);
+  std::string name = text(part);
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789-";
   if (name.empty() || name.find_first_not_of(allowed) != std::string::npos)
     fail(part, "a mesher's name is of small letters, digits and hyphens");
@@ -137,14 +137,14 @@ std::string mesher_name(const Part& part) {
 }
 
 std::string input_format(const Part& part) {
-  const std::string format = text(part);
+  std::string format = text(part);
   if (std::ranges::find(known_formats, format) == known_formats.end())
     fail(part, "an input cannot be written in the format '" + format + "'; known are " + list_of(known_formats));
   return format;
 }
 
 std::string output_file(const Part& part, const std::vector<std::string>& known) {
-  const std::string file = filled_text(part, known);
+  std::string file = filled_text(part, known);
   if (!is_tet_mesh_file(file))
     fail(part, "a mesh cannot be read from this; known endings are .mesh .vtu .msh .node .ele .face");
   return file;

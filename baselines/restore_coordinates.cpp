@@ -60,7 +60,7 @@ Strangers find_strangers(const std::vector<Point3>& input, const std::vector<Poi
   Strangers strangers;
   for (std::size_t v = 0; v < vertices.size(); ++v) strangers.of_mesh.try_emplace(key(vertices[v]), v);
   for (const Point3& p : input)
-    if (strangers.of_mesh.contains(key(p)) == false) strangers.of_input.push_back(p);
+    if (!strangers.of_mesh.contains(key(p))) strangers.of_input.push_back(p);
   if (strangers.of_input.empty()) return {};
   std::vector<Coordinates> known;
   for (const Point3& p : input) known.push_back(key(p));

@@ -67,16 +67,15 @@ std::string in_a_shell(const std::vector<std::string>& command) {
 
 std::vector<std::string> definitions(const std::string& command) {
   return {
-      "Points: uniformly random in a cube; a perfect face-centred lattice, where almost all spheres have more than "
-      "four "
-      "points on them; the vertices of a mesh of a model or file.",
-      "Insert: vertex by vertex along a Hilbert curve. Wrap: the paper's, face by face in a uniform grid. CGAL: "
-      "Delaunay_triangulation_3 with exact predicates. TetGen: its library, without switches.",
-      "Seconds are CPU time of the one thread that works, from the points in memory to the finished structure, medians "
-      "of repetitions in random order. A method that this build lacks, or of which the size is too large, has no row.",
-      "Before anything is timed, the results are compared: insert and wrap have the very same tetrahedra; CGAL and "
-      "TetGen fill the same volume, and on random points they have as many tetrahedra as insert. On other points there "
-      "are many Delaunay tetrahedralizations, which differ in their number.",
+      "Points: uniformly random in a cube; a perfect face-centred lattice; the vertices of a mesh of a model or file.",
+      "Insert: vertex by vertex along a Hilbert curve. Wrap: the paper's, face by face in a uniform grid.",
+      "CGAL: Delaunay_triangulation_3 with exact predicates. TetGen: its library, without switches.",
+      "Seconds are CPU time of the one thread that works, from the points in memory to the finished structure.",
+      "They are medians of repetitions in random order.",
+      "A method that this build lacks, or that is not measured on so many points, has no row.",
+      "Before anything is timed, the results are compared: insert and wrap have the very same tetrahedra.",
+      "CGAL and TetGen fill the same volume as they, with as many tetrahedra on random points.",
+      "Other points have many Delaunay tetrahedralizations, which differ in the number of tetrahedra.",
       "Ratios are of medians.",
       "All rows stand on " + std::string(output_file) +
           ", as Google Benchmark wrote it. In the folder of the report this repeats it: " + command,
@@ -126,7 +125,8 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
                                       "--benchmark_min_time=0.001",
                                       "--benchmark_out=" + output.string(),
                                       "--benchmark_out_format=json"};
-  for (const auto& input : options.inputs) command.insert(command.end(), {"--input", input.string()});
+  for (const auto& input : options.inputs)
+    command.insert(command.end(), {"--input", std::filesystem::absolute(input).string()});
   return command;
 }
 
