@@ -7,7 +7,8 @@ import { textWidth } from "./text_width.mjs";
 import { chartConfig, colourIn, PAGE_TEXT_SCALE } from "./themes.mjs";
 
 const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
-const ORDERED_CHANNELS = ["x", "y", "xOffset", "yOffset", "facet"];
+const TABLE_ORDER = ["x", "y", "facet"];
+const SERIES_ORDER = ["xOffset", "yOffset"];
 const HALF_A_LINE = 6.5;
 const LONGEST_LABEL = 0.28;  // of the width, in one line
 const SYMBOL_ROOM = 30;  // of a legend's entry, beside its text
@@ -104,7 +105,9 @@ function completeChannels(spec, data, { theme, width, room }) {
     if (SERIES_CHANNELS.includes(channel) && definition.scale === undefined)
       styleSeries(channel, definition, inSeriesOrder(values), theme, width - room);
     if (channel === "y") wrapLabels(definition, values, width);
-    if (ORDERED_CHANNELS.includes(channel) && definition.sort === undefined) definition.sort = inSeriesOrder(values);
+    if (definition.sort !== undefined) return;
+    if (TABLE_ORDER.includes(channel)) definition.sort = values;
+    if (SERIES_ORDER.includes(channel)) definition.sort = inSeriesOrder(values);
   });
 }
 

@@ -7,6 +7,9 @@ const PIXELS_PER_CSS_PIXEL = "4";  // 384 a printed inch
 
 const run = promisify(execFile);
 
+// A PDF holds when it was made; the same figures are to be the same files.
+const env = { SOURCE_DATE_EPOCH: "0", ...process.env };
+
 /** What rsvg-convert is asked for. A CSS pixel is 1/96 inch, in the PDF as well. */
 function jobsOf(folder, name) {
   const from = join(folder, `${name}.svg`);
@@ -26,7 +29,7 @@ export async function convertAll(folder, names) {
   const work = async () => {
     for (let job = jobs.shift(); job; job = jobs.shift()) {
       try {
-        await run("rsvg-convert", job);
+        await run("rsvg-convert", job, { env });
       } catch (error) {
         if (error.code === "ENOENT") failed.add("there is no rsvg-convert (Debian: librsvg2-bin)");
         else failed.add(`rsvg-convert: ${String(error.stderr || error.message).trim().split("\n")[0]}`);

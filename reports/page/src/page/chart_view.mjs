@@ -1,6 +1,7 @@
 import { drawn } from "../charts/draw.mjs";
 import { element } from "./dom.mjs";
 import { download } from "./downloads.mjs";
+import { inTurn } from "./in_turn.mjs";
 import { traceRow } from "./table_view.mjs";
 import { rowOf, tooltipOf } from "./tooltip.mjs";
 import { pageFont } from "./theme.mjs";
@@ -8,13 +9,6 @@ import { printWidth } from "../charts/print.mjs";
 
 const PNG_SCALE = 3;
 const NARROWEST = 240;
-
-// Charts are drawn one after the other, so that the page stays responsive.
-let queue = Promise.resolve();
-function inTurn(work) {
-  queue = queue.then(() => new Promise((resolve) => setTimeout(resolve))).then(work);
-  return queue;
-}
 
 /** As for print: light, in the width and the font of the static figures. */
 async function printView(section, chart, passes) {

@@ -5,6 +5,7 @@ import { element, list } from "./dom.mjs";
 import { baseName, download } from "./downloads.mjs";
 import { filterControls } from "./filter_controls.mjs";
 import { passes } from "./filters.mjs";
+import { meshPictures } from "./mesh_pictures.mjs";
 import { counted, numberText } from "./numbers.mjs";
 import { tableView } from "./table_view.mjs";
 
@@ -79,8 +80,13 @@ function failure(section) {
   return section.status === "failed" ? element("p.problem", {}, section.reason || "Something of our own went wrong here; see below.") : null;
 }
 
-/** One experiment: what it found, its charts, its tables. */
-export function experimentSection(report, section) {
+/**
+ * One experiment: what it found, its pictures, its charts, its tables.
+ * @param {object} report
+ * @param {object} section
+ * @param {Object<string, object>} keptMeshes  JSON of schema ccdt.mesh/1, by file
+ */
+export function experimentSection(report, section, keptMeshes) {
   const id = `experiment-${section.name}`;
   const head = [
     element("h2", { id: `${id}-title` }, section.title),
@@ -90,7 +96,8 @@ export function experimentSection(report, section) {
     failure(section),
     findings(section),
     section.problems.length > 0 ? element("div.problem", {}, element("h3.minor", {}, "What went wrong"), list("ul", section.problems)) : null,
-    section.meshes.length > 0 ? element("p", {}, element("a", { href: "#meshes" }, "Look at its meshes")) : null,
+    meshPictures(section, keptMeshes),
+    section.meshes.length > 0 ? element("p", {}, element("a", { href: "#meshes" }, "Turn and cut its meshes")) : null,
     results(report, section),
     section.definitions.length > 0 ? element("details.definitions", {}, element("summary", {}, "What the rows mean"), list("ul", section.definitions)) : null,
     element("details.definitions", {}, element("summary", {}, "Repeat this experiment"), commandLine(section.command)),

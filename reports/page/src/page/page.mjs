@@ -37,10 +37,11 @@ function sectionTitles(report) {
 
 function show(report) {
   document.title = report.title;
-  const meshes = meshSection(report, embeddedMeshes(), mountViewer);
+  const keptMeshes = embeddedMeshes();
+  const meshes = meshSection(report, keptMeshes, mountViewer);
   const parts = [
     verdictSection(report),
-    ...report.experiments.map((section) => experimentSection(report, section)),
+    ...report.experiments.map((section) => experimentSection(report, section, keptMeshes)),
     meshes,
     environmentSection(report),
     rawFilesSection(report),

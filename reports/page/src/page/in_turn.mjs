@@ -1,0 +1,12 @@
+let queue = Promise.resolve();
+
+/**
+ * Does pieces of work one after the other, so that the page answers in between.
+ * @param {() => Promise<void>} work
+ * @returns {Promise<void>} settled as the work
+ */
+export function inTurn(work) {
+  const done = queue.then(() => new Promise((resolve) => setTimeout(resolve))).then(work);
+  queue = done.catch(() => {});
+  return done;
+}
