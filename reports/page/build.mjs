@@ -38,7 +38,14 @@ function fill(template, places) {
 }
 
 async function buildPage(esbuild, common, work, out) {
-  const browser = { ...common, platform: "browser", target: "es2022", minify: true, write: false, legalComments: "none" };
+  const browser = {
+    ...common,
+    platform: "browser",
+    target: "es2022",
+    minify: true,
+    write: false,
+    legalComments: "none",
+  };
   const script = await esbuild.build({ ...browser, entryPoints: ["src/page/page.mjs"], format: "iife" });
   const style = await esbuild.build({ ...browser, entryPoints: ["src/style/page.css"] });
   const template = join(source, "src/page/page.html");
@@ -81,17 +88,30 @@ async function buildTests(esbuild, common, work) {
   const out = join(work, "tests");
   rmSync(out, { recursive: true, force: true });
   const node = {
-    ...common, platform: "node", format: "esm", target: "node18", packages: "external", sourcemap: "inline",
+    ...common,
+    platform: "node",
+    format: "esm",
+    target: "node18",
+    packages: "external",
+    sourcemap: "inline",
     sourcesContent: false,
   };
   const unit = await esbuild.build({
     ...node,
-    stdin: { contents: testsIn("tests").map((file) => `import "${file}";`).join("\n"), resolveDir: source },
+    stdin: {
+      contents: testsIn("tests")
+        .map((file) => `import "${file}";`)
+        .join("\n"),
+      resolveDir: source,
+    },
     outfile: join(out, "unit_tests.mjs"),
   });
   const programs = await esbuild.build({
-    ...node, entryPoints: [...testsIn("tests/browser"), "./tests/validate.mjs", "./tests/fixture/write_page.mjs"],
-    outdir: out, entryNames: "[name]", outExtension: { ".js": ".mjs" },
+    ...node,
+    entryPoints: [...testsIn("tests/browser"), "./tests/validate.mjs", "./tests/fixture/write_page.mjs"],
+    outdir: out,
+    entryNames: "[name]",
+    outExtension: { ".js": ".mjs" },
   });
   writeFileSync(join(out, "built"), "");
   const folders = [join(source, "tests"), join(source, "tests/browser")];
@@ -102,7 +122,11 @@ const [what, workArgument, outArgument] = process.argv.slice(2);
 const work = resolve(workArgument);
 const esbuild = createRequire(join(work, "package.json"))("esbuild");
 const common = {
-  absWorkingDir: source, bundle: true, metafile: true, logLevel: "warning", nodePaths: [join(work, "node_modules")],
+  absWorkingDir: source,
+  bundle: true,
+  metafile: true,
+  logLevel: "warning",
+  nodePaths: [join(work, "node_modules")],
   loader: { ".json": "json" },
 };
 if (what === "page") await buildPage(esbuild, common, work, resolve(outArgument));

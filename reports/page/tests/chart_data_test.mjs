@@ -6,7 +6,11 @@ import { textWidth } from "../src/charts/text_width.mjs";
 
 const times = {
   name: "times",
-  columns: [{ name: "model", kind: "label" }, { name: "seconds", kind: "time" }, { name: "vertices", kind: "figure" }],
+  columns: [
+    { name: "model", kind: "label" },
+    { name: "seconds", kind: "time" },
+    { name: "vertices", kind: "figure" },
+  ],
   rows: [
     { values: { model: "piston", seconds: { value: 2, low: 1, high: 3 }, vertices: 10 }, runs: [] },
     { values: { model: "bracket", seconds: 4, vertices: 20 }, runs: [] },
@@ -15,18 +19,32 @@ const times = {
 };
 
 test("a measured time is an estimate in the data of a chart, whatever it was in the table", () => {
-  assert.deepEqual(tableData(times).map((datum) => datum.seconds), [{ value: 2, low: 1, high: 3 }, { value: 4, low: 4, high: 4 }, null]);
+  assert.deepEqual(
+    tableData(times).map((datum) => datum.seconds),
+    [{ value: 2, low: 1, high: 3 }, { value: 4, low: 4, high: 4 }, null],
+  );
 });
 
 test("data know their rows when a filter has left some out", () => {
   const data = tableData(times, (row) => row.values.model !== "piston");
-  assert.deepEqual(data.map((datum) => datum._row), [1, 2]);
+  assert.deepEqual(
+    data.map((datum) => datum._row),
+    [1, 2],
+  );
 });
 
 test("a chart has a data set for each of its tables, and one of all", () => {
   const section = { tables: [times, { ...times, name: "more" }] };
   const data = chartData(section, { tables: ["times", "more", "unknown"] });
-  assert.deepEqual(Object.entries(data).map(([name, rows]) => [name, rows.length]), [["times", 3], ["more", 3], ["unknown", 0], ["all", 6]]);
+  assert.deepEqual(
+    Object.entries(data).map(([name, rows]) => [name, rows.length]),
+    [
+      ["times", 3],
+      ["more", 3],
+      ["unknown", 0],
+      ["all", 6],
+    ],
+  );
 });
 
 test("a mesher looks the same whoever else is in the chart", () => {

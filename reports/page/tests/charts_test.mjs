@@ -15,7 +15,8 @@ const { report } = madeUpReport(folder);
 const all = report.experiments.flatMap((section) => section.charts.map((chart) => ({ section, chart })));
 
 function marksOf(item) {
-  const own = item.marktype && !["group", "text"].includes(item.marktype) && item.role === "mark" ? item.items.length : 0;
+  const own =
+    item.marktype && !["group", "text"].includes(item.marktype) && item.role === "mark" ? item.items.length : 0;
   return (item.items ?? []).reduce((sum, child) => sum + marksOf(child), own);
 }
 

@@ -5,8 +5,11 @@ import { csvOf } from "../src/page/csv.mjs";
 const table = {
   columns: [{ name: "model" }, { name: "seconds" }, { name: "reason" }],
   rows: [
-    { values: { model: "piston", seconds: { value: 2.5, low: 2, high: 3 }, reason: null }, runs: ["runs/a.json", "runs/b.json"] },
-    { values: { model: "a, \"b\"", seconds: null, reason: "two\nlines" }, runs: [] },
+    {
+      values: { model: "piston", seconds: { value: 2.5, low: 2, high: 3 }, reason: null },
+      runs: ["runs/a.json", "runs/b.json"],
+    },
+    { values: { model: 'a, "b"', seconds: null, reason: "two\nlines" }, runs: [] },
   ],
 };
 

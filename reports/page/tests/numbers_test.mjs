@@ -28,8 +28,14 @@ test("what is no number is a dash", () => {
 });
 
 test("an estimate has the digits that its interval deserves", () => {
-  assert.deepEqual(estimateTexts({ value: 1.03142, low: 1.02443, high: 1.03941 }), { value: "1.031", interval: "[1.024, 1.039]" });
-  assert.deepEqual(estimateTexts({ value: 602.251, low: 590.11, high: 617.93 }), { value: "602", interval: "[590, 618]" });
+  assert.deepEqual(estimateTexts({ value: 1.03142, low: 1.02443, high: 1.03941 }), {
+    value: "1.031",
+    interval: "[1.024, 1.039]",
+  });
+  assert.deepEqual(estimateTexts({ value: 602.251, low: 590.11, high: 617.93 }), {
+    value: "602",
+    interval: "[590, 618]",
+  });
   assert.equal(cellText({ value: 8.05, low: 7.9, high: 8.2 }), "8.05 [7.90, 8.20]");
 });
 

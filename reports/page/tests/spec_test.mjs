@@ -2,8 +2,16 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { completeSpec, inTwoLines } from "../src/charts/spec.mjs";
 
-const columns = [{ name: "model", kind: "label" }, { name: "mesher", kind: "label" }, { name: "seconds", kind: "time" }];
-const rows = [["piston", "tetgen", 2], ["anchor", "ccdt", 1], ["piston", "ccdt", 1]].map(([model, mesher, seconds]) => ({ values: { model, mesher, seconds }, runs: [] }));
+const columns = [
+  { name: "model", kind: "label" },
+  { name: "mesher", kind: "label" },
+  { name: "seconds", kind: "time" },
+];
+const rows = [
+  ["piston", "tetgen", 2],
+  ["anchor", "ccdt", 1],
+  ["piston", "ccdt", 1],
+].map(([model, mesher, seconds]) => ({ values: { model, mesher, seconds }, runs: [] }));
 const section = { tables: [{ name: "times", columns, rows }] };
 const chart = {
   tables: ["times"],
@@ -11,11 +19,14 @@ const chart = {
     data: { name: "times" },
     facet: { field: "model", type: "nominal" },
     columns: 3,
-    spec: { mark: "point", encoding: {
-      x: { field: "seconds.value", type: "quantitative", scale: { type: "log" } },
-      color: { field: "mesher", type: "nominal" },
-      shape: { field: "mesher", type: "nominal", scale: { range: ["circle", "square"] } },
-    } },
+    spec: {
+      mark: "point",
+      encoding: {
+        x: { field: "seconds.value", type: "quantitative", scale: { type: "log" } },
+        color: { field: "mesher", type: "nominal" },
+        shape: { field: "mesher", type: "nominal", scale: { range: ["circle", "square"] } },
+      },
+    },
   },
 };
 const encoding = (options) => completeSpec(section, chart, options).spec.encoding;
@@ -23,7 +34,10 @@ const encoding = (options) => completeSpec(section, chart, options).spec.encodin
 test("a chart's data are the rows that pass, and the chart itself is not changed", () => {
   const before = structuredClone(chart);
   const { datasets } = completeSpec(section, chart, { passes: (row) => row.values.mesher === "ccdt" });
-  assert.deepEqual(datasets.times.map(({ model }) => model), ["anchor", "piston"]);
+  assert.deepEqual(
+    datasets.times.map(({ model }) => model),
+    ["anchor", "piston"],
+  );
   assert.deepEqual(chart, before);
 });
 
@@ -39,14 +53,23 @@ test("a scale that a chart says itself is kept", () => {
 });
 
 test("facets come in the order of the table, as many side by side as there is room for", () => {
-  const wide = completeSpec(section, chart, { width: 700 }), narrow = completeSpec(section, chart, { width: 300 });
+  const wide = completeSpec(section, chart, { width: 700 }),
+    narrow = completeSpec(section, chart, { width: 300 });
   assert.deepEqual(wide.facet.sort, ["piston", "anchor"]);
   assert.deepEqual([wide.columns, narrow.columns], [2, 1]);
 });
 
 test("layers that name themselves are series", () => {
-  const layered = { tables: ["times"], spec: { data: { name: "times" }, layer: [
-    { mark: "point", encoding: { color: { datum: "measured here" } } }, { mark: "point", encoding: { color: { datum: "the paper" } } }] } };
+  const layered = {
+    tables: ["times"],
+    spec: {
+      data: { name: "times" },
+      layer: [
+        { mark: "point", encoding: { color: { datum: "measured here" } } },
+        { mark: "point", encoding: { color: { datum: "the paper" } } },
+      ],
+    },
+  };
   for (const layer of completeSpec(section, layered).layer)
     assert.deepEqual(layer.encoding.color.scale.domain, ["measured here", "the paper"]);
 });

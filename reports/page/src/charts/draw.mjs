@@ -5,12 +5,14 @@ import { completeSpec } from "./spec.mjs";
 
 /** Charts have their data in them: nothing is ever loaded. */
 const loader = {
-  load: async (address) => { throw new Error(`a chart must not load ${address}`); },
+  load: async (address) => {
+    throw new Error(`a chart must not load ${address}`);
+  },
   sanitize: async (address) => ({ href: address }),
 };
 
 const MOST_FITTINGS = 4;
-const CLOSE_ENOUGH = 3;  // pixels
+const CLOSE_ENOUGH = 3; // pixels
 
 /** Keeps what is wrong with a chart instead of writing it to a console. */
 function collector(words) {
@@ -20,7 +22,7 @@ function collector(words) {
   return logger;
 }
 
-const DASHES_SIZE = 620;  // square pixels: a line of 25
+const DASHES_SIZE = 620; // square pixels: a line of 25
 
 /**
  * A dashed outline would blur the shapes in a legend: where series have shapes, these alone are shown. Where they are

@@ -26,10 +26,5 @@ export function sized(spec, data, width, room) {
   if (!spec.facet) return { ...spec, width: Math.max(NARROWEST_PLOT, width - room) };
   const columns = columnsOf(spec, data, width, FIRST_ROOM);
   const cell = Math.max(NARROWEST_PLOT, (width - room - GAP * (columns - 1)) / columns);
-  return {
-    ...spec,
-    columns,
-    spacing: { row: GAP, column: GAP },
-    spec: { ...spec.spec, width: Math.floor(cell) },
-  };
+  return { ...spec, columns, spacing: { row: GAP, column: GAP }, spec: { ...spec.spec, width: Math.floor(cell) } };
 }

@@ -10,8 +10,8 @@ const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
 const TABLE_ORDER = ["x", "y", "facet"];
 const SERIES_ORDER = ["xOffset", "yOffset"];
 const HALF_A_LINE = 6.5;
-const LONGEST_LABEL = 0.28;  // of the width, in one line
-const SYMBOL_ROOM = 30;  // of a legend's entry, beside its text
+const LONGEST_LABEL = 0.28; // of the width, in one line
+const SYMBOL_ROOM = 30; // of a legend's entry, beside its text
 
 /** Calls a function for each definition of a channel, at any depth. */
 function eachChannel(spec, visit) {
@@ -30,7 +30,9 @@ function isText(definition) {
 export function inTwoLines(text) {
   const spaces = [...text.matchAll(/ /g)].map(({ index }) => index);
   if (spaces.length === 0) return [text];
-  const middle = spaces.reduce((best, at) => (Math.abs(at - text.length / 2) < Math.abs(best - text.length / 2) ? at : best));
+  const middle = spaces.reduce((best, at) =>
+    Math.abs(at - text.length / 2) < Math.abs(best - text.length / 2) ? at : best,
+  );
   return [text.slice(0, middle), text.slice(middle + 1)];
 }
 
@@ -63,7 +65,8 @@ function legendColumns(values, width) {
 function styleSeries(channel, definition, values, theme, width) {
   const styles = seriesStyles(values);
   const range = styles.map(({ colour, shape, dash }) =>
-    channel === "shape" ? shape : channel === "strokeDash" ? dash : colourIn(theme, colour));
+    channel === "shape" ? shape : channel === "strokeDash" ? dash : colourIn(theme, colour),
+  );
   definition.scale = { domain: values, range };
   if (definition.legend !== null) definition.legend = { columns: legendColumns(values, width), ...definition.legend };
 }
@@ -123,7 +126,11 @@ function completeChannels(spec, data, { theme, width, room }) {
  * @param {(row: object, table: object) => boolean} [options.passes]  a filter of the rows
  * @returns {object} a specification of Vega-Lite
  */
-export function completeSpec(section, chart, { theme = "light", width = config.columnWidth, room = FIRST_ROOM, font, passes } = {}) {
+export function completeSpec(
+  section,
+  chart,
+  { theme = "light", width = config.columnWidth, room = FIRST_ROOM, font, passes } = {},
+) {
   const data = chartData(section, chart, passes);
   const spec = structuredClone(chart.spec);
   completeChannels(spec, data, { theme, width, room });

@@ -4,6 +4,8 @@
  * @param {string} field
  */
 export function textsOf(data, field) {
-  const values = Object.values(data).flat().map((datum) => datum[field]);
+  const values = Object.values(data)
+    .flat()
+    .map((datum) => datum[field]);
   return [...new Set(values.filter((value) => typeof value === "string" && value !== ""))];
 }

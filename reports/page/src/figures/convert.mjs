@@ -3,7 +3,7 @@ import { availableParallelism, cpus } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 
-const PIXELS_PER_CSS_PIXEL = "4";  // 384 a printed inch
+const PIXELS_PER_CSS_PIXEL = "4"; // 384 a printed inch
 
 const run = promisify(execFile);
 
@@ -32,7 +32,14 @@ export async function convertAll(folder, names) {
         await run("rsvg-convert", job, { env });
       } catch (error) {
         if (error.code === "ENOENT") failed.add("there is no rsvg-convert (Debian: librsvg2-bin)");
-        else failed.add(`rsvg-convert: ${String(error.stderr || error.message).trim().split("\n")[0]}`);
+        else
+          failed.add(
+            `rsvg-convert: ${
+              String(error.stderr || error.message)
+                .trim()
+                .split("\n")[0]
+            }`,
+          );
         if (error.code === "ENOENT") jobs.length = 0;
       }
     }

@@ -2,7 +2,7 @@ import { drawn } from "../charts/draw.mjs";
 import { element } from "./dom.mjs";
 import { download } from "./downloads.mjs";
 import { inTurn } from "./in_turn.mjs";
-import { traceRow } from "./table_view.mjs";
+import { traceRow } from "./trace.mjs";
 import { rowOf, tooltipOf } from "./tooltip.mjs";
 import { pageFont } from "./theme.mjs";
 import { printWidth } from "../charts/print.mjs";
@@ -38,13 +38,18 @@ async function saveAsPng(section, chart, passes) {
 export function chartView(report, section, chart) {
   const drawing = element("div.drawing", { role: "img", "aria-label": `${chart.title}. ${chart.caption}` });
   const id = `${section.name}-chart-${chart.name}`;
-  let passes = () => true, view = null, drawnWidth = 0, wanted = 0;
+  let passes = () => true,
+    view = null,
+    drawnWidth = 0,
+    wanted = 0;
 
   async function draw(turn) {
     const width = Math.floor(drawing.clientWidth);
     if (turn !== wanted || width < NARROWEST) return;
     delete drawing.dataset.drawn;
-    const hasData = section.tables.some((table) => chart.tables.includes(table.name) && table.rows.some((row) => passes(row, table)));
+    const hasData = section.tables.some(
+      (table) => chart.tables.includes(table.name) && table.rows.some((row) => passes(row, table)),
+    );
     view?.finalize();
     view = null;
     drawnWidth = width;
@@ -74,11 +79,39 @@ export function chartView(report, section, chart) {
     });
   };
 
-  const node = element("figure.chart", { id, "data-chart": `${section.name}/${chart.name}` },
-    element("header", {}, element("h3.minor", {}, chart.title), element("span.actions", {},
-      element("button.small", { type: "button", "aria-label": `Download ${chart.title} as SVG`, onclick: () => saveAsSvg(section, chart, passes) }, "SVG"),
-      element("button.small", { type: "button", "aria-label": `Download ${chart.title} as PNG`, onclick: () => saveAsPng(section, chart, passes) }, "PNG"))),
-    drawing, element("figcaption", {}, chart.caption));
+  const node = element(
+    "figure.chart",
+    { id, "data-chart": `${section.name}/${chart.name}` },
+    element(
+      "header",
+      {},
+      element("h3.minor", {}, chart.title),
+      element(
+        "span.actions",
+        {},
+        element(
+          "button.small",
+          {
+            type: "button",
+            "aria-label": `Download ${chart.title} as SVG`,
+            onclick: () => saveAsSvg(section, chart, passes),
+          },
+          "SVG",
+        ),
+        element(
+          "button.small",
+          {
+            type: "button",
+            "aria-label": `Download ${chart.title} as PNG`,
+            onclick: () => saveAsPng(section, chart, passes),
+          },
+          "PNG",
+        ),
+      ),
+    ),
+    drawing,
+    element("figcaption", {}, chart.caption),
+  );
   new ResizeObserver(() => {
     if (Math.floor(drawing.clientWidth) !== drawnWidth) redraw();
   }).observe(drawing);

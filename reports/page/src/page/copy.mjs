@@ -20,7 +20,9 @@ export function commandLine(command) {
     } catch {
       button.textContent = "Select and copy it";
     }
-    setTimeout(() => { button.textContent = "Copy"; }, 2000);
+    setTimeout(() => {
+      button.textContent = "Copy";
+    }, 2000);
   });
   return element("div.command", {}, element("code", {}, command), button);
 }

@@ -26,5 +26,11 @@ export function append(parent, children) {
 
 /** A list with bullets; nothing for none. */
 export function list(name, texts, attributes = {}) {
-  return texts.length === 0 ? null : element(name, attributes, texts.map((text) => element("li", {}, text)));
+  return texts.length === 0
+    ? null
+    : element(
+        name,
+        attributes,
+        texts.map((text) => element("li", {}, text)),
+      );
 }

@@ -2,7 +2,8 @@ import { element } from "./dom.mjs";
 
 /** Offers something made in the page as a file. */
 export function download(name, content, type) {
-  const address = content instanceof Blob ? URL.createObjectURL(content) : URL.createObjectURL(new Blob([content], { type }));
+  const address =
+    content instanceof Blob ? URL.createObjectURL(content) : URL.createObjectURL(new Blob([content], { type }));
   const link = element("a", { href: address, download: name });
   document.body.append(link);
   link.click();

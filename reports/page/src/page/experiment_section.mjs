@@ -11,7 +11,7 @@ import { tableView } from "./table_view.mjs";
 
 const MOST_FINDINGS = 8;
 const FINDINGS_AT_FIRST = 6;
-const FILTERED_AFTER = 150;  // milliseconds without another change; then charts are drawn anew
+const FILTERED_AFTER = 150; // milliseconds without another change; then charts are drawn anew
 
 function limitsText(limits) {
   const parts = [];
@@ -29,12 +29,18 @@ function circumstances(section) {
     runs ? `${counted(runs, "counted run")} a case` : "",
     confidence ? `${numberText(100 * confidence)}% intervals` : "",
     limitsText(section.limits),
-  ].filter(Boolean).join(" · ");
+  ]
+    .filter(Boolean)
+    .join(" · ");
 }
 
 function missingSection(section) {
   return [
-    element("p.problem", { "data-missing": section.name }, `This experiment is missing: ${section.reason || "it has not been made"}.`),
+    element(
+      "p.problem",
+      { "data-missing": section.name },
+      `This experiment is missing: ${section.reason || "it has not been made"}.`,
+    ),
     element("p.label", {}, "This command makes it:"),
     commandLine(section.command),
   ];
@@ -43,8 +49,13 @@ function missingSection(section) {
 function dataTables(section) {
   const tables = section.tables.filter((table) => table.data);
   if (tables.length === 0 && section.raw_files.length === 0) return null;
-  const buttons = tables.map((table) => element("button.small", { type: "button",
-    onclick: () => download(`${section.name}-${table.name}.csv`, csvOf(table), "text/csv") }, `${table.title} (CSV)`));
+  const buttons = tables.map((table) =>
+    element(
+      "button.small",
+      { type: "button", onclick: () => download(`${section.name}-${table.name}.csv`, csvOf(table), "text/csv") },
+      `${table.title} (CSV)`,
+    ),
+  );
   const files = section.raw_files.map((file) => element("a.file", { href: file }, baseName(file)));
   return element("p.actions.data", {}, element("span.quiet", {}, "Data: "), buttons, files);
 }
@@ -53,8 +64,15 @@ function dataTables(section) {
 function findings({ findings: all }) {
   if (all.length <= MOST_FINDINGS) return list("ul.findings", all);
   const rest = all.length - FINDINGS_AT_FIRST;
-  return [list("ul.findings", all.slice(0, FINDINGS_AT_FIRST)),
-    element("details.definitions", {}, element("summary", {}, `${rest} more findings`), list("ul", all.slice(FINDINGS_AT_FIRST)))];
+  return [
+    list("ul.findings", all.slice(0, FINDINGS_AT_FIRST)),
+    element(
+      "details.definitions",
+      {},
+      element("summary", {}, `${rest} more findings`),
+      list("ul", all.slice(FINDINGS_AT_FIRST)),
+    ),
+  ];
 }
 
 /** As the charts themselves say; else as they come. */
@@ -65,19 +83,25 @@ function inOrder(charts) {
 
 function results(report, section) {
   const charts = inOrder(section.charts).map((chart) => chartView(report, section, chart));
-  const tables = section.tables.filter((table) => !table.data && table.rows.length > 0).map((table) => tableView(report, section, table));
+  const tables = section.tables
+    .filter((table) => !table.data && table.rows.length > 0)
+    .map((table) => tableView(report, section, table));
   let pending = 0;
   const controls = filterControls(section, (state) => {
     const filter = (row, table) => passes(state, row, table);
     for (const table of tables) table.show(filter);
     clearTimeout(pending);
-    pending = setTimeout(() => { for (const chart of charts) chart.show(filter); }, FILTERED_AFTER);
+    pending = setTimeout(() => {
+      for (const chart of charts) chart.show(filter);
+    }, FILTERED_AFTER);
   });
   return [controls, charts.map(({ node }) => node), tables.map(({ node }) => node), dataTables(section)];
 }
 
 function failure(section) {
-  return section.status === "failed" ? element("p.problem", {}, section.reason || "Something of our own went wrong here; see below.") : null;
+  return section.status === "failed"
+    ? element("p.problem", {}, section.reason || "Something of our own went wrong here; see below.")
+    : null;
 }
 
 /**
@@ -90,17 +114,47 @@ export function experimentSection(report, section, keptMeshes) {
   const id = `experiment-${section.name}`;
   const head = [
     element("h2", { id: `${id}-title` }, section.title),
-    element("p.lead", {}, [section.section ? `Section ${section.section} of the paper` : "", circumstances(section)].filter(Boolean).join(" · ")),
+    element(
+      "p.lead",
+      {},
+      [section.section ? `Section ${section.section} of the paper` : "", circumstances(section)]
+        .filter(Boolean)
+        .join(" · "),
+    ),
   ];
-  const body = section.status === "missing" ? missingSection(section) : [
-    failure(section),
-    findings(section),
-    section.problems.length > 0 ? element("div.problem", {}, element("h3.minor", {}, "What went wrong"), list("ul", section.problems)) : null,
-    meshPictures(section, keptMeshes),
-    section.meshes.length > 0 ? element("p", {}, element("a", { href: "#meshes" }, "Turn and cut its meshes")) : null,
-    results(report, section),
-    section.definitions.length > 0 ? element("details.definitions", {}, element("summary", {}, "What the rows mean"), list("ul", section.definitions)) : null,
-    element("details.definitions", {}, element("summary", {}, "Repeat this experiment"), commandLine(section.command)),
-  ];
-  return element("section.part", { id, "data-experiment": section.name, "data-status": section.status, "aria-labelledby": `${id}-title` }, head, body);
+  const body =
+    section.status === "missing"
+      ? missingSection(section)
+      : [
+          failure(section),
+          findings(section),
+          section.problems.length > 0
+            ? element("div.problem", {}, element("h3.minor", {}, "What went wrong"), list("ul", section.problems))
+            : null,
+          meshPictures(section, keptMeshes),
+          section.meshes.length > 0
+            ? element("p", {}, element("a", { href: "#meshes" }, "Turn and cut its meshes"))
+            : null,
+          results(report, section),
+          section.definitions.length > 0
+            ? element(
+                "details.definitions",
+                {},
+                element("summary", {}, "What the rows mean"),
+                list("ul", section.definitions),
+              )
+            : null,
+          element(
+            "details.definitions",
+            {},
+            element("summary", {}, "Repeat this experiment"),
+            commandLine(section.command),
+          ),
+        ];
+  return element(
+    "section.part",
+    { id, "data-experiment": section.name, "data-status": section.status, "aria-labelledby": `${id}-title` },
+    head,
+    body,
+  );
 }

@@ -23,17 +23,34 @@ function choiceControl(section, choice, state, changed) {
     for (const box of boxes) box.checked = wanted(box);
     apply();
   };
-  const options = boxes.map((box) => element("div.option", {},
-    element("label", {}, box, isNumber(box.value) ? numberText(Number(box.value)) : box.value),
-    element("button.small.only", { type: "button", "aria-label": `Only ${box.value}`, onclick: () => tick((one) => one === box) }, "only")));
-  const control = element("details.filter", { "data-filter": `${section.name}/${choice.name}` },
+  const options = boxes.map((box) =>
+    element(
+      "div.option",
+      {},
+      element("label", {}, box, isNumber(box.value) ? numberText(Number(box.value)) : box.value),
+      element(
+        "button.small.only",
+        { type: "button", "aria-label": `Only ${box.value}`, onclick: () => tick((one) => one === box) },
+        "only",
+      ),
+    ),
+  );
+  const control = element(
+    "details.filter",
+    { "data-filter": `${section.name}/${choice.name}` },
     element("summary", {}, `${capital(choice.title)}: `, summary),
-    element("div.panel", {}, options, element("p.actions", {},
-      element("button.small", { type: "button", onclick: () => tick(() => true) }, "All"))));
+    element(
+      "div.panel",
+      {},
+      options,
+      element("p.actions", {}, element("button.small", { type: "button", onclick: () => tick(() => true) }, "All")),
+    ),
+  );
 
   function describe() {
     const ticked = boxes.filter((box) => box.checked);
-    summary.textContent = excluded.size === 0 ? "all" : ticked.length === 1 ? ticked[0].value : `${ticked.length} of ${boxes.length}`;
+    summary.textContent =
+      excluded.size === 0 ? "all" : ticked.length === 1 ? ticked[0].value : `${ticked.length} of ${boxes.length}`;
     control.classList.toggle("active", excluded.size > 0);
   }
   function apply() {
@@ -49,8 +66,11 @@ function choiceControl(section, choice, state, changed) {
 }
 
 function boundSelect(bounds, chosen, label, change) {
-  const select = element("select", { "aria-label": label, onchange: change },
-    bounds.map((bound) => element("option", { value: bound, selected: bound === chosen }, numberText(bound))));
+  const select = element(
+    "select",
+    { "aria-label": label, onchange: change },
+    bounds.map((bound) => element("option", { value: bound, selected: bound === chosen }, numberText(bound))),
+  );
   return select;
 }
 
@@ -59,10 +79,17 @@ function rangeControl(section, range, state, changed) {
   const { bounds } = range;
   const from = boundSelect(bounds, bounds[0], `${range.title} from`, () => apply());
   const to = boundSelect(bounds, bounds.at(-1), `${range.title} to`, () => apply());
-  const control = element("div.filter.range", { "data-filter": `${section.name}/${range.name}` },
-    `${capital(range.title)}: `, from, " to ", to);
+  const control = element(
+    "div.filter.range",
+    { "data-filter": `${section.name}/${range.name}` },
+    `${capital(range.title)}: `,
+    from,
+    " to ",
+    to,
+  );
   function apply() {
-    const low = Number(from.value), high = Number(to.value);
+    const low = Number(from.value),
+      high = Number(to.value);
     const isOpen = low === bounds[0] && high === bounds.at(-1);
     if (isOpen) state.ranges.delete(range.name);
     else state.ranges.set(range.name, { low, high });
@@ -107,9 +134,15 @@ export function filterControls(section, show) {
     ...rangesOf(section).map((range) => rangeControl(section, range, state, changed)),
   ];
   if (controls.length === 0) return null;
-  reset.addEventListener("click", () => { for (const control of controls) control.reset(); });
-  const bar = element("div.filters", { role: "group", "aria-label": `Filters of ${section.title}` },
-    controls.map(({ control }) => control), reset);
+  reset.addEventListener("click", () => {
+    for (const control of controls) control.reset();
+  });
+  const bar = element(
+    "div.filters",
+    { role: "group", "aria-label": `Filters of ${section.title}` },
+    controls.map(({ control }) => control),
+    reset,
+  );
   closeOthers(bar);
   return bar;
 }

@@ -6,9 +6,9 @@
  */
 
 const MOST_VALUES = 20;
-const SIZES = ["edge_length"];                // figures that are chosen like labels
-const RANGES = ["vertices"];                  // figures of which a range is chosen
-const SMALLEST_SPREAD = 4;                    // largest over smallest, for a range to make sense
+const SIZES = ["edge_length"]; // figures that are chosen like labels
+const RANGES = ["vertices"]; // figures of which a range is chosen
+const SMALLEST_SPREAD = 4; // largest over smallest, for a range to make sense
 
 /**
  * @typedef {object} Choice
@@ -35,7 +35,8 @@ function cellsOf(tables, name) {
 function columnsOf(tables, wanted) {
   const columns = new Map();
   for (const table of tables)
-    for (const column of table.columns) if (wanted(column) && !columns.has(column.name)) columns.set(column.name, column);
+    for (const column of table.columns)
+      if (wanted(column) && !columns.has(column.name)) columns.set(column.name, column);
   return [...columns.values()];
 }
 

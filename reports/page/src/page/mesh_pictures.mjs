@@ -6,7 +6,11 @@ import { inTurn } from "./in_turn.mjs";
 /** One mesh, cut open. */
 function picture({ file, title }, kept) {
   const image = element("img", { alt: `${title}, cut open` });
-  const save = element("button.small", { type: "button", hidden: true, "aria-label": `Download the picture of ${title} as SVG` }, "SVG");
+  const save = element(
+    "button.small",
+    { type: "button", hidden: true, "aria-label": `Download the picture of ${title} as SVG` },
+    "SVG",
+  );
   const caption = element("figcaption", {}, `${title} `, save);
   const figure = element("figure.mesh-picture", { "data-picture": file }, image, caption);
   const draw = async () => {
@@ -15,7 +19,9 @@ function picture({ file, title }, kept) {
     save.addEventListener("click", () => download(baseName(file).replace(/json$/, "svg"), svg, "image/svg+xml"));
     save.hidden = false;
   };
-  inTurn(draw).catch((error) => image.replaceWith(element("p.problem", {}, `${title} could not be drawn: ${error.message}`)));
+  inTurn(draw).catch((error) =>
+    image.replaceWith(element("p.problem", {}, `${title} could not be drawn: ${error.message}`)),
+  );
   return figure;
 }
 
@@ -26,5 +32,11 @@ function picture({ file, title }, kept) {
  */
 export function meshPictures(section, keptMeshes) {
   const meshes = section.meshes.filter(({ file, figure }) => figure && keptMeshes[file]);
-  return meshes.length > 0 ? element("div.mesh-pictures", {}, meshes.map((mesh) => picture(mesh, keptMeshes[mesh.file]))) : null;
+  return meshes.length > 0
+    ? element(
+        "div.mesh-pictures",
+        {},
+        meshes.map((mesh) => picture(mesh, keptMeshes[mesh.file])),
+      )
+    : null;
 }

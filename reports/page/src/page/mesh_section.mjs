@@ -11,9 +11,17 @@ export function meshSection(report, keptMeshes, mount) {
   const meshes = report.experiments.flatMap((section) => section.meshes);
   if (meshes.length === 0) return null;
   const place = element("div", { id: "viewer" });
-  const node = element("section.part", { id: "meshes", "aria-labelledby": "meshes-title" },
+  const node = element(
+    "section.part",
+    { id: "meshes", "aria-labelledby": "meshes-title" },
     element("h2", { id: "meshes-title" }, "Meshes"),
-    element("p.lead", {}, "Turn them, cut them with a plane, colour them by quality, and look at the worst tetrahedra alone."), place);
+    element(
+      "p.lead",
+      {},
+      "Turn them, cut them with a plane, colour them by quality, and look at the worst tetrahedra alone.",
+    ),
+    place,
+  );
   // A viewer takes its size from the page.
   queueMicrotask(() => mount(place, keptMeshes, { meshes, runs: report.runs }));
   return node;

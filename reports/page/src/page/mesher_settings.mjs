@@ -16,7 +16,10 @@ export function mesherSettings(runs) {
     }
   }
   return [...meshers.values()]
-    .map(({ settings, ...entry }) => ({ ...entry, settings: [...settings].map(([name, values]) => ({ name, values: [...values] })) }))
+    .map(({ settings, ...entry }) => ({
+      ...entry,
+      settings: [...settings].map(([name, values]) => ({ name, values: [...values] })),
+    }))
     .sort((a, b) => a.mesher.localeCompare(b.mesher) || a.version.localeCompare(b.version));
 }
 

@@ -9,7 +9,7 @@ function magnitude(number) {
 }
 
 function grouped(number, decimals) {
-  const rounded = Number(number.toFixed(decimals)) || 0;  // never -0
+  const rounded = Number(number.toFixed(decimals)) || 0; // never -0
   return rounded.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 }
 
@@ -77,7 +77,8 @@ export function commonDecimals(cells) {
   const numbers = cells.filter((cell) => typeof cell === "number" && Number.isFinite(cell));
   if (numbers.every(Number.isInteger)) return 0;
   const sizes = numbers.filter((number) => number !== 0).map(magnitude);
-  const smallest = Math.min(...sizes), largest = Math.max(...sizes);
+  const smallest = Math.min(...sizes),
+    largest = Math.max(...sizes);
   if (largest - smallest > 4) return undefined;
   return Math.min(MOST_DECIMALS, Math.max(0, SIGNIFICANT - 1 - largest, 1 - smallest));
 }

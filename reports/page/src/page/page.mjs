@@ -14,25 +14,46 @@ function summary(report) {
   const made = report.experiments.filter(({ status }) => status !== "missing");
   const processors = [...new Set(made.map(({ environment }) => environment?.cpu).filter(Boolean))];
   const claims = report.claims.length > 0 ? `${counted(report.claims.length, "claim")} of the paper, tested by ` : "";
-  return `${claims}${counted(made.length, "experiment")} and ${counted(Object.keys(report.runs).length, "run")}` +
-    `${processors.length > 0 ? ` on ${processors.join(" and ")}` : ""}.`;
+  return (
+    `${claims}${counted(made.length, "experiment")} and ${counted(Object.keys(report.runs).length, "run")}` +
+    `${processors.length > 0 ? ` on ${processors.join(" and ")}` : ""}.`
+  );
 }
 
 function header(report) {
-  return element("header.page", {},
+  return element(
+    "header.page",
+    {},
     element("div.title", {}, element("h1", {}, report.title), themeSwitch()),
     element("p.summary", {}, summary(report)),
-    element("p.counts", {}, verdictCounts(report)));
+    element("p.counts", {}, verdictCounts(report)),
+  );
 }
 
 function footer() {
-  return element("footer.page", {}, element("p", {}, "The paper: Y.-J. Yang, J.-H. Yong, J.-G. Sun, ",
-    element("cite", {}, "An algorithm for tetrahedral mesh generation based on conforming constrained Delaunay tetrahedralization"),
-    ", Computers & Graphics 29 (2005). This page is one file and loads nothing."));
+  return element(
+    "footer.page",
+    {},
+    element(
+      "p",
+      {},
+      "The paper: Y.-J. Yang, J.-H. Yong, J.-G. Sun, ",
+      element(
+        "cite",
+        {},
+        "An algorithm for tetrahedral mesh generation based on conforming constrained Delaunay tetrahedralization",
+      ),
+      ", Computers & Graphics 29 (2005). This page is one file and loads nothing.",
+    ),
+  );
 }
 
 function sectionTitles(report) {
-  return report.experiments.map(({ name, title, status }) => ({ id: `experiment-${name}`, title, note: status === "ok" ? "" : `(${status})` }));
+  return report.experiments.map(({ name, title, status }) => ({
+    id: `experiment-${name}`,
+    title,
+    note: status === "ok" ? "" : `(${status})`,
+  }));
 }
 
 function show(report) {
@@ -47,13 +68,17 @@ function show(report) {
     rawFilesSection(report),
   ];
   const { node, follow } = contents([
-    ...(report.claims.length > 0 ? [{ id: "verdicts", title: "The paper's claims" }] : []), ...sectionTitles(report),
+    ...(report.claims.length > 0 ? [{ id: "verdicts", title: "The paper's claims" }] : []),
+    ...sectionTitles(report),
     ...(meshes ? [{ id: "meshes", title: "Meshes" }] : []),
-    { id: "environment", title: "Environment and meshers" }, { id: "files", title: "Raw data" },
+    { id: "environment", title: "Environment and meshers" },
+    { id: "files", title: "Raw data" },
   ]);
   append(document.getElementById("page"), [
-    element("a.skip", { href: "#main" }, "Skip to the content"), header(report),
-    element("div.columns", {}, node, element("main", { id: "main" }, parts)), footer(),
+    element("a.skip", { href: "#main" }, "Skip to the content"),
+    header(report),
+    element("div.columns", {}, node, element("main", { id: "main" }, parts)),
+    footer(),
   ]);
   follow();
 }
@@ -61,4 +86,8 @@ function show(report) {
 defineChartColours();
 const report = embeddedReport();
 if (report) show(report);
-else append(document.getElementById("page"), element("p", {}, "There is no report in this page: ccdt report puts one in."));
+else
+  append(
+    document.getElementById("page"),
+    element("p", {}, "There is no report in this page: ccdt report puts one in."),
+  );

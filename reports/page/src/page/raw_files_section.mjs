@@ -6,19 +6,43 @@ import { counted, numberText } from "./numbers.mjs";
 const MOST_SHOWN = 200;
 
 function fileEntry(file, content) {
-  return element("li", {}, element("a", { href: file }, file),
-    element("button.small", { type: "button", "aria-label": `Download ${file}`, onclick: () => download(baseName(file), jsonText(content), "application/json") }, "Download"));
+  return element(
+    "li",
+    {},
+    element("a", { href: file }, file),
+    element(
+      "button.small",
+      {
+        type: "button",
+        "aria-label": `Download ${file}`,
+        onclick: () => download(baseName(file), jsonText(content), "application/json"),
+      },
+      "Download",
+    ),
+  );
 }
 
 function fileList(files) {
-  const names = Object.keys(files).sort((a, b) => (a.split("/").length - b.split("/").length) || a.localeCompare(b, "en", { numeric: true }));
+  const names = Object.keys(files).sort(
+    (a, b) => a.split("/").length - b.split("/").length || a.localeCompare(b, "en", { numeric: true }),
+  );
   const shown = element("ul.files");
   const more = element("p.quiet", { "aria-live": "polite" });
-  const search = element("input", { type: "search", placeholder: "Part of a name", "aria-label": "Search the files", oninput: () => show() });
+  const search = element("input", {
+    type: "search",
+    placeholder: "Part of a name",
+    "aria-label": "Search the files",
+    oninput: () => show(),
+  });
   function show() {
     const found = names.filter((name) => name.includes(search.value.trim()));
     shown.replaceChildren(...found.slice(0, MOST_SHOWN).map((name) => fileEntry(name, files[name])));
-    more.textContent = found.length > MOST_SHOWN ? `${numberText(found.length - MOST_SHOWN)} more: search for them.` : found.length === 0 ? "No file has that name." : "";
+    more.textContent =
+      found.length > MOST_SHOWN
+        ? `${numberText(found.length - MOST_SHOWN)} more: search for them.`
+        : found.length === 0
+          ? "No file has that name."
+          : "";
   }
   show();
   return [search, shown, more];
@@ -32,13 +56,34 @@ export function rawFilesSection(report) {
   details.addEventListener("toggle", async () => {
     if (!details.open || place.hasChildNodes()) return;
     const files = await embeddedFiles();
-    place.append(element("p.quiet", {}, `${counted(Object.keys(files).length, "file")}, also in the folder of this page.`), ...fileList(files));
+    place.append(
+      element("p.quiet", {}, `${counted(Object.keys(files).length, "file")}, also in the folder of this page.`),
+      ...fileList(files),
+    );
   });
-  return element("section.part", { id: "files", "aria-labelledby": "files-title" },
+  return element(
+    "section.part",
+    { id: "files", "aria-labelledby": "files-title" },
     element("h2", { id: "files-title" }, "Raw data"),
-    element("p.lead", {}, "All that this page shows was computed from these JSON files; ccdt report makes the page from them again."),
-    element("p.actions", {},
-      element("button", { type: "button", "data-download": "report", onclick: () => save("report.json", report) }, "report.json"),
-      element("button", { type: "button", "data-download": "all", onclick: async () => save("files.json", await embeddedFiles()) }, "All files in one JSON")),
-    details);
+    element(
+      "p.lead",
+      {},
+      "All that this page shows was computed from these JSON files; ccdt report makes the page from them again.",
+    ),
+    element(
+      "p.actions",
+      {},
+      element(
+        "button",
+        { type: "button", "data-download": "report", onclick: () => save("report.json", report) },
+        "report.json",
+      ),
+      element(
+        "button",
+        { type: "button", "data-download": "all", onclick: async () => save("files.json", await embeddedFiles()) },
+        "All files in one JSON",
+      ),
+    ),
+    details,
+  );
 }

@@ -1,13 +1,14 @@
 import { csvOf } from "./csv.mjs";
 import { element } from "./dom.mjs";
 import { download } from "./downloads.mjs";
-import { cellText, commonDecimals, counted, estimateTexts, isEstimate, sortKey } from "./numbers.mjs";
-import { openTrace, traceButton } from "./trace.mjs";
+import { cellContent } from "./cells.mjs";
+import { commonDecimals, counted, isEstimate, sortKey } from "./numbers.mjs";
+import { rowTitle, saysUnit, sortedRows, STATUS, unitText } from "./rows.mjs";
+import { traceButton, traceRow } from "./trace.mjs";
 
-const STATUS = "status";
 const ROWS_AT_FIRST = 12;
 const MOST_ROWS_WITHOUT_BUTTON = 16;
-const LONG_TEXT = 44;  // characters; longer ones are wrapped
+const LONG_TEXT = 44; // characters; longer ones are wrapped
 
 /**
  * Columns with something to say. Why a value is missing is said beside the status; that all is well, not at all.
@@ -16,72 +17,35 @@ function shownColumns(table) {
   const hasStatus = table.columns.some(({ name }) => name === STATUS);
   const says = ({ name, kind }) => {
     if (kind === "note" && hasStatus) return false;
-    return table.rows.some((row) => sortKey(row.values[name]) !== null && (name !== STATUS || row.values[name] !== "ok"));
+    return table.rows.some(
+      (row) => sortKey(row.values[name]) !== null && (name !== STATUS || row.values[name] !== "ok"),
+    );
   };
-  return table.columns
-    .filter(says)
-    .map((column) => {
-      const cells = table.rows.map((row) => row.values[column.name]);
-      const isLong = cells.some((cell) => typeof cell === "string" && cell.length > LONG_TEXT);
-      return { ...column, isLong, isNumeric: cells.some((cell) => typeof cell === "number" || isEstimate(cell)), decimals: commonDecimals(cells) };
-    });
-}
-
-function cellContent(cell, decimals, kind) {
-  if (kind === "note" && !cell) return null;
-  if (!isEstimate(cell)) return cellText(cell, decimals);
-  const { value, interval } = estimateTexts(cell);
-  return [value, interval ? element("span.interval", {}, ` ${interval}`) : null];
-}
-
-/** "piston, with check": what a row is of. */
-export function rowTitle(table, row) {
-  const labels = table.columns
-    .filter(({ name, kind }) => kind === "label" && name !== STATUS && row.values[name])
-    .map(({ name }) => row.values[name]);
-  return [...new Set(labels)].join(", ");
-}
-
-/** Everything that a row says, for the trace and the tooltips of charts. */
-export function rowFacts(table, row) {
-  return table.columns
-    .filter(({ name, kind }) => kind !== "label" && sortKey(row.values[name]) !== null)
-    .map(({ name, title, unit }) => `${title}: ${cellText(row.values[name])}${unit ? ` ${unit}` : ""}`);
-}
-
-/** Opens the trace of a row. */
-export function traceRow(report, table, row) {
-  openTrace(report, rowTitle(table, row) || table.title, rowFacts(table, row), row.runs);
-}
-
-function compare(a, b) {
-  if (a === null || b === null) return (a === null) - (b === null);
-  if (typeof a === "number" && typeof b === "number") return a - b;
-  return String(a).localeCompare(String(b), "en", { numeric: true });
-}
-
-function sortedRows(rows, sorting) {
-  if (sorting === null) return rows;
-  const { name, descending } = sorting;
-  const keyed = rows.map((row) => ({ row, key: sortKey(row.values[name]) }));
-  // What has no value comes last, whichever way.
-  keyed.sort((a, b) => (a.key === null || b.key === null ? compare(a.key, b.key) : (descending ? -1 : 1) * compare(a.key, b.key)));
-  return keyed.map(({ row }) => row);
-}
-
-const UNIT_WORDS = { s: "second", ms: "millisecond", "µs": "microsecond", "°": "degree", "%": "percent" };
-
-/** Is the unit in the title already? */
-function saysUnit({ title, unit }) {
-  return title.includes(UNIT_WORDS[unit] ?? unit);
+  return table.columns.filter(says).map((column) => {
+    const cells = table.rows.map((row) => row.values[column.name]);
+    const isLong = cells.some((cell) => typeof cell === "string" && cell.length > LONG_TEXT);
+    return {
+      ...column,
+      isLong,
+      isNumeric: cells.some((cell) => typeof cell === "number" || isEstimate(cell)),
+      decimals: commonDecimals(cells),
+    };
+  });
 }
 
 function headCell(column, sorting, sort) {
   const state = sorting?.name === column.name ? (sorting.descending ? "descending" : "ascending") : "none";
-  const unit = column.unit && !saysUnit(column) ? element("span.unit", {}, ` (${column.unit})`) : null;
-  return element(column.isNumeric ? "th.number" : "th", { scope: "col", "aria-sort": state },
-    element("button.sort", { type: "button", "data-column": column.name, onclick: () => sort(column.name) }, element("span", {}, column.title, unit),
-      element("span.arrow", { "aria-hidden": "true" }, state === "descending" ? "↓" : state === "ascending" ? "↑" : "")));
+  const unit = saysUnit(column) ? null : element("span.unit", {}, ` (${unitText(column.unit)})`);
+  return element(
+    column.isNumeric ? "th.number" : "th",
+    { scope: "col", "aria-sort": state },
+    element(
+      "button.sort",
+      { type: "button", "data-column": column.name, onclick: () => sort(column.name) },
+      element("span", {}, column.title, unit),
+      element("span.arrow", { "aria-hidden": "true" }, state === "descending" ? "↓" : state === "ascending" ? "↑" : ""),
+    ),
+  );
 }
 
 function hasRuns(table) {
@@ -89,14 +53,21 @@ function hasRuns(table) {
 }
 
 function statusContent(table, row) {
-  const notes = table.columns.filter(({ kind }) => kind === "note").map(({ name }) => row.values[name]).filter(Boolean);
-  return [element("span.status", { "data-status": row.values[STATUS] }, row.values[STATUS]), notes.map((note) => element("span.quiet", {}, ` ${note}`))];
+  const notes = table.columns
+    .filter(({ kind }) => kind === "note")
+    .map(({ name }) => row.values[name])
+    .filter(Boolean);
+  return [
+    element("span.status", { "data-status": row.values[STATUS] }, row.values[STATUS]),
+    notes.map((note) => element("span.quiet", {}, ` ${note}`)),
+  ];
 }
 
 function bodyRow(report, table, columns, row, isFolded) {
   const cells = columns.map(({ name, isNumeric, isLong, decimals, kind }, index) => {
-    const content = cellContent(row.values[name], decimals, kind);
-    const classes = `${isNumeric ? ".number" : ""}${isLong ? ".long" : ""}${kind === "note" || name === STATUS ? ".note" : ""}`;
+    const content = kind === "note" && !row.values[name] ? null : cellContent(row.values[name], decimals);
+    const isNote = kind === "note" || name === STATUS;
+    const classes = (isNumeric ? ".number" : "") + (isLong ? ".long" : "") + (isNote ? ".note" : "");
     const body = name === STATUS ? statusContent(table, row) : content;
     return index === 0 ? element(`th${classes}`, { scope: "row" }, body) : element(`td${classes}`, {}, body);
   });
@@ -113,14 +84,27 @@ function bodyRow(report, table, columns, row, isFolded) {
  */
 export function tableView(report, section, table) {
   const columns = shownColumns(table);
-  let sorting = null, rows = table.rows, isUnfolded = false;
+  let sorting = null,
+    rows = table.rows,
+    isUnfolded = false;
 
-  const head = element("thead"), body = element("tbody");
+  const head = element("thead"),
+    body = element("tbody");
   const count = element("span.quiet", { "aria-live": "polite" });
   const unfold = element("button.small.unfold", { type: "button" });
-  const save = element("button.small", { type: "button", "aria-label": `Download ${table.title} as CSV`,
-    onclick: () => download(`${section.name}-${table.name}.csv`, csvOf(table, rows), "text/csv") }, "CSV");
-  unfold.addEventListener("click", () => { isUnfolded = !isUnfolded; draw(); });
+  const save = element(
+    "button.small",
+    {
+      type: "button",
+      "aria-label": `Download ${table.title} as CSV`,
+      onclick: () => download(`${section.name}-${table.name}.csv`, csvOf(table, rows), "text/csv"),
+    },
+    "CSV",
+  );
+  unfold.addEventListener("click", () => {
+    isUnfolded = !isUnfolded;
+    draw();
+  });
 
   const sort = (name) => {
     const isSame = sorting?.name === name;
@@ -131,11 +115,21 @@ export function tableView(report, section, table) {
 
   function draw() {
     const mustFold = rows.length > MOST_ROWS_WITHOUT_BUTTON && !isUnfolded;
-    head.replaceChildren(element("tr", {}, columns.map((column) => headCell(column, sorting, sort)),
-      hasRuns(table) ? element("th.trace-cell", { scope: "col" }, element("span.unseen", {}, "Runs")) : null));
-    body.replaceChildren(...sortedRows(rows, sorting).map((row, index) =>
-      bodyRow(report, table, columns, row, mustFold && index >= ROWS_AT_FIRST)));
-    count.textContent = rows.length === table.rows.length ? "" : `${rows.length} of ${counted(table.rows.length, "row")}`;
+    head.replaceChildren(
+      element(
+        "tr",
+        {},
+        columns.map((column) => headCell(column, sorting, sort)),
+        hasRuns(table) ? element("th.trace-cell", { scope: "col" }, element("span.unseen", {}, "Runs")) : null,
+      ),
+    );
+    body.replaceChildren(
+      ...sortedRows(rows, sorting).map((row, index) =>
+        bodyRow(report, table, columns, row, mustFold && index >= ROWS_AT_FIRST),
+      ),
+    );
+    count.textContent =
+      rows.length === table.rows.length ? "" : `${rows.length} of ${counted(table.rows.length, "row")}`;
     unfold.hidden = rows.length <= MOST_ROWS_WITHOUT_BUTTON;
     unfold.textContent = mustFold ? `Show all ${counted(rows.length, "row")}` : "Show fewer rows";
     unfold.setAttribute("aria-expanded", String(!mustFold));
@@ -143,10 +137,17 @@ export function tableView(report, section, table) {
   draw();
 
   const id = `${section.name}-${table.name}`;
-  const node = element("div.table", { id, "data-table": `${section.name}/${table.name}` },
+  const node = element(
+    "div.table",
+    { id, "data-table": `${section.name}/${table.name}` },
     element("header", {}, element("h3.minor", {}, table.title), count, element("span.actions", {}, save)),
-    element("div.scroll", { tabindex: 0, role: "region", "aria-label": `${section.title}: ${table.title}` }, element("table", {}, head, body)),
-    unfold);
+    element(
+      "div.scroll",
+      { tabindex: 0, role: "region", "aria-label": `${section.title}: ${table.title}` },
+      element("table", {}, head, body),
+    ),
+    unfold,
+  );
   const show = (passes) => {
     rows = table.rows.filter((row) => passes(row, table));
     draw();

@@ -1,5 +1,5 @@
 import { element, list } from "./dom.mjs";
-import { rowFacts, rowTitle } from "./table_view.mjs";
+import { rowFacts, rowTitle } from "./rows.mjs";
 
 const DISTANCE = 14;
 
@@ -8,7 +8,8 @@ let box = null;
 function place(event) {
   const { innerWidth, innerHeight } = window;
   const { width, height } = box.getBoundingClientRect();
-  const right = event.clientX + DISTANCE, below = event.clientY + DISTANCE;
+  const right = event.clientX + DISTANCE,
+    below = event.clientY + DISTANCE;
   const x = right + width < innerWidth ? right : Math.max(4, event.clientX - DISTANCE - width);
   const y = below + height < innerHeight ? below : Math.max(4, event.clientY - DISTANCE - height);
   box.style.transform = `translate(${x}px, ${y}px)`;
@@ -29,8 +30,11 @@ export function tooltipOf(section) {
     box.hidden = !found;
     if (!found) return;
     const { table, row } = found;
-    box.replaceChildren(element("strong", {}, rowTitle(table, row)), list("ul", rowFacts(table, row)) ?? "",
-      row.runs.length > 0 ? element("span.quiet", {}, "Click to trace it to its runs") : "");
+    box.replaceChildren(
+      element("strong", {}, rowTitle(table, row)),
+      list("ul", rowFacts(table, row)) ?? "",
+      row.runs.length > 0 ? element("span.quiet", {}, "Click to trace it to its runs") : "",
+    );
     place(event);
   };
 }

@@ -3,13 +3,19 @@ import { element, list } from "./dom.mjs";
 import { baseName, download, jsonText } from "./downloads.mjs";
 import { embeddedFiles } from "./embedded.mjs";
 import { counted } from "./numbers.mjs";
+import { rowFacts, rowTitle } from "./rows.mjs";
 
 /** The raw JSON of a run, shown when it is asked for. */
 function rawJson(file) {
   const text = element("pre", { tabindex: 0 }, "…");
   const save = element("button.small", { type: "button" }, "Download");
-  const details = element("details.raw", {}, element("summary", {}, "Raw JSON"), element("p.actions", {}, save,
-    element("a", { href: file }, file)), text);
+  const details = element(
+    "details.raw",
+    {},
+    element("summary", {}, "Raw JSON"),
+    element("p.actions", {}, save, element("a", { href: file }, file)),
+    text,
+  );
   const content = async () => {
     const found = (await embeddedFiles())[file];
     return found === undefined ? null : jsonText(found);
@@ -25,21 +31,35 @@ function rawJson(file) {
 }
 
 function settingsText(settings) {
-  return Object.entries(settings).map(([name, value]) => `${name} ${value}`).join(", ");
+  return Object.entries(settings)
+    .map(([name, value]) => `${name} ${value}`)
+    .join(", ");
 }
 
 function runEntry(file, run, open) {
   if (!run) return element("li", {}, element("p", {}, element("code", {}, file), ": not in this report"));
   const settings = settingsText(run.settings);
-  return element("li", {},
-    element("details.run", { open, "data-run": file },
-      element("summary", {}, element("code", {}, baseName(file)), " ",
-        element("span.status", { "data-status": run.status }, run.status), " ",
-        element("span.quiet", {}, `${run.mesher} ${run.version}`)),
+  return element(
+    "li",
+    {},
+    element(
+      "details.run",
+      { open, "data-run": file },
+      element(
+        "summary",
+        {},
+        element("code", {}, baseName(file)),
+        " ",
+        element("span.status", { "data-status": run.status }, run.status),
+        " ",
+        element("span.quiet", {}, `${run.mesher} ${run.version}`),
+      ),
       element("p.label", {}, "This command repeats it, in the folder of the report:"),
       commandLine(run.command),
       settings ? element("p.quiet", {}, `Settings: ${settings}`) : null,
-      rawJson(file)));
+      rawJson(file),
+    ),
+  );
 }
 
 let dialog = null;
@@ -47,10 +67,16 @@ let dialog = null;
 function openDialog(title, ...content) {
   dialog?.remove();
   const close = element("button.small", { type: "button", "aria-label": "Close" }, "Close");
-  dialog = element("dialog.trace", { "aria-labelledby": "trace-title" },
-    element("header", {}, element("h2", { id: "trace-title" }, title), close), ...content);
+  dialog = element(
+    "dialog.trace",
+    { "aria-labelledby": "trace-title" },
+    element("header", {}, element("h2", { id: "trace-title" }, title), close),
+    ...content,
+  );
   close.addEventListener("click", () => dialog.close());
-  dialog.addEventListener("click", (event) => { if (event.target === dialog) dialog.close(); });
+  dialog.addEventListener("click", (event) => {
+    if (event.target === dialog) dialog.close();
+  });
   document.body.append(dialog);
   dialog.showModal();
 }
@@ -63,14 +89,30 @@ function openDialog(title, ...content) {
  * @param {string[]} files  of the runs
  */
 export function openTrace(report, title, facts, files) {
-  openDialog(title, list("ul.facts", facts),
+  openDialog(
+    title,
+    list("ul.facts", facts),
     element("p.label", {}, `It stands on ${counted(files.length, "run")}:`),
-    element("ol.runs", {}, files.map((file, index) => runEntry(file, report.runs[file], index === 0))));
+    element(
+      "ol.runs",
+      {},
+      files.map((file, index) => runEntry(file, report.runs[file], index === 0)),
+    ),
+  );
+}
+
+/** Shows what a row of a table stands on. */
+export function traceRow(report, table, row) {
+  openTrace(report, rowTitle(table, row) || table.title, rowFacts(table, row), row.runs);
 }
 
 /** The control that opens the runs of a row or a measure. */
 export function traceButton(files, what, open) {
   if (files.length === 0) return null;
-  return element("button.small.trace", { type: "button", "data-trace": "", onclick: open },
-    counted(files.length, "run"), element("span.unseen", {}, ` of ${what}`));
+  return element(
+    "button.small.trace",
+    { type: "button", "data-trace": "", onclick: open },
+    counted(files.length, "run"),
+    element("span.unseen", {}, ` of ${what}`),
+  );
 }
