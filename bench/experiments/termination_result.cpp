@@ -34,12 +34,11 @@ std::string degrees_in_words(double degrees) {
 
 std::vector<std::string> definitions() {
   std::vector<std::string> all = {
-      "The paper, section 2: \"middle points of missing grazeable edges are repeatedly inserted to the mesh until all "
-      "grazeable edges are represented as set of continuous edges of DT\". It does not say that this ends.",
+      "The paper, section 2: middle points of missing grazeable edges are inserted repeatedly until none is missing.",
+      "It does not say that this ends.",
       "Ended: all grazeable edges of the input are chains of Delaunay edges.",
-      "Not ended: the engine stopped, because a piece would have been smaller than 2^-20 of its segment or because "
-      "there "
-      "were a hundred times as many pieces as vertices.",
+      "Not ended: the engine stopped, for a piece would have been smaller than 2^-20 of its segment,",
+      "or there were a hundred times as many pieces as vertices.",
       "Level: how many splits led to a piece, and one more.",
       "Midpoint is the paper's way (--protection midpoint), shell ours (--protection shell).",
       "Nothing is placed inside (--lattice none), and the meshes are not improved.",

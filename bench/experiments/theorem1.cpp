@@ -44,8 +44,7 @@ FamilyTrials measure(const small::Family& family, std::uint64_t cases, const std
 
 std::vector<std::string> definitions() {
   std::vector<std::string> all = {
-      "The paper, section 5.2: \"If and only if a model X is grazeable edge protected and face protected, X has a "
-      "DT.\"",
+      "Theorem 1: \"If and only if a model X is grazeable edge protected and face protected, X has a DT.\"",
       "A DT is a constrained Delaunay tetrahedralization (CDT) whose tetrahedra are all Delaunay.",
       "Premise: a sphere through each grazeable edge, and through each facet triangle, has all other vertices outside.",
       "Of a facet with four corners the triangles are those that its Delaunay triangulation has.",

@@ -101,6 +101,26 @@ TEST(SmallPlcs, AreRefusedIfTheyCrossThemselvesOrLeaveTheDomain) {
   EXPECT_FALSE(is_valid(dented));
 }
 
+TEST(SmallPlcs, AreRefusedIfTheyHaveAVoid) {
+  // Glued tetrahedra all around 1 2 3 4. A file without hole seeds says that this is filled.
+  const SmallPlc around_void{
+      {{19, 66, 96}, {8, 55, 19}, {30, 94, 84}, {31, 61, 78}, {49, 37, 67}, {25, 34, 8}, {63, 51, 82}},
+      {{0, 2, 1},
+       {0, 1, 5},
+       {0, 6, 2},
+       {0, 5, 4},
+       {0, 4, 6},
+       {1, 2, 3},
+       {1, 4, 2},
+       {1, 2, 5},
+       {1, 3, 4},
+       {2, 4, 3},
+       {2, 4, 5},
+       {2, 6, 4}}};
+  EXPECT_TRUE(is_generic(around_void));
+  EXPECT_FALSE(is_valid(around_void));
+}
+
 TEST(Grazeable, AreReflexEdgesDanglingSegmentsAndFreeEdgesOfFacets) {
   EXPECT_TRUE(grazeable_segments(tetrahedron()).empty());
   SmallPlc plc = flat_bipyramid();

@@ -51,6 +51,23 @@ bool is_diagonal(const Polygon& facet, const Edge& edge) {
   return facet.size() == 4 && ((edge == edge_of(facet[0], facet[2])) || (edge == edge_of(facet[1], facet[3])));
 }
 
+/// Has the boundary two facets at each edge, and can each facet be reached from each over edges? Then it bounds one
+/// body without a void.
+bool is_one_surface(const std::vector<Polygon>& boundary) {
+  std::map<Edge, std::vector<std::size_t>> at_edge;
+  for (std::size_t f = 0; f < boundary.size(); ++f)
+    for (std::size_t i = 0; i < boundary[f].size(); ++i)
+      at_edge[edge_of(boundary[f][i], boundary[f][(i + 1) % boundary[f].size()])].push_back(f);
+  if (std::ranges::any_of(at_edge, [](const auto& entry) { return entry.second.size() != 2; })) return false;
+  std::set<std::size_t> reached = {0};
+  for (std::size_t before = 0; before < reached.size();) {
+    before = reached.size();
+    for (const auto& [edge, facets] : at_edge)
+      if (reached.contains(facets[0]) || reached.contains(facets[1])) reached.insert(facets.begin(), facets.end());
+  }
+  return reached.size() == boundary.size();
+}
+
 std::string list_in_words(const std::vector<Polygon>& polygons) {
   std::ostringstream text;
   for (const Polygon& polygon : polygons) {
@@ -145,6 +162,7 @@ bool is_generic(const SmallPlc& plc, bool may_be_cospherical) {
 }
 
 bool is_valid(const SmallPlc& plc) {
+  if (!is_one_surface(plc.boundary)) return false;
   const auto& v = plc.vertices;
   const std::vector<Edge> segments = all_segments(plc);
   for (const Polygon& facet : all_facets(plc)) {

@@ -17,9 +17,9 @@ using Polygon = std::vector<Vertex>;     ///< the corners of a facet in order, t
 
 /// A piecewise linear complex of a few vertices.
 ///
-/// Invariants (`is_valid`, `is_generic`): the boundary is closed and bounds one or more bodies; facets and segments are
-/// in the domain and meet only in common corners and edges; of the corners of a facet of four, no three are collinear
-/// and at most one is reflex.
+/// Invariants (`is_valid`, `is_generic`): the boundary is closed and bounds one body without a void; facets and
+/// segments are in the domain and meet only in common corners and edges; of the corners of a facet of four, no three
+/// are collinear and at most one is reflex.
 struct SmallPlc {
   std::vector<Point> vertices;
   std::vector<Polygon> boundary;       ///< counterclockwise seen from outside
@@ -52,7 +52,8 @@ bool is_inside(const SmallPlc& plc, const std::vector<Vertex>& simplex);
 /// Are no four vertices in a plane (but corners of a facet), and no five on a sphere?
 bool is_generic(const SmallPlc& plc, bool may_be_cospherical = false);
 
-/// Do no edges pierce facets or cut them in two, is the volume positive, and are interior facets and segments inside?
+/// Is the boundary one surface, do no edges pierce facets or cut them in two, is the volume positive, and are interior
+/// facets and segments inside?
 bool is_valid(const SmallPlc& plc);
 
 InputPlc as_input(const SmallPlc& plc);
