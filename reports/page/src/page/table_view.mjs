@@ -8,6 +8,7 @@ import { traceButton, traceRow } from "./trace.mjs";
 
 const ROWS_AT_FIRST = 12;
 const MOST_ROWS_WITHOUT_BUTTON = 16;
+const LONG_TITLE = 24;
 const LONG_TEXT = 44; // characters; longer ones are wrapped
 
 /**
@@ -37,7 +38,7 @@ function headCell(column, sorting, sort) {
   const state = sorting?.name === column.name ? (sorting.descending ? "descending" : "ascending") : "none";
   const unit = saysUnit(column) ? null : element("span.unit", {}, ` (${unitText(column.unit)})`);
   return element(
-    column.isNumeric ? "th.number" : "th",
+    (column.isNumeric ? "th.number" : "th") + (column.title.length > LONG_TITLE ? ".titled" : ""),
     { scope: "col", "aria-sort": state },
     element(
       "button.sort",
