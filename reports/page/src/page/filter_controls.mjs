@@ -10,6 +10,13 @@ function isNumber(text) {
   return text !== "" && Number.isFinite(Number(text));
 }
 
+/** A panel that would reach over the right edge of the page opens to the left. */
+function keepInside(panel) {
+  panel.classList.remove("leftward");
+  const isOver = panel.getBoundingClientRect().right > document.documentElement.clientWidth;
+  panel.classList.toggle("leftward", isOver);
+}
+
 /** A label's values, each to be ticked. */
 function choiceControl(section, choice, state, changed) {
   const excluded = new Set();
@@ -46,6 +53,8 @@ function choiceControl(section, choice, state, changed) {
       element("p.actions", {}, element("button.small", { type: "button", onclick: () => tick(() => true) }, "All")),
     ),
   );
+
+  control.addEventListener("toggle", () => keepInside(control.querySelector(".panel")));
 
   function describe() {
     const ticked = boxes.filter((box) => box.checked);
