@@ -4,7 +4,7 @@ import { inSeriesOrder, seriesStyles } from "./series.mjs";
 import { FIRST_ROOM, sized } from "./sizes.mjs";
 import { textsOf } from "./texts.mjs";
 import { textWidth } from "./text_width.mjs";
-import { chartConfig, colourIn, PAGE_TEXT_SCALE } from "./themes.mjs";
+import { chartConfig, colourIn, textScale } from "./themes.mjs";
 
 const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
 const TABLE_ORDER = ["x", "y", "facet"];
@@ -37,8 +37,8 @@ export function inTwoLines(text) {
 }
 
 /** Long names of rows take two lines where they would leave little room for the rows. */
-function wrapLabels(definition, values, width) {
-  const long = values.filter((value) => textWidth(value, 10 * PAGE_TEXT_SCALE) > LONGEST_LABEL * width);
+function wrapLabels(definition, values, theme, width) {
+  const long = values.filter((value) => textWidth(value, 10 * textScale(theme)) > LONGEST_LABEL * width);
   if (long.length === 0 || definition.axis === null) return;
   const lines = JSON.stringify(Object.fromEntries(long.map((value) => [value, inTwoLines(value)])));
   const raised = { condition: { test: `isArray(${lines}[datum.value])`, value: -HALF_A_LINE }, value: 0 };
@@ -54,8 +54,8 @@ function legendWidth(entries, columns) {
 }
 
 /** A legend's entries in as few rows as there is room for, and these as full as each other. */
-function legendColumns(values, width) {
-  const entries = values.map((value) => textWidth(value, 10.5 * PAGE_TEXT_SCALE) + SYMBOL_ROOM);
+function legendColumns(values, theme, width) {
+  const entries = values.map((value) => textWidth(value, 10.5 * textScale(theme)) + SYMBOL_ROOM);
   let columns = values.length;
   while (columns > 1 && legendWidth(entries, columns) > width) --columns;
   const rows = Math.ceil(values.length / columns);
@@ -68,7 +68,8 @@ function styleSeries(channel, definition, values, theme, width) {
     channel === "shape" ? shape : channel === "strokeDash" ? dash : colourIn(theme, colour),
   );
   definition.scale = { domain: values, range };
-  if (definition.legend !== null) definition.legend = { columns: legendColumns(values, width), ...definition.legend };
+  if (definition.legend !== null)
+    definition.legend = { columns: legendColumns(values, theme, width), ...definition.legend };
 }
 
 // Lines at the powers of ten alone: a logarithmic axis has a tick for each digit.
@@ -107,7 +108,7 @@ function completeChannels(spec, data, { theme, width, room }) {
     if (values.length === 0) return;
     if (SERIES_CHANNELS.includes(channel) && definition.scale === undefined)
       styleSeries(channel, definition, inSeriesOrder(values), theme, width - room);
-    if (channel === "y") wrapLabels(definition, values, width);
+    if (channel === "y") wrapLabels(definition, values, theme, width);
     if (definition.sort !== undefined) return;
     if (TABLE_ORDER.includes(channel)) definition.sort = values;
     if (SERIES_ORDER.includes(channel)) definition.sort = inSeriesOrder(values);

@@ -5,8 +5,12 @@ import config from "../../../charts/config.json" with { type: "json" };
  * @typedef {"light"|"dark"|"page"} Theme
  */
 
-// A page is read at a greater distance than paper.
-export const PAGE_TEXT_SCALE = 1.18;
+const PAGE_TEXT_SCALE = 1.18;
+
+/** How much larger text is than on paper: a page is read at a greater distance. */
+export function textScale(theme) {
+  return theme === "page" ? PAGE_TEXT_SCALE : 1;
+}
 
 function fromPage(colours) {
   return Object.fromEntries(Object.keys(colours).map((name) => [name, `var(--chart-${name})`]));
@@ -33,7 +37,7 @@ export function colourIn(theme, name) {
 export function chartConfig(theme, font = config.font) {
   const { background, text, quiet, axis, grid } = frameOf(theme);
   const named = paletteOf(theme);
-  const size = (points) => points * (theme === "page" ? PAGE_TEXT_SCALE : 1);
+  const size = (points) => points * textScale(theme);
   return {
     background,
     font,
