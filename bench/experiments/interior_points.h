@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
+#include "bench/experiments/interior_existence.h"
 #include "engine/base/progress.h"
 #include "engine/mesher.h"
 
@@ -34,6 +35,7 @@ struct InteriorCase {
 struct InteriorPoints {
   Circumstances how;
   std::vector<InteriorCase> cases;
+  std::vector<ExistenceTrials> existence;
 };
 
 /// A rule over all its cases that went well.
@@ -44,8 +46,9 @@ struct InteriorSummary {
 InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule);
 InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule, Lattice lattice);
 
-/// Tests what the paper says in section 3, that interior points never do harm: meshes all solids at several edge
-/// lengths, and the files of the user, with all lattices and rules; each once, for the counts are always the same.
+/// Tests what the paper says in section 3, that interior points never do harm: by exhaustion on small PLCs, and meshes
+/// all solids at several edge lengths, and the files of the user, with all lattices and rules; each once, for the
+/// counts are always the same.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 InteriorPoints measure_interior_points(const ExperimentOptions& options, const Progress& progress = {});

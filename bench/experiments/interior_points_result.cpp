@@ -55,8 +55,32 @@ ResultTable cases_table(const InteriorPoints& points) {
   return table;
 }
 
+ResultTable existence_table(const InteriorPoints& points) {
+  ResultTable table{"existence",
+                    "Existence with one interior point more, by exhaustion",
+                    {{"family", "family", ColumnKind::label},
+                     {"cases", "PLCs with a CDT"},
+                     {"lost", "of these without one with the point"},
+                     {"counterexample", "the smallest, its last vertex the point", ColumnKind::note}}};
+  for (const ExistenceTrials& trials : points.existence)
+    table.rows.push_back({{cell_of(trials.family), cell_of(trials.cases), cell_of(trials.lost),
+                           trials.lost > 0 ? Cell(small::in_words(trials.counterexample)) : Cell()},
+                          {}});
+  return table;
+}
+
+std::string existence_finding(const InteriorPoints& points) {
+  std::uint64_t cases = 0, lost = 0;
+  for (const ExistenceTrials& trials : points.existence) {
+    cases += trials.cases;
+    lost += trials.lost;
+  }
+  return with_separators(lost) + " of " + with_separators(cases) +
+         " small PLCs with a CDT have none when one interior point is added";
+}
+
 std::vector<std::string> findings_of(const InteriorPoints& points) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = {existence_finding(points)};
   for (const InteriorRule rule : rules) {
     const InteriorSummary s = summarize(points.cases, rule);
     const std::string rule_words = "Rule \"" + std::string(name_of(rule)) + "\": ";
@@ -78,7 +102,7 @@ std::vector<std::string> findings_of(const InteriorPoints& points) {
 ExperimentResult result_of(const InteriorPoints& points) {
   ExperimentResult result{.how = points.how,
                           .definitions = interior_points_definitions(),
-                          .tables = {rules_table(points), cases_table(points)},
+                          .tables = {existence_table(points), rules_table(points), cases_table(points)},
                           .findings = findings_of(points)};
   for (const InteriorCase& c : points.cases) {
     if (c.status == RunStatus::ok) continue;
