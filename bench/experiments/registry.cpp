@@ -13,6 +13,8 @@
 #include "bench/experiments/locators.h"
 #include "bench/experiments/mesher_quality.h"
 #include "bench/experiments/table1.h"
+#include "bench/experiments/termination.h"
+#include "bench/experiments/theorem1.h"
 
 namespace ccdt {
 namespace {
@@ -72,8 +74,14 @@ std::vector<KnownExperiment> all_experiments() {
        "grid, octree and cavity on even and on graded surfaces", true, false, in_two_steps(measure_locators)},
       {"delaunay", "Delaunay: insertion and wrapping beside CGAL and TetGen", "5",
        "the Delaunay tetrahedralization of the same points by four programs", true, false, measure_delaunay},
+      {"delaunay", "Delaunay tetrahedralization: inserted, wrapped, and by others", "5",
+       "insertion and the paper's face by face, beside CGAL and TetGen", true, false, measure_delaunay},
       {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
        false, in_two_steps(measure_improvement)},
+      {"theorem1", "Theorem 1: protected if and only if there is a DT", "5.2, Theorem 1",
+       "Theorem 1 in both directions, by exhaustive search on small inputs", true, true, measure_theorem1},
+      {"termination", "Termination: does splitting at midpoints end?", "2",
+       "midpoints and shells where segments meet at small angles", true, true, measure_termination},
       {"interior-points", "Interior points: do they never harm existence?", "3",
        "do interior points never harm existence, as the paper says?", true, true,
        in_two_steps(measure_interior_points)},
