@@ -19,7 +19,8 @@ struct ReportCommand {
 
 void compare(const ReportCommand& command) {
   const std::filesystem::path first = command.folders[0], second = command.folders[1];
-  const std::filesystem::path into = command.output.empty() ? second / "comparison" : std::filesystem::path(command.output);
+  const std::filesystem::path into =
+      command.output.empty() ? second / "comparison" : std::filesystem::path(command.output);
   std::filesystem::create_directories(into);
   const Report report = compare_reports(first, second, into, read_charts(share_folder() / "charts"));
   for (const ReportSection& section : report.sections) std::fputs(to_terminal(section.result).c_str(), stdout);

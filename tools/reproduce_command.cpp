@@ -3,9 +3,11 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "baselines/mesher.h"
 #include "bench/experiments/registry.h"
+#include "engine/base/errors.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -68,9 +70,47 @@ std::vector<const KnownExperiment*> chosen(const ReproduceCommand& command) {
   return experiments;
 }
 
-/// The command that does this experiment alone in the same way.
+/// Copies a file of the user's to the folder, so that everything can be repeated there.
+/// \return  where it is now
+std::filesystem::path taken(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const auto copy = std::filesystem::absolute(folder / file.filename());
+  if (std::filesystem::exists(copy) && std::filesystem::equivalent(copy, file)) return copy;
+  std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);
+  return copy;
+}
+
+/// \throw InputError  two of them have the same name
+void check_names_differ(const std::vector<std::filesystem::path>& files) {
+  std::set<std::filesystem::path> names;
+  for (const auto& file : files) {
+    if (names.insert(file.filename()).second) continue;
+    Place place;
+    place.file = file.string();
+    throw InputError("two inputs have the same name", place,
+                     "give one of them another name: rows are told apart by it");
+  }
+}
+
+/// Takes the user's inputs and descriptions of meshers into the folder.
+void take_files(ReproduceCommand& command) {
+  check_names_differ(command.options.inputs);
+  for (auto& input : command.options.inputs) input = taken(input, command.options.folder / "inputs");
+  for (std::string& mesher : command.beside)
+    if (is_mesher_description(mesher)) mesher = taken(mesher, command.options.folder / "meshers").string();
+  if (!command.beside.empty()) command.options.beside = command.beside;
+}
+
+/// The command that does this experiment alone in the same way, in the folder.
 std::string command_of(const KnownExperiment& known, const ReproduceCommand& command) {
   const ExperimentOptions& options = command.options;
+  const auto in_folder = [&](const std::filesystem::path& file) {
+    return file.lexically_relative(std::filesystem::absolute(options.folder)).string();
+  };
+  std::vector<std::string> beside = command.beside, inputs;
+  for (std::string& mesher : beside)
+    if (is_mesher_description(mesher)) mesher = in_folder(mesher);
+  for (const auto& input : options.inputs) inputs.push_back(in_folder(input));
   std::string text = "ccdt reproduce " + known.name + " --scale " + options.scale;
   const auto add_list = [&](const char* name, const std::vector<std::string>& values, char separator) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -78,8 +118,8 @@ std::string command_of(const KnownExperiment& known, const ReproduceCommand& com
   };
   if (options.runs != ExperimentOptions().runs) text += " --runs " + std::to_string(options.runs);
   add_list("--models", options.models, ',');
-  add_list("--beside", command.beside, ',');
-  add_list("--input", std::vector<std::string>(options.inputs.begin(), options.inputs.end()), ' ');
+  add_list("--beside", beside, ',');
+  add_list("--input", inputs, ' ');
   return text + " -o .";
 }
 
@@ -101,10 +141,10 @@ bool run(ReproduceCommand& command) {
   ExperimentOptions& options = command.options;
   options.tetrahedra = tetrahedra_of(options.scale);
   options.program = own_program();
-  options.folder = command.folder;
-  if (!command.beside.empty()) options.beside = command.beside;
+  options.folder = std::filesystem::absolute(command.folder).lexically_normal();
   options.limits.memory_bytes = static_cast<std::uint64_t>(command.memory_gibibytes * bytes_per_gibibyte);
   std::filesystem::create_directories(options.folder);
+  take_files(command);
   check_can_be_written(options.folder / "report.json");
   bool is_good = true;
   for (const KnownExperiment* known : chosen(command)) is_good = reproduce(*known, command) && is_good;
@@ -156,11 +196,9 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
   verb.add_option("--scale", command.options.scale,
                   "quick, paper, large, or about how many tetrahedra a model is to get")
       ->capture_default_str();
-  std::vector<std::string> models, others;
+  std::vector<std::string> models;
   for (const Solid& solid : solids()) models.emplace_back(solid.name);
   models.emplace_back("none");
-  for (const Mesher& m : meshers())
-    if (m.name != "ccdt") others.push_back(m.name);
   verb.add_option("--models", command.options.models,
                   "measure only these, separated by commas; default: all models of the experiment; none: files alone")
       ->delimiter(',')
@@ -168,9 +206,10 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
   verb.add_option("--input", command.options.inputs, "files to measure as well (not table1 and figures)")
       ->check(CLI::ExistingFile);
   verb.add_option("--beside", command.beside,
-                  "other meshers to measure, separated by commas; default: all of this build")
+                  "other meshers to measure, or files (.json) that describe them, separated by commas; default: all of "
+                  "this build")
       ->delimiter(',')
-      ->check(CLI::IsMember(others));
+      ->check(known_mesher());
 }
 
 }  // namespace

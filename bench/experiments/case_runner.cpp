@@ -15,9 +15,10 @@ std::string name_in(const std::filesystem::path& folder, const std::filesystem::
 /// Without the program.
 std::vector<std::string> arguments_of(const std::filesystem::path& folder, const Case& what,
                                       const std::filesystem::path& report) {
+  const std::string mesher = is_mesher_description(what.mesher) ? name_in(folder, what.mesher) : what.mesher;
   std::vector<std::string> arguments = {
       "mesh",     name_in(folder, what.input), "-o",       name_in(folder, what.output),
-      "--report", name_in(folder, report),     "--mesher", what.mesher};
+      "--report", name_in(folder, report),     "--mesher", mesher};
   arguments.insert(arguments.end(), what.options.begin(), what.options.end());
   return arguments;
 }

@@ -33,6 +33,12 @@ bool is_measured(const ExperimentOptions& options, std::string_view mesher) {
   return std::ranges::find(meshers(), mesher, &Mesher::name) != meshers().end();
 }
 
+std::vector<std::string> described_meshers(const ExperimentOptions& options) {
+  std::vector<std::string> files;
+  if (options.beside) std::ranges::copy_if(*options.beside, std::back_inserter(files), is_mesher_description);
+  return files;
+}
+
 void check_something_is_measured(std::size_t cases, std::string_view experiment) {
   if (cases == 0)
     throw InputError("none of these models is part of the experiment " + std::string(experiment), {},

@@ -22,7 +22,7 @@ struct ExperimentOptions {
   std::string command = {};                          ///< that repeats the experiment
   std::vector<std::string> models;                   ///< to measure; empty: all that the experiment has
   std::optional<std::vector<std::string>> beside;    ///< other meshers to measure; none: all of this build
-  std::vector<std::filesystem::path> inputs;         ///< files to measure as well, where the experiment takes files
+  std::vector<std::filesystem::path> inputs;         ///< files in the folder to measure as well, if it takes files
   Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
 };
 
@@ -38,6 +38,9 @@ bool is_asked_for(const ExperimentOptions& options, std::string_view model);
 
 /// Does this build have the mesher, and has the user not left it out? Ours always takes part.
 bool is_measured(const ExperimentOptions& options, std::string_view mesher);
+
+/// The meshers that the user has described by files, each the path of the file.
+std::vector<std::string> described_meshers(const ExperimentOptions& options);
 
 /// \throw InputError  there is nothing to measure, because none of the models that were asked for is part of it
 void check_something_is_measured(std::size_t cases, std::string_view experiment);

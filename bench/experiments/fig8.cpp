@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "baselines/mesher.h"
 #include "bench/experiments/measured_case.h"
 #include "engine/io/write_plc.h"
 #include "models/solids.h"
@@ -20,9 +21,7 @@ constexpr std::array<Model, 3> models = {{{"piston", 2.32}, {"bracket", 1.73}, {
 constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
 
 struct Strategy {
-  const char* id;
-  const char* label;
-  const char* mesher;
+  std::string id, label, mesher;
   std::vector<std::string> options;
   int sizes;  ///< how many, from the coarsest
 };
@@ -48,13 +47,15 @@ std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
   std::vector<Strategy> strategies;
   std::ranges::copy_if(all_strategies(), std::back_inserter(strategies),
                        [&](const Strategy& s) { return is_measured(options, s.mesher); });
+  for (const std::string& file : described_meshers(options)) {
+    const std::string name = mesher(file).name;
+    strategies.push_back({name, name + ", its own vertices", file, {}, 4});
+  }
   return strategies;
 }
 
-/// What Fig. 8 shows of a run: the CDT of ours, all of others.
-double timed_seconds(std::string_view id, const StageSeconds& seconds) {
-  const auto strategy = std::ranges::find(all_strategies(), id, &Strategy::id);
-  return strategy->mesher == std::string("ccdt") ? cdt_seconds(seconds) : seconds.mesh;
+double whole_seconds(const StageSeconds& seconds) {
+  return seconds.mesh;
 }
 
 struct Size {
@@ -84,8 +85,8 @@ std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Model& mo
   for (const Strategy& strategy : strategies_of(options)) {
     if (size.number >= strategy.sizes) continue;
     std::vector<std::string> words = strategy.options;
-    if (strategy.mesher == std::string("ccdt")) words.insert(words.end(), {"--improve", "none", "--grading", "0"});
-    const bool takes_our_vertices = strategy.mesher == std::string("cgal-delaunay");
+    if (strategy.mesher == "ccdt") words.insert(words.end(), {"--improve", "none", "--grading", "0"});
+    const bool takes_our_vertices = strategy.mesher == "cgal-delaunay";
     cases.push_back({strategy.id,
                      stem + "-" + strategy.id,
                      {strategy.mesher, takes_our_vertices ? mesh_of("insert") : surface, mesh_of(strategy.id), words}});
@@ -98,8 +99,8 @@ Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
                   measured.first.reason, run_files(measured)};
   if (measured.failed()) return point;
   for (const RunRecord& run : measured.counted) point.samples.push_back(run.seconds);
-  point.seconds = median_estimate(
-      samples_of(measured.counted, [&](const StageSeconds& s) { return timed_seconds(measured.name, s); }));
+  point.seconds =
+      median_estimate(samples_of(measured.counted, measured.what.mesher == "ccdt" ? cdt_seconds : whole_seconds));
   return point;
 }
 
@@ -123,7 +124,7 @@ Fig8Model measure_model(const ExperimentOptions& options, const Model& model,
                         const std::function<void(const std::string&)>& announce) {
   Fig8Model result{model.name, {}};
   for (const Strategy& strategy : strategies_of(options))
-    result.series.push_back({strategy.id, strategy.label, strategy.mesher, {}, {}});
+    result.series.push_back({strategy.id, strategy.label, mesher(strategy.mesher).name, {}, {}});
   for (const Size& size : sizes_of(model, options)) measure_size(options, model, size, result, announce);
   for (Fig8Series& series : result.series) series.fits = fit_series(series);
   return result;
@@ -148,7 +149,7 @@ std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
     fits.push_back({quantity, vertices.size(), least, most, fit_line(vertices, medians), fit_power(vertices, medians)});
   };
   if (series.mesher != "ccdt") {
-    add("mesh", [](const StageSeconds& s) { return s.mesh; });
+    add("mesh", whole_seconds);
     return fits;
   }
   add("cdt", cdt_seconds);

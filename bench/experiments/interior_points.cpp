@@ -42,7 +42,7 @@ std::vector<SurfaceFile> surfaces(const ExperimentOptions& options) {
       before = std::move(vertices);
     }
   }
-  std::ranges::copy(take_inputs(options), std::back_inserter(files));
+  std::ranges::copy(input_files(options), std::back_inserter(files));
   return files;
 }
 

@@ -55,7 +55,7 @@ std::vector<Group> plan(const ExperimentOptions& options) {
   for (const Model& model : models)
     if (is_asked_for(options, model.name))
       add(write_solid(options, "locators", model.name, model.edge_length), model.kind);
-  for (const SurfaceFile& input : take_inputs(options)) add(input, SurfaceKind::input);
+  for (const SurfaceFile& input : input_files(options)) add(input, SurfaceKind::input);
   return groups;
 }
 

@@ -15,7 +15,9 @@ std::vector<QualityVariant> variants_of(const ExperimentOptions& options) {
       {"ccdt bcc", "ccdt", {"--lattice", "bcc", "--improve", "all"}, {}}};
   for (const char* name : {"tetgen", "cgal-mesh3", "gmsh-hxt"})
     if (is_measured(options, name)) variants.push_back({name, name, {"--improve", "all"}, {}});
-  for (QualityVariant& variant : variants) variant.labels = {variant.mesher, variant.name};
+  for (const std::string& file : described_meshers(options))
+    variants.push_back({mesher(file).name, file, {"--improve", "all"}, {}});
+  for (QualityVariant& variant : variants) variant.labels = {mesher(variant.mesher).name, variant.name};
   return variants;
 }
 

@@ -14,14 +14,14 @@ namespace {
 /// A solid's name or a file, to be read when its turn comes.
 struct Source {
   std::string name;
-  bool is_solid = false;
+  std::filesystem::path file = {};  ///< none of a solid
 };
 
 std::vector<Source> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
   std::vector<Source> sources;
   for (const std::string& model : plan.models)
-    if (is_asked_for(options, model)) sources.push_back({model, true});
-  for (const auto& input : options.inputs) sources.push_back({input.string(), false});
+    if (is_asked_for(options, model)) sources.push_back({model});
+  for (const auto& input : options.inputs) sources.push_back({input.filename().string(), input});
   return sources;
 }
 
@@ -177,7 +177,8 @@ void measure_source(const ExperimentOptions& options, const StudyPlan& plan, con
   std::optional<SurfaceSource> read;
   std::string reason;
   try {
-    read = source.is_solid ? solid_source(source.name) : file_source(source.name);
+    read = source.file.empty() ? solid_source(source.name) : file_source(source.file);
+    read->name = source.name;
   } catch (const Error& error) {
     reason = error.what();
   }

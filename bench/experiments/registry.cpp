@@ -74,8 +74,6 @@ std::vector<KnownExperiment> all_experiments() {
        "grid, octree and cavity on even and on graded surfaces", true, false, in_two_steps(measure_locators)},
       {"delaunay", "Delaunay: insertion and wrapping beside CGAL and TetGen", "5",
        "the Delaunay tetrahedralization of the same points by four programs", true, false, measure_delaunay},
-      {"delaunay", "Delaunay tetrahedralization: inserted, wrapped, and by others", "5",
-       "insertion and the paper's face by face, beside CGAL and TetGen", true, false, measure_delaunay},
       {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
        false, in_two_steps(measure_improvement)},
       {"theorem1", "Theorem 1: protected if and only if there is a DT", "5.2, Theorem 1",

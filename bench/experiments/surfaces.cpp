@@ -21,12 +21,9 @@ SurfaceFile write_solid(const ExperimentOptions& options, const std::string& exp
   return surface;
 }
 
-std::vector<SurfaceFile> take_inputs(const ExperimentOptions& options) {
+std::vector<SurfaceFile> input_files(const ExperimentOptions& options) {
   std::vector<SurfaceFile> files;
-  for (const auto& input : options.inputs) {
-    files.push_back({input.string(), options.folder / "models" / input.filename()});
-    std::filesystem::copy_file(input, files.back().file, std::filesystem::copy_options::overwrite_existing);
-  }
+  for (const auto& input : options.inputs) files.push_back({input.filename().string(), input});
   return files;
 }
 

@@ -20,9 +20,8 @@ struct SurfaceFile {
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length);
 
-/// Copies the user's files to the experiment's folder, so that its runs can be repeated there.
-/// \throw InputError, OutputError  a file cannot be copied
-std::vector<SurfaceFile> take_inputs(const ExperimentOptions& options);
+/// The user's files, named without their folder.
+std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
 
 /// The length of the longest edge over that of the shortest; 1 if there is none.
 double edge_ratio(const InputPlc& plc);
