@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "baselines/mesher.h"
 #include "bench/results/cells.h"
 
 namespace ccdt {

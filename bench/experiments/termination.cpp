@@ -107,7 +107,7 @@ ExperimentResult measure_termination(const ExperimentOptions& options, const Pro
   std::vector<Input> inputs;
   add_stars(options, inputs);
   add_solids(options, inputs);
-  for (const SurfaceFile& surface : take_inputs(options))
+  for (const SurfaceFile& surface : input_files(options))
     inputs.push_back({"file", surface.name, 0, "termination-" + surface.file.filename().string(), surface.file});
   check_something_is_measured(inputs.size(), "termination");
 

@@ -8,6 +8,7 @@
 #include "bench/experiments/locators.h"
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/registry.h"
+#include "bench/experiments/small_plcs/tetrahedralization.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/base/errors.h"
 
@@ -128,6 +129,35 @@ TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
   EXPECT_EQ(expectation(c), Claim::undecided);
   c.kind = SurfaceKind::rough;
   EXPECT_FALSE(expectation(c));
+}
+
+/// A tetrahedron with a dent: its fifth vertex pushes in the face of the first three.
+small::SmallPlc dented_tetrahedron() {
+  return {{{0, 0, 0}, {100, 7, 3}, {11, 100, 5}, {23, 29, 100}, {31, 37, 17}},
+          {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}}};
+}
+
+TEST(InteriorExistence, AddsAPointStrictlyInside) {
+  const small::SmallPlc more = with_interior_point(dented_tetrahedron(), 7);
+  ASSERT_EQ(more.vertices.size(), 6u);
+  EXPECT_EQ(more.boundary, dented_tetrahedron().boundary);
+  EXPECT_TRUE(is_inside(more, {5}));
+  EXPECT_TRUE(is_generic(more));
+  EXPECT_EQ(with_interior_point(dented_tetrahedron(), 7).vertices, more.vertices);
+}
+
+TEST(InteriorExistence, IsLostInCounterexamplesThatCanBeLookedAt) {
+  std::uint64_t lost = 0;
+  for (const ExistenceTrials& trials : try_interior_points(20)) {
+    EXPECT_GT(trials.cases, 0u) << trials.family;
+    if (trials.lost == 0) continue;
+    lost += trials.lost;
+    small::SmallPlc plc = trials.counterexample;
+    EXPECT_EQ(search_constrained_delaunay(plc).constrained_delaunay, 0u) << in_words(plc);
+    plc.vertices.pop_back();
+    EXPECT_EQ(search_constrained_delaunay(plc).constrained_delaunay, 1u) << in_words(plc);
+  }
+  EXPECT_GT(lost, 0u);
 }
 
 TEST(InteriorPointsSummary, CountsCasesOfARuleAndAsideThoseThatFailed) {
