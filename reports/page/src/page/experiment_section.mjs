@@ -39,7 +39,7 @@ function missingSection(section) {
     element(
       "p.problem",
       { "data-missing": section.name },
-      `This experiment is missing: ${section.reason || "it has not been made"}.`,
+      `This experiment is missing: ${(section.reason || "it has not been made").replace(/\.?$/, ".")}`,
     ),
     element("p.label", {}, "This command makes it:"),
     commandLine(section.command),

@@ -55,6 +55,7 @@ laptopTest("each claim is there with its verdict, and each experiment with its s
   for (const { name, status } of report.experiments) {
     assert.equal(await page.locator(`[data-experiment="${name}"]`).getAttribute("data-status"), status);
     assert.equal(await page.locator(`[data-missing="${name}"]`).count(), status === "missing" ? 1 : 0);
+    if (status === "missing") assert.match(await page.locator(`[data-missing="${name}"]`).textContent(), /[^.]\.$/);
   }
 });
 
