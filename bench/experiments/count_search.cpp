@@ -47,6 +47,13 @@ struct Bracket {
   }
 };
 
+/// Have much longer edges made hardly fewer tetrahedra? Then small features of the surface decide, and no edge length
+/// would.
+bool is_stuck(const Try& before, const Try& made, double wanted) {
+  constexpr double much = 1.2, hardly = 1.03;
+  return made.count > wanted && made.edge_length > much * before.edge_length && before.count < hardly * made.count;
+}
+
 }  // namespace
 
 std::optional<CountFound> search_edge_length(const CountSearch& search,
@@ -63,6 +70,7 @@ std::optional<CountFound> search_edge_length(const CountSearch& search,
     const bool is_near = std::abs(made.count / search.wanted - 1) <= search.tolerance;
     if (!best || error(made.count) < error(best->count)) best = CountFound{edge_length, made.count, is_near};
     if (is_near) return best;
+    if (before && is_stuck(*before, made, search.wanted)) return best;
     bracket.take(made, search.wanted);
     const double exponent = before ? exponent_between(*before, made) : usual_exponent;
     const double next = bracket.hold(edge_length * std::pow(made.count / search.wanted, 1 / exponent));

@@ -27,6 +27,8 @@ struct CountFound {
 /// nearly a power of the edge length, and the third negative one at first), held within what earlier tries enclose. The
 /// last try is the one that came near, if any did.
 ///
+/// It ends when longer edges make hardly fewer tetrahedra.
+///
 /// \param count_of  tetrahedra at an edge length; none if the mesher failed there, which ends the search
 /// \return          none if no try has gone well
 std::optional<CountFound> search_edge_length(const CountSearch& search,

@@ -68,5 +68,16 @@ TEST(CountSearch, EndsWhereTheMesherFails) {
   EXPECT_EQ(found->edge_length, 1);
 }
 
+TEST(CountSearch, EndsWhenLongerEdgesMakeHardlyFewer) {
+  int tries = 0;
+  const auto found = search_edge_length({.wanted = 1000, .first = 1}, [&](double) -> std::optional<std::uint64_t> {
+    ++tries;
+    return 5000;
+  });
+  EXPECT_EQ(tries, 2);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->is_near);
+}
+
 }  // namespace
 }  // namespace ccdt

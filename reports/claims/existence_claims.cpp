@@ -70,7 +70,7 @@ struct Endings {
 
 void add_endings(const std::string& kind, const Endings& endings, const char* table, PaperClaim& claim) {
   if (endings.cases == 0) return;
-  ClaimMeasure measure = yes_or_no(kind + ": inputs where it ended", endings.ended, "all " + rounded(endings.cases, 4),
+  ClaimMeasure measure = yes_or_no(kind + ": inputs where it ended", endings.ended, "all " + with_separators(static_cast<std::uint64_t>(endings.cases)),
                                    endings.ended == endings.cases);
   measure.experiment = "termination";
   measure.table = table;
