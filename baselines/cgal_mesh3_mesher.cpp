@@ -6,6 +6,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedral_complex_mesh_domain_3.h>
+#include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
 #include <CGAL/version.h>
 
@@ -127,6 +128,8 @@ bool is_improved(const MeshOptions& options) {
   return options.improve.improvement != Improvement::none;
 }
 
+constexpr unsigned random_seed = 0;  ///< of the first points on the surface
+
 MesherSettings settings_of_mesh3(const InputPlc& input, const MeshOptions& options) {
   const Sizes sizes(target_edge_length(input, options));
   const char* improved = is_improved(options) ? "on" : "off";
@@ -138,6 +141,7 @@ MesherSettings settings_of_mesh3(const InputPlc& input, const MeshOptions& optio
           {"facet_distance", digits(sizes.facet_distance)},
           {"cell_radius_edge_ratio", digits(sizes.cell_radius_edge)},
           {"cell_size", digits(sizes.cell)},
+          {"random_seed", std::to_string(random_seed)},
           {"lloyd", "off"},
           {"odt", "off"},
           {"perturb", improved},
@@ -170,6 +174,7 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
   run.settings = settings_of_mesh3(input, options);
   run.notes = {"the surface is remeshed: the input's triangles are approximated, not kept"};
   report(progress, "mesh_3", 0, 0);
+  CGAL::get_default_random() = CGAL::Random(random_seed);  // else its seed is the time, and each mesh another
   const auto begin = std::chrono::steady_clock::now();
   const Complex complex = refine(patches, sizes, is_improved(options));
   run.result.seconds.mesh = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

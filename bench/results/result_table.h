@@ -12,7 +12,7 @@ namespace ccdt {
 /// What the values of a column are: how they are shown, filtered and compared with those of another time.
 enum class ColumnKind {
   label,   ///< says what a row is of: model, mesher, strategy; texts
-  figure,  ///< the same in every repetition, bit for bit; texts or numbers
+  figure,  ///< the same in every repetition, bit for bit, of meshers that repeat themselves; texts or numbers
   time,    ///< seconds and what is made of them; numbers, or estimates with their intervals
   paper,   ///< what the paper says; numbers
   note     ///< why a value is missing; texts

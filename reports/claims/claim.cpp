@@ -58,8 +58,12 @@ void judge(PaperClaim& claim) {
     claim.reason = "Contradicted by: " + those_that(claim, &ClaimMeasure::weak, Claim::fails) + ".";
   } else if (!all(claim, &ClaimMeasure::weak, Claim::holds)) {
     claim.verdict = ClaimVerdict::not_testable;
-    claim.reason = "The intervals are too wide to tell: " + those_that(claim, &ClaimMeasure::weak, Claim::undecided) +
-                   ". More runs or larger models narrow them.";
+    if (any(claim, &ClaimMeasure::strong, Claim::fails))
+      claim.reason = "Not as the paper has it: " + those_that(claim, &ClaimMeasure::strong, Claim::fails) + ". ";
+    claim.reason += (claim.weaker.empty() ? "The" : "For the weaker form (" + claim.weaker + ") the") +
+                    std::string(" intervals are too wide: ") +
+                    those_that(claim, &ClaimMeasure::weak, Claim::undecided) +
+                    ". More runs or larger models narrow them.";
   } else {
     claim.verdict = ClaimVerdict::reservation;
     claim.reason = claim.weaker + " Not as the paper has it: " + those_that(claim, &ClaimMeasure::strong, Claim::fails);
