@@ -26,6 +26,11 @@ export function tableData(table, passes = () => true) {
     });
 }
 
+/** @returns {boolean} whether a row is among those that the chart itself wants, by `usermeta.only` */
+function isWanted(chart, row) {
+  return Object.entries(chart.spec.usermeta?.only ?? {}).every(([name, value]) => row.values[name] === value);
+}
+
 /**
  * @param {object} section  of a report
  * @param {object} chart    one of its charts
@@ -36,7 +41,7 @@ export function chartData(section, chart, passes = () => true) {
   const sets = {};
   for (const name of chart.tables) {
     const table = section.tables.find((one) => one.name === name);
-    sets[name] = table ? tableData(table, (row) => passes(row, table)) : [];
+    sets[name] = table ? tableData(table, (row) => isWanted(chart, row) && passes(row, table)) : [];
   }
   sets.all = Object.values(sets).flat();
   return sets;
