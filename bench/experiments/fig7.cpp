@@ -10,12 +10,6 @@
 namespace ccdt {
 namespace {
 
-struct Model {
-  const char* name;
-  double edge_length;  ///< for about 100,000 tetrahedra
-};
-constexpr std::array<Model, 3> models = {{{"piston", 2.32}, {"bracket", 1.73}, {"stepping-pole", 1.62}}};
-
 ResultTable empty_table() {
   return {"meshes",
           "The meshes",
@@ -51,12 +45,12 @@ ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& 
                                           "left out whole."},
                           .tables = {empty_table()}};
   result.how.runs = 1;
-  const auto is_asked = [&](const Model& model) { return is_asked_for(options, model.name); };
-  check_something_is_measured(static_cast<std::size_t>(std::ranges::count_if(models, is_asked)), "fig7");
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    if (!is_asked(models[i])) continue;
-    report(progress, models[i].name, i, models.size());
-    const SurfaceFile surface = write_solid(small, "fig7", models[i].name, models[i].edge_length);
+  const auto is_asked = [&](const PaperModel& model) { return is_asked_for(options, model.name); };
+  check_something_is_measured(static_cast<std::size_t>(std::ranges::count_if(paper_models, is_asked)), "fig7");
+  for (std::size_t i = 0; i < paper_models.size(); ++i) {
+    if (!is_asked(paper_models[i])) continue;
+    report(progress, paper_models[i].name, i, paper_models.size());
+    const SurfaceFile surface = write_solid(small, "fig7", paper_models[i].name, paper_models[i].edge_length);
     const std::string stem = "fig7-" + surface.name;
     MeasuredCase measured{surface.name, stem, {"ccdt", surface.file, options.folder / "meshes" / "fig7.vtu", {}}};
     run_once(small, measured, 0);

@@ -7,17 +7,13 @@
 
 #include "baselines/mesher.h"
 #include "bench/experiments/measured_case.h"
+#include "bench/experiments/surfaces.h"
 #include "engine/io/write_plc.h"
 #include "models/solids.h"
 
 namespace ccdt {
 namespace {
 
-struct Model {
-  const char* name;
-  double edge_length;  ///< for about 100,000 tetrahedra
-};
-constexpr std::array<Model, 3> models = {{{"piston", 2.32}, {"bracket", 1.73}, {"stepping-pole", 1.62}}};
 constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
 
 struct Strategy {
@@ -74,7 +70,7 @@ struct Size {
 };
 
 /// From a tenth of the tetrahedra that are wanted to ten times as many, within the limits of the solid.
-std::vector<Size> sizes_of(const Model& model, const ExperimentOptions& options) {
+std::vector<Size> sizes_of(const PaperModel& model, const ExperimentOptions& options) {
   std::vector<Size> sizes;
   const auto solid = std::ranges::find(solids(), model.name, &Solid::name);
   for (int i = 0; i < size_count; ++i) {
@@ -86,7 +82,7 @@ std::vector<Size> sizes_of(const Model& model, const ExperimentOptions& options)
 }
 
 /// The cases of one size, one a strategy that goes that far.
-std::vector<MeasuredCase> plan(const ExperimentOptions& options, const Model& model, const Size& size) {
+std::vector<MeasuredCase> plan(const ExperimentOptions& options, const PaperModel& model, const Size& size) {
   const std::string stem = "fig8-" + std::string(model.name) + "-" + std::to_string(size.number);
   const auto surface = options.folder / "models" / (stem + ".poly");
   write_plc(make_solid(model.name, size.edge_length), surface);
@@ -114,7 +110,7 @@ Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
   return point;
 }
 
-void measure_size(const ExperimentOptions& options, const Model& model, const Size& size, Fig8Model& result,
+void measure_size(const ExperimentOptions& options, const PaperModel& model, const Size& size, Fig8Model& result,
                   const std::function<void(const std::string&)>& announce) {
   std::vector<MeasuredCase> cases = plan(options, model, size);
   for (int number = 0; number <= options.runs; ++number)
@@ -130,7 +126,7 @@ void measure_size(const ExperimentOptions& options, const Model& model, const Si
   }
 }
 
-Fig8Model measure_model(const ExperimentOptions& options, const Model& model,
+Fig8Model measure_model(const ExperimentOptions& options, const PaperModel& model,
                         const std::function<void(const std::string&)>& announce) {
   Fig8Model result{model.name, {}};
   for (const Strategy& strategy : strategies_of(options))
@@ -191,13 +187,13 @@ Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress) {
   Fig8 fig8;
   fig8.how = start_experiment(options);
   std::uint64_t cases = 0, done = 0;
-  for (const Model& model : models)
+  for (const PaperModel& model : paper_models)
     for (const Size& size : sizes_of(model, options))
       for (const Strategy& strategy : strategies_of(options))
         cases += is_asked_for(options, model.name) && size.number < strategy.sizes;
   check_something_is_measured(cases, "fig8");
   const std::uint64_t total = cases * static_cast<std::uint64_t>(options.runs + 1);
-  for (const Model& model : models)
+  for (const PaperModel& model : paper_models)
     if (is_asked_for(options, model.name))
       fig8.models.push_back(measure_model(
           options, model, [&](const std::string& what) { report(progress, what, std::min(done++, total), total); }));

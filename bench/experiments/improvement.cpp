@@ -50,7 +50,7 @@ std::vector<std::string> improvement_definitions() {
 
 ImprovementParts measure_improvement(const ExperimentOptions& options, const Progress& progress) {
   StudyPlan plan{.experiment = "improvement",
-                 .models = paper_models(),
+                 .models = names_of_paper_models(),
                  .labels = {{"improve", "improvement", ColumnKind::label}},
                  .variants = {}};
   for (const char* improve : {"none", "swap", "smooth", "all"})

@@ -138,7 +138,7 @@ std::vector<std::string> lattice_fit_definitions() {
 
 LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress) {
   StudyPlan plan{.experiment = "lattice-fit",
-                 .models = paper_models(),
+                 .models = names_of_paper_models(),
                  .labels = {{"setting", "setting", ColumnKind::label}},
                  .variants = {},
                  .equal_counts = false,

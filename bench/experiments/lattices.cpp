@@ -102,7 +102,7 @@ std::vector<std::string> lattices_definitions() {
 Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress) {
   const StudyPlan plan{
       .experiment = "lattices",
-      .models = paper_models(),
+      .models = names_of_paper_models(),
       .labels = {{"lattice", "lattice", ColumnKind::label}, {"improved", "improved", ColumnKind::label}},
       .variants = variants(),
       .equal_counts = false,

@@ -6,6 +6,7 @@
 #include "baselines/common.h"
 #include "bench/experiments/count_search.h"
 #include "bench/experiments/measured_case.h"
+#include "bench/experiments/surfaces.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -200,8 +201,10 @@ void measure_source(const ExperimentOptions& options, const StudyPlan& plan, con
 
 }  // namespace
 
-std::vector<std::string> paper_models() {
-  return {"piston", "bracket", "stepping-pole"};
+std::vector<std::string> names_of_paper_models() {
+  std::vector<std::string> names;
+  for (const PaperModel& model : paper_models) names.emplace_back(model.name);
+  return names;
 }
 
 std::vector<std::string> study_definitions() {

@@ -72,7 +72,7 @@ struct StudyPlan {
 inline constexpr std::uint64_t most_kept_tetrahedra = 150000;
 
 /// The paper's three models.
-std::vector<std::string> paper_models();
+std::vector<std::string> names_of_paper_models();
 
 /// Measures the plan's models and the user's files, each with a surface of triangles of nearly one size on which our
 /// FCC lattice, unimproved, makes the wanted number of tetrahedra. The variants take turns. Searches for edge lengths

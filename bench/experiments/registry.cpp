@@ -39,7 +39,7 @@ Measure quality_figure(const std::string& name, const std::string& model) {
 }
 
 ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
-  return result_of(measure_mesher_quality(options, "quality", paper_models(), progress));
+  return result_of(measure_mesher_quality(options, "quality", names_of_paper_models(), progress));
 }
 
 /// Gives the result the names that all other results of the experiment have.

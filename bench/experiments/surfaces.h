@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,14 @@
 #include "engine/plc/input.h"
 
 namespace ccdt {
+
+/// A model of the paper, with the edge length (millimetres) that makes about 100,000 tetrahedra.
+struct PaperModel {
+  const char* name;
+  double edge_length;
+};
+inline constexpr std::array<PaperModel, 3> paper_models = {
+    {{"piston", 2.32}, {"bracket", 1.73}, {"stepping-pole", 1.62}}};
 
 /// A surface that experiments mesh.
 struct SurfaceFile {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "bench/experiments/measured_case.h"
+#include "bench/experiments/surfaces.h"
 #include "engine/io/read_plc.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/io/write_plc.h"
@@ -14,17 +15,15 @@
 namespace ccdt {
 namespace {
 
-/// A model of the paper, how finely it is meshed here, and what the paper measured on it (Table 1; Pentium IV, 2.0
-/// GHz). The edge lengths make meshes of about 100,000 tetrahedra.
-struct PaperModel {
-  const char* name;
-  double edge_length;
+/// What the paper measured on a model (Table 1; Pentium IV, 2.0 GHz).
+struct PaperTimes {
+  PaperModel model;
   double delaunay_seconds, with_check_seconds, without_check_seconds;
 };
 
-constexpr std::array<PaperModel, 3> paper_models = {{{"piston", 2.32, 25.53, 26.01, 602.25},
-                                                     {"bracket", 1.73, 33.14, 34.26, 607.15},
-                                                     {"stepping-pole", 1.62, 35.83, 37.14, 610.94}}};
+constexpr std::array<PaperTimes, 3> paper_times = {{{paper_models[0], 25.53, 26.01, 602.25},
+                                                    {paper_models[1], 33.14, 34.26, 607.15},
+                                                    {paper_models[2], 35.83, 37.14, 610.94}}};
 
 double delaunay_seconds(const StageSeconds& seconds) {
   return seconds.delaunay;
@@ -38,8 +37,8 @@ double mesh_seconds(const StageSeconds& seconds) {
 
 class ModelExperiment {
  public:
-  ModelExperiment(const ExperimentOptions& options, const PaperModel& model)
-      : options_(options), model_(model), edge_length_(model.edge_length * edge_factor(options)) {}
+  ModelExperiment(const ExperimentOptions& options, const PaperTimes& paper)
+      : options_(options), paper_(paper), edge_length_(paper.model.edge_length * edge_factor(options)) {}
 
   /// The cases in the order in which they take turns.
   std::vector<MeasuredCase> plan() const {
@@ -47,7 +46,8 @@ class ModelExperiment {
     const auto add = [&](const char* name, const char* mesher, const std::filesystem::path& input,
                          std::vector<std::string> more) {
       if (!is_measured(options_, mesher)) return;
-      cases.push_back({name, std::string(model_.name) + "-" + name, {mesher, input, mesh_file(name), std::move(more)}});
+      cases.push_back(
+          {name, std::string(paper_.model.name) + "-" + name, {mesher, input, mesh_file(name), std::move(more)}});
     };
     add("with_check", "ccdt", surface_file(), {"--improve", "none", "--face-protection", "on"});
     add("without_check", "ccdt", surface_file(), {"--improve", "none", "--face-protection", "off"});
@@ -71,13 +71,13 @@ class ModelExperiment {
 
  private:
   std::filesystem::path in_folder(const char* folder, const std::string& rest) const {
-    return options_.folder / folder / (std::string(model_.name) + rest);
+    return options_.folder / folder / (std::string(paper_.model.name) + rest);
   }
   std::filesystem::path surface_file() const { return in_folder("models", ".poly"); }
   std::filesystem::path points_file() const { return in_folder("models", "-with-interior-vertices.poly"); }
   std::filesystem::path mesh_file(const std::string& name) const { return in_folder("meshes", "-" + name + ".node"); }
 
-  InputPlc surface() const { return make_solid(model_.name, edge_length_); }
+  InputPlc surface() const { return make_solid(paper_.model.name, edge_length_); }
 
   /// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and
   /// facets.
@@ -100,7 +100,7 @@ class ModelExperiment {
   }
 
   const ExperimentOptions& options_;
-  const PaperModel& model_;
+  const PaperTimes& paper_;
   double edge_length_;
 };
 
@@ -128,7 +128,7 @@ Table1Ratio ratio_of(const Table1Model& model, std::string id, std::string label
 }
 
 /// The check against the Delaunay stage of the very same run: paired, so the machine's moods cancel out.
-Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperModel& paper) {
+Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperTimes& paper) {
   Table1Ratio ratio{"with_check/delaunay",
                     "with check / Delaunay",
                     {},
@@ -151,25 +151,25 @@ Table1Costs costs_of(const MeasuredCase& with_check, const MeasuredCase& without
 
 Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const {
   Table1Model model;
-  model.name = model_.name;
+  model.name = paper_.model.name;
   model.edge_length = edge_length_;
   const auto add = [&](const char* name, const char* id, const char* label, double (*seconds)(const StageSeconds&),
                        std::optional<double> paper = {}) {
     const auto found = std::ranges::find(cases, name, &MeasuredCase::name);
     if (found != cases.end()) model.rows.push_back(row_of(*found, id, label, seconds, paper));
   };
-  add("with_check", "delaunay", "Delaunay", delaunay_seconds, model_.delaunay_seconds);
-  add("with_check", "with_check", "CDT with face protection check", cdt_seconds, model_.with_check_seconds);
-  add("without_check", "without_check", "CDT without", cdt_seconds, model_.without_check_seconds);
+  add("with_check", "delaunay", "Delaunay", delaunay_seconds, paper_.delaunay_seconds);
+  add("with_check", "with_check", "CDT with face protection check", cdt_seconds, paper_.with_check_seconds);
+  add("without_check", "without_check", "CDT without", cdt_seconds, paper_.without_check_seconds);
   add("without_check_grid", "without_check_grid", "CDT without, paper's grid", cdt_seconds,
-      model_.without_check_seconds);
+      paper_.without_check_seconds);
   add("with_check", "ccdt_mesh", "ccdt, whole mesh", mesh_seconds);
   add("cgal_delaunay", "cgal_delaunay", "CGAL Delaunay, same vertices", mesh_seconds);
   add("tetgen_cdt", "tetgen_cdt", "TetGen CDT, same vertices", mesh_seconds);
   add("tetgen_quality", "tetgen_quality", "TetGen, its own vertices", mesh_seconds);
   add("mesh3", "mesh3", "CGAL Mesh_3, its own vertices", mesh_seconds);
 
-  model.ratios.push_back(check_ratio(cases[0], model_));
+  model.ratios.push_back(check_ratio(cases[0], paper_));
   model.ratios.push_back(
       ratio_of(model, "without_check/delaunay", "without check / Delaunay", "without_check", "delaunay"));
   model.ratios.push_back(ratio_of(model, "without_check_grid/delaunay", "without check, paper's grid / Delaunay",
@@ -211,11 +211,11 @@ std::vector<std::string> table1_definitions() {
 Table1 measure_table1(const ExperimentOptions& options, const Progress& progress) {
   Table1 table;
   table.how = start_experiment(options);
-  const auto is_asked = [&](const PaperModel& paper) { return is_asked_for(options, paper.name); };
-  const auto model_count = static_cast<std::uint64_t>(std::ranges::count_if(paper_models, is_asked));
+  const auto is_asked = [&](const PaperTimes& paper) { return is_asked_for(options, paper.model.name); };
+  const auto model_count = static_cast<std::uint64_t>(std::ranges::count_if(paper_times, is_asked));
   check_something_is_measured(model_count, "table1");
   std::uint64_t done = 0;
-  for (const PaperModel& paper : paper_models) {
+  for (const PaperTimes& paper : paper_times) {
     if (!is_asked(paper)) continue;
     const ModelExperiment experiment(options, paper);
     experiment.write_surface();
@@ -223,7 +223,7 @@ Table1 measure_table1(const ExperimentOptions& options, const Progress& progress
     const std::uint64_t total = model_count * cases.size() * static_cast<std::uint64_t>(options.runs + 1);
     for (int number = 0; number <= options.runs; ++number)
       for (MeasuredCase& measured : cases) {
-        report(progress, std::string(paper.name) + " " + measured.name, done++, total);
+        report(progress, std::string(paper.model.name) + " " + measured.name, done++, total);
         experiment.run(measured, number);
       }
     table.models.push_back(experiment.evaluate(cases));

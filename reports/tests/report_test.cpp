@@ -88,7 +88,8 @@ TEST_F(ReportFolder, HasTheChartsWhoseTablesAreThere) {
   const std::vector<ReportChart> charts = {{"table1", "times", "", "", {"times"}, "{}"},
                                            {"table1", "ratios", "", "", {"times", "ratios"}, "{}"},
                                            {"fig8", "times", "", "", {"times"}, "{}"}};
-  const ReportSection& found = section(read_report(folder("a"), charts), "table1");
+  const Report report = read_report(folder("a"), charts);
+  const ReportSection& found = section(report, "table1");
   ASSERT_EQ(found.charts.size(), 1u);
   EXPECT_EQ(found.charts[0].name, "times");
 }
