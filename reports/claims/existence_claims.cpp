@@ -70,8 +70,9 @@ struct Endings {
 
 void add_endings(const std::string& kind, const Endings& endings, const char* table, PaperClaim& claim) {
   if (endings.cases == 0) return;
-  ClaimMeasure measure = yes_or_no(kind + ": inputs where it ended", endings.ended, "all " + with_separators(static_cast<std::uint64_t>(endings.cases)),
-                                   endings.ended == endings.cases);
+  ClaimMeasure measure =
+      yes_or_no(kind + ": inputs where it ended", endings.ended,
+                "all " + with_separators(static_cast<std::uint64_t>(endings.cases)), endings.ended == endings.cases);
   measure.experiment = "termination";
   measure.table = table;
   measure.runs = endings.runs;
