@@ -35,7 +35,7 @@ test("data know their rows when a filter has left some out", () => {
 
 test("a chart has a data set for each of its tables, and one of all", () => {
   const section = { tables: [times, { ...times, name: "more" }] };
-  const data = chartData(section, { tables: ["times", "more", "unknown"] });
+  const data = chartData(section, { tables: ["times", "more", "unknown"], spec: {} });
   assert.deepEqual(
     Object.entries(data).map(([name, rows]) => [name, rows.length]),
     [
@@ -66,4 +66,18 @@ test("our own series come first, unknown ones last, as they come", () => {
 test("text is as wide as in Arial", () => {
   assert.equal(textWidth("1.5", 1000), 556 + 278 + 556);
   assert.ok(textWidth("wide", 10, true) > textWidth("wide", 10));
+});
+
+test("a chart that wants only some rows has no others", () => {
+  const section = {
+    tables: [
+      {
+        name: "points",
+        columns: [{ name: "mesher", kind: "label" }],
+        rows: [{ values: { mesher: "ccdt" } }, { values: { mesher: "tetgen" } }],
+      },
+    ],
+  };
+  const data = chartData(section, { tables: ["points"], spec: { usermeta: { only: { mesher: "ccdt" } } } });
+  assert.deepEqual(data.all.map(({ mesher }) => mesher), ["ccdt"]);
 });
