@@ -33,6 +33,11 @@ bool is_measured(const ExperimentOptions& options, std::string_view mesher) {
   return std::ranges::find(meshers(), mesher, &Mesher::name) != meshers().end();
 }
 
+bool is_timed(const ExperimentOptions& options, std::string_view mesher) {
+  constexpr double fewest_of_mesh3 = 50000;
+  return is_measured(options, mesher) && (mesher != "cgal-mesh3" || options.tetrahedra >= fewest_of_mesh3);
+}
+
 std::vector<std::string> described_meshers(const ExperimentOptions& options) {
   std::vector<std::string> files;
   if (options.beside) std::ranges::copy_if(*options.beside, std::back_inserter(files), is_mesher_description);

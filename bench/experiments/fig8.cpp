@@ -22,8 +22,6 @@ struct Strategy {
   int sizes;  ///< how many, from the coarsest
 };
 
-constexpr const char* mesh3 = "cgal-mesh3";
-
 const std::vector<Strategy>& all_strategies() {
   static const std::vector<Strategy> all = {
       {"insert", "with check", "ccdt", {"--delaunay", "insert", "--face-protection", "on"}, size_count},
@@ -36,23 +34,15 @@ const std::vector<Strategy>& all_strategies() {
        5},
       {"cgal-delaunay", "CGAL Delaunay, same vertices", "cgal-delaunay", {}, 6},
       {"tetgen", "TetGen, its own vertices", "tetgen", {}, 5},
-      {mesh3, "CGAL Mesh_3, its own vertices", mesh3, {"--improve", "none"}, 3}};
+      {"cgal-mesh3", "CGAL Mesh_3, its own vertices", "cgal-mesh3", {"--improve", "none"}, 3}};
   return all;
-}
-
-/// Mesh_3 cannot mesh the paper's models with fewer tetrahedra than this, however long its edges may be.
-constexpr double fewest_of_mesh3 = 50000;
-
-bool is_coarse_enough(const Strategy& strategy, const ExperimentOptions& options) {
-  return strategy.mesher != mesh3 || options.tetrahedra >= fewest_of_mesh3;
 }
 
 /// Those of this build that are asked for.
 std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
   std::vector<Strategy> strategies;
-  std::ranges::copy_if(all_strategies(), std::back_inserter(strategies), [&](const Strategy& s) {
-    return is_measured(options, s.mesher) && is_coarse_enough(s, options);
-  });
+  std::ranges::copy_if(all_strategies(), std::back_inserter(strategies),
+                       [&](const Strategy& s) { return is_timed(options, s.mesher); });
   for (const std::string& file : described_meshers(options)) {
     const std::string name = mesher(file).name;
     strategies.push_back({name, name + ", its own vertices", file, {}, 4});

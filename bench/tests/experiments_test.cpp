@@ -58,6 +58,17 @@ TEST(Experiments, MeasureAllModelsUnlessSomeAreAskedFor) {
   EXPECT_FALSE(is_asked_for(options, "piston"));
 }
 
+TEST(Experiments, TimeMesh3OnlyWhereItCanBeAsCoarse) {
+  ExperimentOptions options;
+  options.tetrahedra = 8000;
+  EXPECT_TRUE(is_timed(options, "ccdt"));
+  EXPECT_FALSE(is_timed(options, "cgal-mesh3"));
+  options.tetrahedra = 100000;
+  EXPECT_EQ(is_timed(options, "cgal-mesh3"), is_measured(options, "cgal-mesh3"));
+  options.beside = {"tetgen"};
+  EXPECT_FALSE(is_timed(options, "cgal-mesh3"));
+}
+
 TEST(Experiments, RefuseToMeasureNothing) {
   EXPECT_NO_THROW(check_something_is_measured(1, "fig8"));
   EXPECT_THROW(check_something_is_measured(0, "fig8"), InputError);
