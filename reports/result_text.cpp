@@ -126,7 +126,7 @@ std::string to_csv(const ResultTable& table) {
     const std::string& name = table.columns[c].name;
     is_estimate.push_back(has_estimates(table, c));
     text += (c == 0 ? "" : ",") + name;
-    if (is_estimate[c]) text += "," + name + "_low," + name + "_high";
+    if (is_estimate[c]) text.append(",").append(name).append("_low,").append(name).append("_high");
   }
   text += "\r\n";
   for (const ResultRow& row : table.rows) {

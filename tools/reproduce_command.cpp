@@ -50,7 +50,8 @@ double tetrahedra_of(const std::string& scale) {
   double tetrahedra = 0;
   const auto [end, error] = std::from_chars(scale.data(), scale.data() + scale.size(), tetrahedra);
   const bool is_number = error == std::errc() && end == scale.data() + scale.size();
-  if (!is_number || !(tetrahedra >= fewest && tetrahedra <= most))
+  const bool is_within = tetrahedra >= fewest && tetrahedra <= most;
+  if (!is_number || !is_within)
     throw CLI::ValidationError("--scale", "'" + scale +
                                               "' is none of quick, paper, large, and no number of tetrahedra "
                                               "from 100 to 10^8");
@@ -74,7 +75,7 @@ std::vector<const KnownExperiment*> chosen(const ReproduceCommand& command) {
 /// \return  where it is now
 std::filesystem::path taken(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const auto copy = std::filesystem::absolute(folder / file.filename());
+  auto copy = std::filesystem::absolute(folder / file.filename());
   if (std::filesystem::exists(copy) && std::filesystem::equivalent(copy, file)) return copy;
   std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);
   return copy;

@@ -7,7 +7,7 @@ std::filesystem::path own_program() {
 }
 
 std::filesystem::path share_folder() {
-  const auto beside = own_program().parent_path() / "share" / "ccdt";
+  auto beside = own_program().parent_path() / "share" / "ccdt";
   if (std::filesystem::exists(beside)) return beside;
   return own_program().parent_path().parent_path() / "share" / "ccdt";
 }

@@ -194,7 +194,8 @@ std::string find_fault(const PointSet& set, std::int64_t size) {
   if constexpr (std::is_same_v<Program, Insert>) {
     // The hull of random points is nearly known; apart from that, all others are compared with this one.
     const double cube = 0x1p156, volume = reference(set, size).volume;
-    return set.name == "random" && !(volume > 0.9 * cube && volume <= cube) ? "it does not fill the cube" : "";
+    const bool fills_cube = volume > 0.9 * cube && volume <= cube;
+    return set.name == "random" && !fills_cube ? "it does not fill the cube" : "";
   } else if constexpr (std::is_same_v<Program, Wrap>) {
     const Tetrahedra inserted = sorted(finite_cells(build_delaunay(points)));
     return inserted == sorted(finite_cells(Wrap::build(Wrap::prepare(points))))

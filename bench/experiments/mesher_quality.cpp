@@ -100,8 +100,8 @@ std::vector<std::string> mesher_quality_definitions() {
           "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
           "Rows that are more than 15% away from that number are shown, and not compared with.",
           "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge length.",
-          "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a; cgal-mesh3: with perturbation and "
-          "exudation.",
+          "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a.",
+          "cgal-mesh3: with perturbation and exudation.",
           "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
           "What takes long has at most three counted runs.",
       });
