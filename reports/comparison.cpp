@@ -178,8 +178,8 @@ std::string finding_of(const ResultTable& summary, const char* all, const char* 
 void take_runs(const Report& from, const std::string& folder, Report& report) {
   for (const auto& [file, run] : from.runs) {
     RunLine line = run;
-    if (!line.command.empty()) line.command.insert(0, std::string("cd ").append(folder).append(" && "));
-    report.runs[folder + "/" + file] = line;
+    if (!line.command.empty()) line.command = "cd " + folder + " && " + line.command;
+    report.runs[(std::filesystem::path(folder) / file).string()] = line;
   }
 }
 
