@@ -42,6 +42,11 @@ std::vector<Cell> figures_of(const QualityRow& row) {
           cell_of(row.is_comparable)};
 }
 
+/// A single run has no interval.
+Cell seconds_of(const QualityRow& row) {
+  return row.samples.size() > 1 ? Cell(*row.seconds) : Cell(row.seconds->value);
+}
+
 /// Million tetrahedra a second, where the clock could tell.
 Cell speed_of(const QualityRow& row) {
   const double millions = static_cast<double>(row.counts.tetrahedra) / 1e6;
@@ -74,7 +79,7 @@ ResultTable quality_table(const QualityStudy& study) {
       cells.push_back(cell_of(name_of(row.status)));
       if (row.ok()) {
         append(cells, figures_of(row));
-        cells.insert(cells.end(), {Cell(*row.seconds), Cell(row.improve_seconds), speed_of(row)});
+        cells.insert(cells.end(), {seconds_of(row), Cell(row.improve_seconds), speed_of(row)});
       }
       cells.resize(table.columns.size());
       cells.back() = row.reason;
