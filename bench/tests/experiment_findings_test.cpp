@@ -1,0 +1,217 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/experiments/fig8.h"
+#include "bench/experiments/improvement.h"
+#include "bench/experiments/interior_points.h"
+#include "bench/experiments/lattice_fit.h"
+#include "bench/experiments/lattices.h"
+#include "bench/experiments/locators.h"
+#include "bench/experiments/mesher_quality.h"
+
+namespace ccdt {
+namespace {
+
+/// Is a part of these words in one of the lines?
+bool say(const std::vector<std::string>& lines, const std::string& words) {
+  return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
+}
+
+Fig8 fig8_with_exponent(double exponent) {
+  Fig8Series series{"insert", "with check", "ccdt", {}, {}};
+  for (const std::uint64_t n : {10000, 20000, 40000}) {
+    Fig8Point point;
+    point.counts.vertices = n;
+    StageSeconds seconds;
+    seconds.delaunay = 1e-5 * std::pow(static_cast<double>(n), exponent);
+    point.samples.assign(5, seconds);
+    point.seconds = Estimate{seconds.delaunay, seconds.delaunay, seconds.delaunay};
+    series.points.push_back(point);
+  }
+  series.fits = fit_series(series);
+  Fig8 fig8;
+  fig8.models.push_back({"piston", {series}});
+  return fig8;
+}
+
+TEST(Fig8Findings, SayWhetherTheExponentIsAsClaimed) {
+  EXPECT_TRUE(say(result_of(fig8_with_exponent(1.0)).findings, "is at most 1.10: holds"));
+  EXPECT_TRUE(say(result_of(fig8_with_exponent(1.3)).findings, "is at most 1.10: does not hold"));
+  Fig8 unfitted = fig8_with_exponent(1);
+  unfitted.models[0].series[0].fits.clear();
+  EXPECT_TRUE(say(result_of(unfitted).findings, "too few sizes"));
+}
+
+TEST(Fig8Findings, AreNotGoodWhereARunOfOursFailed) {
+  Fig8 fig8 = fig8_with_exponent(1);
+  EXPECT_TRUE(result_of(fig8).is_good);
+  Fig8Point& point = fig8.models[0].series[0].points[1];
+  point.seconds = {};
+  point.status = RunStatus::timeout;
+  point.reason = "limit of 600 s";
+  EXPECT_FALSE(result_of(fig8).is_good);
+  EXPECT_TRUE(say(result_of(fig8).problems, "timeout: limit of 600 s"));
+  fig8.models[0].series[0].mesher = "tetgen";
+  EXPECT_TRUE(result_of(fig8).is_good);
+}
+
+ExperimentResult locators_result(SurfaceKind kind, const Estimate& ratio, const LocatorsRow& last) {
+  LocatorsCase c;
+  c.name = "part";
+  c.kind = kind;
+  c.edge_ratio = 181;
+  for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree})
+    c.rows.push_back({locator, {2, 2}, Estimate{2, 2, 2}, RunStatus::ok, ""});
+  c.rows.push_back(last);
+  c.octree_over_grid = ratio;
+  Locators locators;
+  locators.cases.push_back(c);
+  return result_of(locators);
+}
+
+TEST(LocatorsFindings, JudgeByTheRatioThatWasMeasured) {
+  const LocatorsRow good{LocatorKind::cavity, {2, 2}, Estimate{2, 2, 2}, RunStatus::ok, ""};
+  const auto findings = [&](SurfaceKind kind, const Estimate& ratio) {
+    return locators_result(kind, ratio, good).findings;
+  };
+  EXPECT_TRUE(say(findings(SurfaceKind::graded, {0.5, 0.4, 0.6}),
+                  "octree is faster than the grid where edges differ by a factor of 181: holds (octree / grid 0.5"));
+  EXPECT_TRUE(say(findings(SurfaceKind::graded, {1.5, 1.4, 1.6}), "181: does not hold"));
+  EXPECT_TRUE(say(findings(SurfaceKind::uniform, {1.5, 1.4, 1.6}),
+                  "grid is faster than the octree where edges are even: holds"));
+  EXPECT_TRUE(say(findings(SurfaceKind::uniform, {1, 0.9, 1.1}), "even: undecided"));
+  EXPECT_TRUE(findings(SurfaceKind::input, {1, 0.9, 1.1}).empty());
+}
+
+TEST(LocatorsFindings, GiveAFailedRowItsReason) {
+  const LocatorsRow bad{LocatorKind::cavity, {}, {}, RunStatus::crashed, "ended by signal SIGSEGV"};
+  const ExperimentResult result = locators_result(SurfaceKind::rough, {1, 1, 1}, bad);
+  EXPECT_TRUE(say(result.problems, "part, check off, cavity: crashed: ended by signal SIGSEGV"));
+  EXPECT_FALSE(result.is_good);
+}
+
+TEST(InteriorPointsFindings, CountTheHarm) {
+  InteriorPoints points;
+  points.cases = {{"cube", 0.5, Lattice::fcc, InteriorRule::paper, 1000, 0, RunStatus::ok, ""},
+                  {"cube", 0.5, Lattice::fcc, InteriorRule::no_spheres, 1200, 3, RunStatus::ok, ""},
+                  {"part.off", 0, Lattice::sc, InteriorRule::paper, 0, 0, RunStatus::failed, "it is open"}};
+  points.existence = {{"segments", 40, 7, {}}};
+  const ExperimentResult result = result_of(points);
+  EXPECT_TRUE(say(result.findings, "7 of 40 small PLCs"));
+  EXPECT_TRUE(say(result.findings, "Rule \"paper\": no point did harm in 1 cases with 1,000 interior vertices"));
+  EXPECT_TRUE(say(result.findings, "Rule \"no spheres\": points do harm: 3 points of 1,203"));
+  EXPECT_TRUE(say(result.findings, "Rule \"no distances\": no case to judge by"));
+  EXPECT_TRUE(say(result.problems, "part.off, sc, paper: failed: it is open"));
+  EXPECT_EQ(find_table(result, "cases")->rows.size(), 3u);
+}
+
+QualityRow row(const std::string& variant, double mean_r, double worst_r, double dihedral) {
+  QualityRow made;
+  made.variant = variant;
+  made.is_ours = !variant.starts_with("tetgen") && !variant.starts_with("gmsh");
+  made.samples = {0.01, 0.01, 0.01};
+  made.seconds = Estimate{0.01, 0.01, 0.01};
+  made.counts.tetrahedra = 10000;
+  made.quality.r = {1, mean_r, mean_r, 2, worst_r, {{1, 1.1, 1.2, 1000}, {9000, 999, 1}}};
+  made.quality.dihedral_degrees = {dihedral, 150, {{0, 5, 10, 180}, {0, 6, 59994}}};
+  made.is_comparable = true;
+  made.runs = {"runs/a-1.json"};
+  return made;
+}
+
+template <class Study>
+Study study_of(const std::vector<QualityRow>& rows) {
+  Study study;
+  QualityCase c;
+  c.name = "part.off";
+  c.wanted = 10000;
+  c.surface.angles = {{31, {7, 8, 9}}, {12, {1, 2.5, -3}}};
+  c.rows = rows;
+  study.cases.push_back(c);
+  return study;
+}
+
+MesherQuality quality_with(double dihedral) {
+  return study_of<MesherQuality>(
+      {row("ccdt fcc", 1.15, 2.5, dihedral), row("tetgen", 1.5, 8, 10), row("gmsh-hxt", 1.4, 4, 17)});
+}
+
+TEST(MesherQualityFindings, SayInWhatWeAreBetterThanAllOthers) {
+  const ExperimentResult result = result_of(quality_with(16));
+  EXPECT_TRUE(say(result.findings, "mean r in 1 of 1"));
+  EXPECT_TRUE(say(result.findings, "smallest dihedral in 0 of 1 cases"));
+  const ResultTable& verdicts = *find_table(result, "verdicts");
+  ASSERT_EQ(verdicts.rows.size(), 4u);
+  EXPECT_EQ(text_in(verdicts, verdicts.rows[0], "better"), "yes");
+  EXPECT_EQ(text_in(verdicts, verdicts.rows[3], "better"), "no");
+  EXPECT_EQ(text_in(verdicts, verdicts.rows[3], "best_other_variant"), "gmsh-hxt");
+}
+
+TEST(MesherQualityFindings, NameFailuresAndUnequalCountsWithTheirReasons) {
+  MesherQuality quality = quality_with(19);
+  quality.cases[0].rows[1].status = RunStatus::crashed;
+  quality.cases[0].rows[1].reason = "ended by signal SIGSEGV";
+  quality.cases[0].rows[2].is_comparable = false;
+  EXPECT_TRUE(result_of(quality).is_good);
+  quality.cases.emplace_back();
+  quality.cases[1].name = "open.off";
+  quality.cases[1].reason = "the surface is open";
+  const ExperimentResult result = result_of(quality);
+  EXPECT_FALSE(result.is_good);
+  EXPECT_TRUE(say(result.problems, "tetgen: crashed: ended by signal SIGSEGV"));
+  EXPECT_TRUE(say(result.problems, "gmsh-hxt: 10,000 tetrahedra are not comparable"));
+  EXPECT_TRUE(say(result.problems, "open.off, 0 tetrahedra: the surface is open"));
+}
+
+TEST(MesherQualityFindings, HaveTheHistogramsInPercent) {
+  const ExperimentResult result = result_of(quality_with(19));
+  const ResultTable& bins = *find_table(result, "r_histogram");
+  ASSERT_EQ(bins.rows.size(), 9u);
+  EXPECT_EQ(number_in(bins, bins.rows[0], "percent"), 90);
+  EXPECT_EQ(number_in(bins, bins.rows[0], "high"), 1.1);
+}
+
+TEST(LatticesFindings, StateThePapersClaimByEachMeasure) {
+  const auto findings = [](double fcc_mean) {
+    std::vector<QualityRow> rows;
+    for (const std::string suffix : {"", " improved"}) {
+      rows.push_back(row("fcc" + suffix, fcc_mean, 3, 20));
+      rows.push_back(row("bcc" + suffix, 1.15, 4, 19));
+      rows.push_back(row("sc" + suffix, 1.3, 5, 10));
+    }
+    return result_of(study_of<Lattices>(rows)).findings;
+  };
+  EXPECT_TRUE(say(findings(1.2), "That FCC is best is confirmed after improvement by: worst r, smallest dihedral"));
+  EXPECT_TRUE(say(findings(1.2), "That FCC is best is not confirmed before improvement by: mean r"));
+  EXPECT_TRUE(say(findings(1.1), "is confirmed before improvement by: mean r"));
+}
+
+TEST(ImprovementFindings, CountInHowManyCasesEachIsBest) {
+  const ExperimentResult result =
+      result_of(study_of<ImprovementParts>({row("none", 1.3, 50, 1), row("swap", 1.2, 9, 5), row("all", 1.2, 3, 18)}));
+  const ResultTable& best = *find_table(result, "best");
+  std::vector<double> counts;
+  for (const ResultRow& r : best.rows) counts.push_back(number_in(best, r, "best"));
+  EXPECT_EQ(counts, (std::vector<double>{0, 1, 0, 0, 1, 1, 0, 0, 1, 1, 1, 1}));
+}
+
+TEST(LatticeFitFindings, NameTheBestSettingAndWhetherItIsTheDefault) {
+  const auto findings = [](const LatticeSetting& best) {
+    std::vector<QualityRow> rows;
+    for (const LatticeSetting& setting : lattice_settings())
+      rows.push_back(row(name_of(setting), 1.2, setting == best ? 2 : 5, 15));
+    return result_of(study_of<LatticeFit>(rows)).findings;
+  };
+  EXPECT_TRUE(say(findings(default_lattice_setting()), "The best setting is " + name_of(default_lattice_setting())));
+  EXPECT_TRUE(say(findings(default_lattice_setting()), "It is the default"));
+  const LatticeSetting other = lattice_settings().front();
+  ASSERT_FALSE(other == default_lattice_setting());
+  EXPECT_TRUE(say(findings(other), "The best setting is " + name_of(other)));
+  EXPECT_TRUE(say(findings(other), "The default, " + name_of(default_lattice_setting()) + ", has a mean rank of"));
+  EXPECT_TRUE(say(result_of(LatticeFit()).findings, "no surface on which every setting went well"));
+}
+
+}  // namespace
+}  // namespace ccdt
