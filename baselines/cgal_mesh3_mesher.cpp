@@ -40,7 +40,7 @@ struct Sizes {
       : edge(edge_length), facet(edge_length), facet_distance(edge_length / 10), cell(edge_length) {}
 };
 
-/// The triangles between one pair of chambers, all with the first below (where their normals come from) and the second
+/// The triangles between one pair of regions, all with the first below (where their normals come from) and the second
 /// above.
 struct Patch {
   std::vector<Kernel::Point_3> points;
@@ -58,7 +58,7 @@ struct Patch {
 using Sides = std::pair<int, int>;  ///< subdomains below and above; 0 is outside
 
 std::map<Sides, Patch> patches_of(const Plc& plc) {
-  const auto subdomain = [&](ChamberId c) { return plc.chambers[c].inside ? static_cast<int>(c.value) + 1 : 0; };
+  const auto subdomain = [&](RegionId c) { return plc.regions[c].inside ? static_cast<int>(c.value) + 1 : 0; };
   std::map<Sides, Patch> patches;
   for (const Facet& facet : plc.facets) {
     Sides sides{subdomain(facet.below), subdomain(facet.above)};
@@ -108,7 +108,7 @@ TetMesh read_back(const Complex& complex, const Plc& plc) {
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
     mesh.tetrahedra.push_back(
         {number(cell->vertex(0)), number(cell->vertex(1)), number(cell->vertex(2)), number(cell->vertex(3))});
-    mesh.regions.push_back(plc.chambers[static_cast<std::size_t>(complex.subdomain_index(cell) - 1)].region);
+    mesh.regions.push_back(plc.regions[static_cast<std::size_t>(complex.subdomain_index(cell) - 1)].attribute);
   }
   for (auto facet = complex.facets_in_complex_begin(); facet != complex.facets_in_complex_end(); ++facet) {
     std::array<std::uint32_t, 3> corners{};

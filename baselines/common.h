@@ -36,7 +36,7 @@ void add_boundary_faces(TetMesh& mesh);
 
 /// Removes the tetrahedra that an even number of shells of facets encloses (`InputPlc::Inside::even_odd`), with the
 /// faces, edges and vertices that nothing uses any more. `mesh.faces` are the faces on facets.
-void keep_odd_chambers(TetMesh& mesh);
+void keep_odd_regions(TetMesh& mesh);
 
 /// Counts what a mesh of another program has. A vertex is the input's if its coordinates are; any other is a Steiner
 /// vertex if it is on a face or edge of `mesh.faces` or `mesh.edges`, else an interior vertex.

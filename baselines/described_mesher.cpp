@@ -187,7 +187,7 @@ void tidy(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& notes)
     notes.push_back(std::to_string(restored) +
                     " vertices of the input got their coordinates back, which were rounded on their way");
   if (mesh.faces.empty()) add_boundary_faces(mesh);
-  if (input.inside == InputPlc::Inside::even_odd) keep_odd_chambers(mesh);
+  if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
   mesh.constrained_delaunay = false;
 }
 

@@ -25,18 +25,18 @@ constexpr const char* program_variable = "CCDT_GMSH";
 /// Gmsh's own value for a size that nobody has asked for.
 constexpr double no_size = 1e22;
 
-/// Facets with the same chambers at their sides and the same marker: one of Gmsh's discrete surfaces.
+/// Facets with the same regions at their sides and the same marker: one of Gmsh's discrete surfaces.
 struct Patch {
-  ChamberId below, above;
+  RegionId below, above;
   int marker = 0;
   auto operator<=>(const Patch&) const = default;
 };
 
 /// The domain as Gmsh takes it: triangles, each of a discrete surface, and volumes between such surfaces.
 struct DiscreteModel {
-  TetMesh triangles;               ///< `face_markers`: numbers of patches, from 1 in the order of their first triangles
-  std::vector<Patch> patches;      ///< by number less one
-  std::vector<ChamberId> volumes;  ///< by number less one: the chambers inside
+  TetMesh triangles;              ///< `face_markers`: numbers of patches, from 1 in the order of their first triangles
+  std::vector<Patch> patches;     ///< by number less one
+  std::vector<RegionId> volumes;  ///< by number less one: the regions inside
 };
 
 [[noreturn]] void fail(const std::string& what, const std::string& file, const std::string& remedy) {
@@ -64,7 +64,7 @@ DiscreteModel discrete_model(const Plc& plc) {
   std::vector<std::array<VertexId, 2>> edges;
   std::vector<char> is_used(plc.vertices.size(), 0);
   for (const Facet& facet : plc.facets) {
-    const bool inside_below = plc.chambers[facet.below].inside, inside_above = plc.chambers[facet.above].inside;
+    const bool inside_below = plc.regions[facet.below].inside, inside_above = plc.regions[facet.above].inside;
     if (facet.below == facet.above && inside_below) refuse("facets", plc.name);
     const Patch patch{facet.below, facet.above, facet.marker};
     const bool bounds = inside_below || inside_above;
@@ -84,8 +84,8 @@ DiscreteModel discrete_model(const Plc& plc) {
   if (std::ranges::count(is_used, 0) > 0) refuse("vertices", plc.name);
   check_segments(plc, std::move(edges));
   model.triangles.vertices = plc.world;
-  for (std::uint32_t c = 0; c < plc.chambers.size(); ++c)
-    if (plc.chambers[ChamberId(c)].inside) model.volumes.push_back(ChamberId(c));
+  for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
+    if (plc.regions[RegionId(c)].inside) model.volumes.push_back(RegionId(c));
   return model;
 }
 
@@ -153,7 +153,8 @@ Log read_log(const std::filesystem::path& file) {
 
 TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const Plc& plc) {
   TetMesh mesh = read_tet_mesh(file);
-  for (int& region : mesh.regions) region = plc.chambers[model.volumes.at(static_cast<std::size_t>(region) - 1)].region;
+  for (int& region : mesh.regions)
+    region = plc.regions[model.volumes.at(static_cast<std::size_t>(region) - 1)].attribute;
   for (int& marker : mesh.face_markers) marker = model.patches.at(static_cast<std::size_t>(marker) - 1).marker;
   orient_positively(mesh);
   restore_coordinates(plc.world, mesh);

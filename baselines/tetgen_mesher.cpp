@@ -255,7 +255,7 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
   run.result.seconds.mesh = outcome.seconds[0];
   TetMesh& mesh = run.result.mesh;
   mesh = std::move(outcome.mesh);
-  if (input.inside == InputPlc::Inside::even_odd) keep_odd_chambers(mesh);
+  if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
   if (mesh.tetrahedra.empty()) fail("no tetrahedra are inside: the surface is open", input, "");
   run.result.counts = count_elements(merged, mesh);
   return run;

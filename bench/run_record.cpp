@@ -53,12 +53,6 @@ RunRecord::Option option_from(const Json& value) {
   return number_from_json(value);
 }
 
-ImproveStop improve_stop(const std::string& name) {
-  for (const ImproveStop stop : {ImproveStop::target, ImproveStop::time, ImproveStop::stuck})
-    if (name == name_of(stop)) return stop;
-  return ImproveStop::none;
-}
-
 ImproveCounts improve_counts_from(const Json& j) {
   ImproveCounts c;
   c.bad_cells = j.at("bad_cells");
@@ -69,7 +63,7 @@ ImproveCounts improve_counts_from(const Json& j) {
   c.moved_vertices = j.at("moved_vertices");
   c.inserted_vertices = j.at("inserted_vertices");
   c.collapsed_edges = j.at("collapsed_edges");
-  c.stop = improve_stop(j.at("stop"));
+  c.stop = value_of<ImproveStop>(j.at("stop").get<std::string>()).value_or(ImproveStop::none);
   return c;
 }
 
@@ -144,76 +138,6 @@ void RunRecord::set_option(std::string_view name, const Option& value) {
     found->second = value;
   else
     options.emplace_back(name, value);
-}
-
-std::string_view name_of(Lattice lattice) {
-  switch (lattice) {
-    case Lattice::none:
-      return "none";
-    case Lattice::fcc:
-      return "fcc";
-    case Lattice::bcc:
-      return "bcc";
-    case Lattice::sc:
-      return "sc";
-  }
-  return {};
-}
-
-std::string_view name_of(Protection protection) {
-  return protection == Protection::shell ? "shell" : "midpoint";
-}
-
-std::string_view name_of(LocatorKind locator) {
-  switch (locator) {
-    case LocatorKind::grid:
-      return "grid";
-    case LocatorKind::octree:
-      return "octree";
-    case LocatorKind::cavity:
-      return "cavity";
-  }
-  return {};
-}
-
-std::string_view name_of(DelaunayMethod method) {
-  return method == DelaunayMethod::insert ? "insert" : "wrap";
-}
-
-std::string_view name_of(Improvement improvement) {
-  switch (improvement) {
-    case Improvement::none:
-      return "none";
-    case Improvement::swap:
-      return "swap";
-    case Improvement::smooth:
-      return "smooth";
-    case Improvement::all:
-      return "all";
-  }
-  return {};
-}
-
-std::string_view name_of(Objective objective) {
-  return objective == Objective::r ? "r" : "dihedral";
-}
-
-std::string_view name_of(BoundaryRule rule) {
-  return rule == BoundaryRule::keep ? "keep" : "slide";
-}
-
-std::string_view name_of(ImproveStop stop) {
-  switch (stop) {
-    case ImproveStop::none:
-      return "none";
-    case ImproveStop::target:
-      return "target";
-    case ImproveStop::time:
-      return "time";
-    case ImproveStop::stuck:
-      return "stuck";
-  }
-  return {};
 }
 
 RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {

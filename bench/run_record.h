@@ -49,15 +49,6 @@ struct RunRecord {
 /// A record that says who was asked to mesh what and how, before anything has been done.
 RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options);
 
-std::string_view name_of(Lattice lattice);
-std::string_view name_of(Protection protection);
-std::string_view name_of(LocatorKind locator);
-std::string_view name_of(DelaunayMethod method);
-std::string_view name_of(Improvement improvement);
-std::string_view name_of(Objective objective);
-std::string_view name_of(BoundaryRule rule);
-std::string_view name_of(ImproveStop stop);
-
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);
 /// \throw InputError  no JSON of that schema

@@ -72,8 +72,7 @@ std::vector<Point3> lattice_points(const Work& w) {
   std::vector<SurfaceTriangle> triangles;
   for (std::size_t i = 0; i < w.facets.triangles.size(); ++i) {
     const Facet& facet = w.plc.facets[w.facets.facet[i]];
-    triangles.push_back(
-        {w.facets.triangles[i], w.plc.chambers[facet.above].inside, w.plc.chambers[facet.below].inside});
+    triangles.push_back({w.facets.triangles[i], w.plc.regions[facet.above].inside, w.plc.regions[facet.below].inside});
   }
   std::vector<std::array<VertexId, 2>> subsegments;
   for (const auto& chain : w.chains)
@@ -144,8 +143,8 @@ TetMesh constrain(Work& w) {
   TetMesh mesh;
   {
     const Stopwatch watch(w.seconds.label);
-    const std::vector<ChamberId> chambers = label_cells(w.plc, w.delaunay, front.open, codes);
-    mesh = collect_tetrahedra(w.plc, front, chambers, w.delaunay);
+    const std::vector<RegionId> regions = label_cells(w.plc, w.delaunay, front.open, codes);
+    mesh = collect_tetrahedra(w.plc, front, regions, w.delaunay);
   }
   return complete(w, std::move(mesh));
 }

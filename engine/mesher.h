@@ -3,31 +3,16 @@
 #include <cstdint>
 
 #include "engine/base/progress.h"
-#include "engine/improve/improve_counts.h"
-#include "engine/improve/improve_options.h"
-#include "engine/lattice/background_sizes.h"
+#include "engine/delaunay/options.h"
+#include "engine/improve/counts.h"
+#include "engine/improve/options.h"
+#include "engine/lattice/options.h"
+#include "engine/locate/options.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
+#include "engine/protection/options.h"
 
 namespace ccdt {
-
-enum class Lattice { none, fcc, bcc, sc };
-enum class Protection { shell, midpoint };
-/// Who finds vertices near a face and faces near an edge, for the front.
-enum class LocatorKind {
-  grid,    ///< the uniform grid of the paper (section 4)
-  octree,  ///< adapts to graded density
-  cavity   ///< what the missing faces pierce of the Delaunay tetrahedralization: the fastest
-};
-/// How the Delaunay tetrahedralization is made; the result is the same.
-enum class DelaunayMethod {
-  insert,  ///< vertex by vertex along a Hilbert curve (Bowyer, Watson)
-  wrap     ///< face by face with a uniform grid (paper, section 5; Fang and Piegl 1993)
-};
-
-/// Lattice points nearer to the surface than this times the edge length of the lattice are dropped. See the table in
-/// clear_surface.cpp.
-inline constexpr double usual_clearance = 0.55;
 
 /// The strategies of the engine and their parameters.
 struct MeshOptions {

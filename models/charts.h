@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "engine/facets/planar_points.h"
+#include "engine/planar/points.h"
 #include "models/curves.h"
 
 namespace ccdt {

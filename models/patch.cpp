@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/triangulation.h"
 #include "models/patch_points.h"
 
 namespace ccdt {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/facets/planar_points.h"
+#include "engine/planar/points.h"
 
 namespace ccdt {
 

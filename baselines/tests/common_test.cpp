@@ -38,9 +38,9 @@ TetMesh two_tetrahedra() {
   return mesh;
 }
 
-TEST(KeepOddChambers, KeepsAllOfAMeshWithoutInnerFacets) {
+TEST(KeepOddRegions, KeepsAllOfAMeshWithoutInnerFacets) {
   TetMesh mesh = two_tetrahedra();
-  keep_odd_chambers(mesh);
+  keep_odd_regions(mesh);
   EXPECT_EQ(mesh.tetrahedra.size(), 2u);
   EXPECT_EQ(mesh.vertices.size(), 5u);
 }

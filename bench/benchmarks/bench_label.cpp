@@ -28,7 +28,7 @@ double six_volumes(const Point3& a, const Point3& b, const Point3& c) {
 double enclosed_volume(const Plc& plc) {
   double volume = 0;
   for (const Facet& facet : plc.facets) {
-    const int outward = (plc.chambers[facet.below].inside ? 1 : 0) - (plc.chambers[facet.above].inside ? 1 : 0);
+    const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     if (outward == 0) continue;
     for (const auto& [a, b, c] : facet.triangles)
       volume += outward * six_volumes(plc.vertices[a], plc.vertices[b], plc.vertices[c]);

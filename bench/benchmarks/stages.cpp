@@ -52,7 +52,7 @@ LatticeInput lattice_input(const Stages& s, const Density& density) {
   for (std::size_t i = 0; i < s.facets.triangles.size(); ++i) {
     const Facet& facet = s.plc.facets[s.facets.facet[i]];
     input.triangles.push_back(
-        {s.facets.triangles[i], s.plc.chambers[facet.above].inside, s.plc.chambers[facet.below].inside});
+        {s.facets.triangles[i], s.plc.regions[facet.above].inside, s.plc.regions[facet.below].inside});
   }
   for (const auto& chain : s.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
@@ -79,8 +79,8 @@ Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOp
   if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = find_delaunay_faces(s.facets, s.delaunay);
   s.front = advance_front(s.plc, s.facets, s.codes, true, s.delaunay, {LocatorKind::grid});
-  const auto chambers = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
-  s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, chambers, s.delaunay).tetrahedra);
+  const auto regions = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
+  s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, regions, s.delaunay).tetrahedra);
   return s;
 }
 

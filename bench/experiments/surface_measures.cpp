@@ -37,8 +37,8 @@ std::vector<Leaf> leaves_of(const Plc& plc) {
       for (std::size_t i = 0; i < 3; ++i) {
         const VertexId a = triangle[i], b = triangle[(i + 1) % 3];
         // From a to b the normal, which points above, is counterclockwise of the triangle.
-        const ChamberId ahead = a < b ? facet.above : facet.below;
-        leaves.push_back({{std::min(a, b), std::max(a, b)}, triangle[(i + 2) % 3], plc.chambers[ahead].inside, 0});
+        const RegionId ahead = a < b ? facet.above : facet.below;
+        leaves.push_back({{std::min(a, b), std::max(a, b)}, triangle[(i + 2) % 3], plc.regions[ahead].inside, 0});
       }
   std::ranges::sort(leaves, {}, &Leaf::edge);
   return leaves;
@@ -109,7 +109,7 @@ SurfaceAngles smallest_angles(const Plc& plc) {
 double enclosed_volume(const Plc& plc) {
   double volume = 0;
   for (const Facet& facet : plc.facets) {
-    const int sides = static_cast<int>(plc.chambers[facet.below].inside) - plc.chambers[facet.above].inside;
+    const int sides = static_cast<int>(plc.regions[facet.below].inside) - plc.regions[facet.above].inside;
     if (sides == 0) continue;
     for (const auto& t : facet.triangles)
       volume += sides * dot(cross(plc.world[t[0]], plc.world[t[1]]), plc.world[t[2]]) / 6;

@@ -32,17 +32,17 @@ std::string text_of_tetrahedron(const TetMesh& mesh, std::size_t t) {
   return "tetrahedron " + std::to_string(t) + " around " + text(centre);
 }
 
-int region_of(const TetMesh& mesh, std::size_t t) {
+int attribute_of(const TetMesh& mesh, std::size_t t) {
   return mesh.regions.empty() ? 0 : mesh.regions[t];
 }
 
-/// The attributes that tetrahedra of each chamber may have: where there is no seed, that of the first one. (A chamber
+/// The attributes that tetrahedra of each region may have: where there is no seed, that of the first one. (A region
 /// of tetrahedra within facets alone has none.)
-std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
-  auto wanted = chambers.attributes;
+std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Regions& regions, const Rooms& rooms) {
+  auto wanted = regions.attributes;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = rooms.chamber[t];
-    if (c != none && wanted[c].empty() && rooms.beyond.count(t) == 0) wanted[c].push_back(region_of(mesh, t));
+    const std::uint32_t c = rooms.region[t];
+    if (c != none && wanted[c].empty() && rooms.beyond.count(t) == 0) wanted[c].push_back(attribute_of(mesh, t));
   }
   return wanted;
 }
@@ -51,17 +51,17 @@ std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Chambers
 /// the sheet that was taken and near its plane, that a way through such connects with it.
 class FlatTetrahedra {
  public:
-  FlatTetrahedra(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, double flat, Rooms& rooms)
-      : mesh_(mesh), topology_(topology), chambers_(chambers), flat_(flat), rooms_(rooms) {}
+  FlatTetrahedra(const TetMesh& mesh, const Topology& topology, const Regions& regions, double flat, Rooms& rooms)
+      : mesh_(mesh), topology_(topology), regions_(regions), flat_(flat), rooms_(rooms) {}
 
   void find(std::span<const CoverFace> sheet, const Plane& plane) {
-    const std::uint32_t a = chambers_.of_side[2 * sheet[0].piece], b = chambers_.of_side[2 * sheet[0].piece + 1];
+    const std::uint32_t a = regions_.of_side[2 * sheet[0].piece], b = regions_.of_side[2 * sheet[0].piece + 1];
     if (a == b) return;
     on_sheet_.clear();
     for (const CoverFace& f : sheet) on_sheet_.insert(topology_.faces[f.face].begin(), topology_.faces[f.face].end());
     std::vector<std::uint32_t> queue;
     const auto enter = [&](std::uint32_t tet) {
-      const std::uint32_t c = rooms_.chamber[tet];
+      const std::uint32_t c = rooms_.region[tet];
       if ((c != a && c != b) || !is_within(tet, plane)) return;
       if (rooms_.beyond.try_emplace(tet, c == a ? b : a).second) queue.push_back(tet);
     };
@@ -91,7 +91,7 @@ class FlatTetrahedra {
 
   const TetMesh& mesh_;
   const Topology& topology_;
-  const Chambers& chambers_;
+  const Regions& regions_;
   double flat_;
   Rooms& rooms_;
   std::unordered_set<std::uint32_t> on_sheet_;
@@ -99,23 +99,23 @@ class FlatTetrahedra {
 
 }  // namespace
 
-Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& chambers, const Covers& covers,
+Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Regions& regions, const Covers& covers,
                  double flat) {
   Rooms rooms;
-  rooms.chamber.assign(mesh.tetrahedra.size(), none);
+  rooms.region.assign(mesh.tetrahedra.size(), none);
   std::vector<std::uint32_t> queue;
-  const auto enter = [&](std::uint32_t tet, std::uint32_t chamber) {
+  const auto enter = [&](std::uint32_t tet, std::uint32_t region) {
     if (tet == none) return;
-    if (rooms.chamber[tet] == none) {
-      rooms.chamber[tet] = chamber;
+    if (rooms.region[tet] == none) {
+      rooms.region[tet] = region;
       queue.push_back(tet);
-    } else if (rooms.chamber[tet] != chamber) {
+    } else if (rooms.region[tet] != region) {
       rooms.conflicts.push_back(tet);
     }
   };
   for (const CoverFace& f : covers.faces) {
-    enter(f.tet_above, chambers.of_side[2 * f.piece]);
-    enter(f.tet_below, chambers.of_side[2 * f.piece + 1]);
+    enter(f.tet_above, regions.of_side[2 * f.piece]);
+    enter(f.tet_below, regions.of_side[2 * f.piece + 1]);
   }
   while (!queue.empty()) {
     const std::uint32_t t = queue.back();
@@ -124,12 +124,12 @@ Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& 
       const std::uint32_t f = topology.face_of[4 * t + corner];
       if (covers.covers[f] || topology.on_boundary(f)) continue;
       const auto& halves = topology.half_faces[f];
-      enter(halves[0] / 4 == t ? halves[1] / 4 : halves[0] / 4, rooms.chamber[t]);
+      enter(halves[0] / 4 == t ? halves[1] / 4 : halves[0] / 4, rooms.region[t]);
     }
   }
   std::sort(rooms.conflicts.begin(), rooms.conflicts.end());
   rooms.conflicts.erase(std::unique(rooms.conflicts.begin(), rooms.conflicts.end()), rooms.conflicts.end());
-  FlatTetrahedra flat_tetrahedra(mesh, topology, chambers, flat, rooms);
+  FlatTetrahedra flat_tetrahedra(mesh, topology, regions, flat, rooms);
   for (auto begin = covers.faces.begin(); begin != covers.faces.end();) {
     const auto end =
         std::find_if(begin, covers.faces.end(), [&](const CoverFace& f) { return f.plane != begin->plane; });
@@ -139,39 +139,39 @@ Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Chambers& 
   return rooms;
 }
 
-void resolve_unknown(const Rooms& rooms, Chambers& chambers) {
-  std::vector<bool> filled(chambers.count(), false);
-  for (const std::uint32_t c : rooms.chamber)
+void resolve_unknown(const Rooms& rooms, Regions& regions) {
+  std::vector<bool> filled(regions.count(), false);
+  for (const std::uint32_t c : rooms.region)
     if (c != none) filled[c] = true;
-  for (std::uint32_t c = 0; c < chambers.count(); ++c)
-    if (chambers.inside[c] == Inside::unknown) chambers.inside[c] = filled[c] ? Inside::yes : Inside::no;
+  for (std::uint32_t c = 0; c < regions.count(); ++c)
+    if (regions.inside[c] == Inside::unknown) regions.inside[c] = filled[c] ? Inside::yes : Inside::no;
 }
 
-Check check_rooms(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
+Check check_rooms(const TetMesh& mesh, const Regions& regions, const Rooms& rooms) {
   Check check = make_check("tetrahedra in the domain");
   check.checked = mesh.tetrahedra.size();
   for (const std::uint32_t t : rooms.conflicts)
     fail(check, [&] { return text_of_tetrahedron(mesh, t) + " leaks through a facet"; });
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = rooms.chamber[t];
+    const std::uint32_t c = rooms.region[t];
     if (c == none)
       fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is connected with no facet of the input"; });
-    else if (chambers.inside[c] != Inside::yes)
+    else if (regions.inside[c] != Inside::yes)
       fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is outside"; });
   }
   return check;
 }
 
-Check check_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& rooms) {
+Check check_regions(const TetMesh& mesh, const Regions& regions, const Rooms& rooms) {
   Check check = make_check("regions");
   check.checked = mesh.tetrahedra.size();
-  const auto wanted = wanted_regions(mesh, chambers, rooms);
+  const auto wanted = wanted_regions(mesh, regions, rooms);
   const auto is_wanted = [&](int region, std::uint32_t c) {
     return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
   };
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = rooms.chamber[t];
-    const int region = region_of(mesh, t);
+    const std::uint32_t c = rooms.region[t];
+    const int region = attribute_of(mesh, t);
     if (c == none || is_wanted(region, c)) continue;
     const auto beyond = rooms.beyond.find(t);
     if (beyond != rooms.beyond.end() && is_wanted(region, beyond->second)) continue;
@@ -183,14 +183,14 @@ Check check_regions(const TetMesh& mesh, const Chambers& chambers, const Rooms& 
   return check;
 }
 
-Check check_holes(const InputPlc& input, const Chambers& chambers, const Rooms& rooms) {
+Check check_holes(const InputPlc& input, const Regions& regions, const Rooms& rooms) {
   Check check = make_check("holes");
   check.checked = input.holes.size();
-  std::vector<std::uint64_t> tetrahedra(chambers.count(), 0);
-  for (const std::uint32_t c : rooms.chamber)
+  std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
+  for (const std::uint32_t c : rooms.region)
     if (c != none) ++tetrahedra[c];
-  for (std::uint32_t c = 0; c < chambers.count(); ++c) {
-    if (chambers.hole_seeds[c] == 0 || tetrahedra[c] == 0) continue;
+  for (std::uint32_t c = 0; c < regions.count(); ++c) {
+    if (regions.hole_seeds[c] == 0 || tetrahedra[c] == 0) continue;
     fail(check, [&] { return "there are " + std::to_string(tetrahedra[c]) + " tetrahedra in a hole"; });
   }
   return check;
@@ -205,25 +205,25 @@ double mesh_volume(const TetMesh& mesh) {
   return sum.value();
 }
 
-double input_volume(const Surface& surface, const Chambers& chambers) {
+double input_volume(const Surface& surface, const Regions& regions) {
   Sum sum;
   if (surface.pieces() == 0) return 0;
   const Point3 apex = surface.origin(0);
   for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    const bool above = chambers.inside[chambers.of_side[2 * p]] == Inside::yes;
-    const bool below = chambers.inside[chambers.of_side[2 * p + 1]] == Inside::yes;
+    const bool above = regions.inside[regions.of_side[2 * p]] == Inside::yes;
+    const bool below = regions.inside[regions.of_side[2 * p + 1]] == Inside::yes;
     const double cone = dot(surface.area_vector[p], surface.origin(p) - apex) / 3;
     if (above != below) sum.add(below ? cone : -cone);
   }
   return sum.value();
 }
 
-Check check_volume(const Surface& surface, const Chambers& chambers, double of_mesh, double of_input) {
+Check check_volume(const Surface& surface, const Regions& regions, double of_mesh, double of_input) {
   Check check = make_check("volume");
   check.checked = 1;
   double area = 0;
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    if (chambers.touches_inside(p)) area += std::sqrt(squared_length(surface.area_vector[p]));
+    if (regions.touches_inside(p)) area += std::sqrt(squared_length(surface.area_vector[p]));
   if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
   fail(check, [&] {
     char buffer[128];

@@ -8,8 +8,8 @@ namespace ccdt::verification {
 
 namespace {
 
-bool any_inside(const Chambers& chambers, const std::vector<std::uint32_t>& which) {
-  return std::any_of(which.begin(), which.end(), [&](std::uint32_t c) { return chambers.inside[c] == Inside::yes; });
+bool any_inside(const Regions& regions, const std::vector<std::uint32_t>& which) {
+  return std::any_of(which.begin(), which.end(), [&](std::uint32_t c) { return regions.inside[c] == Inside::yes; });
 }
 
 std::string text_of_edge(const Surface& surface, const std::array<std::uint32_t, 2>& edge) {
@@ -18,13 +18,13 @@ std::string text_of_edge(const Surface& surface, const std::array<std::uint32_t,
 
 }  // namespace
 
-Check check_vertices(const InputPlc& input, const Surface& surface, const Chambers& chambers, const RayShooter& rays) {
+Check check_vertices(const InputPlc& input, const Surface& surface, const Regions& regions, const RayShooter& rays) {
   Check check = make_check(surface.slides.empty() ? "input vertices" : "input vertices that may not slide");
   std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
   for (std::uint32_t i = 0; i < surface.directed.size(); ++i) {
     const std::uint32_t site = surface.directed[i][0];
     on_surface[site] = true;
-    if (chambers.touches_inside(surface.piece_of[i])) touched[site] = true;
+    if (regions.touches_inside(surface.piece_of[i])) touched[site] = true;
   }
   for (std::size_t i = 0; i < input.vertices.size(); ++i) {
     const std::uint32_t site = surface.sites.of_input[i];
@@ -32,20 +32,20 @@ Check check_vertices(const InputPlc& input, const Surface& surface, const Chambe
     ++check.checked;
     if (surface.sites.in_mesh(site)) continue;
     const Point3& p = input.vertices[i];
-    if (on_surface[site] ? !touched[site] : !any_inside(chambers, chambers_at(surface, chambers, rays, p))) continue;
+    if (on_surface[site] ? !touched[site] : !any_inside(regions, regions_at(surface, regions, rays, p))) continue;
     fail(check, [&] { return "the mesh has no vertex " + std::to_string(i) + " of the input, " + text(p); });
   }
   return check;
 }
 
 Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
-                     const std::vector<bool>& features, const Chambers& chambers, const RayShooter& rays) {
+                     const std::vector<bool>& features, const Regions& regions, const RayShooter& rays) {
   Check check = make_check("input segments");
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (!features[e]) continue;
     bool touches = false;
     for (std::uint32_t i = surface.use_begin[e]; i < surface.use_begin[e + 1]; ++i)
-      touches = touches || chambers.touches_inside(surface.piece_of[surface.uses[i]]);
+      touches = touches || regions.touches_inside(surface.piece_of[surface.uses[i]]);
     check.checked += touches;
     if (!touches || !edges.missing(e)) continue;
     fail(check, [&] { return "no chain of mesh edges along the edge " + text_of_edge(surface, surface.edges[e]); });
@@ -55,17 +55,17 @@ Check check_segments(const Surface& surface, const Chains& edges, const Chains& 
     if (!segments.missing(s)) continue;
     const auto& [a, b] = surface.segments[s];
     const Point3 middle = 0.5 * (surface.at(a) + surface.at(b));
-    if (!any_inside(chambers, chambers_at(surface, chambers, rays, middle))) continue;
+    if (!any_inside(regions, regions_at(surface, regions, rays, middle))) continue;
     fail(check, [&] { return "no chain of mesh edges along the segment " + text_of_edge(surface, {a, b}); });
   }
   return check;
 }
 
-Check check_facets(const Surface& surface, const Covers& covers, const Chambers& chambers) {
+Check check_facets(const Surface& surface, const Covers& covers, const Regions& regions) {
   Check check = make_check("input facets");
   for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    const bool above = chambers.inside[chambers.of_side[2 * p]] == Inside::yes;
-    const bool below = chambers.inside[chambers.of_side[2 * p + 1]] == Inside::yes;
+    const bool above = regions.inside[regions.of_side[2 * p]] == Inside::yes;
+    const bool below = regions.inside[regions.of_side[2 * p + 1]] == Inside::yes;
     if (!above && !below) continue;
     ++check.checked;
     const Found wanted = above && below ? Found::interior : above ? Found::boundary_of_above : Found::boundary_of_below;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/verify/chambers.h"
 #include "bench/verify/patches.h"
+#include "bench/verify/regions.h"
 
 namespace ccdt::verification {
 

@@ -113,7 +113,7 @@ std::vector<bool> find_edges_to_merge(const Surface& surface) {
   return merged;
 }
 
-void merge_flat_patches(Surface& surface, Chambers& chambers) {
+void merge_flat_patches(Surface& surface, Regions& regions) {
   const std::vector<bool> joined = find_edges_to_merge(surface);
   const Patches patches = group(surface, joined);
   Surface merged;
@@ -123,7 +123,7 @@ void merge_flat_patches(Surface& surface, Chambers& chambers) {
     merged.piece_begin.push_back(static_cast<std::uint32_t>(merged.directed.size()));
     merged.marker.push_back(surface.marker[like]);
     merged.number.push_back(surface.number[like]);
-    of_side.insert(of_side.end(), {chambers.of_side[2 * like], chambers.of_side[2 * like + 1]});
+    of_side.insert(of_side.end(), {regions.of_side[2 * like], regions.of_side[2 * like + 1]});
   };
   const auto add_edges = [&](std::uint32_t piece, bool turned, bool all) {
     for (std::uint32_t i = surface.piece_begin[piece]; i < surface.piece_begin[piece + 1]; ++i) {
@@ -150,7 +150,7 @@ void merge_flat_patches(Surface& surface, Chambers& chambers) {
   surface.piece_begin = std::move(merged.piece_begin);
   surface.marker = std::move(merged.marker);
   surface.number = std::move(merged.number);
-  chambers.of_side = std::move(of_side);
+  regions.of_side = std::move(of_side);
   index_surface(surface);
 }
 
@@ -311,9 +311,9 @@ class OnSomething {
 
 }  // namespace
 
-void let_vertices_slide(Surface& surface, Chambers& chambers) {
+void let_vertices_slide(Surface& surface, Regions& regions) {
   const std::vector<bool> was_used = find_used(surface);
-  merge_flat_patches(surface, chambers);
+  merge_flat_patches(surface, regions);
   drop_segments_on_features(surface);
   merge_straight_chains(surface);
   const std::vector<bool> is_used = find_used(surface);

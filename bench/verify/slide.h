@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/verify/chambers.h"
+#include "bench/verify/regions.h"
 
 namespace ccdt::verification {
 
@@ -12,7 +12,7 @@ namespace ccdt::verification {
 /// Else, a patch is flat within a quarter of `tolerances.flat`, a chain straight within `tolerances.place`. A chain
 /// ends where more than two edges and segments meet.
 ///
-/// \param chambers  of the surface; as before, for the new pieces
-void let_vertices_slide(Surface& surface, Chambers& chambers);
+/// \param regions  of the surface; as before, for the new pieces
+void let_vertices_slide(Surface& surface, Regions& regions);
 
 }  // namespace ccdt::verification

@@ -19,7 +19,7 @@
 // input alone, and each facet must be found as the boundary of its inside side exactly when its sides differ. So d and
 // the indicator of the domain change by the same across every facet; both are 0 at infinity; they are equal. The
 // tetrahedra fill the domain and do not overlap. Facets within the domain are spanned by inner faces in the same sense;
-// that no tetrahedron is reached from two chambers shows once more that none is pierced.
+// that no tetrahedron is reached from two regions shows once more that none is pierced.
 
 namespace ccdt {
 
@@ -46,28 +46,28 @@ void check_against_input(const InputPlc& input, const TetMesh& mesh, const Topol
   report(progress, "verify facets", 0, 0);
   Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances.place), tolerances);
   embed_lines(surface);
-  Chambers chambers = find_chambers(input, surface);
-  if (options.boundary == VerifyOptions::Boundary::slide) let_vertices_slide(surface, chambers);
+  Regions regions = find_regions(input, surface);
+  if (options.boundary == VerifyOptions::Boundary::slide) let_vertices_slide(surface, regions);
   const std::vector<bool> features = find_features(surface);
   const Chains edges = find_chains(mesh, topology, surface, surface.edges);
   const Chains segments = find_chains(mesh, topology, surface, surface.segments);
   const Covers covers = find_covers(mesh, topology, surface, edges, features);
   report(progress, "verify domain", 0, 0);
-  const Rooms rooms = find_rooms(mesh, topology, chambers, covers, tolerances.flat);
-  resolve_unknown(rooms, chambers);
+  const Rooms rooms = find_rooms(mesh, topology, regions, covers, tolerances.flat);
+  resolve_unknown(rooms, regions);
 
   const RayShooter rays(surface);
   auto& checks = result.checks;
-  checks.push_back(check_vertices(input, surface, chambers, rays));
-  checks.push_back(check_segments(surface, edges, segments, features, chambers, rays));
-  checks.push_back(check_facets(surface, covers, chambers));
+  checks.push_back(check_vertices(input, surface, regions, rays));
+  checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
+  checks.push_back(check_facets(surface, covers, regions));
   checks.push_back(check_boundary(mesh, topology, covers));
-  checks.push_back(check_rooms(mesh, chambers, rooms));
-  checks.push_back(check_holes(input, chambers, rooms));
-  checks.push_back(check_regions(mesh, chambers, rooms));
+  checks.push_back(check_rooms(mesh, regions, rooms));
+  checks.push_back(check_holes(input, regions, rooms));
+  checks.push_back(check_regions(mesh, regions, rooms));
   result.mesh_volume = mesh_volume(mesh);
-  result.input_volume = input_volume(surface, chambers);
-  checks.push_back(check_volume(surface, chambers, result.mesh_volume, result.input_volume));
+  result.input_volume = input_volume(surface, regions);
+  checks.push_back(check_volume(surface, regions, result.mesh_volume, result.input_volume));
   if (options.delaunay == VerifyOptions::Delaunay::no) return;
   DelaunayChecks delaunay = check_delaunay(mesh, topology, covers.covers, largest_rounding(input, tolerances),
                                            wants_delaunay(options, mesh), progress);

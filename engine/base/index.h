@@ -30,7 +30,7 @@ struct Index {
 using VertexId = Index<struct VertexTag>;
 using SegmentId = Index<struct SegmentTag>;
 using FacetId = Index<struct FacetTag>;
-using ChamberId = Index<struct ChamberTag>;
+using RegionId = Index<struct RegionTag>;
 using CellId = Index<struct CellTag>;
 
 }  // namespace ccdt

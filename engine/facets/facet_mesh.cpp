@@ -9,7 +9,7 @@
 #include "engine/base/edge_map.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/facets/facet_plane.h"
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/triangulation.h"
 
 namespace ccdt {
 namespace {
@@ -221,7 +221,7 @@ std::vector<PlanarEdge> FacetMesher::edges_towards_domain(const FacetPlane& plan
 /// Makes the facet the one at hand. \return its vertices
 std::vector<VertexId> FacetMesher::enter(const Facet& facet, std::span<const Triangle> triangles) {
   ++here_;
-  domain_side_ = plc_.chambers[facet.above].inside ? 1 : -1;
+  domain_side_ = plc_.regions[facet.above].inside ? 1 : -1;
   std::vector<VertexId> vertices;
   for (const Triangle& triangle : triangles) {
     for (const VertexId v : triangle) {
@@ -259,7 +259,7 @@ void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane
     if (!side || !t.constrained[side->triangle][side->corner]) planar_insert_constraint(t, edge[0], edge[1], plane);
   }
   // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
-  const bool on_both_sides = plc_.chambers[facet.above].inside && plc_.chambers[facet.below].inside;
+  const bool on_both_sides = plc_.regions[facet.above].inside && plc_.regions[facet.below].inside;
   if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side_));
 }
 

@@ -26,8 +26,8 @@ std::vector<std::uint8_t> sides_within(const Plc& plc, const FacetMesh& facets) 
   std::vector<std::uint8_t> is_within(2 * facets.triangles.size());
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const Facet& facet = plc.facets[facets.facet[i]];
-    is_within[2 * i + above] = plc.chambers[facet.above].inside;
-    is_within[2 * i + below] = plc.chambers[facet.below].inside;
+    is_within[2 * i + above] = plc.regions[facet.above].inside;
+    is_within[2 * i + below] = plc.regions[facet.below].inside;
   }
   return is_within;
 }
@@ -132,7 +132,7 @@ void Front::advance(Finder&& finder, const Progress& progress) {
 void Front::add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state) {
   const auto& [a, b, c] = base.corners;
   result_.tetrahedra.push_back({a, b, c, apex});
-  result_.chambers.push_back(state.face.chamber);
+  result_.regions.push_back(state.face.region);
   // The other faces, with the tetrahedron above them.
   pass({a, c, apex}, state);
   pass({c, b, apex}, state);
@@ -147,7 +147,7 @@ void Front::pass(const OrientedFace& inner, const State& state) {
   const OrientedFace outer = inner.reversed();
   const std::uint32_t code =
       face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
-  if (!faces_.insert(outer, {{state.face.chamber, code}, state.cavity, no_side}).second)
+  if (!faces_.insert(outer, {{state.face.region, code}, state.cavity, no_side}).second)
     fail(outer, "two tetrahedra of the front overlap");
   if (code != no_neighbor) return;
   undelaunay_.push_back(outer);
@@ -171,8 +171,8 @@ FrontResult standing_front(const Plc& plc, const FacetMesh& facets, const std::v
   result.open.reserve(2 * codes.size());
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const Facet& facet = plc.facets[facets.facet[i]];
-    if (plc.chambers[facet.above].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + above));
-    if (plc.chambers[facet.below].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + below));
+    if (plc.regions[facet.above].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + above));
+    if (plc.regions[facet.below].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + below));
   }
   return result;
 }

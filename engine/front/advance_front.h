@@ -9,7 +9,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/front_faces.h"
-#include "engine/mesher.h"
+#include "engine/locate/options.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {
@@ -17,7 +17,7 @@ namespace ccdt {
 /// What the front has built, and where it stopped.
 struct FrontResult {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented
-  std::vector<ChamberId> chambers;                       ///< of each tetrahedron
+  std::vector<RegionId> regions;                         ///< of each tetrahedron
   std::vector<FrontFace> open;  ///< the Delaunay faces above which the domain is left to the labelling
   /// Undelaunay faces that have been in the front: those of the PLC (by their sides within the domain) and new ones.
   std::uint64_t undelaunay_faces = 0;

@@ -38,7 +38,7 @@ struct OrientedFaceTraits {
 
 /// What the front knows of one of its faces.
 struct FrontFace {
-  ChamberId chamber;                 ///< the part of the domain above it
+  RegionId region;                   ///< the part of the domain above it
   std::uint32_t code = no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
 };
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/improve/improve_options.h"
+#include "engine/improve/options.h"
 #include "engine/numbers/point.h"
 
 namespace ccdt {

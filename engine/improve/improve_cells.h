@@ -4,9 +4,9 @@
 
 #include "engine/base/progress.h"
 #include "engine/improve/cell_complex.h"
-#include "engine/improve/improve_counts.h"
-#include "engine/improve/improve_options.h"
+#include "engine/improve/counts.h"
 #include "engine/improve/move_apex.h"
+#include "engine/improve/options.h"
 
 namespace ccdt {
 

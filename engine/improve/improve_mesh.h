@@ -5,8 +5,8 @@
 
 #include "engine/base/progress.h"
 #include "engine/facets/facet_mesh.h"
-#include "engine/improve/improve_counts.h"
-#include "engine/improve/improve_options.h"
+#include "engine/improve/counts.h"
+#include "engine/improve/options.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"

@@ -86,7 +86,7 @@ void read_regions(TextScanner& in, InputPlc& plc) {
   in.skip_line();
   for (std::size_t i = 0; i < count; ++i) {
     const Item item{"region", static_cast<std::int64_t>(i)};
-    InputPlc::Region region;
+    InputPlc::RegionSeed region;
     skip_number(in, item);
     region.seed = in.point(item);
     region.attribute = in.attribute(item);

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "engine/lattice/background_sizes.h"
+#include "engine/lattice/options.h"
 
 namespace ccdt {
 

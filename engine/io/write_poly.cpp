@@ -32,7 +32,7 @@ void write_seeds(const InputPlc& plc, OutputFile& out) {
   }
   out << plc.regions.size() << '\n';
   for (std::size_t i = 0; i < plc.regions.size(); ++i) {
-    const InputPlc::Region& region = plc.regions[i];
+    const InputPlc::RegionSeed& region = plc.regions[i];
     write_point(i + 1, region.seed, out);
     out << ' ' << region.attribute << ' ';
     if (region.max_volume > 0)

@@ -71,34 +71,34 @@ std::vector<std::uint32_t> join_cells(const Delaunay& d, const FaceBits& bits) {
 /// A face of the PLC whose side towards a labelled cell was not open: the front has filled that side, so the labelled
 /// part leaks into what the front has replaced.
 void refuse_leaks(const Plc& plc, const Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
-                  const std::vector<ChamberId>& chamber) {
+                  const std::vector<RegionId>& region) {
   for (const std::uint32_t code : wall_codes) {
     if (code == no_neighbor) continue;
     for (const std::uint32_t side : {code, across(d, code)}) {
       const std::uint32_t cell = cell_of(side);
-      if (!chamber[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u)) fail(plc, d, cell);
+      if (!region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u)) fail(plc, d, cell);
     }
   }
 }
 
 }  // namespace
 
-std::vector<ChamberId> label_cells(const Plc& plc, const Delaunay& d, const std::vector<FrontFace>& open,
-                                   const std::vector<std::uint32_t>& wall_codes) {
+std::vector<RegionId> label_cells(const Plc& plc, const Delaunay& d, const std::vector<FrontFace>& open,
+                                  const std::vector<std::uint32_t>& wall_codes) {
   const FaceBits bits = mark_walls(d, open, wall_codes);
   const std::vector<std::uint32_t> first = join_cells(d, bits);
-  std::vector<ChamberId> chamber(d.cells.size());
+  std::vector<RegionId> region(d.cells.size());
   for (const FrontFace& face : open) {
-    ChamberId& its = chamber[first[cell_of(face.code)]];
-    if (!its.is_none() && its != face.chamber) fail(plc, d, cell_of(face.code));
-    its = face.chamber;
+    RegionId& its = region[first[cell_of(face.code)]];
+    if (!its.is_none() && its != face.region) fail(plc, d, cell_of(face.code));
+    its = face.region;
   }
   for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
-    chamber[cell] = chamber[first[cell]];
-    if (!chamber[cell].is_none() && d.is_ghost(cell)) fail(plc, d, cell);
+    region[cell] = region[first[cell]];
+    if (!region[cell].is_none() && d.is_ghost(cell)) fail(plc, d, cell);
   }
-  refuse_leaks(plc, d, bits, wall_codes, chamber);
-  return chamber;
+  refuse_leaks(plc, d, bits, wall_codes, region);
+  return region;
 }
 
 }  // namespace ccdt

@@ -9,14 +9,14 @@
 
 namespace ccdt {
 
-/// Labels the Delaunay cells that belong to the domain with their chamber (paper, section 5.2, step 5): whatever hangs
+/// Labels the Delaunay cells that belong to the domain with their region (paper, section 5.2, step 5): whatever hangs
 /// together above the open faces of the front, without crossing a face of the front or of the PLC. Holes, regions and
-/// slits need no more care: the chambers of the facets' sides tell them.
+/// slits need no more care: the regions of the facets' sides tell them.
 ///
 /// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are passed
-/// over \return            by cell its chamber; none for cells outside and for those that the front has replaced \throw
-/// FrontStuck  parts of different chambers hang together: front and tetrahedralization do not fit
-std::vector<ChamberId> label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,
-                                   const std::vector<std::uint32_t>& wall_codes);
+/// over \return            by cell its region; none for cells outside and for those that the front has replaced \throw
+/// FrontStuck  parts of different regions hang together: front and tetrahedralization do not fit
+std::vector<RegionId> label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,
+                                  const std::vector<std::uint32_t>& wall_codes);
 
 }  // namespace ccdt

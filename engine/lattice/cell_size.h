@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/mesher.h"
+#include "engine/lattice/options.h"
 
 namespace ccdt {
 

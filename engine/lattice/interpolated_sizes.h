@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/lattice/background_sizes.h"
+#include "engine/lattice/options.h"
 #include "engine/lattice/size_tree.h"
 
 namespace ccdt {

@@ -6,7 +6,7 @@
 
 #include "engine/base/index.h"
 #include "engine/base/progress.h"
-#include "engine/mesher.h"
+#include "engine/lattice/options.h"
 #include "engine/numbers/point.h"
 
 namespace ccdt {
@@ -15,17 +15,6 @@ namespace ccdt {
 struct SurfaceTriangle {
   std::array<VertexId, 3> vertices;
   bool inside_above = false, inside_below = false;  ///< does the domain lie there?
-};
-
-struct LatticeOptions {
-  Lattice kind = Lattice::fcc;
-  double edge_length = 0;  ///< target edge length in grid units; 0: as the surface has it
-  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  /// Factor of the radii of the smallest spheres through surface triangles and subsegments, which no point may be in; 1
-  /// is the paper's rule, 0 switches it off.
-  double sphere_factor = 1;
-  double clearance = usual_clearance;           ///< least distance to the surface, in edge lengths of the lattice there
-  const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
 };
 
 /// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,

@@ -17,7 +17,7 @@ double volume_within(const Plc& plc, const FacetMesh& facets, const Delaunay& d)
   double volume = 0;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const Facet& facet = plc.facets[facets.facet[i]];
-    const int outward = (plc.chambers[facet.below].inside ? 1 : 0) - (plc.chambers[facet.above].inside ? 1 : 0);
+    const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     const auto& t = facets.triangles[i];
     if (outward != 0) volume += outward * determinant(d.point(t[0]), d.point(t[1]), d.point(t[2]));
   }
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChai
   std::vector<std::uint32_t> facet_of_face;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const Facet& facet = plc.facets[facets.facet[i]];
-    if (!plc.chambers[facet.above].inside && !plc.chambers[facet.below].inside) continue;
+    if (!plc.regions[facet.above].inside && !plc.regions[facet.below].inside) continue;
     const auto& t = facets.triangles[i];
     mesh.faces.push_back({t[0], t[1], t[2]});
     mesh.face_markers.push_back(facet.marker);
@@ -62,19 +62,19 @@ std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChai
 
 }  // namespace
 
-TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
+TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
                            const Delaunay& delaunay) {
   TetMesh mesh;
-  const auto outside = std::ranges::count(chamber_of_cell, ChamberId());
-  const std::size_t size = front.tetrahedra.size() + chamber_of_cell.size() - static_cast<std::size_t>(outside);
+  const auto outside = std::ranges::count(region_of_cell, RegionId());
+  const std::size_t size = front.tetrahedra.size() + region_of_cell.size() - static_cast<std::size_t>(outside);
   mesh.tetrahedra.reserve(size);
   mesh.regions.reserve(size);
   mesh.tetrahedra = front.tetrahedra;
-  for (const ChamberId chamber : front.chambers) mesh.regions.push_back(plc.chambers[chamber].region);
+  for (const RegionId region : front.regions) mesh.regions.push_back(plc.regions[region].attribute);
   for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
-    if (chamber_of_cell[c].is_none()) continue;
+    if (region_of_cell[c].is_none()) continue;
     mesh.tetrahedra.push_back(delaunay.cells[c].vertices);
-    mesh.regions.push_back(plc.chambers[chamber_of_cell[c]].region);
+    mesh.regions.push_back(plc.regions[region_of_cell[c]].attribute);
   }
   return mesh;
 }

@@ -11,7 +11,7 @@ namespace ccdt {
 
 /// The tetrahedra of the front and the labelled cells, with their regions: the constrained Delaunay tetrahedralization.
 /// The mesh has nothing else yet.
-TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<ChamberId>& chamber_of_cell,
+TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
                            const Delaunay& delaunay);
 
 /// Makes the mesh whole but for its coordinates: takes the flat tetrahedra on its boundary off, gives it the faces of

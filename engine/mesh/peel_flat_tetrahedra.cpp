@@ -20,7 +20,7 @@ Corners sorted(Corners c) {
 }
 
 bool is_bent_boundary(const Plc& plc, const Facet& facet) {
-  return !facet.exactly_flat && plc.chambers[facet.above].inside != plc.chambers[facet.below].inside;
+  return !facet.exactly_flat && plc.regions[facet.above].inside != plc.regions[facet.below].inside;
 }
 
 /// The boundary facets that are not exactly flat, and the tetrahedra within them.
@@ -93,7 +93,7 @@ bool Peeler::try_to_peel(const std::array<std::uint32_t, 4>& t) {
     // Face corners see the tetrahedron above them; the facet's triangles have the domain above or below.
     const auto& c = face_corners[inner[i]];
     Corners corners{t[c[0]], t[c[1]], t[c[2]]};
-    if (plc_.chambers[facet.above].inside) std::swap(corners[0], corners[1]);
+    if (plc_.regions[facet.above].inside) std::swap(corners[0], corners[1]);
     facets_.triangles[triangles[i]] = {VertexId(corners[0]), VertexId(corners[1]), VertexId(corners[2])};
     triangle_of_[sorted(corners)] = triangles[i];
   }

@@ -5,9 +5,9 @@
 #include "engine/base/errors.h"
 #include "engine/plc/box_tree.h"
 #include "engine/plc/edge_table.h"
-#include "engine/plc/find_chambers.h"
 #include "engine/plc/find_facets.h"
 #include "engine/plc/find_overlaps.h"
+#include "engine/plc/find_regions.h"
 #include "engine/plc/find_segments.h"
 #include "engine/plc/refusals.h"
 #include "engine/plc/snap_vertices.h"
@@ -83,7 +83,7 @@ void refuse_if_any(const Plc& plc, const TriangleSet& triangles, const SegmentSe
   if (!overlaps.empty()) refuse_overlaps(plc, triangles, segments, overlaps, overlaps.size() == most_overlaps_told);
 }
 
-std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatches& patches, const ChamberMap& map) {
+std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatches& patches, const RegionMap& map) {
   std::vector<std::uint32_t> sizes(patches.count(), 0);
   for (const std::uint32_t f : patches.facet_of) ++sizes[f];
   std::vector<Facet> facets(patches.count());
@@ -138,12 +138,12 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
 
   report(progress, "plc", 4, steps);
   const VerticalRays rays(plc.vertices, triangles, tree);
-  ChamberMap map = find_chambers(triangles, plc.vertices, edges, patches, rays);
+  RegionMap map = find_regions(triangles, plc.vertices, edges, patches, rays);
   mark_inside(input, plc, triangles, edges, rays, map);
   plc.segments =
       find_segments(plc.vertices, triangles, edges, patches, segments, match.segment_of, match.loose, map, rays);
   plc.facets = collect_facets(triangles, patches, map);
-  plc.chambers = std::move(map.chambers);
+  plc.regions = std::move(map.regions);
   report(progress, "plc", steps, steps);
   return plc;
 }

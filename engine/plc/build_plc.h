@@ -10,7 +10,7 @@ struct PlcOptions {
   double flatness = 1e-8;  ///< a patch whose vertices are this near to one plane is one facet; as a fraction of the box
 };
 
-/// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and chambers, and checks that they
+/// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and regions, and checks that they
 /// form a piecewise linear complex.
 ///
 /// \throw InputError  non-finite coordinates, degenerate or duplicate facets, facets that cross or cover each other, an

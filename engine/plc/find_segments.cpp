@@ -7,13 +7,13 @@ namespace ccdt {
 namespace {
 
 bool is_grazeable(std::span<const Point3> vertices, const TriangleSet& triangles, const EdgeTable& edges,
-                  const ChamberMap& map, std::uint32_t e) {
+                  const RegionMap& map, std::uint32_t e) {
   const auto [a, b] = edges.ends[e];
   const auto around = edges.around(e);
   for (std::size_t i = 0; i < around.size(); ++i) {
     const Corners &s = triangles.corners[around[i]], &t = triangles.corners[around[(i + 1) % around.size()]];
-    const ChamberId sector = map.of(around[i], runs_along(s, a, b));
-    if (!map.chambers[sector].inside) continue;
+    const RegionId sector = map.of(around[i], runs_along(s, a, b));
+    if (!map.regions[sector].inside) continue;
     const Turn angle = around.size() == 1 ? Turn::above_180
                                           : turn_about(vertices[a], vertices[b], vertices[apex_over(s, a, b)],
                                                        vertices[apex_over(t, a, b)]);
@@ -27,7 +27,7 @@ bool is_grazeable(std::span<const Point3> vertices, const TriangleSet& triangles
 std::vector<Segment> find_segments(std::span<const Point3> vertices, const TriangleSet& triangles,
                                    const EdgeTable& edges, const FacetPatches& facets, const SegmentSet& input,
                                    std::span<const std::uint32_t> segment_of, std::span<const std::uint32_t> loose,
-                                   const ChamberMap& map, const VerticalRays& rays) {
+                                   const RegionMap& map, const VerticalRays& rays) {
   std::vector<Segment> segments;
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     if (facets.is_inner_edge[e]) continue;
@@ -36,8 +36,8 @@ std::vector<Segment> find_segments(std::span<const Point3> vertices, const Trian
   }
   for (const std::uint32_t s : loose) {
     const auto& ends = input.ends[s];
-    const ChamberId chamber = chamber_at(map, rays, RayStart::middle_of(vertices[ends[0]], vertices[ends[1]]));
-    segments.push_back({ends, input.markers[s], map.chambers[chamber].inside});
+    const RegionId region = region_at(map, rays, RayStart::middle_of(vertices[ends[0]], vertices[ends[1]]));
+    segments.push_back({ends, input.markers[s], map.regions[region].inside});
   }
   return segments;
 }

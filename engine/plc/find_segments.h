@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/plc/edge_table.h"
-#include "engine/plc/find_chambers.h"
 #include "engine/plc/find_facets.h"
+#include "engine/plc/find_regions.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {
@@ -18,6 +18,6 @@ namespace ccdt {
 std::vector<Segment> find_segments(std::span<const Point3> vertices, const TriangleSet& triangles,
                                    const EdgeTable& edges, const FacetPatches& facets, const SegmentSet& input,
                                    std::span<const std::uint32_t> segment_of, std::span<const std::uint32_t> loose,
-                                   const ChamberMap& map, const VerticalRays& rays);
+                                   const RegionMap& map, const VerticalRays& rays);
 
 }  // namespace ccdt

@@ -28,7 +28,7 @@ struct InputPlc {
     seeds,     ///< .poly, .smesh, .mesh: all that infinity cannot reach, less what the hole seeds reach
   };
 
-  struct Region {
+  struct RegionSeed {
     Point3 seed;
     int attribute = 0;
     double max_volume = 0;  ///< 0: none
@@ -48,7 +48,7 @@ struct InputPlc {
   std::vector<int> segment_markers;  ///< empty, or one a segment
 
   std::vector<Point3> holes;
-  std::vector<Region> regions;
+  std::vector<RegionSeed> regions;
 
   std::size_t facet_count() const { return triangles.size() + polygon_facets.size(); }
 };

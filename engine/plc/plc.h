@@ -27,13 +27,13 @@ struct Facet {
   bool exactly_flat = true;  ///< false: flat only within the tolerance
   int marker = 0;
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
-  ChamberId above, below;
+  RegionId above, below;
 };
 
-/// A part of space that the facets do not divide further. Chamber 0 is the one that reaches infinity.
-struct Chamber {
+/// A part of space that the facets do not divide further. Region 0 is the one that reaches infinity.
+struct Region {
   bool inside = false;  ///< belongs to the domain
-  int region = 0;       ///< attribute of the mesh's cells in it
+  int attribute = 0;    ///< attribute of the mesh's cells in it
 };
 
 /// A piecewise linear complex, checked and ready to be meshed (paper, section 2).
@@ -49,7 +49,7 @@ struct Plc {
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex the vertex that it became
   std::vector<Segment> segments;
   std::vector<Facet> facets;
-  std::vector<Chamber> chambers;
+  std::vector<Region> regions;
   double largest_rounding = 0;  ///< largest change of a coordinate by the grid, in the units of the input
 };
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/base/errors.h"
-#include "engine/facets/planar_triangulation.h"
 #include "engine/numbers/predicates.h"
+#include "engine/planar/triangulation.h"
 #include "engine/plc/quanta.h"
 
 namespace ccdt {

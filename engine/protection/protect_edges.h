@@ -5,8 +5,8 @@
 
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/mesher.h"
 #include "engine/plc/plc.h"
+#include "engine/protection/options.h"
 #include "engine/protection/segment_chains.h"
 
 namespace ccdt {
@@ -21,9 +21,10 @@ namespace ccdt {
 ///
 /// \param must_be_chain  by segment: shall it become a chain of Delaunay edges?
 /// \param delaunay  the tetrahedralization of the vertices of `plc`; gains the Steiner vertices, whose ids follow the
-/// existing ones \param chains    kept up to date; on entry the state of an earlier call, or the bare segments
-/// (`bare_chains`) \return          how many Steiner vertices were added \throw LimitError  a segment would need a
-/// split finer than 2^-20 of it; carries the place
+///                  existing ones
+/// \param chains    kept up to date; on entry the state of an earlier call, or the bare segments (`bare_chains`)
+/// \return          the number of Steiner vertices added
+/// \throw LimitError  a segment would need a split finer than 2^-20 of it; carries the place
 std::uint64_t protect_edges(const Plc& plc, const std::vector<bool>& must_be_chain, Protection strategy,
                             Delaunay& delaunay, SegmentChains& chains, const Progress& progress = {});
 

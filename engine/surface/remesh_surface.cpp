@@ -33,12 +33,12 @@ void refuse_bad_options(const InputPlc& input, const RemeshOptions& options) {
     throw InputError("remeshing needs at least one iteration", place, "give a greater number, 8 say");
 }
 
-/// What must be the same before and after: the chambers, whatever their order.
-std::vector<std::pair<bool, int>> chambers_of(const Plc& plc) {
-  std::vector<std::pair<bool, int>> chambers;
-  for (const Chamber& c : plc.chambers) chambers.emplace_back(c.inside, c.region);
-  std::sort(chambers.begin(), chambers.end());
-  return chambers;
+/// What must be the same before and after: the regions, whatever their order.
+std::vector<std::pair<bool, int>> regions_of(const Plc& plc) {
+  std::vector<std::pair<bool, int>> regions;
+  for (const Region& c : plc.regions) regions.emplace_back(c.inside, c.attribute);
+  std::sort(regions.begin(), regions.end());
+  return regions;
 }
 
 InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& features, const ClosestPoint& closest,
@@ -72,9 +72,9 @@ Verdict judge(const InputPlc& result, const Plc& before, const RemeshOptions& op
   if (!verdict.places.empty()) return verdict;
   try {
     const Plc after = build_plc(result, {options.flatness});
-    if (chambers_of(after) == chambers_of(before)) return {};
+    if (regions_of(after) == regions_of(before)) return {};
     verdict.complaint = "the new surface divides space otherwise than the old one";
-    for (const InputPlc::Region& region : result.regions) verdict.places.push_back(region.seed);
+    for (const InputPlc::RegionSeed& region : result.regions) verdict.places.push_back(region.seed);
     verdict.places.insert(verdict.places.end(), result.holes.begin(), result.holes.end());
   } catch (const InputError& error) {
     verdict.complaint = std::string("the new surface is not valid: ") + error.what();

@@ -62,8 +62,8 @@ TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {
   for (const FrontResult& result : {bipyramid.advance(), bipyramid.advance_all()}) {
     EXPECT_EQ(sorted(result.tetrahedra), Cells({{0, 1, 2, 3}, {0, 1, 2, 4}}));
     EXPECT_TRUE(result.open.empty());
-    ASSERT_EQ(result.chambers.size(), 2u);
-    EXPECT_NE(result.chambers[0], result.chambers[1]);  // the facet divides the domain
+    ASSERT_EQ(result.regions.size(), 2u);
+    EXPECT_NE(result.regions[0], result.regions[1]);  // the facet divides the domain
   }
 }
 

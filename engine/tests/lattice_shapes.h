@@ -38,9 +38,9 @@ inline Point3 turned(const Point3& p) {
   return q.x * x + q.y * y + q.z * z;
 }
 
-/// Unit cubes in a box of n^3, each in the chamber that `chamber_of` says; 0 is outside. Squares between different
-/// chambers are triangles of the surface.
-inline Shape cubes(int n, const std::function<int(int, int, int)>& chamber_of, bool turn = false) {
+/// Unit cubes in a box of n^3, each in the region that `region_of` says; 0 is outside. Squares between different
+/// regions are triangles of the surface.
+inline Shape cubes(int n, const std::function<int(int, int, int)>& region_of, bool turn = false) {
   Shape shape;
   std::map<std::array<int, 3>, VertexId> ids;
   const auto vertex = [&](std::array<int, 3> p) {
@@ -51,11 +51,11 @@ inline Shape cubes(int n, const std::function<int(int, int, int)>& chamber_of, b
     }
     return at->second;
   };
-  const auto chamber = [&](std::array<int, 3> c) {
+  const auto region = [&](std::array<int, 3> c) {
     for (int k : c) {
       if (k < 0 || k >= n) return 0;
     }
-    return chamber_of(c[0], c[1], c[2]);
+    return region_of(c[0], c[1], c[2]);
   };
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -64,7 +64,7 @@ inline Shape cubes(int n, const std::function<int(int, int, int)>& chamber_of, b
       high[axis] = i % (n + 1), high[u] = i / (n + 1) % n, high[v] = i / (n + 1) / n;
       auto low = high;
       --low[axis];
-      const int above = chamber(high), below = chamber(low);
+      const int above = region(high), below = region(low);
       if (above == below) continue;
       auto b = high, c = high, d = high;
       ++b[u], ++c[u], ++c[v], ++d[v];

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/facets/planar_points.h"
+#include "engine/planar/points.h"
 #include "engine/tests/planar_test_plane.h"
 
 namespace ccdt {

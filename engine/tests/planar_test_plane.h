@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/triangulation.h"
 
 namespace ccdt::planar_test {
 

@@ -34,9 +34,9 @@ TEST(PlcFacets, CubeHasSixFacetsTwelveSegmentsAndNothingGrazeable) {
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 12u);
   EXPECT_EQ(grazeable_count(plc), 0u);
-  EXPECT_EQ(plc.chambers.size(), 2u);
-  EXPECT_FALSE(plc.chambers[0].inside);
-  EXPECT_TRUE(plc.chambers[1].inside);
+  EXPECT_EQ(plc.regions.size(), 2u);
+  EXPECT_FALSE(plc.regions[0].inside);
+  EXPECT_TRUE(plc.regions[1].inside);
   for (const Facet& f : plc.facets) {
     EXPECT_TRUE(f.exactly_flat);
     EXPECT_EQ(f.above, 0u);
@@ -84,7 +84,7 @@ TEST(PlcFacets, NoToleranceLeavesTheFoldsOfATurnedCube) {
   const Plc plc = build_plc(rotated(arbitrary, gridded_cube(10)), options);
   expect_valid(plc);
   EXPECT_GT(plc.facets.size(), 300u);
-  EXPECT_EQ(plc.chambers.size(), 2u);
+  EXPECT_EQ(plc.regions.size(), 2u);
 }
 
 TEST(PlcFacets, RotationsChangeNeitherFacetsNorSegments) {

@@ -33,7 +33,7 @@ TEST(PlcParts, RealSurfacesAreValidAndKeepTheirVolume) {
     // These surfaces are oriented outwards, and their components are not nested.
     EXPECT_NEAR(inside_volume(plc), surface_volume(input), 1e-6 * std::abs(surface_volume(input)));
     EXPECT_LT(grazeable_count(plc), plc.segments.size());
-    for (const Facet& f : plc.facets) EXPECT_NE(plc.chambers[f.above].inside, plc.chambers[f.below].inside);
+    for (const Facet& f : plc.facets) EXPECT_NE(plc.regions[f.above].inside, plc.regions[f.below].inside);
   }
 }
 

@@ -133,7 +133,7 @@ TEST(PlcPolygons, ALoopWithinAFacetThatIsNoHoleDividesIt) {
   const Plc built = build_plc(plc);
   EXPECT_EQ(built.facets.size(), 7u);
   EXPECT_EQ(built.segments.size(), 15u);
-  EXPECT_EQ(built.chambers.size(), 2u);
+  EXPECT_EQ(built.regions.size(), 2u);
 }
 
 TEST(PlcPolygons, AGivenSegmentAcrossAFacetBecomesAnEdgeOfIt) {

@@ -145,16 +145,16 @@ inline std::size_t grazeable_count(const Plc& plc) {
 
 inline std::size_t inside_count(const Plc& plc) {
   std::size_t n = 0;
-  for (const Chamber& c : plc.chambers) n += c.inside;
+  for (const Region& c : plc.regions) n += c.inside;
   return n;
 }
 
-/// The volume of a chamber in the units of the input, by the divergence theorem over its facets; infinite ones come out
+/// The volume of a region in the units of the input, by the divergence theorem over its facets; infinite ones come out
 /// negative.
-inline double volume(const Plc& plc, std::uint32_t chamber) {
+inline double volume(const Plc& plc, std::uint32_t region) {
   double sixfold = 0;
   for (const Facet& f : plc.facets) {
-    const double sign = (f.below == chamber ? 1 : 0) - (f.above == chamber ? 1 : 0);
+    const double sign = (f.below == region ? 1 : 0) - (f.above == region ? 1 : 0);
     for (const auto& t : f.triangles) sixfold += sign * dot(plc.world[t[0]], cross(plc.world[t[1]], plc.world[t[2]]));
   }
   return sixfold / 6;
@@ -162,8 +162,8 @@ inline double volume(const Plc& plc, std::uint32_t chamber) {
 
 inline double inside_volume(const Plc& plc) {
   double sum = 0;
-  for (std::uint32_t c = 0; c < plc.chambers.size(); ++c)
-    if (plc.chambers[c].inside) sum += volume(plc, c);
+  for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
+    if (plc.regions[c].inside) sum += volume(plc, c);
   return sum;
 }
 

@@ -11,7 +11,7 @@ namespace {
 using namespace plc_test;
 
 /// Small cubes with random labels. The facets are where labels differ, so there are edges and vertices of every kind,
-/// and everything about segments and chambers can be counted from the labels.
+/// and everything about segments and regions can be counted from the labels.
 struct Voxels {
   int n;
   std::vector<int> labels;  // of cubes; all beyond them have label 0
@@ -122,7 +122,7 @@ Segments expected_segments(const Voxels& voxels, const std::vector<bool>& is_ins
   return count;
 }
 
-TEST(PlcVoxels, ChambersAndSegmentsAreThoseThatTheLabelsGive) {
+TEST(PlcVoxels, RegionsAndSegmentsAreThoseThatTheLabelsGive) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   for (int round = 0; round < 60; ++round) {
@@ -133,7 +133,7 @@ TEST(PlcVoxels, ChambersAndSegmentsAreThoseThatTheLabelsGive) {
         turn ? rotated(rotation(normal(random), normal(random), normal(random), normal(random)), input) : input);
 
     std::vector<double> volumes;
-    for (std::uint32_t c = 1; c < plc.chambers.size(); ++c) volumes.push_back(volume(plc, c));
+    for (std::uint32_t c = 1; c < plc.regions.size(); ++c) volumes.push_back(volume(plc, c));
     std::sort(volumes.begin(), volumes.end());
     const Regions expected = expected_regions(voxels);
     ASSERT_EQ(volumes.size(), expected.volumes.size()) << "round " << round;

@@ -113,11 +113,11 @@ inline double mean_edge_length(const InputPlc& plc) {
   return sum / static_cast<double>(edges.size());
 }
 
-/// The volume of the chambers of each region; 0 is also what has no region.
+/// The volume of the regions of each region; 0 is also what has no region.
 inline std::map<int, double> region_volumes(const Plc& plc) {
   std::map<int, double> sums;
-  for (std::uint32_t c = 0; c < plc.chambers.size(); ++c)
-    if (plc.chambers[c].inside) sums[plc.chambers[c].region] += plc_test::volume(plc, c);
+  for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
+    if (plc.regions[c].inside) sums[plc.regions[c].attribute] += plc_test::volume(plc, c);
   return sums;
 }
 

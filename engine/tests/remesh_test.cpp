@@ -28,7 +28,7 @@ void expect_same_shape(const InputPlc& before, const InputPlc& after) {
   expect_near(odd_edge_lengths(before), odd_edge_lengths(after), 1e-9);
   expect_near(segment_lengths(before), segment_lengths(after), 1e-9);
   const Plc a = build_plc(before), b = build_plc(after);
-  EXPECT_EQ(a.chambers.size(), b.chambers.size());
+  EXPECT_EQ(a.regions.size(), b.regions.size());
   EXPECT_EQ(a.facets.size(), b.facets.size());
   expect_near(region_volumes(a), region_volumes(b), 1e-9);
 }
@@ -173,7 +173,7 @@ TEST(Remeshing, ShellsThinnerThanTheEdgesDoNotCross) {
       [&](std::string_view stage, std::uint64_t done, std::uint64_t) { attempts += stage == "remesh" && done == 0; });
   EXPECT_GT(attempts, 1);  // else this tests nothing
   const Plc before = build_plc(shell), after = build_plc(result);
-  EXPECT_EQ(after.chambers.size(), before.chambers.size());
+  EXPECT_EQ(after.regions.size(), before.regions.size());
   EXPECT_NEAR(inside_volume(after), inside_volume(before), 0.3 * inside_volume(before));
 }
 

@@ -188,7 +188,7 @@ TEST(Bracket, EachRegionHasItsSeedInsideOnItsSideOfTheInteriorFace) {
   EXPECT_NE(bracket.regions[0].attribute, bracket.regions[1].attribute);
   EXPECT_GT(bracket.regions[0].seed.x, 16);
   EXPECT_LT(bracket.regions[1].seed.x, 16);
-  for (const InputPlc::Region& region : bracket.regions) {
+  for (const InputPlc::RegionSeed& region : bracket.regions) {
     EXPECT_NEAR(winding_number(bracket.vertices, boundary_triangles(bracket), region.seed), 1, 1e-9);
   }
 }

@@ -9,7 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/index.h"
-#include "engine/facets/planar_map.h"
+#include "engine/planar/map.h"
 
 namespace ccdt {
 

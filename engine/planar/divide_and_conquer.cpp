@@ -1,4 +1,4 @@
-#include "engine/facets/planar_divide_and_conquer.h"
+#include "engine/planar/divide_and_conquer.h"
 
 namespace ccdt::planar {
 

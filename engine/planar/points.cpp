@@ -1,4 +1,4 @@
-#include "engine/facets/planar_points.h"
+#include "engine/planar/points.h"
 
 #include <algorithm>
 #include <array>

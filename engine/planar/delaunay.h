@@ -1,9 +1,9 @@
 #pragma once
 
-#include "engine/facets/planar_divide_and_conquer.h"
-#include "engine/facets/planar_sweep_order.h"
-#include "engine/facets/planar_topology.h"
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/divide_and_conquer.h"
+#include "engine/planar/sweep_order.h"
+#include "engine/planar/topology.h"
+#include "engine/planar/triangulation.h"
 
 namespace ccdt {
 

@@ -1,4 +1,4 @@
-#include "bench/verify/chambers.h"
+#include "bench/verify/regions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,32 +128,32 @@ void nest_shells(const Surface& surface, const RayShooter& rays, Shells& shells,
       nest_shell(surface, rays, p, i, shells, sides);
 }
 
-/// Numbers the chambers; the one at infinity is 0.
-void number_chambers(const Surface& surface, UnionFind& sides, Chambers& chambers) {
+/// Numbers the regions; the one at infinity is 0.
+void number_regions(const Surface& surface, UnionFind& sides, Regions& regions) {
   std::vector<std::uint32_t> number(2 * surface.pieces() + 1, none);
   number[sides.root(2 * surface.pieces())] = 0;
   std::uint32_t count = 1;
   for (std::uint32_t s = 0; s < 2 * surface.pieces(); ++s) {
     std::uint32_t& n = number[sides.root(s)];
     if (n == none) n = count++;
-    chambers.of_side.push_back(n);
+    regions.of_side.push_back(n);
   }
-  chambers.inside.assign(count, Inside::yes);
-  chambers.inside[0] = Inside::no;
-  chambers.attributes.resize(count);
-  chambers.hole_seeds.assign(count, 0);
+  regions.inside.assign(count, Inside::yes);
+  regions.inside[0] = Inside::no;
+  regions.attributes.resize(count);
+  regions.hole_seeds.assign(count, 0);
 }
 
-/// Of each chamber, the fewest pieces between it and infinity.
-std::vector<std::uint32_t> depth_by_pieces(const Chambers& chambers) {
-  std::vector<std::vector<std::uint32_t>> neighbours(chambers.count());
-  for (std::size_t s = 0; s < chambers.of_side.size(); s += 2) {
-    const std::uint32_t above = chambers.of_side[s], below = chambers.of_side[s + 1];
+/// Of each region, the fewest pieces between it and infinity.
+std::vector<std::uint32_t> depth_by_pieces(const Regions& regions) {
+  std::vector<std::vector<std::uint32_t>> neighbours(regions.count());
+  for (std::size_t s = 0; s < regions.of_side.size(); s += 2) {
+    const std::uint32_t above = regions.of_side[s], below = regions.of_side[s + 1];
     if (above == below) continue;
     neighbours[above].push_back(below);
     neighbours[below].push_back(above);
   }
-  std::vector<std::uint32_t> depth(chambers.count(), none);
+  std::vector<std::uint32_t> depth(regions.count(), none);
   std::queue<std::uint32_t> queue({0});
   depth[0] = 0;
   for (; !queue.empty(); queue.pop())
@@ -165,67 +165,67 @@ std::vector<std::uint32_t> depth_by_pieces(const Chambers& chambers) {
   return depth;
 }
 
-/// Of each chamber, the number of shells that separate it from infinity: one more than the chamber around its own shell
+/// Of each region, the number of shells that separate it from infinity: one more than the region around its own shell
 /// has.
-std::vector<std::uint32_t> depth_by_shells(const Chambers& chambers, const Shells& shells) {
-  std::vector<std::uint32_t> shell_of(chambers.count(), none);
-  const auto chamber_around = [&](std::uint32_t shell) {
-    return shells.outer_side[shell] == none ? 0 : chambers.of_side[shells.outer_side[shell]];
+std::vector<std::uint32_t> depth_by_shells(const Regions& regions, const Shells& shells) {
+  std::vector<std::uint32_t> shell_of(regions.count(), none);
+  const auto region_around = [&](std::uint32_t shell) {
+    return shells.outer_side[shell] == none ? 0 : regions.of_side[shells.outer_side[shell]];
   };
-  for (std::uint32_t s = 0; s < chambers.of_side.size(); ++s) {
-    const std::uint32_t shell = shells.of_piece[s / 2], chamber = chambers.of_side[s];
-    if (chamber != 0 && chamber != chamber_around(shell)) shell_of[chamber] = shell;
+  for (std::uint32_t s = 0; s < regions.of_side.size(); ++s) {
+    const std::uint32_t shell = shells.of_piece[s / 2], region = regions.of_side[s];
+    if (region != 0 && region != region_around(shell)) shell_of[region] = shell;
   }
-  std::vector<std::uint32_t> depth(chambers.count(), 0);
-  for (std::uint32_t c = 0; c < chambers.count(); ++c)
-    for (std::uint32_t outer = c; shell_of[outer] != none && depth[c] < chambers.count(); ++depth[c])
-      outer = chamber_around(shell_of[outer]);
+  std::vector<std::uint32_t> depth(regions.count(), 0);
+  for (std::uint32_t c = 0; c < regions.count(); ++c)
+    for (std::uint32_t outer = c; shell_of[outer] != none && depth[c] < regions.count(); ++depth[c])
+      outer = region_around(shell_of[outer]);
   return depth;
 }
 
-void place_seeds(const InputPlc& input, const Surface& surface, const RayShooter& rays, Chambers& chambers) {
+void place_seeds(const InputPlc& input, const Surface& surface, const RayShooter& rays, Regions& regions) {
   for (const auto& region : input.regions)
-    for (const std::uint32_t c : chambers_at(surface, chambers, rays, region.seed))
-      chambers.attributes[c].push_back(region.attribute);
+    for (const std::uint32_t c : regions_at(surface, regions, rays, region.seed))
+      regions.attributes[c].push_back(region.attribute);
   for (const Point3& hole : input.holes)
-    for (const std::uint32_t c : chambers_at(surface, chambers, rays, hole)) ++chambers.hole_seeds[c];
+    for (const std::uint32_t c : regions_at(surface, regions, rays, hole)) ++regions.hole_seeds[c];
 }
 
 }  // namespace
 
-Chambers find_chambers(const InputPlc& input, const Surface& surface) {
+Regions find_regions(const InputPlc& input, const Surface& surface) {
   const RayShooter rays(surface);
   UnionFind sides = glue_sides(surface);
   Shells shells = find_shells(surface);
   nest_shells(surface, rays, shells, sides);
-  Chambers chambers;
-  number_chambers(surface, sides, chambers);
+  Regions regions;
+  number_regions(surface, sides, regions);
   if (input.inside == InputPlc::Inside::even_odd) {
-    const auto by_pieces = depth_by_pieces(chambers), by_shells = depth_by_shells(chambers, shells);
-    for (std::uint32_t c = 0; c < chambers.count(); ++c) {
+    const auto by_pieces = depth_by_pieces(regions), by_shells = depth_by_shells(regions, shells);
+    for (std::uint32_t c = 0; c < regions.count(); ++c) {
       const bool odd = by_shells[c] % 2 == 1;
-      chambers.inside[c] = odd != (by_pieces[c] % 2 == 1) ? Inside::unknown : odd ? Inside::yes : Inside::no;
+      regions.inside[c] = odd != (by_pieces[c] % 2 == 1) ? Inside::unknown : odd ? Inside::yes : Inside::no;
     }
   }
-  place_seeds(input, surface, rays, chambers);
-  for (std::uint32_t c = 0; c < chambers.count(); ++c)
-    if (chambers.hole_seeds[c] > 0) chambers.inside[c] = Inside::no;
-  return chambers;
+  place_seeds(input, surface, rays, regions);
+  for (std::uint32_t c = 0; c < regions.count(); ++c)
+    if (regions.hole_seeds[c] > 0) regions.inside[c] = Inside::no;
+  return regions;
 }
 
-std::vector<std::uint32_t> chambers_at(const Surface& surface, const Chambers& chambers, const RayShooter& rays,
-                                       const Point3& point) {
+std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& regions, const RayShooter& rays,
+                                      const Point3& point) {
   for (int i = 0; i < attempts; ++i) {
     // From a little below the point, so that a piece that it lies on is met.
     const double back = 2 * surface.tolerances.place;
     const auto hits = rays.shoot(point - back * RayShooter::direction(i), i);
     if (!hits) continue;
     std::vector<std::uint32_t> found = {0};
-    if (!hits->empty()) found[0] = chambers.of_side[2 * hits->front().piece + (hits->front().from_above ? 0 : 1)];
+    if (!hits->empty()) found[0] = regions.of_side[2 * hits->front().piece + (hits->front().from_above ? 0 : 1)];
     const double slope = std::sqrt(squared_length(RayShooter::direction(i)));
     for (const Hit& hit : *hits) {
       if (hit.along * rays.length(point.z - back) * slope > 2 * back) break;
-      found.push_back(chambers.of_side[2 * hit.piece + (hit.from_above ? 1 : 0)]);
+      found.push_back(regions.of_side[2 * hit.piece + (hit.from_above ? 1 : 0)]);
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());

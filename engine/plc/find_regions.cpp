@@ -1,4 +1,4 @@
-#include "engine/plc/find_chambers.h"
+#include "engine/plc/find_regions.h"
 
 #include "engine/plc/union_find.h"
 
@@ -41,8 +41,8 @@ UnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
 // That one ray a component suffices: the sides of one component that see the same connected part of space, seen alone,
 // are all joined already. So on the way from a component up to whatever encloses it, everything passed joins the
 // outermost side of what it passes.
-ChamberMap find_chambers(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
-                         const FacetPatches& facets, const VerticalRays& rays) {
+RegionMap find_regions(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
+                       const FacetPatches& facets, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
   UnionFind sides(infinity + 1), components = components_of(triangles, edges);
   join_through_sectors(triangles, edges, facets, sides);
@@ -61,30 +61,30 @@ ChamberMap find_chambers(const TriangleSet& triangles, std::span<const Point3> v
     sides.join(left, infinity);
   }
 
-  ChamberMap map;
-  std::vector<ChamberId> chamber_of_set(infinity + 1);
-  chamber_of_set[sides.find(infinity)] = ChamberId(0u);
-  map.chambers.resize(1);
+  RegionMap map;
+  std::vector<RegionId> region_of_set(infinity + 1);
+  region_of_set[sides.find(infinity)] = RegionId(0u);
+  map.regions.resize(1);
   map.of_side.resize(infinity);
   for (std::uint32_t s = 0; s < infinity; ++s) {
-    ChamberId& chamber = chamber_of_set[sides.find(s)];
-    if (chamber.is_none()) {
-      chamber = ChamberId(map.chambers.size());
-      map.chambers.emplace_back();
+    RegionId& region = region_of_set[sides.find(s)];
+    if (region.is_none()) {
+      region = RegionId(map.regions.size());
+      map.regions.emplace_back();
     }
-    map.of_side[s] = chamber;
+    map.of_side[s] = region;
   }
-  map.around.resize(map.chambers.size());
+  map.around.resize(map.regions.size());
   for (std::uint32_t s = 0; s < infinity; ++s) {
-    const ChamberId around = map.of_side[outer_side[components.find(s / 2)]];
+    const RegionId around = map.of_side[outer_side[components.find(s / 2)]];
     if (map.of_side[s] != around) map.around[map.of_side[s]] = around;
   }
   return map;
 }
 
-ChamberId chamber_at(const ChamberMap& map, const VerticalRays& rays, const RayStart& point) {
+RegionId region_at(const RegionMap& map, const VerticalRays& rays, const RayStart& point) {
   const std::vector<RayHit> hits = rays.shoot(point);
-  return hits.empty() ? ChamberId(0u) : map.of(hits.front().triangle, hits.front().enters_above);
+  return hits.empty() ? RegionId(0u) : map.of(hits.front().triangle, hits.front().enters_above);
 }
 
 }  // namespace ccdt

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+
+#include "engine/base/enum_names.h"
 
 namespace ccdt {
 
@@ -11,6 +14,13 @@ enum class ImproveStop {
   time,    ///< the time was up
   stuck    ///< each of the remaining tetrahedra was tried in vain, the last time or several times
 };
+
+constexpr auto names_of(ImproveStop) {
+  return std::to_array<NamedValue<ImproveStop>>({{ImproveStop::none, "none"},
+                                                 {ImproveStop::target, "target"},
+                                                 {ImproveStop::time, "time"},
+                                                 {ImproveStop::stuck, "stuck"}});
+}
 
 /// How often each change was made, and why improvement stopped.
 struct ImproveCounts {

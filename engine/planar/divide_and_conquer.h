@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "engine/facets/planar_sweep_order.h"
-#include "engine/facets/planar_types.h"
+#include "engine/planar/sweep_order.h"
+#include "engine/planar/types.h"
 
 namespace ccdt::planar {
 

@@ -119,7 +119,7 @@ void drop_unused_vertices(TetMesh& mesh) {
 
 }  // namespace
 
-void keep_odd_chambers(TetMesh& mesh) {
+void keep_odd_regions(TetMesh& mesh) {
   const std::vector<char> odd = is_odd(mesh);
   if (std::ranges::all_of(odd, [](char parity) { return parity == 1; })) return;
   filter(mesh.tetrahedra, mesh.regions, [&](std::size_t t) { return odd[t] == 1; });

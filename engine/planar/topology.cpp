@@ -1,8 +1,8 @@
-#include "engine/facets/planar_topology.h"
+#include "engine/planar/topology.h"
 
 #include <algorithm>
 
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/triangulation.h"
 
 namespace ccdt {
 namespace planar {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/facets/planar_types.h"
+#include "engine/planar/types.h"
 
 /// The steps that the planar algorithms are made of: they change triangles and keep neighbours, constraints and maps,
 /// and know nothing of geometry.

@@ -14,8 +14,8 @@ const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
 
 std::vector<double> inside_volumes(const Plc& plc) {
   std::vector<double> volumes;
-  for (std::uint32_t c = 0; c < plc.chambers.size(); ++c)
-    if (plc.chambers[c].inside) volumes.push_back(volume(plc, c));
+  for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
+    if (plc.regions[c].inside) volumes.push_back(volume(plc, c));
   std::sort(volumes.begin(), volumes.end());
   return volumes;
 }
@@ -37,38 +37,38 @@ InputPlc two_cubes() {
   return plc;
 }
 
-TEST(PlcChambers, TwoCubesThatShareAFaceAreTwoChambersInASurface) {
+TEST(PlcRegions, TwoCubesThatShareAFaceAreTwoRegionsInASurface) {
   const Plc plc = build_plc(two_cubes());
   EXPECT_EQ(plc.vertices.size(), 12u);
   EXPECT_EQ(plc.facets.size(), 11u) << "where three facets meet, the sides of the cubes end";
   EXPECT_EQ(plc.segments.size(), 20u);
-  EXPECT_EQ(plc.chambers.size(), 3u);
+  EXPECT_EQ(plc.regions.size(), 3u);
   EXPECT_EQ(inside_volumes(plc), (std::vector<double>{1, 1}));
   EXPECT_EQ(grazeable_count(plc), 0u) << "the edges of the shared face have 90 degrees on each side";
 }
 
-TEST(PlcChambers, RegionSeedsNameTheChambersOfTwoCubes) {
+TEST(PlcRegions, RegionSeedsNameTheRegionsOfTwoCubes) {
   InputPlc input = two_cubes();
   input.inside = Inside::seeds;
   input.regions = {{{0.5, 0.5, 0.5}, 7, 0}, {{1.5, 0.25, 0.5}, 8, 0}};
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
     const Plc plc = build_plc(rotated(m, input));
-    ASSERT_EQ(plc.chambers.size(), 3u);
+    ASSERT_EQ(plc.regions.size(), 3u);
     std::multiset<int> regions;
-    for (const Chamber& c : plc.chambers)
-      if (c.inside) regions.insert(c.region);
+    for (const Region& c : plc.regions)
+      if (c.inside) regions.insert(c.attribute);
     EXPECT_EQ(regions, (std::multiset<int>{7, 8}));
   }
 }
 
-TEST(PlcChambers, ACubeInACubeIsAHoleInASurface) {
+TEST(PlcRegions, ACubeInACubeIsAHoleInASurface) {
   const Plc plc = build_plc(cube_in_cube());
-  EXPECT_EQ(plc.chambers.size(), 3u);
+  EXPECT_EQ(plc.regions.size(), 3u);
   EXPECT_EQ(inside_volumes(plc), std::vector<double>{63});
   EXPECT_EQ(grazeable_count(plc), 12u) << "all edges of the hole";
 }
 
-TEST(PlcChambers, ACubeInACubeIsAnInclusionInAPlc) {
+TEST(PlcRegions, ACubeInACubeIsAnInclusionInAPlc) {
   InputPlc input = cube_in_cube();
   input.inside = Inside::seeds;
   const Plc plc = build_plc(input);
@@ -76,7 +76,7 @@ TEST(PlcChambers, ACubeInACubeIsAnInclusionInAPlc) {
   EXPECT_EQ(grazeable_count(plc), 12u);
 }
 
-TEST(PlcChambers, AHoleSeedEmptiesTheCubeInACube) {
+TEST(PlcRegions, AHoleSeedEmptiesTheCubeInACube) {
   InputPlc input = cube_in_cube();
   input.inside = Inside::seeds;
   input.holes = {{1.5, 1.25, 1.5}};
@@ -87,7 +87,7 @@ TEST(PlcChambers, AHoleSeedEmptiesTheCubeInACube) {
   }
 }
 
-TEST(PlcChambers, NestedSurfacesAlternateHoweverTheyAreTurnedAndOrdered) {
+TEST(PlcRegions, NestedSurfacesAlternateHoweverTheyAreTurnedAndOrdered) {
   for (const bool outermost_first : {true, false})
     for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
       InputPlc input;
@@ -96,13 +96,13 @@ TEST(PlcChambers, NestedSurfacesAlternateHoweverTheyAreTurnedAndOrdered) {
         append(input, box({-r, -r, -r}, {r, r, r}));
       }
       const Plc plc = build_plc(rotated(m, input));
-      EXPECT_EQ(plc.chambers.size(), 6u);
+      EXPECT_EQ(plc.regions.size(), 6u);
       EXPECT_NEAR(inside_volume(plc), 8 * (125 - 64 + 27 - 8 + 1), 1e-6);
     }
 }
 
 // Two L in one box, each with a part straight above a part of the other, so that neither need see the box first.
-TEST(PlcChambers, InterlockedComponentsFindWhatEnclosesThem) {
+TEST(PlcRegions, InterlockedComponentsFindWhatEnclosesThem) {
   InputPlc input = box({-10, -10, -10}, {10, 10, 10});
   InputPlc up = prism({{1, 1}, {1, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 1}});  // an L, standing in z
   for (Point3& p : up.vertices) p = {p.x, p.z, p.y};
@@ -111,26 +111,26 @@ TEST(PlcChambers, InterlockedComponentsFindWhatEnclosesThem) {
   append(input, up);
   append(input, down);
   const Plc plc = build_plc(input);
-  EXPECT_EQ(plc.chambers.size(), 4u);
+  EXPECT_EQ(plc.regions.size(), 4u);
   EXPECT_NEAR(inside_volume(plc), 8000 - 14, 1e-9);
   EXPECT_EQ(inside_count(plc), 1u);
 }
 
-TEST(PlcChambers, CubesThatTouchInAnEdgeOrAVertexAreTwoChambers) {
+TEST(PlcRegions, CubesThatTouchInAnEdgeOrAVertexAreTwoRegions) {
   for (const double z : {0.0, 1.0}) {
     InputPlc input = unit_cube();
     append(input, box({1, 1, z}, {2, 2, z + 1}));
     for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
       const Plc plc = build_plc(rotated(m, input));
       EXPECT_EQ(plc.vertices.size(), z == 0 ? 14u : 15u);
-      EXPECT_EQ(plc.chambers.size(), 3u);
+      EXPECT_EQ(plc.regions.size(), 3u);
       EXPECT_EQ(inside_count(plc), 2u);
       EXPECT_EQ(grazeable_count(plc), 0u);
     }
   }
 }
 
-TEST(PlcChambers, AHoleThatTouchesTheSurfaceInAVertexIsStillAHole) {
+TEST(PlcRegions, AHoleThatTouchesTheSurfaceInAVertexIsStillAHole) {
   InputPlc input = box({0, 0, 0}, {4, 4, 4});
   const auto first = static_cast<std::uint32_t>(input.vertices.size());
   for (const Point3& p : {Point3{0, 0, 0}, Point3{1, 2, 1}, Point3{2, 1, 1}, Point3{1, 1, 2}})
@@ -138,7 +138,7 @@ TEST(PlcChambers, AHoleThatTouchesTheSurfaceInAVertexIsStillAHole) {
   for (const Triangle& t : std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})
     input.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   const Plc plc = build_plc(input);
-  EXPECT_EQ(plc.chambers.size(), 3u);
+  EXPECT_EQ(plc.regions.size(), 3u);
   ASSERT_EQ(inside_count(plc), 1u);
   EXPECT_NEAR(inside_volume(plc), 64 - 4.0 / 6, 1e-12);
 }
@@ -153,19 +153,19 @@ InputPlc cube_with_dangling_facet() {
   return input;
 }
 
-TEST(PlcChambers, ADanglingFacetHasTheSameChamberOnBothSides) {
+TEST(PlcRegions, ADanglingFacetHasTheSameRegionOnBothSides) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
     const Plc plc = build_plc(rotated(m, cube_with_dangling_facet()));
     EXPECT_EQ(plc.facets.size(), 7u);
     EXPECT_EQ(plc.segments.size(), 16u);
     EXPECT_EQ(grazeable_count(plc), 4u);
-    EXPECT_EQ(plc.chambers.size(), 2u);
+    EXPECT_EQ(plc.regions.size(), 2u);
     EXPECT_EQ(plc.facets.back().above, plc.facets.back().below);
     EXPECT_EQ(plc.facets.back().above, 1u);
   }
 }
 
-TEST(PlcChambers, DanglingSegmentsAreGrazeableInsideOnly) {
+TEST(PlcRegions, DanglingSegmentsAreGrazeableInsideOnly) {
   InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.2, 0.3, 0.4}, {0.6, 0.7, 0.5}, {1.5, 0.5, 0.5}});
   input.segments = {{8, 9}, {0, 8}, {7, 10}};  // within; from a corner inwards; from a corner outwards
@@ -175,7 +175,7 @@ TEST(PlcChambers, DanglingSegmentsAreGrazeableInsideOnly) {
   for (const Segment& s : plc.segments) EXPECT_EQ(s.grazeable, s.marker == 1 || s.marker == 2);
 }
 
-TEST(PlcChambers, ASegmentIsSplitWhereAVertexLiesOnIt) {
+TEST(PlcRegions, ASegmentIsSplitWhereAVertexLiesOnIt) {
   InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.25, 0.5, 0.5}, {0.75, 0.5, 0.5}, {0.5, 0.5, 0.5}});
   input.segments = {{9, 8}};
@@ -186,7 +186,7 @@ TEST(PlcChambers, ASegmentIsSplitWhereAVertexLiesOnIt) {
 }
 
 // A facet from the top of a box down into it: its upper edge divides the top.
-TEST(PlcChambers, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
+TEST(PlcRegions, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
   InputPlc input;
   input.inside = Inside::seeds;
   input.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0},   {0, 2, 0},   {0, 0, 2},   {2, 0, 2},
@@ -200,13 +200,13 @@ TEST(PlcChambers, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
     const Plc plc = build_plc(rotated(m, input));
     EXPECT_EQ(plc.facets.size(), 7u) << "the top remains one facet with a segment in it";
     EXPECT_EQ(plc.segments.size(), 16u);
-    EXPECT_EQ(plc.chambers.size(), 2u);
+    EXPECT_EQ(plc.regions.size(), 2u);
     EXPECT_EQ(segment_ends(plc, true), (std::set<std::array<std::uint32_t, 2>>{{8, 11}, {9, 10}, {10, 11}}))
         << "the slit meets the top at right angles, twice 90 degrees";
   }
 }
 
-TEST(PlcChambers, SeedsOutsideOrOnAFacetAreRefused) {
+TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRefused) {
   for (const Point3& seed : {Point3{5, 0.5, 0.5}, Point3{0.5, 0.5, -1e300}, Point3{0.5, 0.25, 1}, Point3{0, 0.5, 0.5},
                              Point3{0, 0, 0}, Point3{0.5, 0, 0}}) {
     InputPlc input = unit_cube();
@@ -224,7 +224,7 @@ TEST(PlcChambers, SeedsOutsideOrOnAFacetAreRefused) {
   EXPECT_THROW(build_plc(input), InputError);
 }
 
-TEST(PlcChambers, AHoleSeedMustLeaveSomething) {
+TEST(PlcRegions, AHoleSeedMustLeaveSomething) {
   InputPlc input = unit_cube();
   input.inside = Inside::seeds;
   input.holes = {{0.5, 0.5, 0.5}};

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/facets/planar_topology.h"
-#include "engine/facets/planar_types.h"
+#include "engine/planar/topology.h"
+#include "engine/planar/types.h"
 
 /// The steps of the planar algorithms that ask the predicates.
 namespace ccdt::planar {

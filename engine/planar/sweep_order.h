@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "engine/facets/planar_types.h"
+#include "engine/planar/types.h"
 
 namespace ccdt::planar {
 

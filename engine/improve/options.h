@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+
+#include "engine/base/enum_names.h"
+
 namespace ccdt {
 
 /// What improvement may do.
@@ -10,17 +14,36 @@ enum class Improvement {
   all      ///< both, and interior vertices are inserted and taken out where these are stuck
 };
 
+constexpr auto names_of(Improvement) {
+  return std::to_array<NamedValue<Improvement>>({{Improvement::all, "all", "swaps, smoothing, insertion and collapse"},
+                                                 {Improvement::swap, "swap", "other tetrahedra of the same vertices"},
+                                                 {Improvement::smooth, "smooth", "other places for the same vertices"},
+                                                 {Improvement::none, "none", "the mesh as it is"}});
+}
+
 /// What is improved: the worst value of it counts.
 enum class Objective {
   r,        ///< the paper's measure of shape (section 5); where that is good, the dihedral angles
   dihedral  ///< the least sine of the dihedral angles, so that small and large ones count alike
 };
 
+constexpr auto names_of(Objective) {
+  return std::to_array<NamedValue<Objective>>(
+      {{Objective::r, "r", "the paper's measure of shape, and where that is good the dihedral angles"},
+       {Objective::dihedral, "dihedral", "the dihedral angles alone"}});
+}
+
 /// What becomes of the vertices on the boundary and on interior facets.
 enum class BoundaryRule {
   keep,  ///< they stay where they are
   slide  ///< those inside a facet may move in it, those inside a segment along it
 };
+
+constexpr auto names_of(BoundaryRule) {
+  return std::to_array<NamedValue<BoundaryRule>>(
+      {{BoundaryRule::keep, "keep", "vertices on facets and segments stay where they are"},
+       {BoundaryRule::slide, "slide", "vertices inside facets and segments may move along them"}});
+}
 
 struct ImproveOptions {
   Improvement improvement = Improvement::none;

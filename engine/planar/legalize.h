@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "engine/facets/planar_local_steps.h"
-#include "engine/facets/planar_topology.h"
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/local_steps.h"
+#include "engine/planar/topology.h"
+#include "engine/planar/triangulation.h"
 
 namespace ccdt {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/facets/planar_types.h"
+#include "engine/planar/types.h"
 
 namespace ccdt {
 
@@ -80,7 +80,7 @@ PlanarTriangulationResult planar_delaunay(std::span<const VertexId> vertices, co
 }  // namespace ccdt
 
 // The bodies of the templates.
-#include "engine/facets/planar_constraint.h"
-#include "engine/facets/planar_delaunay.h"
-#include "engine/facets/planar_legalize.h"
-#include "engine/facets/planar_triangulate.h"
+#include "engine/planar/constraint.h"
+#include "engine/planar/delaunay.h"
+#include "engine/planar/legalize.h"
+#include "engine/planar/triangulate.h"

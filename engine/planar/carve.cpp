@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/facets/planar_topology.h"
-#include "engine/facets/planar_triangulation.h"
+#include "engine/planar/topology.h"
+#include "engine/planar/triangulation.h"
 
 namespace ccdt::planar {
 namespace {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+
+#include "engine/base/enum_names.h"
+
+namespace ccdt {
+
+/// How the Delaunay tetrahedralization is made; the result is the same.
+enum class DelaunayMethod {
+  insert,  ///< vertex by vertex along a Hilbert curve (Bowyer, Watson)
+  wrap     ///< face by face with a uniform grid (paper, section 5; Fang and Piegl 1993)
+};
+
+constexpr auto names_of(DelaunayMethod) {
+  return std::to_array<NamedValue<DelaunayMethod>>(
+      {{DelaunayMethod::insert, "insert", "vertex by vertex along a space-filling curve"},
+       {DelaunayMethod::wrap, "wrap", "face by face in a uniform grid, as in the paper"}});
+}
+
+}  // namespace ccdt

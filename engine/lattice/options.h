@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/enum_names.h"
+#include "engine/numbers/point.h"
+
+namespace ccdt {
+
+/// The crystal whose points fill the inside.
+enum class Lattice { none, fcc, bcc, sc };
+
+constexpr auto names_of(Lattice) {
+  return std::to_array<NamedValue<Lattice>>({{Lattice::fcc, "fcc", "face-centered cubic"},
+                                             {Lattice::bcc, "bcc", "body-centered cubic"},
+                                             {Lattice::sc, "sc", "simple cubic"},
+                                             {Lattice::none, "none", "no interior points"}});
+}
+
+/// Target edge lengths given at the vertices of a background: a tetrahedral mesh, or vertices alone. Empty if there is
+/// none.
+struct BackgroundSizes {
+  std::string name;       ///< path as the user gave it
+  std::string mesh_name;  ///< path of the file that the vertices come from
+  std::vector<Point3> vertices;
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< may be empty; any orientation
+  std::vector<double> sizes;                             ///< of each vertex, > 0
+
+  bool empty() const { return vertices.empty(); }
+};
+
+/// Lattice points nearer to the surface than this times the edge length of the lattice are dropped. See the table in
+/// clear_surface.cpp.
+inline constexpr double usual_clearance = 0.55;
+
+struct LatticeOptions {
+  Lattice kind = Lattice::fcc;
+  double edge_length = 0;  ///< target edge length in grid units; 0: that of the surface
+  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  /// Factor of the radii of the smallest spheres through surface triangles and subsegments, which no point may be in; 1
+  /// is the paper's rule, 0 switches it off.
+  double sphere_factor = 1;
+  double clearance = usual_clearance;           ///< least distance to the surface, in edge lengths of the lattice there
+  const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
+};
+
+}  // namespace ccdt
