@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <optional>
 
@@ -137,6 +139,22 @@ void expect_right_face_counts(const Case& c, const MeshCounts& counts) {
   EXPECT_EQ(counts.undelaunay_faces, undelaunay);
 }
 
+/// FNV-1a over the sorted tetrahedra and the bits of the coordinates: equal on every machine and by every compiler.
+std::uint64_t hash_of(const TetMesh& mesh) {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  const auto add = [&hash](std::uint64_t word) {
+    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (word >> (8 * byte) & 0xFFu)) * 0x100000001B3u;
+  };
+  std::vector<std::array<std::uint32_t, 4>> cells = mesh.tetrahedra;
+  for (auto& cell : cells) std::ranges::sort(cell);
+  std::ranges::sort(cells);
+  for (const auto& cell : cells)
+    for (const std::uint32_t v : cell) add(v);
+  for (const Point3& p : mesh.vertices)
+    for (const double x : {p.x, p.y, p.z}) add(std::bit_cast<std::uint64_t>(x));
+  return hash;
+}
+
 MeshResult expect_one_set_of_tetrahedra(const Case& c) {
   std::optional<MeshResult> first;
   for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::wrap}) {
@@ -168,15 +186,16 @@ TEST(Strategies, FindOneSetOfTetrahedraAndTheRightNumbersOfFaces) {
   std::vector<Case> cases = small_cases();
   for (const auto& more : {random_cases(), part_cases()}) cases.insert(cases.end(), more.begin(), more.end());
   ASSERT_GE(cases.size(), 25u);
-  std::printf("%-38s %9s %11s %7s %11s\n", "input", "vertices", "tetrahedra", "faces", "undelaunay");
+  std::printf("%-38s %9s %11s %7s %11s %16s\n", "input", "vertices", "tetrahedra", "faces", "undelaunay", "hash");
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);
     const MeshResult result = expect_one_set_of_tetrahedra(c);
     expect_verified(c.plc, result.mesh);
     expect_right_face_counts(c, result.counts);
-    std::printf("%-38s %9zu %11zu %7zu %11zu\n", c.name.c_str(), result.mesh.vertices.size(),
+    std::printf("%-38s %9zu %11zu %7zu %11zu %016llx\n", c.name.c_str(), result.mesh.vertices.size(),
                 result.mesh.tetrahedra.size(), static_cast<std::size_t>(result.counts.faces),
-                static_cast<std::size_t>(result.counts.undelaunay_faces));
+                static_cast<std::size_t>(result.counts.undelaunay_faces),
+                static_cast<unsigned long long>(hash_of(result.mesh)));
   }
 }
 
