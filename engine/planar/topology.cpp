@@ -1,6 +1,7 @@
 #include "engine/planar/topology.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/planar/triangulation.h"
 
@@ -8,12 +9,42 @@ namespace ccdt {
 namespace planar {
 namespace {
 
-/// Enters a constrained or border edge into the map where it is found without a search.
+/// Enters a constrained or border edge into the table where it is found without a search.
 void register_edge(PlanarTriangulation& t, PlanarSide s) {
   if (is_constrained(t, s) || neighbor(t, s) == none) {
-    t.fixed_edges.set(edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
+    set(t.fixed_edges, edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
   }
 }
+
+/// The sides of some triangles, found by direction.
+class SidesByDirection {
+ public:
+  SidesByDirection(const PlanarTriangulation& t, const std::vector<std::uint32_t>& triangles) {
+    sides_.reserve(3 * triangles.size());
+    for (std::uint32_t triangle : triangles) {
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        const PlanarSide s{triangle, corner};
+        sides_.emplace_back(directed_key(edge_start(t, s), edge_end(t, s)), pack(s));
+      }
+    }
+    std::sort(sides_.begin(), sides_.end());
+  }
+
+  std::optional<PlanarSide> find(VertexId from, VertexId to) const {
+    const std::uint64_t key = directed_key(from, to);
+    const auto at = std::lower_bound(sides_.begin(), sides_.end(), std::pair(key, std::uint32_t{0}));
+    if (at == sides_.end() || at->first != key) return std::nullopt;
+    return unpack(at->second);
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> sides_;
+};
+
+struct BorderEdge {
+  VertexId from, to;  ///< with the channel on its left
+  Adjacency across;
+};
 
 }  // namespace
 
@@ -27,19 +58,19 @@ PlanarSide other_side(const PlanarTriangulation& t, PlanarSide s) {
   return {triangle, next_corner(corner_of(t, triangle, edge_start(t, s)))};
 }
 
-Beyond beyond(const PlanarTriangulation& t, PlanarSide s) {
+Adjacency adjacency_at(const PlanarTriangulation& t, PlanarSide s) {
   const bool constrained = is_constrained(t, s);
   if (neighbor(t, s) == none) return {none, 0, constrained};
   const PlanarSide other = other_side(t, s);
   return {other.triangle, other.corner, constrained};
 }
 
-void attach(PlanarTriangulation& t, PlanarSide s, const Beyond& b) {
-  t.neighbors[s.triangle][s.corner] = b.neighbor;
-  t.constrained[s.triangle][s.corner] = b.constrained;
-  if (b.neighbor != none) {
-    t.neighbors[b.neighbor][b.corner] = s.triangle;
-    t.constrained[b.neighbor][b.corner] = b.constrained;
+void attach(PlanarTriangulation& t, PlanarSide s, const Adjacency& across) {
+  t.neighbors[s.triangle][s.corner] = across.neighbor;
+  t.constrained[s.triangle][s.corner] = across.constrained;
+  if (across.neighbor != none) {
+    t.neighbors[across.neighbor][across.corner] = s.triangle;
+    t.constrained[across.neighbor][across.corner] = across.constrained;
   }
   register_edge(t, s);
 }
@@ -59,21 +90,21 @@ std::uint32_t append_triangle(PlanarTriangulation& t, VertexId a, VertexId b, Ve
 
 void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c) {
   t.triangles[triangle] = {a, b, c};
-  for (VertexId v : {a, b, c}) t.triangle_of_vertex.set(vertex_key(v), triangle);
+  for (VertexId v : {a, b, c}) set(t.triangle_of_vertex, v, triangle);
 }
 
 std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
   const PlanarSide o = other_side(t, s);
   const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, o);
-  const Beyond bc = beyond(t, {s.triangle, next_corner(s.corner)});
-  const Beyond ca = beyond(t, {s.triangle, previous_corner(s.corner)});
-  const Beyond ad = beyond(t, {o.triangle, next_corner(o.corner)});
-  const Beyond db = beyond(t, {o.triangle, previous_corner(o.corner)});
-  // c and d keep both triangles, and so whatever the map says of them; a and b lose one.
+  const Adjacency bc = adjacency_at(t, {s.triangle, next_corner(s.corner)});
+  const Adjacency ca = adjacency_at(t, {s.triangle, previous_corner(s.corner)});
+  const Adjacency ad = adjacency_at(t, {o.triangle, next_corner(o.corner)});
+  const Adjacency db = adjacency_at(t, {o.triangle, previous_corner(o.corner)});
+  // c and d keep both triangles, and so whatever the table says of them; a and b lose one.
   t.triangles[s.triangle] = {c, a, d};
   t.triangles[o.triangle] = {d, b, c};
-  t.triangle_of_vertex.set(vertex_key(a), s.triangle);
-  t.triangle_of_vertex.set(vertex_key(b), o.triangle);
+  set(t.triangle_of_vertex, a, s.triangle);
+  set(t.triangle_of_vertex, b, o.triangle);
   // The triangles may be neighbours of each other across a second edge only if a vertex lies on that edge's line:
   // never.
   attach(t, {s.triangle, 2}, ca);
@@ -82,6 +113,34 @@ std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
   attach(t, {o.triangle, 0}, bc);
   join(t, {s.triangle, 1}, {o.triangle, 1}, false);
   return {PlanarSide{s.triangle, 0}, {s.triangle, 2}, {o.triangle, 0}, {o.triangle, 2}};
+}
+
+void replace_channel(PlanarTriangulation& t, const std::vector<std::uint32_t>& channel,
+                     const std::vector<PlanarSide>& border, const std::vector<std::array<VertexId, 3>>& triangles) {
+  std::vector<BorderEdge> edges;
+  edges.reserve(border.size());
+  for (PlanarSide s : border) edges.push_back({edge_start(t, s), edge_end(t, s), adjacency_at(t, s)});
+
+  for (std::size_t i = 0; i < channel.size(); ++i) {
+    set_corners(t, channel[i], triangles[i][0], triangles[i][1], triangles[i][2]);
+  }
+  const SidesByDirection sides(t, channel);
+  for (std::uint32_t triangle : channel) {
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const PlanarSide s{triangle, corner};
+      const std::optional<PlanarSide> other = sides.find(edge_end(t, s), edge_start(t, s));
+      if (other) join(t, s, *other, false);
+    }
+  }
+  for (const BorderEdge& edge : edges) {
+    const PlanarSide s = *sides.find(edge.from, edge.to);
+    if (sides.find(edge.to, edge.from)) {
+      // A spike: an edge that is not crossed but has the channel on both its sides. Only its constraint must be kept.
+      planar_set_constrained(t, s, edge.across.constrained);
+    } else {
+      attach(t, s, edge.across);
+    }
+  }
 }
 
 }  // namespace planar
@@ -97,27 +156,27 @@ PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3
   t.triangle_of_vertex.reserve(triangles.size() / 2 + 3);
 
   const auto count = static_cast<std::uint32_t>(triangles.size());
-  PlanarMap side_of_edge;  // by direction, so that each may occur once
+  PlanarTable side_of_edge;  // by direction, so that each may occur once
   side_of_edge.reserve(3 * triangles.size());
   for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
     const PlanarSide s = unpack(packed);
     const VertexId from = edge_start(t, s), to = edge_end(t, s);
     if (from == to) throw PlanarDefect("a triangle of a facet has the same vertex twice", {from, to});
-    if (side_of_edge.get(directed_key(from, to)) != none) {
+    if (look_up(side_of_edge, directed_key(from, to)) != none) {
       throw PlanarDefect("two triangles of a facet lie on the same side of an edge", {from, to});
     }
-    side_of_edge.set(directed_key(from, to), packed);
-    t.triangle_of_vertex.set(vertex_key(apex(t, s)), s.triangle);
+    set(side_of_edge, directed_key(from, to), packed);
+    set(t.triangle_of_vertex, apex(t, s), s.triangle);
   }
   for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
     const PlanarSide s = unpack(packed);
-    const std::uint32_t other = side_of_edge.get(directed_key(edge_end(t, s), edge_start(t, s)));
+    const std::uint32_t other = look_up(side_of_edge, directed_key(edge_end(t, s), edge_start(t, s)));
     if (other != none) t.neighbors[s.triangle][s.corner] = other / 3;
     register_edge(t, s);
   }
   for (const auto& [a, b] : constrained_edges) {
-    std::uint32_t packed = side_of_edge.get(directed_key(a, b));
-    if (packed == none) packed = side_of_edge.get(directed_key(b, a));
+    std::uint32_t packed = look_up(side_of_edge, directed_key(a, b));
+    if (packed == none) packed = look_up(side_of_edge, directed_key(b, a));
     if (packed == none) throw PlanarDefect("a constrained edge of a facet is no edge of its triangles", {a, b});
     planar_set_constrained(t, unpack(packed), true);
   }
@@ -125,7 +184,7 @@ PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3
 }
 
 std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexId a, VertexId b) {
-  const std::uint32_t fixed = t.fixed_edges.get(edge_key(a, b));
+  const std::uint32_t fixed = look_up(t.fixed_edges, edge_key(a, b));
   if (fixed != none) {
     // An entry is not withdrawn when an edge is split or set free, so it must be looked at.
     const PlanarSide s = unpack(fixed);
@@ -138,51 +197,31 @@ std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexI
     if (edge_start(t, after) == b) found = after;
     return found.has_value();
   };
-  // A border edge would have been in the map, so the edge is met in every fan that it can be in: each of its ends has
+  // A border edge would have been in the table, so the edge is met in every fan that it can be in: each of its ends has
   // one fan with it, and at a pinched vertex the search goes on through all triangles.
   visit_star(t, a, has_edge);
   return found;
 }
 
 bool planar_has_vertex(const PlanarTriangulation& t, VertexId v) {
-  return t.triangle_of_vertex.get(vertex_key(v)) != none;
-}
-
-std::optional<PlanarSide> planar_other_side(const PlanarTriangulation& t, PlanarSide side) {
-  if (neighbor(t, side) == none) return std::nullopt;
-  return other_side(t, side);
+  return look_up(t.triangle_of_vertex, v) != none;
 }
 
 void planar_set_constrained(PlanarTriangulation& t, PlanarSide side, bool constrained) {
-  Beyond b = beyond(t, side);
-  b.constrained = constrained;
-  attach(t, side, b);
-}
-
-namespace {
-
-template <class Wanted>
-std::vector<PlanarEdge> collect_edges(const PlanarTriangulation& t, Wanted wanted) {
-  std::vector<PlanarEdge> edges;
-  for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
-    const PlanarSide s = unpack(packed);
-    const std::uint32_t other = neighbor(t, s);
-    if ((other != none && other < s.triangle) || !wanted(s)) continue;
-    const VertexId from = edge_start(t, s), to = edge_end(t, s);
-    edges.push_back({std::min(from, to), std::max(from, to)});
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-}  // namespace
-
-std::vector<PlanarEdge> planar_constrained_edges(const PlanarTriangulation& t) {
-  return collect_edges(t, [&](PlanarSide s) { return is_constrained(t, s); });
+  Adjacency across = adjacency_at(t, side);
+  across.constrained = constrained;
+  attach(t, side, across);
 }
 
 std::vector<PlanarEdge> planar_border_edges(const PlanarTriangulation& t) {
-  return collect_edges(t, [&](PlanarSide s) { return neighbor(t, s) == none; });
+  std::vector<PlanarEdge> edges;
+  for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
+    const PlanarSide s = unpack(packed);
+    const VertexId from = edge_start(t, s), to = edge_end(t, s);
+    if (neighbor(t, s) == none) edges.push_back({std::min(from, to), std::max(from, to)});
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
 }
 
 }  // namespace ccdt

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "engine/base/edge_key.h"
 #include "engine/planar/types.h"
 
-/// The steps that the planar algorithms are made of: they change triangles and keep neighbours, constraints and maps,
+/// The steps that the planar algorithms are made of: they change triangles and keep neighbors, constraints and tables,
 /// and know nothing of geometry.
 namespace ccdt::planar {
 
@@ -23,14 +24,17 @@ constexpr PlanarSide unpack(std::uint32_t packed) {
   return {packed / 3, packed % 3};
 }
 
-inline PlanarMap::Key vertex_key(VertexId v) {
-  return v.value;
+constexpr std::uint64_t directed_key(VertexId from, VertexId to) {
+  return (std::uint64_t{from.value} << 32) | to.value;
 }
-inline PlanarMap::Key directed_key(VertexId from, VertexId to) {
-  return (PlanarMap::Key{from.value} << 32) | to.value;
+
+/// The value of a key, or `none`.
+inline std::uint32_t look_up(const PlanarTable& table, std::uint64_t key) {
+  const std::uint32_t* value = table.find(key);
+  return value ? *value : none;
 }
-inline PlanarMap::Key edge_key(VertexId a, VertexId b) {
-  return a < b ? directed_key(a, b) : directed_key(b, a);
+inline void set(PlanarTable& table, std::uint64_t key, std::uint32_t value) {
+  *table.insert(key, value).first = value;
 }
 
 /// Start and end of the edge, with the triangle on its left.
@@ -56,24 +60,24 @@ std::uint32_t corner_of(const PlanarTriangulation& t, std::uint32_t triangle, Ve
 /// The same edge seen from its other triangle, which must exist.
 PlanarSide other_side(const PlanarTriangulation& t, PlanarSide s);
 
-/// What lies beyond one edge of a triangle that is about to be rewritten.
-struct Beyond {
+/// What is across one edge of a triangle that is about to be rewritten.
+struct Adjacency {
   std::uint32_t neighbor = none;
   std::uint32_t corner = 0;  ///< of the neighbor, opposite to the edge
   bool constrained = false;
 };
-Beyond beyond(const PlanarTriangulation& t, PlanarSide s);
+Adjacency adjacency_at(const PlanarTriangulation& t, PlanarSide s);
 
-/// Joins the side to what lies beyond it, from both sides, and enters the edge into the maps.
-void attach(PlanarTriangulation& t, PlanarSide s, const Beyond& b);
+/// Joins the side to what is across it, from both sides, and enters the edge into the tables.
+void attach(PlanarTriangulation& t, PlanarSide s, const Adjacency& across);
 
 /// Joins two sides of one edge as an inner edge.
 void join(PlanarTriangulation& t, PlanarSide s, PlanarSide other, bool constrained);
 
-/// Appends a triangle without neighbours.
+/// Appends a triangle without neighbors.
 std::uint32_t append_triangle(PlanarTriangulation& t, VertexId a, VertexId b, VertexId c);
 
-/// Rewrites the corners of a triangle and enters them into the map of vertices.
+/// Rewrites the corners of a triangle and enters them into the table of vertices.
 void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c);
 
 /// Replaces an inner edge by the other diagonal of its two triangles; returns the four outer edges of the two, each
@@ -95,7 +99,7 @@ void replace_channel(PlanarTriangulation& t, const std::vector<std::uint32_t>& c
 /// returns true; returns whether it did. At a pinched vertex these need not be all.
 template <class Visit>
 bool visit_fan(const PlanarTriangulation& t, VertexId v, Visit visit) {
-  const std::uint32_t first = t.triangle_of_vertex.get(vertex_key(v));
+  const std::uint32_t first = look_up(t.triangle_of_vertex, v);
   if (first == none) return false;
   std::uint32_t triangle = first;
   do {  // counterclockwise

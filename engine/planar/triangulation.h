@@ -20,14 +20,10 @@ std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexI
 /// Is the vertex a corner of some triangle?
 bool planar_has_vertex(const PlanarTriangulation& t, VertexId v);
 
-/// The same edge seen from its other triangle; nothing at the border.
-std::optional<PlanarSide> planar_other_side(const PlanarTriangulation& t, PlanarSide side);
-
 /// Forbids or allows the edge to be flipped, seen from both its sides.
 void planar_set_constrained(PlanarTriangulation& t, PlanarSide side, bool constrained);
 
-/// All constrained edges and all border edges, each once, the smaller id first, sorted.
-std::vector<PlanarEdge> planar_constrained_edges(const PlanarTriangulation& t);
+/// All border edges, each once, the smaller id first, sorted.
 std::vector<PlanarEdge> planar_border_edges(const PlanarTriangulation& t);
 
 // ---- Geometry -------------------------------------------------------------------------------------------------------
@@ -47,14 +43,6 @@ std::size_t planar_legalize(PlanarTriangulation& t, const P& predicates);
 /// \return false, and nothing has changed, if ab is no edge of the triangulation
 template <PlanarPredicates P>
 bool planar_split_edge(PlanarTriangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates);
-
-/// Inserts the vertex v wherever it lies (within a triangle or on an edge) and legalizes around it.
-///
-/// \param near  a vertex of the triangulation not far away, where the search starts; none: anywhere
-/// \return what happened; on `outside` and `on_vertex` nothing has changed
-template <PlanarPredicates P>
-PlanarInsertion planar_insert_vertex(PlanarTriangulation& t, VertexId v, const P& predicates,
-                                     VertexId near = VertexId());
 
 /// Makes ab a constrained edge, or a chain of such where vertices lie exactly on it, and legalizes around it. a and b
 /// must be different vertices of the triangulation.
@@ -80,7 +68,5 @@ PlanarTriangulationResult planar_delaunay(std::span<const VertexId> vertices, co
 }  // namespace ccdt
 
 // The bodies of the templates.
-#include "engine/planar/constraint.h"
+#include "engine/planar/constraints.h"
 #include "engine/planar/delaunay.h"
-#include "engine/planar/legalize.h"
-#include "engine/planar/triangulate.h"

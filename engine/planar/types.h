@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/base/flat_table.h"
 #include "engine/base/index.h"
-#include "engine/planar/map.h"
 
 namespace ccdt {
 
@@ -33,6 +33,15 @@ struct PlanarSide {
   std::uint32_t corner = 0;
 };
 
+struct PlanarKeyTraits {
+  static constexpr std::uint64_t none() { return ~std::uint64_t{0}; }
+  static std::size_t hash(std::uint64_t key) { return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 29); }
+};
+
+/// From vertices or edges of one facet to a position in its arrays. A facet knows only a few of the vertices of the
+/// whole complex, so it cannot afford an array over all ids.
+using PlanarTable = FlatTable<std::uint64_t, std::uint32_t, PlanarKeyTraits>;
+
 /// A triangulation of a part of a plane: any number of pieces, with holes, slits and pinched vertices.
 ///
 ///               2                 corners counterclockwise;
@@ -42,7 +51,7 @@ struct PlanarSide {
 ///           0-------1
 ///             nbr[2]
 ///
-/// Whoever changes the arrays must keep the maps; the functions below do.
+/// The two tables follow every change of the arrays.
 struct PlanarTriangulation {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -50,8 +59,8 @@ struct PlanarTriangulation {
   std::vector<std::array<std::uint32_t, 3>> neighbors;  ///< `none` across a border edge
   std::vector<std::array<bool, 3>> constrained;         ///< the edge must stay; the same seen from both sides
 
-  PlanarMap triangle_of_vertex;  ///< vertex -> one triangle around it
-  PlanarMap fixed_edges;         ///< constrained and border edges -> 3 * triangle + corner of one side
+  PlanarTable triangle_of_vertex;  ///< vertex -> one triangle around it
+  PlanarTable fixed_edges;         ///< constrained and border edges -> 3 * triangle + corner of one side
 };
 
 /// A list of triangles that is no triangulation of a part of a plane. The catcher knows the coordinates and can add the
@@ -59,16 +68,13 @@ struct PlanarTriangulation {
 class PlanarDefect : public InputError {
  public:
   PlanarDefect(const std::string& what, PlanarEdge edge)
-      : InputError(what, {}, "repair the facet's triangles: neighbours must share whole edges, two at most each"),
+      : InputError(what, {}, "repair the facet's triangles: neighbors must share whole edges, two at most each"),
         edge_(edge) {}
   PlanarEdge edge() const { return edge_; }
 
  private:
   PlanarEdge edge_;
 };
-
-/// What became of a vertex to be inserted.
-enum class PlanarInsertion { inserted, on_vertex, outside };
 
 /// What became of a constraint.
 struct PlanarConstraintResult {

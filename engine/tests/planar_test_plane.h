@@ -21,7 +21,7 @@ struct IntegerPoint {
 };
 
 /// Points with integer coordinates (of at most 2^20, say) as a model of `PlanarPredicates`, written as plainly as
-/// possible. It counts how often it is asked.
+/// possible. It counts its evaluations.
 struct IntegerPlane {
   std::vector<IntegerPoint> points;
   mutable std::size_t calls = 0;
@@ -108,6 +108,23 @@ inline bool has_constrained(const PlanarTriangulation& t, VertexId a, VertexId b
   return side && t.constrained[side->triangle][side->corner];
 }
 
+/// The same edge seen from its other triangle; nothing at the border.
+inline std::optional<PlanarSide> other_side(const PlanarTriangulation& t, PlanarSide side) {
+  if (planar::neighbor(t, side) == planar::none) return std::nullopt;
+  return planar::other_side(t, side);
+}
+
+/// All constrained edges, each once, the smaller id first, sorted.
+inline std::vector<PlanarEdge> constrained_edges(const PlanarTriangulation& t) {
+  std::set<PlanarEdge> edges;
+  for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
+    const PlanarSide s = planar::unpack(packed);
+    const VertexId a = planar::edge_start(t, s), b = planar::edge_end(t, s);
+    if (planar::is_constrained(t, s)) edges.insert({std::min(a, b), std::max(a, b)});
+  }
+  return {edges.begin(), edges.end()};
+}
+
 /// Everything that must always hold of a triangulation: adjacency from both sides, maps that find what is there,
 /// counterclockwise triangles.
 inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane) {
@@ -120,14 +137,14 @@ inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane
     EXPECT_EQ(plane.orient(a, b, c), 1);
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const VertexId from = t.triangles[i][(corner + 1) % 3], to = t.triangles[i][(corner + 2) % 3];
-      const auto& around = t.triangles[t.triangle_of_vertex.get(from)];
+      const auto& around = t.triangles[planar::look_up(t.triangle_of_vertex, from)];
       EXPECT_NE(std::find(around.begin(), around.end(), from), around.end());
-      if (const auto other = planar_other_side(t, {i, corner})) {
+      if (const auto other = other_side(t, {i, corner})) {
         EXPECT_EQ(t.constrained[other->triangle][other->corner], t.constrained[i][corner]);
       }
       const auto found = planar_find_edge(t, to, from);
       ASSERT_TRUE(found);
-      const auto found_other = planar_other_side(t, *found);
+      const auto found_other = other_side(t, *found);
       EXPECT_TRUE((found->triangle == i && found->corner == corner) ||
                   (found_other && found_other->triangle == i && found_other->corner == corner));
     }
@@ -139,7 +156,7 @@ inline void expect_locally_delaunay(const PlanarTriangulation& t, const IntegerP
   for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
     const auto& [a, b, c] = t.triangles[i];
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      const auto other = planar_other_side(t, {i, corner});
+      const auto other = other_side(t, {i, corner});
       if (!other || t.constrained[i][corner]) continue;
       EXPECT_LT(plane.incircle(a, b, c, t.triangles[other->triangle][other->corner]), 0);
     }

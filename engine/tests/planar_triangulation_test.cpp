@@ -35,7 +35,7 @@ TEST(PlanarFromTriangles, FindsNeighboursBordersAndConstraints) {
   EXPECT_EQ(t.neighbors[0], (std::array{PlanarTriangulation::none, 1u, PlanarTriangulation::none}));
   EXPECT_EQ(t.neighbors[1], (std::array{PlanarTriangulation::none, PlanarTriangulation::none, 0u}));
   EXPECT_EQ(planar_border_edges(t), (Edges{edge(10, 20), edge(10, 70), edge(20, 30), edge(30, 70)}));
-  EXPECT_EQ(planar_constrained_edges(t), Edges{edge(20, 30)});
+  EXPECT_EQ(constrained_edges(t), Edges{edge(20, 30)});
   EXPECT_TRUE(planar_find_edge(t, VertexId(20u), VertexId(70u)));
   EXPECT_FALSE(planar_find_edge(t, VertexId(10u), VertexId(30u)));
 }
@@ -115,7 +115,7 @@ TEST(PlanarSplitEdge, HandsTheConstraintToTheHalves) {
   ASSERT_TRUE(planar_split_edge(t, VertexId(2u), VertexId(0u), VertexId(4u), plane));
   ASSERT_TRUE(planar_split_edge(t, VertexId(0u), VertexId(1u), VertexId(5u), plane));
   expect_sound(t, plane);
-  EXPECT_EQ(planar_constrained_edges(t), (Edges{edge(0, 4), edge(2, 4)}));
+  EXPECT_EQ(constrained_edges(t), (Edges{edge(0, 4), edge(2, 4)}));
   EXPECT_EQ(planar_border_edges(t), (Edges{edge(0, 3), edge(0, 5), edge(1, 2), edge(1, 5), edge(2, 3)}));
   EXPECT_EQ(twice_area(t, plane), 32);
   EXPECT_FALSE(planar_find_edge(t, VertexId(0u), VertexId(2u)));
@@ -126,7 +126,7 @@ TEST(PlanarSplitEdge, HandsTheConstraintToTheHalves) {
 std::size_t bisect_constraints(PlanarTriangulation& t, IntegerPlane& plane, int rounds) {
   std::size_t splits = 0;
   for (int round = 0; round < rounds; ++round) {
-    for (const auto& [a, b] : planar_constrained_edges(t)) {
+    for (const auto& [a, b] : constrained_edges(t)) {
       const IntegerPoint p = plane.points[a], q = plane.points[b];
       const VertexId middle(plane.points.size());
       plane.points.push_back({(p.x + q.x) / 2, (p.y + q.y) / 2});
@@ -175,7 +175,7 @@ TEST(PlanarConstraint, IsSplitByAVertexOnIt) {
   const auto result = planar_insert_constraint(t, VertexId(0u), VertexId(1u), plane);
   ASSERT_TRUE(result);
   EXPECT_EQ(result.parts, (Edges{edge(0, 2), edge(2, 1)}));
-  EXPECT_EQ(planar_constrained_edges(t), (Edges{edge(0, 2), edge(1, 2)}));
+  EXPECT_EQ(constrained_edges(t), (Edges{edge(0, 2), edge(1, 2)}));
   expect_sound(t, plane);
   expect_locally_delaunay(t, plane);
 }
@@ -186,7 +186,7 @@ TEST(PlanarConstraint, ReportsTheConstraintThatItCrosses) {
   const auto result = planar_insert_constraint(t, VertexId(2u), VertexId(3u), plane);
   EXPECT_EQ(result.status, PlanarConstraintResult::Status::crossing);
   EXPECT_EQ(std::set(result.obstacle.begin(), result.obstacle.end()), (std::set{VertexId(0u), VertexId(1u)}));
-  EXPECT_EQ(planar_constrained_edges(t), Edges{edge(0, 1)});
+  EXPECT_EQ(constrained_edges(t), Edges{edge(0, 1)});
 }
 
 TEST(PlanarConstraint, ReportsThatItLeavesTheTriangulation) {
@@ -207,11 +207,11 @@ TEST(PlanarConstraint, KeepsAConstrainedSpikeThatReachesIntoItsChannel) {
   PlanarTriangulation t = triangulate(plane, {edge(2, 3)}).triangulation;
   const auto spike = planar_find_edge(t, VertexId(2u), VertexId(3u));
   ASSERT_TRUE(spike);
-  for (const PlanarSide& side : {*spike, *planar_other_side(t, *spike)}) {
+  for (const PlanarSide& side : {*spike, *other_side(t, *spike)}) {
     ASSERT_LT(plane.orient(VertexId(0u), VertexId(1u), t.triangles[side.triangle][side.corner]), 0);
   }
   ASSERT_TRUE(planar_insert_constraint(t, VertexId(0u), VertexId(1u), plane));
-  EXPECT_EQ(planar_constrained_edges(t), (Edges{edge(0, 1), edge(2, 3)}));
+  EXPECT_EQ(constrained_edges(t), (Edges{edge(0, 1), edge(2, 3)}));
   expect_sound(t, plane);
   expect_locally_delaunay(t, plane);
 }
@@ -291,7 +291,7 @@ TEST(PlanarTriangulate, RemovesWhatIsOutsideOfAConcavePolygon) {
   const auto result = triangulate(plane, edges, {});
   ASSERT_TRUE(result);
   EXPECT_EQ(result.triangulation.triangles.size(), 3u);
-  EXPECT_EQ(planar_border_edges(result.triangulation), planar_constrained_edges(result.triangulation));
+  EXPECT_EQ(planar_border_edges(result.triangulation), constrained_edges(result.triangulation));
   EXPECT_EQ(result.unused, std::vector{VertexId(5u)});
   EXPECT_EQ(twice_area(result.triangulation, plane), 2 * 81 - 9 * 7);
   expect_sound(result.triangulation, plane);

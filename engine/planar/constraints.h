@@ -1,0 +1,320 @@
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/planar/topology.h"
+#include "engine/planar/triangulation.h"
+
+namespace ccdt {
+namespace planar {
+
+/// Flips from the given sides on until all of them, and all that the flips change, are locally Delaunay. A side in the
+/// stack stands for whatever edge is there when its turn comes; a flip enters anew all edges that it moves.
+template <PlanarPredicates P>
+std::size_t legalize_from(PlanarTriangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
+  std::size_t flips = 0;
+  while (!stack.empty()) {
+    const PlanarSide s = unpack(stack.back());
+    stack.pop_back();
+    if (is_constrained(t, s) || neighbor(t, s) == none) continue;
+    const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, other_side(t, s));
+    if (predicates.incircle(a, b, c, d) <= 0) continue;
+    // Exact predicates of one plane imply this; it keeps the triangles valid where the caller's plane is only nearly
+    // one.
+    if (predicates.orient(c, a, d) <= 0 || predicates.orient(d, b, c) <= 0) continue;
+    for (PlanarSide outer : flip(t, s)) stack.push_back(pack(outer));
+    ++flips;
+  }
+  return flips;
+}
+
+/// Splits the edge at v into two (at the border) or four triangles and legalizes around v.
+template <PlanarPredicates P>
+void split_side(PlanarTriangulation& t, PlanarSide s, VertexId v, const P& predicates) {
+  const bool inner = neighbor(t, s) != none;
+  const PlanarSide o = inner ? other_side(t, s) : PlanarSide{};
+  const bool constrained = is_constrained(t, s);
+  const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s);
+  const Adjacency bc = adjacency_at(t, {s.triangle, next_corner(s.corner)});
+  const Adjacency ca = adjacency_at(t, {s.triangle, previous_corner(s.corner)});
+  const std::uint32_t first = s.triangle, second = append_triangle(t, v, b, c);
+  std::vector<std::uint32_t> stack;
+  if (!inner) {
+    set_corners(t, first, a, v, c);
+    attach(t, {first, 2}, {none, 0, constrained});
+    attach(t, {second, 2}, {none, 0, constrained});
+  } else {
+    const VertexId d = apex(t, o);
+    const Adjacency ad = adjacency_at(t, {o.triangle, next_corner(o.corner)});
+    const Adjacency db = adjacency_at(t, {o.triangle, previous_corner(o.corner)});
+    const std::uint32_t third = append_triangle(t, v, a, d), fourth = o.triangle;
+    set_corners(t, first, a, v, c);
+    set_corners(t, fourth, b, v, d);
+    attach(t, {third, 0}, ad);
+    attach(t, {fourth, 1}, db);
+    join(t, {third, 1}, {fourth, 0}, false);
+    join(t, {first, 2}, {third, 2}, constrained);
+    join(t, {second, 2}, {fourth, 2}, constrained);
+    stack = {pack({third, 0}), pack({fourth, 1})};
+  }
+  attach(t, {first, 1}, ca);
+  attach(t, {second, 0}, bc);
+  join(t, {first, 0}, {second, 1}, false);
+  stack.insert(stack.end(), {pack({first, 1}), pack({second, 0})});
+  legalize_from(t, stack, predicates);
+}
+
+/// The signs of v against the three edges of a triangle; none is negative if v is in it or on its border.
+template <PlanarPredicates P>
+std::array<int, 3> signs_at_edges(const PlanarTriangulation& t, std::uint32_t triangle, VertexId v,
+                                  const P& predicates) {
+  const auto& [a, b, c] = t.triangles[triangle];
+  return {predicates.orient(b, c, v), predicates.orient(c, a, v), predicates.orient(a, b, v)};
+}
+
+inline bool is_within(const std::array<int, 3>& signs) {
+  return signs[0] >= 0 && signs[1] >= 0 && signs[2] >= 0;
+}
+
+/// A triangle that holds v, or none. Walks; if the walk meets a border or goes on for too long, all triangles are
+/// searched.
+template <PlanarPredicates P>
+std::uint32_t locate(const PlanarTriangulation& t, VertexId v, const P& predicates) {
+  std::uint32_t triangle = 0;
+  for (std::size_t steps = 0; triangle != none && steps < t.triangles.size(); ++steps) {
+    const std::array<int, 3> signs = signs_at_edges(t, triangle, v, predicates);
+    if (is_within(signs)) return triangle;
+    // Another edge first at each step, so that the walk cannot go in circles in a constrained triangulation for long.
+    const auto first = static_cast<std::uint32_t>(steps % 3);
+    const std::uint32_t second = next_corner(first), third = next_corner(second);
+    const std::uint32_t corner = signs[first] < 0 ? first : signs[second] < 0 ? second : third;
+    triangle = t.neighbors[triangle][corner];
+  }
+  for (triangle = 0; triangle < t.triangles.size(); ++triangle) {
+    if (is_within(signs_at_edges(t, triangle, v, predicates))) return triangle;
+  }
+  return none;
+}
+
+/// How the ray from a vertex a towards b leaves the triangles around a.
+struct RayExit {
+  enum class Kind { nowhere, along_edge, through_edge } kind = Kind::nowhere;
+  PlanarSide side;  ///< the edge that it runs along, or through which it leaves (seen from inside)
+  VertexId end;     ///< the far end of the edge that it runs along
+};
+
+template <PlanarPredicates P>
+RayExit find_ray_exit(const PlanarTriangulation& t, VertexId a, VertexId b, const P& predicates) {
+  RayExit exit;
+  visit_star(t, a, [&](std::uint32_t triangle, std::uint32_t corner) {
+    const VertexId right = t.triangles[triangle][next_corner(corner)];
+    const VertexId left = t.triangles[triangle][previous_corner(corner)];
+    const int at_right = right == b ? 0 : predicates.orient(a, right, b);
+    const int at_left = left == b ? 0 : predicates.orient(a, b, left);
+    if (at_right == 0 && (right == b || at_left > 0)) {
+      exit = {RayExit::Kind::along_edge, {triangle, previous_corner(corner)}, right};
+    } else if (at_left == 0 && (left == b || at_right > 0)) {
+      exit = {RayExit::Kind::along_edge, {triangle, next_corner(corner)}, left};
+    } else if (at_right > 0 && at_left > 0) {
+      exit = {RayExit::Kind::through_edge, {triangle, corner}, VertexId()};
+    }
+    return exit.kind != RayExit::Kind::nowhere;
+  });
+  return exit;
+}
+
+/// The triangles that an edge to be inserted crosses, and what it finds at their end.
+struct Channel {
+  std::vector<std::uint32_t> triangles;  ///< from start to end
+  /// The edges of these triangles that are not crossed, from start to end, seen from inside.
+  std::vector<PlanarSide> left, right;
+  VertexId end;         ///< the vertex on the line where the channel ends; none: there is an obstacle
+  PlanarSide obstacle;  ///< a constrained or border edge that is crossed
+};
+
+template <PlanarPredicates P>
+Channel walk_channel(const PlanarTriangulation& t, VertexId a, VertexId b, PlanarSide crossed, const P& predicates) {
+  Channel channel;
+  channel.triangles.push_back(crossed.triangle);
+  channel.right.push_back({crossed.triangle, previous_corner(crossed.corner)});
+  channel.left.push_back({crossed.triangle, next_corner(crossed.corner)});
+  for (;;) {
+    if (is_constrained(t, crossed) || neighbor(t, crossed) == none) {
+      channel.obstacle = crossed;
+      return channel;
+    }
+    const PlanarSide entry = other_side(t, crossed);  // runs from left to right as seen along ab
+    const VertexId v = apex(t, entry);
+    const PlanarSide right_edge{entry.triangle, next_corner(entry.corner)};
+    const PlanarSide left_edge{entry.triangle, previous_corner(entry.corner)};
+    channel.triangles.push_back(entry.triangle);
+    const int side = v == b ? 0 : predicates.orient(a, b, v);
+    if (side <= 0) channel.right.push_back(right_edge);
+    if (side >= 0) channel.left.push_back(left_edge);
+    if (side == 0) {
+      channel.end = v;
+      return channel;
+    }
+    crossed = side > 0 ? right_edge : left_edge;
+  }
+}
+
+/// Triangulates what lies between a chain of edges and the straight line from its start to its end, which sees all of
+/// the chain: whenever the last two edges of the chain so far turn towards the line, their triangle is cut off
+/// (Toussaint & Avis 1982 on polygons that are visible from an edge). `turn` is +1 for a chain on the right of the
+/// line, -1 on the left.
+template <PlanarPredicates P>
+void triangulate_beside(const std::vector<VertexId>& chain, int turn, const P& predicates,
+                        std::vector<std::array<VertexId, 3>>& triangles) {
+  std::vector<VertexId> stack;
+  for (VertexId v : chain) {
+    while (stack.size() >= 2) {
+      const VertexId top = stack.back(), below = stack[stack.size() - 2];
+      if (v == below || predicates.orient(below, top, v) != turn) break;
+      if (turn > 0) {
+        triangles.push_back({below, top, v});
+      } else {
+        triangles.push_back({top, below, v});
+      }
+      stack.pop_back();
+    }
+    stack.push_back(v);
+  }
+}
+
+/// Clears the channel for the edge from its start to its end: afterwards that is an edge, and the triangles on both
+/// sides are some triangulation.
+template <PlanarPredicates P>
+void cut_through(PlanarTriangulation& t, VertexId a, const Channel& channel, const P& predicates) {
+  std::vector<std::array<VertexId, 3>> triangles;
+  std::vector<VertexId> chain{a};
+  for (PlanarSide s : channel.right) chain.push_back(edge_end(t, s));
+  triangulate_beside(chain, +1, predicates, triangles);
+  chain = {a};
+  for (PlanarSide s : channel.left) chain.push_back(edge_start(t, s));
+  triangulate_beside(chain, -1, predicates, triangles);
+
+  std::vector<PlanarSide> border = channel.right;
+  border.insert(border.end(), channel.left.begin(), channel.left.end());
+  replace_channel(t, channel.triangles, border, triangles);
+}
+
+/// An edge of the triangulation and the number of the edge of the input that it is a part of.
+struct NumberedPart {
+  PlanarEdge edge;
+  std::size_t number;
+};
+
+inline std::size_t number_of_part(const std::vector<NumberedPart>& parts, PlanarEdge edge) {
+  const PlanarEdge reversed{edge[1], edge[0]};
+  for (const NumberedPart& part : parts) {
+    if (part.edge == edge || part.edge == reversed) return part.number;
+  }
+  throw std::logic_error("a constrained edge that comes from no edge of the input");
+}
+
+/// Inserts all edges; on a crossing the result says so and has no triangulation.
+template <PlanarPredicates P>
+void insert_edges(PlanarTriangulationResult& result, std::span<const PlanarEdge> edges, const P& predicates) {
+  std::vector<NumberedPart> parts;
+  for (std::size_t number = 0; number < edges.size(); ++number) {
+    const auto& [a, b] = edges[number];
+    if (!planar_has_vertex(result.triangulation, a) || !planar_has_vertex(result.triangulation, b)) {
+      throw std::invalid_argument("an edge to be triangulated ends in a vertex that is not among the vertices");
+    }
+    const PlanarConstraintResult inserted = planar_insert_constraint(result.triangulation, a, b, predicates);
+    if (!inserted) {
+      result.status = PlanarTriangulationResult::Status::crossing;
+      result.crossing = {number_of_part(parts, inserted.obstacle), number};
+      result.triangulation = {};
+      return;
+    }
+    for (const PlanarEdge& part : inserted.parts) parts.push_back({part, number});
+  }
+}
+
+}  // namespace planar
+
+template <PlanarPredicates P>
+std::size_t planar_legalize(PlanarTriangulation& t, const P& predicates) {
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
+    const PlanarSide s = planar::unpack(packed);
+    const std::uint32_t other = planar::neighbor(t, s);
+    if (other != planar::none && s.triangle < other) stack.push_back(packed);
+  }
+  return planar::legalize_from(t, stack, predicates);
+}
+
+template <PlanarPredicates P>
+bool planar_split_edge(PlanarTriangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates) {
+  const std::optional<PlanarSide> side = planar_find_edge(t, a, b);
+  if (!side) return false;
+  planar::split_side(t, *side, v, predicates);
+  return true;
+}
+
+template <PlanarPredicates P>
+PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId a, VertexId b, const P& predicates) {
+  using planar::RayExit;
+  PlanarConstraintResult result;
+  while (a != b) {
+    RayExit exit = planar::find_ray_exit(t, a, b, predicates);
+    if (exit.kind == RayExit::Kind::nowhere) {
+      result.status = PlanarConstraintResult::Status::outside;
+      result.obstacle = {a, a};
+      return result;
+    }
+    std::vector<std::uint32_t> to_check;
+    if (exit.kind == RayExit::Kind::through_edge) {
+      const planar::Channel channel = planar::walk_channel(t, a, b, exit.side, predicates);
+      if (channel.end.is_none()) {
+        const bool constrained = planar::is_constrained(t, channel.obstacle);
+        result.status = constrained && planar::neighbor(t, channel.obstacle) != planar::none
+                            ? PlanarConstraintResult::Status::crossing
+                            : PlanarConstraintResult::Status::outside;
+        result.obstacle = {planar::edge_start(t, channel.obstacle), planar::edge_end(t, channel.obstacle)};
+        return result;
+      }
+      planar::cut_through(t, a, channel, predicates);
+      for (std::uint32_t triangle : channel.triangles) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) to_check.push_back(planar::pack({triangle, corner}));
+      }
+      exit.side = *planar_find_edge(t, a, channel.end);
+      exit.end = channel.end;
+    }
+    planar_set_constrained(t, exit.side, true);
+    planar::legalize_from(t, to_check, predicates);
+    result.parts.push_back({a, exit.end});
+    a = exit.end;
+  }
+  return result;
+}
+
+template <PlanarPredicates P>
+PlanarTriangulationResult planar_triangulate(std::span<const VertexId> vertices, std::span<const PlanarEdge> edges,
+                                             const P& predicates, const PlanarCarving& carving) {
+  PlanarTriangulationResult result = planar_delaunay(vertices, predicates);
+  if (!result) return result;
+  planar::insert_edges(result, edges, predicates);
+  if (!result) return result;
+
+  PlanarTriangulation& t = result.triangulation;
+  std::vector<bool> keep = planar::choose_inside(t, carving.outside);
+  for (VertexId seed : carving.hole_seeds) {
+    const std::uint32_t triangle = planar::locate(t, seed, predicates);
+    if (triangle == planar::none) {
+      result.lost_seeds.push_back(seed);
+    } else {
+      planar::flood_hole(t, triangle, keep);
+    }
+  }
+  if (std::find(keep.begin(), keep.end(), false) != keep.end()) t = planar::keep_triangles(t, keep);
+  for (VertexId v : vertices) {
+    if (!planar_has_vertex(t, v)) result.unused.push_back(v);
+  }
+  return result;
+}
+
+}  // namespace ccdt
