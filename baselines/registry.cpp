@@ -4,6 +4,7 @@
 #include "baselines/known_meshers.h"
 #include "baselines/mesher.h"
 #include "engine/base/errors.h"
+#include "engine/version.h"
 
 namespace ccdt {
 namespace {
@@ -14,8 +15,8 @@ MesherRun run_ccdt(const InputPlc& input, const MeshOptions& options, const Prog
 
 std::vector<Mesher> meshers_of_this_build() {
   std::vector<Mesher> all;
-  all.push_back({"ccdt", CCDT_VERSION, "this project's engine: conforming constrained Delaunay tetrahedralization",
-                 "MIT", run_ccdt});
+  all.push_back({"ccdt", std::string(engine_version),
+                 "this project's engine: conforming constrained Delaunay tetrahedralization", "MIT", run_ccdt});
 #ifdef CCDT_WITH_TETGEN
   all.push_back(tetgen_mesher());
 #endif

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "engine/version.h"
 #include "tools/commands.h"
 #include "tools/error_words.h"
 
@@ -11,7 +12,7 @@ int main(int argc, char** argv) {
   try {
     CLI::App app("ccdt: tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",
                  "ccdt");
-    app.set_version_flag("--version", "ccdt " CCDT_VERSION);
+    app.set_version_flag("--version", "ccdt " + std::string(engine_version));
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 the result failed a check, 2 usage, 3 bad input or a file cannot be read or\n"
