@@ -1,0 +1,28 @@
+// Meshes a file: mesh_file INPUT OUTPUT
+#include <cstdio>
+
+#include "volume.h"
+
+int main(int argc, char** argv) try {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: mesh_file INPUT OUTPUT\n");
+    return 2;
+  }
+  // The formats follow from the endings. Lengths are in the units of the file.
+  const double edge_length = 0.25;
+  const ccdt::InputPlc input = ccdt::read_plc(argv[1]);
+  const ccdt::InputPlc surface = ccdt::remesh_surface(input, {.edge_length = edge_length});
+
+  ccdt::MeshOptions options;
+  options.edge_length = edge_length;
+  options.improve.improvement = ccdt::Improvement::all;
+  const ccdt::MeshResult result = ccdt::mesh_plc(surface, options);
+
+  ccdt::write_tet_mesh(result.mesh, argv[2]);
+  double total = 0;
+  for (std::size_t t = 0; t < result.mesh.tetrahedra.size(); ++t) total += volume(result.mesh, t);
+  std::printf("%s: %zu tetrahedra, volume %g\n", argv[2], result.mesh.tetrahedra.size(), total);
+} catch (const ccdt::Error& error) {
+  std::fprintf(stderr, "%s\n%s\n", error.what(), error.remedy().c_str());
+  return 1;
+}
