@@ -1,12 +1,12 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 
 #include "baselines/common.h"
+#include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
 #include "baselines/placeholders.h"
-#include "baselines/program_log.h"
+#include "baselines/process.h"
 #include "engine/base/errors.h"
 #include "engine/io/output_file.h"
 #include "engine/io/tet_mesh_files.h"
@@ -151,24 +151,23 @@ double call(const Description& description, const InputPlc& input, const std::ve
     throw InputError("/command/0: there is no program '" + command[0] + "' here", place_of(description.file.string()),
                      description.install.empty() ? "install it, or give its path" : description.install);
   command[0] = program->string();
-  ProgramSurroundings surroundings{folder, {}};
+  ProgramOptions options{.folder = folder, .log = log};
   for (const auto& [name, value] : description.environment)
-    surroundings.environment.emplace_back(name, filled(value, values));
-  const auto begin = std::chrono::steady_clock::now();
-  const int code = run_program(command, log, surroundings);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    options.environment.emplace_back(name, filled(value, values));
+  const ProcessResult ended = run_program(command, options);
+  const int code = ended.shell_code();
   if (std::ranges::find(description.success_codes, code) == description.success_codes.end())
     throw MeshError(description.name + " ended with code " + std::to_string(code) +
                         (code > 128 && code < 192 ? ", by signal " + std::to_string(code - 128) : "") +
-                        "; its last words: " + last_words(log),
+                        "; its last words: " + last_lines(log),
                     place_of(input.name), "try another mesher, or check the surface there");
-  return seconds;
+  return ended.seconds;
 }
 
 TetMesh read_output(const Description& description, const InputPlc& input, const std::string& name,
                     const std::filesystem::path& folder, const std::filesystem::path& log) {
   if (!std::filesystem::exists(folder / name))
-    throw MeshError(description.name + " wrote no file " + name + "; its last words: " + last_words(log),
+    throw MeshError(description.name + " wrote no file " + name + "; its last words: " + last_lines(log),
                     place_of(input.name), "try another mesher, or correct /output in " + description.file.string());
   try {
     return read_tet_mesh(folder / name);
@@ -211,7 +210,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   run.result.mesh = read_output(description, input, filled(description.output, values), folder, log);
   tidy(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
-    throw MeshError(description.name + " made no tetrahedra inside; its last words: " + last_words(log),
+    throw MeshError(description.name + " made no tetrahedra inside; its last words: " + last_lines(log),
                     place_of(input.name), "try another mesher, or check whether the surface is closed");
   run.result.counts = count_elements(given, run.result.mesh);
   return run;

@@ -1,90 +1,51 @@
 #include "baselines/external_program.h"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
 #include <cstdlib>
-#include <map>
+#include <deque>
+#include <fstream>
+#include <regex>
 #include <sstream>
 #include <system_error>
+
+#include "baselines/process.h"
 
 namespace ccdt {
 namespace {
 
-constexpr int code_not_run = 127, code_of_signal = 128;
+constexpr std::size_t most_last_lines = 5;
+/// The library matches by recursion: a line of megabytes would overflow the stack.
+constexpr std::size_t longest_line = 1000;
 
-bool can_be_run(const std::filesystem::path& file) {
+bool can_be_executed(const std::filesystem::path& file) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
 }
 
-/// A file that is closed at the end.
-class Descriptor {
- public:
-  Descriptor(const char* file, int flags) : value_(open(file, flags | O_CLOEXEC, 0600)) {
-    if (value_ < 0) throw std::system_error(errno, std::generic_category(), std::string("cannot open ") + file);
+/// Calls `visit` with each line that is not empty, shortened, until it returns true.
+template <class Visit>
+void visit_lines(std::istream& lines, Visit visit) {
+  for (std::string line; std::getline(lines, line);) {
+    line.resize(std::min(line.size(), longest_line));
+    const auto last = line.find_last_not_of(" \t\r");
+    if (last == std::string::npos) continue;
+    line.resize(last + 1);
+    if (visit(line)) return;
   }
-  ~Descriptor() { close(value_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int value() const { return value_; }
-
- private:
-  int value_;
-};
-
-/// Texts as a call of the system wants them: pointers, the last of which is null.
-class Texts {
- public:
-  explicit Texts(std::vector<std::string> texts) : texts_(std::move(texts)) {
-    for (std::string& text : texts_) pointers_.push_back(text.data());
-    pointers_.push_back(nullptr);
-  }
-
-  char* const* pointers() const { return pointers_.data(); }
-
- private:
-  std::vector<std::string> texts_;
-  std::vector<char*> pointers_;
-};
-
-/// "NAME=value", those of this process first; of variables that are there twice, the last counts.
-std::vector<std::string> environment_with(const std::vector<std::pair<std::string, std::string>>& more) {
-  std::map<std::string, std::string> variables;
-  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
-    const std::string text = *entry;
-    const auto equals = text.find('=');
-    if (equals != std::string::npos) variables[text.substr(0, equals)] = text.substr(equals + 1);
-  }
-  for (const auto& [name, value] : more) variables[name] = value;
-  std::vector<std::string> all;
-  for (const auto& [name, value] : variables) all.push_back(std::string(name).append("=").append(value));
-  return all;
 }
 
-/// The rest of the fork's life: the program, or the shells' code for one that cannot be run. It ends with its parent.
-/// Only async-signal-safe calls.
-[[noreturn]] void become(const Texts& arguments, const Texts& environment, const char* folder, int input, int output) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  dup2(input, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
-  if (*folder == '\0' || chdir(folder) == 0)
-    execve(arguments.pointers()[0], arguments.pointers(), environment.pointers());
-  _exit(code_not_run);
+/// The first group, or where there is none all of the match.
+std::string matched(const std::smatch& match) {
+  return match.size() > 1 ? match[1].str() : match[0].str();
 }
 
 }  // namespace
 
 std::optional<std::filesystem::path> find_program(const std::string& name, const char* environment_variable) {
-  const char* told = std::getenv(environment_variable);
-  if (told != nullptr && *told != '\0')
-    return can_be_run(told) ? std::optional<std::filesystem::path>(told) : std::nullopt;
+  const char* file = std::getenv(environment_variable);
+  if (file != nullptr && *file != '\0')
+    return can_be_executed(file) ? std::optional<std::filesystem::path>(file) : std::nullopt;
   return find_on_path(name);
 }
 
@@ -93,22 +54,55 @@ std::optional<std::filesystem::path> find_on_path(const std::string& name) {
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
     const auto file = std::filesystem::path(folder) / name;
-    if (can_be_run(file)) return file;
+    if (can_be_executed(file)) return file;
   }
   return std::nullopt;
 }
 
-int run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
-                const ProgramSurroundings& surroundings) {
-  const Texts arguments(command), environment(environment_with(surroundings.environment));
-  const Descriptor null("/dev/null", O_RDONLY), output(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
-  const pid_t child = fork();
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot start " + command[0]);
-  if (child == 0) become(arguments, environment, surroundings.folder.c_str(), null.value(), output.value());
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : code_of_signal + WTERMSIG(status);
+std::string version_of_program(const std::vector<std::string>& command, const std::string& pattern) {
+  const TemporaryFolder folder;
+  const auto log = folder.path() / "log";
+  run_program(command, {.log = log});  // some programs print their version and end with an error
+  const std::regex expression(pattern.empty() ? "^.*$" : pattern);
+  std::string version = unknown_version;
+  std::ifstream lines(log);
+  visit_lines(lines, [&](const std::string& line) {
+    std::smatch match;
+    if (!std::regex_search(line, match, expression)) return false;
+    version = matched(match);
+    return true;
+  });
+  return version;
+}
+
+std::string last_lines(std::istream& log) {
+  std::deque<std::string> last;
+  visit_lines(log, [&](const std::string& line) {
+    last.push_back(line);
+    if (last.size() > most_last_lines) last.pop_front();
+    return false;
+  });
+  std::string joined;
+  for (const std::string& line : last) joined += (joined.empty() ? "" : " | ") + line;
+  return joined;
+}
+
+std::string last_lines(const std::filesystem::path& log) {
+  std::ifstream lines(log);
+  return last_lines(lines);
+}
+
+std::optional<double> sum_in_log(const std::filesystem::path& log, const std::string& pattern) {
+  const std::regex expression(pattern);
+  std::optional<double> sum;
+  std::ifstream lines(log);
+  visit_lines(lines, [&](const std::string& line) {
+    std::smatch match;
+    if (std::regex_search(line, match, expression))
+      sum = sum.value_or(0) + std::strtod(matched(match).c_str(), nullptr);
+    return false;
+  });
+  return sum;
 }
 
 TemporaryFolder::TemporaryFolder() {

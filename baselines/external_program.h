@@ -3,32 +3,35 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace ccdt {
 
-/// Where a program of somebody else's is: what the environment variable says, else the first of that name on PATH.
-/// None if that is no file that can be run.
+/// Where an external program is: what the environment variable says, else the first of that name on PATH. None if that
+/// is not a file that can be executed.
 std::optional<std::filesystem::path> find_program(const std::string& name, const char* environment_variable);
 
-/// The first file of that name on PATH that can be run. None if there is none.
+/// The first file of that name on PATH that can be executed. None if there is none.
 std::optional<std::filesystem::path> find_on_path(const std::string& name);
 
-/// Where a program runs.
-struct ProgramSurroundings {
-  std::filesystem::path folder = {};                                  ///< empty: where the caller is
-  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables beside those of the caller
-};
+/// The version of a program that does not state it.
+inline constexpr const char* unknown_version = "unknown";
 
-/// Runs a program to its end, or to that of the calling process. It gets no input; all that it prints goes to the log.
-/// \return  its exit code; as shells have it, 128 and the number of the signal that ended it, and 127 if it cannot be
-/// run
-/// \throw std::system_error  no process can be started, or the log cannot be written
-int run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
-                const ProgramSurroundings& surroundings = {});
+/// Runs a program that prints its version.
+/// \param pattern  ECMAScript: of the first line that matches, the first group or all that matches; empty: the first
+///                 line that is not empty
+/// \return  `unknown_version` if the program cannot be run, or no line matches
+std::string version_of_program(const std::vector<std::string>& command, const std::string& pattern);
 
-/// A folder of this object's own among the system's temporary files; removed with all that is in it.
+/// The last lines of what a program printed, without empty ones, joined by " | ".
+std::string last_lines(std::istream& log);
+std::string last_lines(const std::filesystem::path& log);
+
+/// The sum of the numbers that the first group of a regular expression (ECMAScript) matches, over the lines of a log.
+/// None if no line matches.
+std::optional<double> sum_in_log(const std::filesystem::path& log, const std::string& pattern);
+
+/// A new folder among the system's temporary files, which is removed with its contents at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -10,7 +10,7 @@
 #include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
-#include "baselines/program_log.h"
+#include "baselines/process.h"
 #include "engine/base/errors.h"
 #include "engine/io/output_file.h"
 #include "engine/io/tet_mesh_files.h"
@@ -174,9 +174,10 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   write_tet_mesh(model.triangles, file("surface.msh"));
   write_script(model, "surface.msh", run.settings, file("model.geo"));
   report(progress, "gmsh", 0, 0);
-  const int code = run_program(
-      {program->string(), file("model.geo").string(), "-3", "-nt", "1", "-v", "5", "-o", file("volume.msh").string()},
-      file("log"));
+  const int code = run_program({program->string(), file("model.geo").string(), "-3", "-nt", "1", "-v", "5", "-o",
+                                file("volume.msh").string()},
+                               {.log = file("log")})
+                       .shell_code();
   const Log log = read_log(file("log"));
   if (code != 0 || !log.error.empty() || !std::filesystem::exists(file("volume.msh")))
     fail("Gmsh ended with code " + std::to_string(code) + (log.error.empty() ? "" : ": " + log.error), input.name,

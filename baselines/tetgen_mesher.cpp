@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cstring>
 #include <new>
+#include <sstream>
 
 #include "baselines/common.h"
-#include "baselines/isolated_call.h"
+#include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
+#include "baselines/process.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -217,8 +219,9 @@ std::string words_of(int code) {
   }
 }
 
-[[noreturn]] void fail(std::string what, const InputPlc& input, const std::string& printed) {
-  if (!printed.empty()) what += "; it printed: " + printed;
+[[noreturn]] void fail(std::string what, const InputPlc& input, const std::string& printed = "") {
+  std::istringstream lines(printed);
+  if (!printed.empty()) what += "; it printed: " + last_lines(lines);
   Place place;
   place.file = input.name;
   throw MeshError(what, place, "try another mesher, or check the surface there");
@@ -227,12 +230,12 @@ std::string words_of(int code) {
 /// Calls TetGen in a process of its own: when it gives up, release 1.5 frees its memory twice and crashes, more often
 /// than not.
 Outcome call_tetgen(const InputPlc& input, const std::string& switches) {
-  const IsolatedCall call = call_isolated([&] { return tetrahedralize_to_bytes(input, switches); });
-  if (!call.returned)
+  const ProcessResult call = run_function([&] { return tetrahedralize_to_bytes(input, switches); });
+  if (!call.value)
     fail(call.signal == 0 ? "TetGen ended its process" : "TetGen ended with signal " + std::to_string(call.signal),
          input, call.printed);
   Outcome outcome;
-  Bytes bytes(call.value);
+  Bytes bytes(*call.value);
   outcome.each_array([&](auto& array) { bytes.take(array); });
   if (!outcome.code.empty() && outcome.code[0] == 1) throw std::bad_alloc();
   if (!outcome.code.empty()) fail(words_of(outcome.code[0]), input, call.printed);
@@ -245,7 +248,7 @@ MesherSettings settings_of_tetgen(const InputPlc& input, const MeshOptions& opti
 
 MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const InputPlc merged = merge_equal_vertices(input);
-  if (merged.vertices.size() < 4) fail("there are fewer than four vertices", input, "");
+  if (merged.vertices.size() < 4) fail("there are fewer than four vertices", input);
   const std::string switches = switches_for(merged, options);
   report(progress, "tetgen", 0, 0);
   Outcome outcome = call_tetgen(merged, switches);
@@ -256,7 +259,7 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
   TetMesh& mesh = run.result.mesh;
   mesh = std::move(outcome.mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
-  if (mesh.tetrahedra.empty()) fail("no tetrahedra are inside: the surface is open", input, "");
+  if (mesh.tetrahedra.empty()) fail("no tetrahedra are inside: the surface is open", input);
   run.result.counts = count_elements(merged, mesh);
   return run;
 }

@@ -121,7 +121,9 @@ RunRecord record_from(const Json& j) {
   r.quality = quality_from_json(j.at("quality"));
   r.quality.volume = j.at("volume");
   r.largest_rounding = j.at("largest_rounding");
-  r.status = run_status(j.at("status").get<std::string>());
+  const auto status = j.at("status").get<std::string>();
+  if (!value_of<RunStatus>(status)) throw std::invalid_argument("no run has the status '" + status + "'");
+  r.status = *value_of<RunStatus>(status);
   r.reason = j.value("reason", "");
   r.notes = j.value("notes", std::vector<std::string>());
   if (j.contains("samples"))

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "baselines/mesher.h"
-#include "bench/child_process.h"
+#include "baselines/process.h"
 #include "bench/environment.h"
 #include "bench/quality.h"
 

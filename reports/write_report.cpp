@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baselines/external_program.h"
+#include "baselines/process.h"
 #include "engine/io/output_file.h"
 #include "reports/page.h"
 #include "reports/result_text.h"
@@ -52,8 +53,10 @@ void draw_figures(const std::filesystem::path& folder, const std::filesystem::pa
   }
   const TemporaryFolder work;
   const auto log = work.path() / "log";
-  const int code = run_program(
-      {node->string(), script.string(), (folder / "report.json").string(), (folder / "figures").string()}, log);
+  const int code =
+      run_program({node->string(), script.string(), (folder / "report.json").string(), (folder / "figures").string()},
+                  {.log = log})
+          .shell_code();
   const std::vector<std::string> words = lines_of(log);
   written.notes.insert(written.notes.end(), words.begin(), words.end());
   if (code != 0) written.notes.push_back("Not all figures: drawing them ended with code " + std::to_string(code) + ".");

@@ -7,7 +7,6 @@
 #include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
-#include "baselines/program_log.h"
 #include "baselines/tests/shapes.h"
 #include "engine/base/errors.h"
 #include "engine/io/tet_mesh_files.h"
@@ -184,15 +183,6 @@ TEST(RestoreCoordinates, SpoilsNoTetrahedron) {
   mesh.tetrahedra[1] = {0, 4, 1, 3};  // stands on its head if vertex 3 moves
   EXPECT_EQ(restore_coordinates(input, mesh), 0u);
   EXPECT_EQ(mesh.vertices[3].z, 1);
-}
-
-TEST(ProgramLog, AddsWhatMatchesAndQuotesTheEnd) {
-  const TemporaryFolder folder;
-  const auto log = folder.path() / "log";
-  std::ofstream(log) << "a: 1.5 s\n\n" << std::string(1000000, 'x') << "\nb: 2e-1 s\n1\n2\n3\n4  \n\n5";
-  EXPECT_DOUBLE_EQ(sum_in_log(log, ": ([0-9.e-]+) s").value_or(0), 1.7);
-  EXPECT_FALSE(sum_in_log(log, "hours"));
-  EXPECT_EQ(last_words(log), "1 | 2 | 3 | 4 | 5");
 }
 
 const MeshOptions bare = {.lattice = Lattice::none};

@@ -4,18 +4,11 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 namespace ccdt {
 namespace {
 
 constexpr const char* variable = "CCDT_TEST_PROGRAM";
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 TEST(FindProgram, LooksOnThePath) {
   unsetenv(variable);
@@ -31,23 +24,13 @@ TEST(FindProgram, TrustsTheEnvironmentVariableFirst) {
   unsetenv(variable);
 }
 
-TEST(RunProgram, LogsWhatIsPrintedAndTellsHowItEnded) {
+TEST(ProgramLog, AddsWhatMatchesAndQuotesTheEnd) {
   const TemporaryFolder folder;
   const auto log = folder.path() / "log";
-  EXPECT_EQ(run_program({"/bin/sh", "-c", "echo out; echo err >&2; exit 3"}, log), 3);
-  EXPECT_EQ(text_of(log), "out\nerr\n");
-  EXPECT_EQ(run_program({"/bin/sh", "-c", "kill -9 $$"}, log), 128 + 9);
-  EXPECT_EQ(run_program({"/nowhere/sh"}, log), 127);
-  EXPECT_THROW(run_program({"/bin/sh"}, folder.path() / "nowhere" / "log"), std::system_error);
-}
-
-TEST(RunProgram, RunsInAFolderAndWithVariablesOfItsOwn) {
-  const TemporaryFolder folder;
-  const auto log = folder.path() / "log";
-  const ProgramSurroundings there{folder.path(), {{variable, "a word"}, {"HOME", "/nowhere"}}};
-  EXPECT_EQ(run_program({"/bin/sh", "-c", "pwd -P; echo \"$CCDT_TEST_PROGRAM $HOME\""}, log, there), 0);
-  EXPECT_EQ(text_of(log), std::filesystem::canonical(folder.path()).string() + "\na word /nowhere\n");
-  EXPECT_EQ(run_program({"/bin/sh"}, log, {folder.path() / "nowhere", {}}), 127);
+  std::ofstream(log) << "a: 1.5 s\n\n" << std::string(1000000, 'x') << "\nb: 2e-1 s\n1\n2\n3\n4  \n\n5";
+  EXPECT_DOUBLE_EQ(sum_in_log(log, ": ([0-9.e-]+) s").value_or(0), 1.7);
+  EXPECT_FALSE(sum_in_log(log, "hours"));
+  EXPECT_EQ(last_lines(log), "1 | 2 | 3 | 4 | 5");
 }
 
 TEST(TemporaryFolder, IsGoneAfterwards) {

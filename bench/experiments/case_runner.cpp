@@ -45,7 +45,7 @@ RunRecord run_case(const std::filesystem::path& program, const std::filesystem::
   std::filesystem::remove(report);  // or that of an earlier experiment would be taken for this one's
   std::vector<std::string> command = arguments_of(folder, what, report);
   command.insert(command.begin(), program.string());
-  const ChildResult child = run_child(command, limits, folder);
+  const ProcessResult child = run_program(command, {.folder = folder, .limits = limits});
   const bool wrote_one = std::filesystem::exists(report);
   RunRecord record = wrote_one ? read_run_record(report) : record_of_the_dead(what, command);
   // A child that has failed by itself says more in its own record than its last words do; but what it wrote before it

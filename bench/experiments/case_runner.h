@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/child_process.h"
+#include "baselines/process.h"
 #include "bench/run_record.h"
 
 namespace ccdt {

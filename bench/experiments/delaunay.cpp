@@ -83,7 +83,7 @@ std::vector<std::string> definitions(const std::string& command) {
 }
 
 /// Of a child that left no JSON: a row for all that it was to measure.
-void add_failure(const ExperimentOptions& options, const ChildResult& child, ExperimentResult& result) {
+void add_failure(const ExperimentOptions& options, const ProcessResult& child, ExperimentResult& result) {
   evaluate_delaunay(R"({"benchmarks": []})", result);
   for (const std::string& set : point_sets(options))
     for (const std::string& method : wanted_methods(options))
@@ -152,7 +152,7 @@ ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progre
   report(progress, program_name, 0, 0);
   Limits limits = options.limits;
   limits.seconds *= options.runs;  // there are many runs in this one
-  const ChildResult child = run_child(bench_delaunay_command(program, options, file), limits);
+  const ProcessResult child = run_program(bench_delaunay_command(program, options, file), {.limits = limits});
   if (evaluate_file(file, result)) {
     result.raw_files = {output_file};
     return result;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/child_process.h"
+#include "baselines/process.h"
 #include "bench/results/experiment_result.h"
 #include "bench/statistics.h"
 

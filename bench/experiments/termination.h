@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/child_process.h"
+#include "baselines/process.h"
 #include "bench/experiments/experiment.h"
 #include "engine/base/progress.h"
 #include "engine/mesher.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/child_process.h"
+#include "baselines/process.h"
 #include "bench/environment.h"
 #include "bench/json_parts.h"
 #include "bench/results/result_table.h"

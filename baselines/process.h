@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/enum_names.h"
+
+namespace ccdt {
+
+/// How a run ended; the names are those of the `ccdt.run/1` schema.
+enum class RunStatus { ok, failed, timeout, out_of_memory, crashed };
+
+constexpr auto names_of(RunStatus) {
+  return std::to_array<NamedValue<RunStatus>>({{RunStatus::ok, "ok"},
+                                               {RunStatus::failed, "failed"},
+                                               {RunStatus::timeout, "timeout"},
+                                               {RunStatus::out_of_memory, "out_of_memory"},
+                                               {RunStatus::crashed, "crashed"}});
+}
+
+/// What a child process may use; 0 is no limit.
+///
+/// Memory is watched a hundred times a second instead of limited by the kernel, because that knows only limits of
+/// address space, which sanitizers and allocators reserve far more of than they use.
+struct Limits {
+  double seconds = 0;              ///< of wall-clock time
+  std::uint64_t memory_bytes = 0;  ///< of resident memory
+};
+
+/// Where and how a program runs.
+struct ProgramOptions {
+  std::filesystem::path folder = {};                                  ///< empty: where this process runs
+  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables besides those of this process
+  std::filesystem::path log = {};  ///< gets all that it prints; empty: standard output is dropped
+  Limits limits = {};              ///< with limits, its process group is its own, and is killed as a whole at a limit
+};
+
+struct ProcessResult {
+  RunStatus status = RunStatus::ok;
+  std::string reason;   ///< empty if all went well; else what a person needs to know: limit, signal or what it printed
+  int exit_code = 0;    ///< if it exited by itself; 127 if the program cannot be started
+  int signal = 0;       ///< if a signal ended it
+  double seconds = 0;   ///< wall-clock time from start to end
+  std::string printed;  ///< the end of what was captured of its output, without trailing white space
+  std::optional<std::string> value = {};  ///< of a function that returned
+
+  /// The exit code as shells have it: 128 and the number of the signal that ended it.
+  int shell_code() const { return signal == 0 ? exit_code : 128 + signal; }
+};
+
+/// Runs a program to its end, to a limit, or to the end of this process, whichever comes first. It gets no input.
+/// Without a log, its standard error is captured.
+///
+/// \param command  path of the program, then its arguments
+/// \throw std::system_error  no process can be started, or the log cannot be written
+ProcessResult run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
+
+/// Calls a function in a fork of this process and waits for it. This is for libraries that crash, exit or print instead
+/// of returning an error: nothing of what happens there reaches this process, except for the returned bytes. The
+/// function must not throw. Its standard output and standard error are captured.
+///
+/// \throw std::system_error  no process can be started
+ProcessResult run_function(const std::function<std::string()>& function);
+
+}  // namespace ccdt
