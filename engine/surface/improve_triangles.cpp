@@ -1,8 +1,6 @@
-#include "engine/surface/improve_triangles.h"
-
 #include <algorithm>
 
-#include "engine/surface/surface_limits.h"
+#include "engine/surface/remesh_steps.h"
 
 namespace ccdt {
 namespace {
@@ -11,8 +9,7 @@ constexpr double good_angle = 36;  // degrees
 constexpr int most_sweeps = 30;
 
 double smallest_angle_of(const WorkingMesh& m, FaceHandle f) {
-  const auto [a, b, c] = corners_of(m, m.mesh.halfedge_handle(f));
-  return smallest_angle({m.point(a), m.point(b), m.point(c)});
+  return smallest_angle(m.points(m.corners(m.mesh.halfedge_handle(f))));
 }
 
 // The worst first.
@@ -33,9 +30,7 @@ std::vector<FaceHandle> bad_triangles(const WorkingMesh& m) {
 std::array<HalfedgeHandle, 3> halfedges_by_length(const WorkingMesh& m, FaceHandle f) {
   const HalfedgeHandle h = m.mesh.halfedge_handle(f);
   std::array<HalfedgeHandle, 3> halfedges = {h, m.mesh.next_halfedge_handle(h), m.mesh.prev_halfedge_handle(h)};
-  const auto size = [&](HalfedgeHandle e) {
-    return m.edge_length(m.mesh.from_vertex_handle(e), m.mesh.to_vertex_handle(e));
-  };
+  const auto size = [&](HalfedgeHandle e) { return m.edge_length(m.ends(e)[0], m.ends(e)[1]); };
   std::stable_sort(halfedges.begin(), halfedges.end(),
                    [&](HalfedgeHandle e, HalfedgeHandle g) { return size(e) > size(g); });
   return halfedges;
@@ -46,7 +41,7 @@ bool improve_triangle(WorkingMesh& m, FaceHandle f) {
   for (const HalfedgeHandle h : halfedges)
     if (improve_by_flip(m, m.mesh.edge_handle(h))) return true;
   bool any = false;
-  for (const VertexHandle v : corners_of(m, halfedges[0])) any = improve_by_move(m, v) || any;
+  for (const VertexHandle v : m.corners(halfedges[0])) any = improve_by_move(m, v) || any;
   if (any) return true;
   for (auto h = halfedges.rbegin(); h != halfedges.rend(); ++h)
     if (improve_by_collapse(m, *h) || improve_by_collapse(m, m.mesh.opposite_halfedge_handle(*h))) return true;

@@ -8,9 +8,7 @@
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 #include "engine/surface/find_crossings.h"
-#include "engine/surface/improve_triangles.h"
 #include "engine/surface/remesh_steps.h"
-#include "engine/surface/wanted_lengths.h"
 
 namespace ccdt {
 namespace {
@@ -19,7 +17,7 @@ namespace {
 constexpr int halvings = 3;
 constexpr int most_attempts = 10;
 
-void refuse_bad_options(const InputPlc& input, const RemeshOptions& options) {
+void check_options(const InputPlc& input, const RemeshOptions& options) {
   Place place;
   place.file = input.name;
   const bool is_positive = options.edge_length > 0 && std::isfinite(options.edge_length);
@@ -41,10 +39,8 @@ std::vector<std::pair<bool, int>> regions_of(const Plc& plc) {
   return regions;
 }
 
-InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& features, const ClosestPoint& closest,
-                     const EdgeLengths& lengths, const CurveLengths& curve_lengths, const std::vector<char>& frozen,
-                     const InputPlc& input, int iterations, const Progress& progress) {
-  WorkingMesh m = make_working_mesh(original, features, closest, lengths, curve_lengths, frozen);
+/// The rounds of remeshing, and the improvement at their end.
+void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
   for (int i = 0; i < iterations; ++i) {
     report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
     if (i > 0) find_wanted_lengths(m);
@@ -58,30 +54,29 @@ InputPlc remesh_once(const OriginalSurface& original, const FeatureCurves& featu
   flip_edges_for_quality(m);
   improve_worst_triangles(m);
   report(progress, "remesh", static_cast<std::uint64_t>(iterations), static_cast<std::uint64_t>(iterations));
-  return to_plc(m, input);
 }
 
 /// Places that hinder the result from being built, and the words for them if there is nothing that can be done there.
-struct Verdict {
+struct Defects {
   std::vector<Point3> places;
-  std::string complaint;
+  std::string words;
 };
 
-Verdict judge(const InputPlc& result, const Plc& before, const RemeshOptions& options) {
-  Verdict verdict{find_crossings(result, options.flatness), "triangles of the new surface cross each other"};
-  if (!verdict.places.empty()) return verdict;
+Defects find_defects(const InputPlc& result, const Plc& before, const RemeshOptions& options) {
+  Defects defects{find_crossings(result, options.flatness), "triangles of the new surface cross each other"};
+  if (!defects.places.empty()) return defects;
   try {
     const Plc after = build_plc(result, {options.flatness});
     if (regions_of(after) == regions_of(before)) return {};
-    verdict.complaint = "the new surface divides space otherwise than the old one";
-    for (const InputPlc::RegionSeed& region : result.regions) verdict.places.push_back(region.seed);
-    verdict.places.insert(verdict.places.end(), result.holes.begin(), result.holes.end());
+    defects.words = "the new surface divides space otherwise than the old one";
+    for (const InputPlc::RegionSeed& region : result.regions) defects.places.push_back(region.seed);
+    defects.places.insert(defects.places.end(), result.holes.begin(), result.holes.end());
   } catch (const InputError& error) {
-    verdict.complaint = std::string("the new surface is not valid: ") + error.what();
-    for (const auto& [x, y, z] : error.place().points) verdict.places.push_back({x, y, z});
+    defects.words = std::string("the new surface is not valid: ") + error.what();
+    for (const auto& [x, y, z] : error.place().points) defects.places.push_back({x, y, z});
   }
-  if (verdict.places.empty()) verdict.places.push_back(result.vertices.front());
-  return verdict;
+  if (defects.places.empty()) defects.places.push_back(result.vertices.front());
+  return defects;
 }
 
 /// One place for many that are near to each other.
@@ -106,19 +101,19 @@ void freeze(const OriginalSurface& original, const std::vector<Point3>& places, 
   }
 }
 
-[[noreturn]] void refuse(const InputPlc& input, const Verdict& verdict, double edge_length) {
+[[noreturn]] void throw_not_remeshed(const InputPlc& input, const Defects& defects, double edge_length) {
   Place place;
   place.file = input.name;
-  place.points.push_back(as_array(verdict.places.front()));
+  place.points.push_back(as_array(defects.places.front()));
   throw MeshError(
-      "the surface could not be remeshed to edges of length " + std::to_string(edge_length) + ": " + verdict.complaint,
+      "the surface could not be remeshed to edges of length " + std::to_string(edge_length) + ": " + defects.words,
       place, "give a smaller edge length, or mesh the surface as it is");
 }
 
 }  // namespace
 
 InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, const Progress& progress) {
-  refuse_bad_options(input, options);
+  check_options(input, options);
   const Plc plc = build_plc(input, {options.flatness}, progress);
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
@@ -127,17 +122,18 @@ InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, con
   EdgeLengths lengths(options.edge_length);
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
-    InputPlc result =
-        remesh_once(original, features, closest, lengths, curve_lengths, frozen, input, options.iterations, progress);
-    const Verdict verdict = judge(result, plc, options);
-    if (verdict.places.empty()) return result;
-    if (attempt == most_attempts) refuse(input, verdict, options.edge_length);
+    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, frozen);
+    remesh(mesh, options.iterations, progress);
+    InputPlc result = to_plc(mesh, input);
+    const Defects defects = find_defects(result, plc, options);
+    if (defects.places.empty()) return result;
+    if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
     if (attempt < halvings) {
       const EdgeLengths before = lengths;  // the balls overlap, and each place is to be halved once
-      for (const Point3& p : thinned(verdict.places, options.edge_length))
+      for (const Point3& p : thinned(defects.places, options.edge_length))
         lengths.limit(p, 2 * options.edge_length, 0.5 * before.at(p));
     } else {
-      freeze(original, verdict.places, std::ldexp(options.edge_length, attempt - halvings), frozen);
+      freeze(original, defects.places, std::ldexp(options.edge_length, attempt - halvings), frozen);
     }
   }
 }

@@ -8,8 +8,8 @@
 
 namespace ccdt {
 
-/// How the shape of a triangle is measured: by its area over its squared edges, or by its smallest angle.
-enum class Shape { area, angle };
+/// What the quality of a triangle is measured by: its area over its squared edges, or its smallest angle.
+enum class TriangleMeasure { area, angle };
 
 /// How well shaped a triangle is, and how well it stands for the original surface at its corners.
 struct TriangleFit {
@@ -27,13 +27,13 @@ inline double smallest_angle(const std::array<Point3, 3>& p) {
 }
 
 inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point3, 3>& normals,
-                          Shape shape = Shape::area) {
+                          TriangleMeasure measure = TriangleMeasure::area) {
   constexpr double two_root_three = 3.4641016151377544;
   const Point3 area = area_vector(p);
   const double size = length(area);
   const double squares = squared_length(p[1] - p[0]) + squared_length(p[2] - p[1]) + squared_length(p[0] - p[2]);
   if (size == 0) return {0, -1};
-  return {shape == Shape::area ? two_root_three * size / squares : smallest_angle(p) / radians(60),
+  return {measure == TriangleMeasure::area ? two_root_three * size / squares : smallest_angle(p) / radians(60),
           std::min({dot(area, normals[0]), dot(area, normals[1]), dot(area, normals[2])}) / size};
 }
 

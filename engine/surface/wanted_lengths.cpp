@@ -3,10 +3,30 @@
 #include <algorithm>
 #include <queue>
 
-#include "engine/surface/surface_limits.h"
+#include "engine/surface/remesh_steps.h"
+#include "engine/surface/working_mesh.h"
 
 namespace ccdt {
 namespace {
+
+// How much longer edges may be wanted, per length of the way from a place where shorter ones are wanted.
+constexpr double length_growth = 0.3;
+
+constexpr double step = 0.9;  // from one length that is tried to the next
+
+// The pieces of the chain are no obstacle themselves: a vertex may be put on each bend.
+double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
+  const double whole = curve.arc.back();
+  const double before = i > 0 ? curve.arc[i] - curve.arc[i - 1] : 0;
+  const double after = i + 1 < curve.arc.size() ? curve.arc[i + 1] - curve.arc[i] : 0;
+  const double least = std::max(before, after);
+  double edge = std::min(usual, whole);
+  for (; edge > least; edge *= step) {
+    const double from = std::clamp(curve.arc[i] - 0.5 * edge, 0.0, whole - edge);
+    if (curve.deviation(from, from + edge) <= most_deviation * edge) break;
+  }
+  return std::min({std::max(edge, least), usual, whole});
+}
 
 constexpr std::uint32_t none = WorkingMesh::none;
 constexpr double most_ratio = 2;      // of the wanted length to the shortest edge of a vertex
@@ -38,8 +58,7 @@ void limit_by_curves(WorkingMesh& m) {
 
 void limit_by_edges(WorkingMesh& m) {
   for (const EdgeHandle e : m.mesh.edges()) {
-    const VertexHandle a = m.mesh.to_vertex_handle(m.mesh.halfedge_handle(e, 0));
-    const VertexHandle b = m.mesh.to_vertex_handle(m.mesh.halfedge_handle(e, 1));
+    const auto [a, b] = m.ends(e);
     const double edge = m.edge_length(a, b);
     double most = most_ratio * edge;
     const double turn = length(m.at(b).normal - m.at(a).normal);
@@ -51,16 +70,10 @@ void limit_by_edges(WorkingMesh& m) {
   }
 }
 
-bool are_linked(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
-  for (const std::uint32_t l : m.knots[a].links)
-    if (m.links[l].ends[0] == b || m.links[l].ends[1] == b) return true;
-  return false;
-}
-
 // Is a knot in reach of a corner that is also near to another knot? What lies between them there is no strip.
 bool share_a_corner(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
   const auto is_corner_near = [&](std::uint32_t corner, std::uint32_t k) {
-    return m.knots[corner].is_fixed && (corner == k || are_linked(m, corner, k));
+    return m.knots[corner].is_fixed && (corner == k || link_between(m, corner, k) != none);
   };
   if (is_corner_near(a, b)) return true;
   for (const std::uint32_t l : m.knots[a].links)
@@ -77,25 +90,19 @@ bool is_in_narrow_wedge(const FeatureCurve& one, const FeatureCurve& other, cons
   return false;
 }
 
-std::uint32_t curve_between(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
-  for (const std::uint32_t l : m.knots[a].links)
-    if (m.links[l].ends[0] == b || m.links[l].ends[1] == b) return m.links[l].curve;
-  return none;
-}
-
 // Between features that are near to each other, edges along them as long as the strip is wide.
 void limit_by_width(WorkingMesh& m) {
   for (const HalfedgeHandle h : m.mesh.halfedges()) {
     if (m.mesh.is_boundary(h) || !m.mesh.is_boundary(m.mesh.opposite_halfedge_handle(h))) continue;
-    const auto [a, b, c] = corners_of(m, h);
-    const std::array<std::uint32_t, 3> k = {m.at(a).knot, m.at(b).knot, m.at(c).knot};
+    const std::array<VertexHandle, 3> v = m.corners(h);
+    const std::array<std::uint32_t, 3> k = {m.at(v[0]).knot, m.at(v[1]).knot, m.at(v[2]).knot};
     if (k[2] == none || share_a_corner(m, k[0], k[2]) || share_a_corner(m, k[1], k[2])) continue;
-    if (are_linked(m, k[0], k[2]) || are_linked(m, k[1], k[2])) continue;
-    const double width = length(area_vector({m.point(a), m.point(b), m.point(c)})) / m.edge_length(a, b);
-    const FeatureCurve& curve = m.features.curves[curve_between(m, k[0], k[1])];
+    if (link_between(m, k[0], k[2]) != none || link_between(m, k[1], k[2]) != none) continue;
+    const double width = length(area_vector(m.points(v))) / m.edge_length(v[0], v[1]);
+    const FeatureCurve& curve = m.features.curves[m.links[link_between(m, k[0], k[1])].curve];
     const auto& links = m.knots[k[2]].links;
     if (std::any_of(links.begin(), links.end(), [&](std::uint32_t l) {
-          return is_in_narrow_wedge(curve, m.features.curves[m.links[l].curve], m.point(c), width);
+          return is_in_narrow_wedge(curve, m.features.curves[m.links[l].curve], m.point(v[2]), width);
         }))
       continue;
     for (const std::uint32_t knot : k)
@@ -104,6 +111,32 @@ void limit_by_width(WorkingMesh& m) {
 }
 
 }  // namespace
+
+double EdgeLengths::at(const Point3& p) const {
+  double wanted = usual_;
+  for (const Ball& ball : balls_)
+    wanted = std::min(wanted, ball.wanted + length_growth * std::max(0.0, length(p - ball.center) - ball.radius));
+  return wanted;
+}
+
+CurveLengths::CurveLengths(const FeatureCurves& features, double usual) : features_(features) {
+  for (const FeatureCurve& curve : features.curves) {
+    std::vector<double>& lengths = lengths_.emplace_back();
+    for (std::size_t i = 0; i < curve.points.size(); ++i) lengths.push_back(length_at(curve, i, usual));
+    for (std::size_t i = 1; i < lengths.size(); ++i)
+      lengths[i] = std::min(lengths[i], lengths[i - 1] + length_growth * (curve.arc[i] - curve.arc[i - 1]));
+    for (std::size_t i = lengths.size() - 1; i-- > 0;)
+      lengths[i] = std::min(lengths[i], lengths[i + 1] + length_growth * (curve.arc[i + 1] - curve.arc[i]));
+  }
+}
+
+double CurveLengths::at(std::uint32_t curve, double arc) const {
+  const std::vector<double>& arcs = features_.curves[curve].arc;
+  const auto after = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, arc);
+  const auto i = static_cast<std::size_t>(after - arcs.begin());
+  const std::vector<double>& lengths = lengths_[curve];
+  return std::min(lengths[i - 1] + length_growth * (arc - arcs[i - 1]), lengths[i] + length_growth * (arcs[i] - arc));
+}
 
 // Dijkstra's algorithm from the smallest lengths on.
 void find_wanted_lengths(WorkingMesh& m) {

@@ -1,12 +1,51 @@
 #pragma once
 
-#include "engine/surface/working_mesh.h"
+#include <cstdint>
+#include <vector>
+
+#include "engine/surface/feature_curves.h"
+#include "engine/surface/vector_math.h"
 
 namespace ccdt {
 
-/// Gives every vertex and knot the edge length that is wanted there (`EdgeLengths`), but less around edges that are
-/// much shorter and could not be collapsed, because the surface is too narrow or too strongly curved there: long edges
-/// beside them would make needles of the triangles.
-void find_wanted_lengths(WorkingMesh& m);
+/// How far an edge may be from the original surface or feature in its middle, as a fraction of its length: a circle
+/// keeps eighteen edges at least.
+inline constexpr double most_deviation = 0.044;
+
+/// The same for the edges that improve bad triangles: a circle keeps fifteen edges.
+inline constexpr double most_deviation_of_improved = 0.055;
+
+/// The edge length that is wanted at each place: the one of the options but for some balls, where it is less; around
+/// them it grows gently.
+class EdgeLengths {
+ public:
+  explicit EdgeLengths(double usual) : usual_(usual) {}
+
+  double at(const Point3& p) const;
+
+  void limit(const Point3& center, double radius, double wanted) { balls_.push_back({center, radius, wanted}); }
+
+ private:
+  struct Ball {
+    Point3 center;
+    double radius, wanted;
+  };
+  double usual_;
+  std::vector<Ball> balls_;
+};
+
+/// The longest edges that feature curves allow: short curves between corners stay single edges, and a bent curve needs
+/// edges that stay near to it (`most_deviation`).
+class CurveLengths {
+ public:
+  /// \param usual  the edge length that is wanted where the curve does not ask for less
+  CurveLengths(const FeatureCurves& features, double usual);
+
+  double at(std::uint32_t curve, double arc) const;
+
+ private:
+  const FeatureCurves& features_;
+  std::vector<std::vector<double>> lengths_;  // by curve, at each of its points
+};
 
 }  // namespace ccdt

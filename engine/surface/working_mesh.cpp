@@ -1,5 +1,8 @@
 #include "engine/surface/working_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -88,9 +91,14 @@ VertexHandle add_copy(WorkingMesh& m, std::uint32_t patch, std::uint32_t knot, s
   return v;
 }
 
-bool are_joined(const WorkingMesh& m, std::uint32_t knot, std::uint32_t other) {
+std::uint32_t link_between(const WorkingMesh& m, std::uint32_t knot, std::uint32_t other) {
   for (const std::uint32_t l : m.knots[knot].links)
-    if (m.links[l].ends[0] == other || m.links[l].ends[1] == other) return true;
+    if (m.links[l].ends[0] == other || m.links[l].ends[1] == other) return l;
+  return none;
+}
+
+bool are_joined(const WorkingMesh& m, std::uint32_t knot, std::uint32_t other) {
+  if (link_between(m, knot, other) != none) return true;
   for (const VertexHandle copy : m.knots[knot].copies)
     for (auto n = m.mesh.cvv_iter(copy); n.is_valid(); ++n)
       if (m.at(*n).knot == other) return true;
@@ -106,6 +114,33 @@ std::vector<EdgeHandle> copies_of_link(const WorkingMesh& m, std::uint32_t link)
       if (m.at(m.mesh.to_vertex_handle(*h)).knot == b && m.mesh.is_boundary(e)) edges.push_back(e);
     }
   return edges;
+}
+
+KnotOnCurve on_curve(const WorkingMesh& m, std::uint32_t knot) {
+  KnotOnCurve at = {};
+  for (std::size_t i = 0; i < 2; ++i) {
+    at.links[i] = m.knots[knot].links[i];
+    const WorkingMesh::Link& link = m.links[at.links[i]];
+    at.sides[i] = link.side_of(knot);
+    at.others[i] = link.ends[1 - at.sides[i]];
+    at.arcs[i] = link.arc[1 - at.sides[i]];
+    at.curve = link.curve;
+  }
+  return at;
+}
+
+bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
+  constexpr double most_sine = 0.55;  // of 2 atan(2 most_deviation)
+  const Point3 along = m.point(b) - m.point(a);
+  const double limit = most_sine * length(along);
+  return std::fabs(dot(along, m.at(a).normal)) <= limit && std::fabs(dot(along, m.at(b).normal)) <= limit;
+}
+
+bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, double most) {
+  if (m.is_flat(a)) return true;
+  const Point3 p = m.point(a);
+  return m.closest.is_within(most * std::max(length(q - p), m.at(a).wanted), m.at(a).patch, 0.5 * (p + q),
+                             m.at(a).near);
 }
 
 InputPlc to_plc(const WorkingMesh& m, const InputPlc& input) {
@@ -128,9 +163,7 @@ InputPlc to_plc(const WorkingMesh& m, const InputPlc& input) {
     return n;
   };
   for (const FaceHandle f : m.mesh.faces()) {
-    const HalfedgeHandle h = m.mesh.halfedge_handle(f);
-    const VertexHandle a = m.mesh.from_vertex_handle(h), b = m.mesh.to_vertex_handle(h);
-    const VertexHandle c = m.mesh.to_vertex_handle(m.mesh.next_halfedge_handle(h));
+    const auto [a, b, c] = m.corners(m.mesh.halfedge_handle(f));
     plc.triangles.push_back({number(a), number(b), number(c)});
     plc.triangle_markers.push_back(m.original.patch_markers[m.at(a).patch]);
   }

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "engine/surface/closest_point.h"
-#include "engine/surface/curve_lengths.h"
-#include "engine/surface/edge_lengths.h"
 #include "engine/surface/feature_curves.h"
 #include "engine/surface/original_surface.h"
+#include "engine/surface/triangle_fit.h"
+#include "engine/surface/wanted_lengths.h"
 
 namespace ccdt {
 
@@ -54,6 +55,8 @@ struct WorkingMesh {
     std::vector<VertexHandle> copies;
     double wanted = 0;  ///< length of edges there
     bool is_alive = true;
+
+    void replace_link(std::uint32_t link, std::uint32_t by) { *std::find(links.begin(), links.end(), link) = by; }
   };
 
   struct Link {
@@ -86,11 +89,27 @@ struct WorkingMesh {
   const Vertex& at(VertexHandle v) const { return vertices[static_cast<std::size_t>(v.idx())]; }
   bool is_frozen(const FaceHandle& f) const { return face_is_frozen[static_cast<std::size_t>(f.idx())] != 0; }
   bool is_flat(VertexHandle v) const { return original.patch_is_flat[at(v).patch] != 0; }
+
+  std::array<VertexHandle, 2> ends(EdgeHandle e) const {
+    return {mesh.to_vertex_handle(mesh.halfedge_handle(e, 0)), mesh.to_vertex_handle(mesh.halfedge_handle(e, 1))};
+  }
+  std::array<VertexHandle, 2> ends(HalfedgeHandle h) const {
+    return {mesh.from_vertex_handle(h), mesh.to_vertex_handle(h)};
+  }
+  /// The triangle over a halfedge: its corners, from the start of the halfedge.
+  std::array<VertexHandle, 3> corners(HalfedgeHandle h) const {
+    return {mesh.from_vertex_handle(h), mesh.to_vertex_handle(h), mesh.to_vertex_handle(mesh.next_halfedge_handle(h))};
+  }
+  std::array<Point3, 3> points(const std::array<VertexHandle, 3>& v) const {
+    return {point(v[0]), point(v[1]), point(v[2])};
+  }
+
   double edge_length(VertexHandle a, VertexHandle b) const { return length(point(b) - point(a)); }
   double wanted_length(VertexHandle a, VertexHandle b) const { return 0.5 * (at(a).wanted + at(b).wanted); }
   double wanted_length(std::uint32_t knot, std::uint32_t other) const {
     return 0.5 * (knots[knot].wanted + knots[other].wanted);
   }
+  double link_length(const Link& l) const { return length(knots[l.ends[1]].position - knots[l.ends[0]].position); }
 };
 
 /// \param frozen  by triangle of the original surface: must stay as it is
@@ -102,11 +121,40 @@ WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurv
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);
 VertexHandle add_copy(WorkingMesh& m, std::uint32_t patch, std::uint32_t knot, std::uint32_t near);
 
+/// The link between two knots; `none` if there is none.
+std::uint32_t link_between(const WorkingMesh& m, std::uint32_t knot, std::uint32_t other);
+
 /// Is there an edge between any copies of two knots, or a link?
 bool are_joined(const WorkingMesh& m, std::uint32_t knot, std::uint32_t other);
 
 /// The edges of the halfedge mesh that lie on a link.
 std::vector<EdgeHandle> copies_of_link(const WorkingMesh& m, std::uint32_t link);
+
+/// A knot that is not fixed, between its neighbors along its curve.
+struct KnotOnCurve {
+  std::array<std::uint32_t, 2> links;
+  std::array<int, 2> sides;             ///< which end of each link it is
+  std::array<std::uint32_t, 2> others;  ///< the knots at the other ends
+  std::array<double, 2> arcs;           ///< of these
+  std::uint32_t curve;
+};
+
+KnotOnCurve on_curve(const WorkingMesh& m, std::uint32_t knot);
+
+/// Could an edge between two vertices of a patch lie within the bound, to judge by the normals at its ends? An arc of
+/// half the angle a has a sagitta of tan(a/2)/2 of its chord, and its ends turn by a away from the chord.
+bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
+
+/// Is the middle of an edge between two vertices of a patch, or one and a place for another, within the bound?
+bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, double most = most_deviation);
+inline bool is_near_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
+  return is_near_surface(m, a, m.point(b));
+}
+
+inline TriangleFit fit_of(const WorkingMesh& m, const std::array<VertexHandle, 3>& v,
+                          TriangleMeasure measure = TriangleMeasure::area) {
+  return fit_of(m.points(v), {m.at(v[0]).normal, m.at(v[1]).normal, m.at(v[2]).normal}, measure);
+}
 
 /// The surface as a PLC: with the name, holes and regions of the input, and with markers where it has some.
 InputPlc to_plc(const WorkingMesh& m, const InputPlc& input);
