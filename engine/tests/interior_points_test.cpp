@@ -8,6 +8,7 @@
 #include "engine/front/advance_front.h"
 #include "engine/front/face_check.h"
 #include "engine/lattice/clear_surface.h"
+#include "engine/mesher.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/insert_interior.h"
