@@ -114,7 +114,7 @@ const Stages& stages_of_model(const std::string& model, bool flattened, std::int
 const Stages& stages_of_file(const std::filesystem::path& file) {
   static Cache made;
   auto& stages = made[{file.string(), 0}];
-  if (!stages) stages = std::make_unique<const Stages>(make_stages(read_plc(file), {0, MeshOptions().grading}));
+  if (!stages) stages = std::make_unique<const Stages>(make_stages(read_plc(file), {0, LatticeOptions().grading}));
   return *stages;
 }
 
