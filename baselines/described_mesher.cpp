@@ -5,7 +5,6 @@
 #include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
-#include "baselines/placeholders.h"
 #include "baselines/process.h"
 #include "engine/base/errors.h"
 #include "engine/io/output_file.h"
@@ -61,14 +60,15 @@ std::vector<Placeholder> values_for(const Description& description, const InputP
   std::vector<Placeholder> chosen;
   for (const Choice& choice : description.choices)
     chosen.push_back(
-        {choice.name, filled(holds(choice.condition, input, options) ? choice.text_if : choice.text_else, values)});
+        {choice.name,
+         fill_placeholders(holds(choice.condition, input, options) ? choice.text_if : choice.text_else, values)});
   values.insert(values.end(), chosen.begin(), chosen.end());
   return values;
 }
 
-std::vector<std::string> filled_words(const std::vector<std::string>& words, const std::vector<Placeholder>& values) {
+std::vector<std::string> fill_all(const std::vector<std::string>& words, const std::vector<Placeholder>& values) {
   std::vector<std::string> all;
-  for (const std::string& word : words) all.push_back(filled(word, values));
+  for (const std::string& word : words) all.push_back(fill_placeholders(word, values));
   return all;
 }
 
@@ -94,10 +94,10 @@ MesherSettings settings_of_described(const Description& description, const Input
                                      const MeshOptions& options) {
   const std::vector<Placeholder> values = values_for(description, input, options, "{folder}");
   MesherSettings settings = {{"description", description.file.string()},
-                             {"command", command_line(filled_words(description.command, values))}};
-  for (const auto& [name, text] : description.files) settings.emplace_back(name, filled(text, values));
+                             {"command", command_line(fill_all(description.command, values))}};
+  for (const auto& [name, text] : description.files) settings.emplace_back(name, fill_placeholders(text, values));
   for (const auto& [name, value] : description.environment)
-    settings.emplace_back("environment " + name, filled(value, values));
+    settings.emplace_back("environment " + name, fill_placeholders(value, values));
   return settings;
 }
 
@@ -136,7 +136,7 @@ void write_files(const Description& description, const std::vector<Placeholder>&
                  const std::filesystem::path& folder) {
   for (const auto& [name, text] : description.files) {
     io::OutputFile file(folder / name);
-    file << filled(text, values);
+    file << fill_placeholders(text, values);
     file.commit();
   }
 }
@@ -145,7 +145,7 @@ void write_files(const Description& description, const std::vector<Placeholder>&
 /// \return  wall-clock seconds of the call
 double call(const Description& description, const InputPlc& input, const std::vector<Placeholder>& values,
             const std::filesystem::path& folder, const std::filesystem::path& log) {
-  std::vector<std::string> command = filled_words(description.command, values);
+  std::vector<std::string> command = fill_all(description.command, values);
   const auto program = program_of(description, command[0]);
   if (!program)
     throw InputError("/command/0: there is no program '" + command[0] + "' here", place_of(description.file.string()),
@@ -153,7 +153,7 @@ double call(const Description& description, const InputPlc& input, const std::ve
   command[0] = program->string();
   ProgramOptions options{.folder = folder, .log = log};
   for (const auto& [name, value] : description.environment)
-    options.environment.emplace_back(name, filled(value, values));
+    options.environment.emplace_back(name, fill_placeholders(value, values));
   const ProcessResult ended = run_program(command, options);
   const int code = ended.shell_code();
   if (std::ranges::find(description.success_codes, code) == description.success_codes.end())
@@ -207,7 +207,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   const auto said = description.seconds_pattern.empty() ? std::nullopt : sum_in_log(log, description.seconds_pattern);
   run.result.seconds.mesh = said.value_or(wall_seconds);
   if (!said) run.notes.emplace_back("the seconds are those of the whole call, with its start, reading and writing");
-  run.result.mesh = read_output(description, input, filled(description.output, values), folder, log);
+  run.result.mesh = read_output(description, input, fill_placeholders(description.output, values), folder, log);
   tidy(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
     throw MeshError(description.name + " made no tetrahedra inside; its last words: " + last_lines(log),
@@ -218,8 +218,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
 
 std::string ask_version(const Description& description) {
   if (description.version_command.empty()) return unknown_version;
-  std::vector<std::string> command =
-      filled_words(description.version_command, {{"here", absolute_folder_of(description)}});
+  std::vector<std::string> command = fill_all(description.version_command, {{"here", absolute_folder_of(description)}});
   const auto program = program_of(description, command[0]);
   if (!program) return unknown_version;
   command[0] = program->string();
@@ -233,7 +232,7 @@ Mesher described_mesher(const MesherDescription& description) {
   return {description.name,
           "",
           description.what,
-          description.licence,
+          description.license,
           [=](const InputPlc& input, const MeshOptions& options, const Progress& progress) {
             return run_described(description, input, options, progress);
           },

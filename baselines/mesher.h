@@ -26,7 +26,7 @@ struct Mesher {
   std::string name;  ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay, gmsh-hxt; of a description its own
   std::string version;  ///< of a library; empty for a program, which is asked by `version_of`
   std::string what;     ///< one line for people
-  std::string licence;
+  std::string license;
   std::function<MesherRun(const InputPlc&, const MeshOptions&, const Progress&)> run;  ///< throws as `mesh_plc`
   /// What `run` will ask for; so that it is known of a run that crashes. Null: the options say it all.
   std::function<MesherSettings(const InputPlc&, const MeshOptions&)> settings = {};

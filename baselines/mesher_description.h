@@ -1,34 +1,40 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "engine/base/enum_names.h"
+
 namespace ccdt {
 
-/// What a text depends on.
-enum class ChoiceCondition {
-  interior_points,  ///< is the inside to be refined? (no: `--lattice none`)
-  improvement,      ///< is the mesh to be improved? (no: `--improve none`)
-  edge_length,      ///< is an edge length asked for? (no: as the surface has it)
-  regions           ///< does the input say regions?
-};
+/// What the text of a choice depends on.
+enum class ChoiceCondition { interior_points, improvement, edge_length, regions };
 
-/// A placeholder of a description's own.
+constexpr auto names_of(ChoiceCondition) {
+  return std::to_array<NamedValue<ChoiceCondition>>(
+      {{ChoiceCondition::interior_points, "interior_points", "is the inside to be refined? (no: --lattice none)"},
+       {ChoiceCondition::improvement, "improvement", "is the mesh to be improved? (no: --improve none)"},
+       {ChoiceCondition::edge_length, "edge_length", "is an edge length given? (no: as the surface has it)"},
+       {ChoiceCondition::regions, "regions", "does the input name regions?"}});
+}
+
+/// A placeholder that a description defines itself.
 struct Choice {
   std::string name;
   ChoiceCondition condition = ChoiceCondition::interior_points;
   std::string text_if, text_else;  ///< may have placeholders that are no choices
 };
 
-/// A mesher that anybody has: how it is called, and which formats it reads and writes. Texts may have placeholders
-/// (baselines/placeholders.h).
+/// How a mesher of the user's own is called, and which formats it reads and writes. Texts may have placeholders.
 struct MesherDescription {
   std::filesystem::path file;  ///< where it was read
   std::string name;            ///< in reports: small letters, digits and hyphens
   std::string what;            ///< one line for people
-  std::string licence;
+  std::string license;
   std::string install;  ///< how to get the program; may be empty
   /// The program and its arguments. A program with a slash in its name is found from the folder of the description,
   /// any other on PATH.
@@ -39,13 +45,37 @@ struct MesherDescription {
   std::vector<Choice> choices = {};                             ///< placeholders of its own
   std::vector<std::string> version_command = {};                ///< prints the version; may be empty
   std::string version_pattern = {};                             ///< first group, else all that matches in a line
-  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables beside those of the caller
+  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables besides those of the caller
   std::string seconds_pattern = {};  ///< first group: seconds of meshing; of all lines of the log that match, the sum
   std::vector<int> success_codes = {0};  ///< exit codes
 };
 
-/// Reads a description: JSON of schema `ccdt.mesher/1`, reports/ccdt.mesher.1.schema.json.
-/// \throw InputError  cannot be read or is wrong; names the file and the JSON pointer
+/// Reads a description: JSON of schema `ccdt.mesher/1`, ccdt.mesher.1.schema.json in this folder.
+/// \throw InputError  it cannot be read or is wrong; names the file and the JSON pointer
 MesherDescription read_mesher_description(const std::filesystem::path& file);
+
+/// What the texts of a description leave to the run, written in braces: "{input}". A name consists of small letters and
+/// underscores; anything else in braces stays as it is, so that scripts may have braces of their own.
+///
+/// | name          | stands for                                                                                 |
+/// |---------------|--------------------------------------------------------------------------------------------|
+/// | `input`       | the file with the input; the program runs in the folder where it is                        |
+/// | `stem`        | its name without the ending                                                                |
+/// | `folder`      | that folder, which nothing else uses                                                       |
+/// | `here`        | the folder of the description                                                              |
+/// | `edge_length` | the target edge length, in the units of the input                                          |
+/// | `max_volume`  | the largest tetrahedron of a mesh of such edges: twice the volume of the regular one,      |
+/// |               | which is about the average                                                                 |
+///
+/// and the description's own `choices`.
+struct Placeholder {
+  std::string name, value;
+};
+
+/// The names in a text, in its order.
+std::vector<std::string> placeholders_in(std::string_view text);
+
+/// The text with the values; what is not among them stays.
+std::string fill_placeholders(std::string_view text, const std::vector<Placeholder>& values);
 
 }  // namespace ccdt

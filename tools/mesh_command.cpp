@@ -164,7 +164,7 @@ std::string footer() {
   for (const Mesher& m : meshers()) {
     std::string name = m.name;
     name.resize(15, ' ');
-    text += "  " + name + m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.licence + ")\n";
+    text += "  " + name + m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.license + ")\n";
   }
   return text + "  FILE.json      any other, as the file describes it; baselines/described has examples\n" +
          "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"

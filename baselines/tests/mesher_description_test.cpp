@@ -6,7 +6,6 @@
 
 #include "baselines/external_program.h"
 #include "baselines/mesher.h"
-#include "baselines/placeholders.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -22,9 +21,9 @@ TEST(Placeholders, AreSmallLettersInBracesAndNothingElse) {
 
 TEST(Placeholders, AreReplacedWhereTheyAreKnown) {
   const std::vector<Placeholder> values = {{"input", "part.off"}, {"stem", ""}};
-  EXPECT_EQ(filled("{input}", values), "part.off");
-  EXPECT_EQ(filled("a{stem}b {1} {input}{input}; {other}", values), "ab {1} part.offpart.off; {other}");
-  EXPECT_EQ(filled("", values), "");
+  EXPECT_EQ(fill_placeholders("{input}", values), "part.off");
+  EXPECT_EQ(fill_placeholders("a{stem}b {1} {input}{input}; {other}", values), "ab {1} part.offpart.off; {other}");
+  EXPECT_EQ(fill_placeholders("", values), "");
 }
 
 class Descriptions : public testing::Test {
@@ -89,23 +88,24 @@ TEST_F(Descriptions, OfEverythingSayEverything) {
 
 TEST_F(Descriptions, ThatAreWrongAreRefusedAtTheJsonPointer) {
   expect_refused(with("ccdt.mesher/1", "ccdt.mesher/2"), "/schema: ");
-  expect_refused(with(R"("name": "mine", )", ""), "'name' is missing");
+  expect_refused(with(R"("name": "mine", )", ""), "Missing required property 'name'");
   expect_refused(with("mine", "My Mesher"), "/name: ");
   expect_refused(with(R"("MIT")", "1"), "/licence: ");
-  expect_refused(with("{input}", "{inptu}"), "/command/1: there is no placeholder {inptu}; known are input, ");
+  expect_refused(with("{input}", "{inptu}"), "/command/1: there is no placeholder {inptu}");
   expect_refused(with(R"("./mine")", R"("{here}/mine")"), "/command/0: ");
   expect_refused(with(R"(["./mine", "{input}"])", "[]"), "/command: ");
   expect_refused(with(R"("off")", R"("step")"), "/input_format: ");
   expect_refused(with("out.vtu", "out.vtk"), "/output: ");
-  expect_refused(with(R"("what")", R"("wath": 1, "what")"), "/wath: ");
-  expect_refused(with(R"("what")", R"("choices": {"input": {"if": "regions", "then": ""}}, "what")"), "/choices/input");
+  expect_refused(with(R"("what")", R"("wath": 1, "what")"), "Object contains a property that could not be validated");
+  expect_refused(with(R"("what")", R"("choices": {"input": {"if": "regions", "then": ""}}, "what")"), "/choices: ");
   expect_refused(with(R"("what")", R"("choices": {"a": {"if": "weather", "then": ""}}, "what")"), "/choices/a/if: ");
-  expect_refused(with(R"("what")", R"("choices": {"a": {"if": "regions"}}, "what")"), "/choices/a: 'then' is missing");
-  expect_refused(with(R"("what")", R"("files": {"a/b": ""}, "what")"), "/files/a~1b: ");
+  expect_refused(with(R"("what")", R"("choices": {"a": {"if": "regions"}}, "what")"),
+                 "/choices/a: Missing required property 'then'");
+  expect_refused(with(R"("what")", R"("files": {"a/b": ""}, "what")"), "/files: ");
   expect_refused(with(R"("what")", R"json("seconds_pattern": "(", "what")json"), "/seconds_pattern: ");
   expect_refused(with(R"("what")", R"("version_command": ["a", "{input}"], "what")"), "/version_command/1: ");
   expect_refused(with(R"("what")", R"("success_codes": [0, 300], "what")"), "/success_codes/1: ");
-  expect_refused(write("[]"), "this is no object");
+  expect_refused(write("[]"), "Value type not permitted");
 }
 
 TEST_F(Descriptions, ThatAreNoJsonAreRefusedAtTheByte) {
