@@ -8,14 +8,21 @@
 #include <boost/version.hpp>
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "baselines/mesher.h"
+#include "bench/json_fields.h"
 #include "bench/revision.h"
 
 namespace ccdt {
 namespace {
+
+constexpr auto fields_of_environment =
+    std::tuple(field("cpu", &Environment::cpu), field("cores", &Environment::cores),
+               field("load_average", &Environment::load_average), field("system", &Environment::system),
+               field("compiler", &Environment::compiler), field("flags", &Environment::flags),
+               field("build_type", &Environment::build_type), field("revision", &Environment::revision),
+               field("libraries", &Environment::libraries));
 
 /// The value of the first line of a file of "name : value" lines that has this name; empty if there is none.
 std::string value_in_file(const char* file, const std::string& name) {
@@ -68,6 +75,14 @@ Environment capture_environment() {
   environment.revision = source_revision;
   environment.libraries = library_versions();
   return environment;
+}
+
+void to_json(Json& json, const Environment& environment) {
+  write_fields(environment, fields_of_environment, json);
+}
+
+void from_json(const Json& json, Environment& environment) {
+  read_fields(json, fields_of_environment, environment);
 }
 
 std::vector<std::string> command_line() {

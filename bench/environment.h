@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/json.h"
+
 namespace ccdt {
 
 /// Where and with what a run was made: what is needed to understand its times later.
@@ -19,6 +21,10 @@ struct Environment {
 };
 
 Environment capture_environment();
+
+void to_json(Json& json, const Environment& environment);
+/// \throw nlohmann::json::exception  names are missing or of another type
+void from_json(const Json& json, Environment& environment);
 
 /// The command line of this process, its program by its bare name: {"ccdt", "mesh", "part.stl", ...}.
 std::vector<std::string> command_line();

@@ -1,134 +1,141 @@
 #include "bench/run_record.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "bench/json_parts.h"
-#include "bench/quality_json.h"
-#include "engine/base/errors.h"
-#include "engine/io/file_bytes.h"
-#include "engine/io/output_file.h"
+#include "bench/json_fields.h"
 
 namespace ccdt {
+
+template <>
+inline constexpr auto fields<Histogram> = std::tuple(field("edges", &Histogram::edges),
+                                                     field("counts", &Histogram::counts));
+
+template <>
+inline constexpr auto fields<Quality::Measure> = std::tuple(field("min", &Quality::Measure::min),
+                                                            field("mean", &Quality::Measure::mean),
+                                                            field("median", &Quality::Measure::median),
+                                                            field("p99", &Quality::Measure::p99),
+                                                            field("max", &Quality::Measure::max),
+                                                            field("histogram", &Quality::Measure::histogram));
+
+template <>
+inline constexpr auto fields<Quality::Dihedral> = std::tuple(field("min", &Quality::Dihedral::min),
+                                                             field("max", &Quality::Dihedral::max),
+                                                             field("histogram", &Quality::Dihedral::histogram));
+
+template <>
+inline constexpr auto fields<Quality> = std::tuple(field("r", &Quality::r),
+                                                   field("dihedral_degrees", &Quality::dihedral_degrees),
+                                                   optional_field("aspect_ratio", &Quality::aspect_ratio),
+                                                   optional_field("radius_edge_ratio", &Quality::radius_edge_ratio));
+
+template <>
+inline constexpr auto fields<ImproveCounts> = std::tuple(
+    field("bad_cells", &ImproveCounts::bad_cells), field("bad_cells_left", &ImproveCounts::bad_cells_left),
+    field("removed_edges", &ImproveCounts::removed_edges), field("facet_flips", &ImproveCounts::facet_flips),
+    field("removed_faces", &ImproveCounts::removed_faces), field("moved_vertices", &ImproveCounts::moved_vertices),
+    field("inserted_vertices", &ImproveCounts::inserted_vertices),
+    field("collapsed_edges", &ImproveCounts::collapsed_edges), field("stop", &ImproveCounts::stop));
+
+template <>
+inline constexpr auto fields<MeshCounts> = std::tuple(
+    field("vertices", &MeshCounts::vertices), field("steiner_vertices", &MeshCounts::steiner_vertices),
+    field("interior_vertices", &MeshCounts::interior_vertices), field("tetrahedra", &MeshCounts::tetrahedra),
+    field("faces", &MeshCounts::faces), field("undelaunay_faces", &MeshCounts::undelaunay_faces),
+    field("front_tetrahedra", &MeshCounts::front_tetrahedra),
+    optional_field("splits_by_level", &MeshCounts::splits_by_level),
+    optional_field("dropped_interior_vertices", &MeshCounts::dropped_interior_vertices),
+    optional_field("front_faces", &MeshCounts::front_faces), optional_field("improve", &MeshCounts::improve));
+
+template <>
+inline constexpr auto fields<RunRecord::MesherName> = std::tuple(field("name", &RunRecord::MesherName::name),
+                                                                 field("version", &RunRecord::MesherName::version),
+                                                                 field("revision", &RunRecord::MesherName::revision));
+
+template <>
+inline constexpr auto fields<RunRecord::Input> = std::tuple(field("name", &RunRecord::Input::name),
+                                                            field("sha256", &RunRecord::Input::sha256),
+                                                            field("vertices", &RunRecord::Input::vertices),
+                                                            field("facets", &RunRecord::Input::facets),
+                                                            field("segments", &RunRecord::Input::segments));
+
 namespace {
 
-constexpr const char* schema = "ccdt.run/1";
+constexpr DocumentKind run_document = {"ccdt.run/1", "not a report of schema ccdt.run/1",
+                                       "give the JSON that `ccdt mesh --report` wrote"};
 
-template <class Pairs>
-Json object_of(const Pairs& pairs) {
-  Json object = Json::object();
-  for (const auto& [name, value] : pairs) object[name] = value;
-  return object;
+constexpr auto stage(double StageSeconds::*seconds) {
+  return [seconds](auto& record) -> auto& {
+    return record.seconds.*seconds;
+  };
 }
+
+constexpr auto fields_of_seconds =
+    std::tuple(field("read", &RunRecord::read_seconds), optional_field("remesh", &RunRecord::remesh_seconds),
+               field("plc", stage(&StageSeconds::plc)), field("protect", stage(&StageSeconds::protect)),
+               field("facets", stage(&StageSeconds::facets)), field("lattice", stage(&StageSeconds::lattice)),
+               field("delaunay", stage(&StageSeconds::delaunay)), field("face_check", stage(&StageSeconds::face_check)),
+               field("front", stage(&StageSeconds::front)), field("label", stage(&StageSeconds::label)),
+               field("finish", stage(&StageSeconds::finish)), field("improve", stage(&StageSeconds::improve)),
+               field("write", &RunRecord::write_seconds), field("mesh", stage(&StageSeconds::mesh)));
+
+constexpr auto fields_before_seconds =
+    std::tuple(optional_field("command", &RunRecord::command), field("environment", &RunRecord::environment),
+               field("counts", &RunRecord::counts));
+
+constexpr auto fields_after_seconds =
+    std::tuple(field("peak_rss_bytes", &RunRecord::peak_rss_bytes), field("quality", &RunRecord::quality),
+               field(
+                   "volume", [](auto& record) -> auto& { return record.quality.volume; }),
+               field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status));
 
 Json options_json(const RunRecord& record) {
   Json options = Json::object();
   for (const auto& [name, option] : record.options)
     std::visit([&, &key = name](const auto& value) { options[key] = value; }, option);
-  if (!record.mesher_settings.empty()) options["mesher_settings"] = object_of(record.mesher_settings);
+  for (const auto& [name, words] : record.mesher_settings) options["mesher_settings"][name] = words;
   return options;
 }
 
-Json seconds_json(const RunRecord& r) {
-  const StageSeconds& s = r.seconds;
-  return {{"read", r.read_seconds},
-          {"remesh", r.remesh_seconds},
-          {"plc", s.plc},
-          {"protect", s.protect},
-          {"facets", s.facets},
-          {"lattice", s.lattice},
-          {"delaunay", s.delaunay},
-          {"face_check", s.face_check},
-          {"front", s.front},
-          {"label", s.label},
-          {"finish", s.finish},
-          {"improve", s.improve},
-          {"write", r.write_seconds},
-          {"mesh", s.mesh}};
-}
-
-RunRecord::Option option_from(const Json& value) {
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_string()) return value.get<std::string>();
-  return number_from_json(value);
-}
-
-ImproveCounts improve_counts_from(const Json& j) {
-  ImproveCounts c;
-  c.bad_cells = j.at("bad_cells");
-  c.bad_cells_left = j.at("bad_cells_left");
-  c.removed_edges = j.at("removed_edges");
-  c.facet_flips = j.at("facet_flips");
-  c.removed_faces = j.at("removed_faces");
-  c.moved_vertices = j.at("moved_vertices");
-  c.inserted_vertices = j.at("inserted_vertices");
-  c.collapsed_edges = j.at("collapsed_edges");
-  c.stop = value_of<ImproveStop>(j.at("stop").get<std::string>()).value_or(ImproveStop::none);
-  return c;
-}
-
-MeshCounts counts_from(const Json& j) {
-  MeshCounts c;
-  c.vertices = j.at("vertices");
-  c.steiner_vertices = j.at("steiner_vertices");
-  c.interior_vertices = j.at("interior_vertices");
-  c.tetrahedra = j.at("tetrahedra");
-  c.faces = j.at("faces");
-  c.undelaunay_faces = j.at("undelaunay_faces");
-  c.front_tetrahedra = j.at("front_tetrahedra");
-  c.splits_by_level = j.value("splits_by_level", c.splits_by_level);
-  c.dropped_interior_vertices = j.value("dropped_interior_vertices", c.dropped_interior_vertices);
-  c.front_faces = j.value("front_faces", c.front_faces);
-  if (j.contains("improve")) c.improve = improve_counts_from(j.at("improve"));
-  return c;
-}
-
-void seconds_from(const Json& j, RunRecord& r) {
-  StageSeconds& s = r.seconds;
-  r.read_seconds = j.at("read");
-  r.remesh_seconds = j.value("remesh", 0.0);
-  s.plc = j.at("plc");
-  s.protect = j.at("protect");
-  s.facets = j.at("facets");
-  s.lattice = j.at("lattice");
-  s.delaunay = j.at("delaunay");
-  s.face_check = j.at("face_check");
-  s.front = j.at("front");
-  s.label = j.at("label");
-  s.finish = j.at("finish");
-  s.improve = j.at("improve");
-  r.write_seconds = j.at("write");
-  s.mesh = j.at("mesh");
-}
-
-RunRecord record_from(const Json& j) {
-  RunRecord r;
-  const Json &mesher = j.at("mesher"), &input = j.at("input");
-  r.mesher = {mesher.at("name"), mesher.at("version"), mesher.at("revision")};
-  r.input = {input.at("name"), input.at("sha256"), input.at("vertices"), input.at("facets"), input.at("segments")};
-  for (const auto& [name, value] : j.at("options").items()) {
-    if (name != "mesher_settings") {
-      r.options.emplace_back(name, option_from(value));
-      continue;
-    }
-    for (const auto& [setting, words] : value.items()) r.mesher_settings.emplace_back(setting, words);
+void read_options(const Json& json, RunRecord& record) {
+  for (const auto& [name, value] : json.items()) {
+    if (name == "mesher_settings")
+      for (const auto& [setting, words] : value.items()) record.mesher_settings.emplace_back(setting, words);
+    else if (value.is_boolean())
+      record.options.emplace_back(name, value.get<bool>());
+    else if (value.is_string())
+      record.options.emplace_back(name, value.get<std::string>());
+    else
+      record.options.emplace_back(name, number_from_json(value));
   }
-  r.command = j.value("command", r.command);
-  r.environment = environment_from_json(j.at("environment"));
-  r.counts = counts_from(j.at("counts"));
-  seconds_from(j.at("seconds"), r);
-  r.peak_rss_bytes = j.at("peak_rss_bytes");
-  r.quality = quality_from_json(j.at("quality"));
-  r.quality.volume = j.at("volume");
-  r.largest_rounding = j.at("largest_rounding");
-  const auto status = j.at("status").get<std::string>();
-  if (!value_of<RunStatus>(status)) throw std::invalid_argument("no run has the status '" + status + "'");
-  r.status = *value_of<RunStatus>(status);
-  r.reason = j.value("reason", "");
-  r.notes = j.value("notes", std::vector<std::string>());
-  if (j.contains("samples"))
-    for (const auto& [name, values] : j.at("samples").items()) r.samples[name] = values.get<std::vector<double>>();
-  return r;
+}
+
+Json json_of(const RunRecord& record) {
+  Json json = {{"schema", run_document.schema},
+               {"mesher", record.mesher},
+               {"input", record.input},
+               {"options", options_json(record)}};
+  write_fields(record, fields_before_seconds, json);
+  write_fields(record, fields_of_seconds, json["seconds"]);
+  write_fields(record, fields_after_seconds, json);
+  if (!record.reason.empty()) json["reason"] = record.reason;
+  if (!record.notes.empty()) json["notes"] = record.notes;
+  if (!record.samples.empty()) json["samples"] = record.samples;
+  return json;
+}
+
+RunRecord record_from(const Json& json) {
+  RunRecord record;
+  json.at("mesher").get_to(record.mesher);
+  json.at("input").get_to(record.input);
+  read_options(json.at("options"), record);
+  read_fields(json, fields_before_seconds, record);
+  read_fields(json.at("seconds"), fields_of_seconds, record);
+  read_fields(json, fields_after_seconds, record);
+  record.reason = json.value("reason", "");
+  record.notes = json.value("notes", record.notes);
+  record.samples = json.value("samples", record.samples);
+  return record;
 }
 
 }  // namespace
@@ -173,57 +180,20 @@ RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOp
   return record;
 }
 
-std::string to_json(const RunRecord& r) {
-  Json json = {{"schema", schema},
-               {"mesher", {{"name", r.mesher.name}, {"version", r.mesher.version}, {"revision", r.mesher.revision}}},
-               {"input",
-                {{"name", r.input.name},
-                 {"sha256", r.input.sha256},
-                 {"vertices", r.input.vertices},
-                 {"facets", r.input.facets},
-                 {"segments", r.input.segments}}},
-               {"options", options_json(r)},
-               {"command", r.command},
-               {"environment", environment_json(r.environment)},
-               {"counts", counts_json(r.counts)},
-               {"seconds", seconds_json(r)},
-               {"peak_rss_bytes", r.peak_rss_bytes},
-               {"quality", quality_json(r.quality)},
-               {"volume", r.quality.volume},
-               {"largest_rounding", r.largest_rounding},
-               {"status", name_of(r.status)}};
-  if (!r.reason.empty()) json["reason"] = r.reason;
-  if (!r.notes.empty()) json["notes"] = r.notes;
-  if (!r.samples.empty()) json["samples"] = object_of(r.samples);
-  return to_text(json);
+std::string to_json(const RunRecord& record) {
+  return to_text(json_of(record));
 }
 
 RunRecord run_record_from_json(const std::string& text) {
-  try {
-    const Json json = Json::parse(text);
-    if (json.value("schema", "") != schema)
-      throw InputError("not a report of schema ccdt.run/1", {}, "give the JSON that `ccdt mesh --report` wrote");
-    return record_from(json);
-  } catch (const std::exception& error) {
-    if (dynamic_cast<const Error*>(&error) != nullptr) throw;
-    throw InputError("not a report of schema ccdt.run/1: " + std::string(error.what()), {},
-                     "give the JSON that `ccdt mesh --report` wrote");
-  }
+  return read_document(text, run_document, record_from);
 }
 
 void write_run_record(const RunRecord& record, const std::filesystem::path& file) {
-  io::OutputFile output(file);
-  output << to_json(record);
-  output.commit();
+  write_json(json_of(record), file);
 }
 
 RunRecord read_run_record(const std::filesystem::path& file) {
-  try {
-    return run_record_from_json(io::read_whole_file(file).bytes);
-  } catch (InputError& error) {
-    error.place().file = file.string();
-    throw;
-  }
+  return read_document(file, run_document, record_from);
 }
 
 }  // namespace ccdt

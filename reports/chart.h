@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/json_parts.h"
+#include "bench/json.h"
 
 namespace ccdt {
 

@@ -34,10 +34,8 @@ std::string_view status_of(const ReportSection& section) {
 
 Json section_json(const ReportSection& section) {
   const ExperimentResult& result = section.result;
-  Json tables = Json::array(), charts = Json::array(), meshes = Json::array();
-  for (const ResultTable& table : result.tables) tables.push_back(table_json(table));
+  Json charts = Json::array();
   for (const ReportChart& chart : section.charts) charts.push_back(chart_json(chart));
-  for (const KeptMesh& mesh : result.meshes) meshes.push_back(kept_mesh_json(mesh));
   Json json = {{"name", result.name},
                {"title", result.title},
                {"section", result.section},
@@ -47,9 +45,9 @@ Json section_json(const ReportSection& section) {
                {"definitions", result.definitions},
                {"findings", result.findings},
                {"problems", result.problems},
-               {"tables", tables},
+               {"tables", result.tables},
                {"charts", charts},
-               {"meshes", meshes},
+               {"meshes", result.meshes},
                {"raw_files", result.raw_files}};
   if (section.is_missing) return json;
   json["scale"] = result.how.scale;
@@ -57,7 +55,7 @@ Json section_json(const ReportSection& section) {
   json["runs"] = result.how.runs;
   json["confidence"] = result.how.confidence;
   json["limits"] = {{"seconds", result.how.limits.seconds}, {"memory_bytes", result.how.limits.memory_bytes}};
-  json["environment"] = environment_json(result.how.environment);
+  json["environment"] = result.how.environment;
   return json;
 }
 

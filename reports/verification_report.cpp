@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/json_parts.h"
+#include "bench/json.h"
 #include "bench/results/numbers.h"
 #include "reports/text_table.h"
 

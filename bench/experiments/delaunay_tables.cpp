@@ -130,10 +130,6 @@ std::optional<Estimate> ratio(const Group& group, std::string_view numerator, st
   return ratio_of_medians(above->seconds, below->seconds);
 }
 
-Cell cell_of(const std::optional<Estimate>& estimate) {
-  return estimate ? Cell(*estimate) : Cell();
-}
-
 std::string subject(const Measured& m) {
   return m.points + ", " + with_separators(static_cast<std::uint64_t>(m.vertices)) + " points";
 }

@@ -5,7 +5,7 @@
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/quality_study.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/results/cells.h"
+#include "bench/results/result_table.h"
 
 namespace ccdt {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
-#include "bench/regression.h"
+#include "bench/statistics.h"
 #include "engine/base/progress.h"
 #include "engine/mesher.h"
 

@@ -1,6 +1,6 @@
 #include "bench/experiments/fig8.h"
-#include "bench/results/cells.h"
 #include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
 
 namespace ccdt {
 namespace {

@@ -1,7 +1,7 @@
 #include "bench/experiments/improvement.h"
 
 #include "bench/experiments/criteria.h"
-#include "bench/results/cells.h"
+#include "bench/results/result_table.h"
 
 namespace ccdt {
 namespace {

@@ -1,8 +1,8 @@
 #include <array>
 
 #include "bench/experiments/interior_points.h"
-#include "bench/results/cells.h"
 #include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
 #include "bench/run_record.h"
 
 namespace ccdt {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/results/cells.h"
+#include "bench/results/result_table.h"
 #include "bench/run_record.h"
 
 namespace ccdt {

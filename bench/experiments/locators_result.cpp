@@ -1,6 +1,6 @@
 #include "bench/experiments/locators.h"
-#include "bench/results/cells.h"
 #include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
 #include "bench/run_record.h"
 
 namespace ccdt {

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "baselines/mesher.h"
-#include "bench/results/cells.h"
+#include "bench/results/result_table.h"
 
 namespace ccdt {
 namespace {

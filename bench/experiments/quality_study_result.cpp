@@ -1,8 +1,8 @@
 #include <numeric>
 
 #include "bench/experiments/quality_study.h"
-#include "bench/results/cells.h"
 #include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
 
 namespace ccdt {
 namespace {

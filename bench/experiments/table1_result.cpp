@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "bench/experiments/table1.h"
-#include "bench/results/cells.h"
 #include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
 
 namespace ccdt {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "bench/experiments/small_plcs/families.h"
-#include "bench/results/cells.h"
 #include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
 #include "engine/io/write_plc.h"
 
 namespace ccdt {

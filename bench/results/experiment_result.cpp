@@ -2,24 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "bench/json_parts.h"
-#include "engine/base/errors.h"
-#include "engine/io/file_bytes.h"
-#include "engine/io/output_file.h"
+#include "bench/json_fields.h"
 
 namespace ccdt {
+
+template <>
+inline constexpr auto fields<Limits> = std::tuple(field("seconds", &Limits::seconds),
+                                                  field("memory_bytes", &Limits::memory_bytes));
+
+template <>
+inline constexpr auto fields<Column> = std::tuple(field("name", &Column::name), field("title", &Column::title),
+                                                  field("kind", &Column::kind), field("unit", &Column::unit));
+
 namespace {
 
-constexpr const char* schema = "ccdt.experiment/1";
+constexpr DocumentKind experiment_document = {"ccdt.experiment/1", "no experiment of schema ccdt.experiment/1",
+                                              "give a folder that `ccdt reproduce` has filled"};
 
-ColumnKind column_kind(const std::string& name) {
-  for (const ColumnKind kind :
-       {ColumnKind::label, ColumnKind::figure, ColumnKind::time, ColumnKind::paper, ColumnKind::note})
-    if (name == name_of(kind)) return kind;
-  throw std::invalid_argument("no kind of column: " + name);
+constexpr auto fields_of_mesh = std::tuple(field("file", &KeptMesh::file), field("title", &KeptMesh::title),
+                                           field("run", &KeptMesh::run), field("figure", &KeptMesh::is_figure));
+
+template <class Member>
+constexpr auto circumstance(Member Circumstances::*member) {
+  return [member](auto& result) -> auto& {
+    return result.how.*member;
+  };
 }
+
+constexpr auto fields_of_result = std::tuple(
+    field("name", &ExperimentResult::name), field("title", &ExperimentResult::title),
+    field("section", &ExperimentResult::section), field("command", circumstance(&Circumstances::command)),
+    field("scale", circumstance(&Circumstances::scale)), field("tetrahedra", circumstance(&Circumstances::tetrahedra)),
+    field("runs", circumstance(&Circumstances::runs)), field("confidence", circumstance(&Circumstances::confidence)),
+    field("limits", circumstance(&Circumstances::limits)), field("good", &ExperimentResult::is_good),
+    field("definitions", &ExperimentResult::definitions), field("findings", &ExperimentResult::findings),
+    field("problems", &ExperimentResult::problems), field("tables", &ExperimentResult::tables),
+    field("meshes", &ExperimentResult::meshes), field("raw_files", &ExperimentResult::raw_files),
+    field("environment", circumstance(&Circumstances::environment)));
 
 Json number_json(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -39,43 +59,15 @@ Cell cell_from(const Json& json) {
   return Estimate{json.at("value"), json.at("low"), json.at("high")};
 }
 
-ResultTable table_from(const Json& json) {
-  ResultTable table{json.at("name"), json.at("title"), {}, {}, json.at("data")};
-  for (const Json& c : json.at("columns"))
-    table.columns.push_back({c.at("name"), c.at("title"), column_kind(c.at("kind")), c.at("unit")});
-  for (const Json& r : json.at("rows")) {
-    ResultRow row{{}, r.at("runs")};
-    for (const Column& column : table.columns) row.cells.push_back(cell_from(r.at("values").at(column.name)));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-Circumstances circumstances_from(const Json& json) {
-  return {.environment = environment_from_json(json.at("environment")),
-          .runs = json.at("runs"),
-          .confidence = json.at("confidence"),
-          .limits = {json.at("limits").at("seconds"), json.at("limits").at("memory_bytes")},
-          .tetrahedra = json.at("tetrahedra"),
-          .scale = json.at("scale"),
-          .command = json.at("command")};
+Json json_of(const ExperimentResult& result) {
+  Json json = {{"schema", experiment_document.schema}};
+  write_fields(result, fields_of_result, json);
+  return json;
 }
 
 ExperimentResult result_from(const Json& json) {
-  ExperimentResult result{.name = json.at("name"),
-                          .title = json.at("title"),
-                          .section = json.at("section"),
-                          .how = circumstances_from(json),
-                          .definitions = json.at("definitions"),
-                          .tables = {},
-                          .findings = json.at("findings"),
-                          .problems = json.at("problems"),
-                          .meshes = {},
-                          .raw_files = json.at("raw_files"),
-                          .is_good = json.at("good")};
-  for (const Json& table : json.at("tables")) result.tables.push_back(table_from(table));
-  for (const Json& m : json.at("meshes"))
-    result.meshes.push_back({m.at("file"), m.at("title"), m.at("run"), m.at("figure")});
+  ExperimentResult result;
+  read_fields(json, fields_of_result, result);
   return result;
 }
 
@@ -94,72 +86,47 @@ Json cell_json(const Cell& cell) {
   return nullptr;
 }
 
-Json table_json(const ResultTable& table) {
-  Json columns = Json::array(), rows = Json::array();
-  for (const Column& c : table.columns)
-    columns.push_back({{"name", c.name}, {"title", c.title}, {"kind", name_of(c.kind)}, {"unit", c.unit}});
+void to_json(Json& json, const ResultTable& table) {
+  json = {{"name", table.name}, {"title", table.title}, {"data", table.is_data}, {"columns", table.columns}};
+  json["rows"] = Json::array();
   for (const ResultRow& row : table.rows) {
     Json values = Json::object();
     for (std::size_t c = 0; c < table.columns.size(); ++c) values[table.columns[c].name] = cell_json(row.cells.at(c));
-    rows.push_back({{"values", std::move(values)}, {"runs", row.runs}});
+    json["rows"].push_back({{"values", std::move(values)}, {"runs", row.runs}});
   }
-  return {{"name", table.name}, {"title", table.title}, {"data", table.is_data}, {"columns", columns}, {"rows", rows}};
 }
 
-Json kept_mesh_json(const KeptMesh& mesh) {
-  return {{"file", mesh.file}, {"title", mesh.title}, {"run", mesh.run}, {"figure", mesh.is_figure}};
+void from_json(const Json& json, ResultTable& table) {
+  table = {json.at("name"), json.at("title"), json.at("columns"), {}, json.at("data")};
+  for (const Json& r : json.at("rows")) {
+    ResultRow row{{}, r.at("runs")};
+    for (const Column& column : table.columns) row.cells.push_back(cell_from(r.at("values").at(column.name)));
+    table.rows.push_back(std::move(row));
+  }
+}
+
+void to_json(Json& json, const KeptMesh& mesh) {
+  write_fields(mesh, fields_of_mesh, json);
+}
+
+void from_json(const Json& json, KeptMesh& mesh) {
+  read_fields(json, fields_of_mesh, mesh);
 }
 
 std::string to_json(const ExperimentResult& result) {
-  Json json = {{"schema", schema},
-               {"name", result.name},
-               {"title", result.title},
-               {"section", result.section},
-               {"command", result.how.command},
-               {"scale", result.how.scale},
-               {"tetrahedra", result.how.tetrahedra},
-               {"runs", result.how.runs},
-               {"confidence", result.how.confidence},
-               {"limits", {{"seconds", result.how.limits.seconds}, {"memory_bytes", result.how.limits.memory_bytes}}},
-               {"good", result.is_good},
-               {"definitions", result.definitions},
-               {"findings", result.findings},
-               {"problems", result.problems},
-               {"tables", Json::array()},
-               {"meshes", Json::array()},
-               {"raw_files", result.raw_files},
-               {"environment", environment_json(result.how.environment)}};
-  for (const ResultTable& table : result.tables) json["tables"].push_back(table_json(table));
-  for (const KeptMesh& mesh : result.meshes) json["meshes"].push_back(kept_mesh_json(mesh));
-  return to_text(json);
+  return to_text(json_of(result));
 }
 
 ExperimentResult experiment_result_from_json(const std::string& text) {
-  const std::string remedy = "give a folder that `ccdt reproduce` has filled";
-  try {
-    const Json json = Json::parse(text);
-    if (!json.is_object() || json.value("schema", "") != schema)
-      throw InputError("no experiment of schema ccdt.experiment/1", {}, remedy);
-    return result_from(json);
-  } catch (const std::exception& error) {
-    if (dynamic_cast<const Error*>(&error) != nullptr) throw;
-    throw InputError("no experiment of schema ccdt.experiment/1: " + std::string(error.what()), {}, remedy);
-  }
+  return read_document(text, experiment_document, result_from);
 }
 
 void write_experiment_result(const ExperimentResult& result, const std::filesystem::path& folder) {
-  io::OutputFile output(folder / (result.name + ".json"));
-  output << to_json(result);
-  output.commit();
+  write_json(json_of(result), folder / (result.name + ".json"));
 }
 
 ExperimentResult read_experiment_result(const std::filesystem::path& file) {
-  try {
-    return experiment_result_from_json(io::read_whole_file(file).bytes);
-  } catch (InputError& error) {
-    error.place().file = file.string();
-    throw;
-  }
+  return read_document(file, experiment_document, result_from);
 }
 
 }  // namespace ccdt

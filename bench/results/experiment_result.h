@@ -7,7 +7,7 @@
 
 #include "baselines/process.h"
 #include "bench/environment.h"
-#include "bench/json_parts.h"
+#include "bench/json.h"
 #include "bench/results/result_table.h"
 
 namespace ccdt {
@@ -51,8 +51,10 @@ const ResultTable* find_table(const ExperimentResult& result, std::string_view n
 
 /// The parts that other documents have as well.
 Json cell_json(const Cell& cell);
-Json table_json(const ResultTable& table);
-Json kept_mesh_json(const KeptMesh& mesh);
+void to_json(Json& json, const ResultTable& table);
+void from_json(const Json& json, ResultTable& table);
+void to_json(Json& json, const KeptMesh& mesh);
+void from_json(const Json& json, KeptMesh& mesh);
 
 /// As JSON of schema `ccdt.experiment/1`, indented. Numbers that are not finite become null.
 std::string to_json(const ExperimentResult& result);

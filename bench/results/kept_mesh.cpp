@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "bench/json_parts.h"
-#include "engine/io/output_file.h"
+#include "bench/json.h"
 
 namespace ccdt {
 namespace {
@@ -53,9 +52,7 @@ void write_kept_mesh(const TetMesh& mesh, const std::string& title, const std::f
                      {"points", packed(points.data(), bytes_of(points))},
                      {"cells", packed(mesh.tetrahedra.data(), bytes_of(mesh.tetrahedra))},
                      {"regions", packed(mesh.regions.data(), bytes_of(mesh.regions))}};
-  io::OutputFile output(file);
-  output << to_text(json);
-  output.commit();
+  write_json(json, file);
 }
 
 }  // namespace ccdt

@@ -6,22 +6,6 @@
 
 namespace ccdt {
 
-std::string_view name_of(ColumnKind kind) {
-  switch (kind) {
-    case ColumnKind::label:
-      return "label";
-    case ColumnKind::figure:
-      return "figure";
-    case ColumnKind::time:
-      return "time";
-    case ColumnKind::paper:
-      return "paper";
-    case ColumnKind::note:
-      return "note";
-  }
-  return "";
-}
-
 std::size_t column_of(const ResultTable& table, std::string_view name) {
   const auto found = std::ranges::find(table.columns, name, &Column::name);
   if (found == table.columns.end())

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "bench/statistics.h"
+#include "engine/base/enum_names.h"
 
 namespace ccdt {
 
@@ -17,7 +20,14 @@ enum class ColumnKind {
   paper,   ///< what the paper says; numbers
   note     ///< why a value is missing; texts
 };
-std::string_view name_of(ColumnKind kind);
+
+constexpr auto names_of(ColumnKind) {
+  return std::to_array<NamedValue<ColumnKind>>({{ColumnKind::label, "label"},
+                                                {ColumnKind::figure, "figure"},
+                                                {ColumnKind::time, "time"},
+                                                {ColumnKind::paper, "paper"},
+                                                {ColumnKind::note, "note"}});
+}
 
 struct Column {
   std::string name;   ///< in JSON and CSV: letters, digits and underscores
@@ -28,6 +38,29 @@ struct Column {
 
 /// Nothing, a text, a number, or a number with its interval.
 using Cell = std::variant<std::monostate, std::string, double, Estimate>;
+
+/// \name A value as a cell.
+/// @{
+inline Cell cell_of(const std::optional<Estimate>& estimate) {
+  return estimate ? Cell(*estimate) : Cell();
+}
+
+inline Cell cell_of(const std::optional<double>& number) {
+  return number ? Cell(*number) : Cell();
+}
+
+inline Cell cell_of(std::uint64_t count) {
+  return static_cast<double>(count);
+}
+
+inline Cell cell_of(bool holds) {
+  return std::string(holds ? "yes" : "no");
+}
+
+inline Cell cell_of(std::string_view text) {
+  return std::string(text);
+}
+/// @}
 
 struct ResultRow {
   std::vector<Cell> cells;             ///< one a column

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -73,6 +74,49 @@ TEST(Statistics, RatioOfMediansOfScaledSamplesIsTheScale) {
   EXPECT_GT(ratio.high, 16);
   EXPECT_GT(ratio.low, 16 * 0.95);
   EXPECT_LT(ratio.high, 16 * 1.05);
+}
+
+TEST(Regression, FitsAnscombesFirstSetAsRDoes) {
+  // Anscombe 1973. R: summary(lm(y1 ~ x1, anscombe)), confint(lm(y1 ~ x1, anscombe))
+  const std::vector<double> x = {10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
+  const std::vector<double> y = {8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68};
+  const LineFit fit = fit_line(x, y);
+  EXPECT_NEAR(fit.slope.value, 0.5000909, 1e-7);
+  EXPECT_NEAR(fit.slope.low, 0.2333701, 1e-6);
+  EXPECT_NEAR(fit.slope.high, 0.7668117, 1e-6);
+  EXPECT_NEAR(fit.intercept, 3.0000909, 1e-7);
+  EXPECT_NEAR(fit.r_squared, 0.6665425, 1e-7);
+}
+
+TEST(Regression, APointOffALineOfThreeGivesTheIntervalOfOneDegreeOfFreedom) {
+  // Residuals 1/6, -1/3, 1/6; half width = t(1, 0.975) * sqrt(1/6 / 2) with t = tan(0.475 pi) = 12.7062
+  const LineFit fit = fit_line(std::vector{0.0, 1.0, 2.0}, std::vector{0.0, 0.0, 1.0});
+  EXPECT_NEAR(fit.slope.value, 0.5, 1e-15);
+  EXPECT_NEAR(fit.slope.high - fit.slope.value, 12.706204736 * std::sqrt(1.0 / 12), 1e-8);
+  EXPECT_NEAR(fit.r_squared, 0.75, 1e-12);
+}
+
+TEST(Regression, PowerLawsHaveTheirExponentAndAnIntervalOfNoWidth) {
+  for (const double exponent : {0.5, 1.0, 1.1, 2.0}) {
+    std::vector<double> x, y;
+    for (double n = 1e4; n < 2e6; n *= 2) {
+      x.push_back(n);
+      y.push_back(3e-6 * std::pow(n, exponent));
+    }
+    const LineFit fit = fit_power(x, y);
+    EXPECT_NEAR(fit.slope.value, exponent, 1e-12);
+    EXPECT_NEAR(fit.slope.high, fit.slope.low, 1e-9);
+    EXPECT_NEAR(std::exp(fit.intercept), 3e-6, 1e-15);
+    EXPECT_NEAR(fit.r_squared, 1, 1e-12);
+  }
+}
+
+TEST(Regression, MoreConfidenceNeedsAWiderInterval) {
+  const std::vector<double> x = {1, 2, 3, 4}, y = {1, 2.2, 2.9, 4.1};
+  const LineFit narrow = fit_line(x, y, 0.5), wide = fit_line(x, y, 0.99);
+  EXPECT_GT(narrow.slope.low, wide.slope.low);
+  EXPECT_LT(narrow.slope.high, wide.slope.high);
+  EXPECT_EQ(narrow.slope.value, wide.slope.value);
 }
 
 }  // namespace
