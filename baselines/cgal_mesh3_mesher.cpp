@@ -125,7 +125,7 @@ TetMesh read_back(const Complex& complex, const Plc& plc) {
 }
 
 bool is_improved(const MeshOptions& options) {
-  return options.improve.improvement != Improvement::none;
+  return improvement_of(options) != Improvement::none;
 }
 
 constexpr unsigned random_seed = 0;  ///< of the first points on the surface

@@ -30,7 +30,7 @@ bool holds(ChoiceCondition condition, const InputPlc& input, const MeshOptions& 
     case ChoiceCondition::interior_points:
       return options.lattice != Lattice::none;
     case ChoiceCondition::improvement:
-      return options.improve.improvement != Improvement::none;
+      return improvement_of(options) != Improvement::none;
     case ChoiceCondition::edge_length:
       return options.edge_length > 0;
     case ChoiceCondition::regions:

@@ -91,7 +91,7 @@ DiscreteModel discrete_model(const Plc& plc) {
 
 MesherSettings settings_of_gmsh(const InputPlc& input, const MeshOptions& options) {
   MesherSettings settings = {{"Mesh.Algorithm3D", "10"},
-                             {"Mesh.Optimize", options.improve.improvement == Improvement::none ? "0" : "1"}};
+                             {"Mesh.Optimize", improvement_of(options) == Improvement::none ? "0" : "1"}};
   const bool bare = options.lattice == Lattice::none;
   if (options.edge_length == 0 && !bare) {
     settings.emplace_back("Mesh.MeshSizeExtendFromBoundary", "1");

@@ -162,7 +162,7 @@ RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOp
                     {"locator", std::string(name_of(options.locator))},
                     {"delaunay", std::string(name_of(options.delaunay))},
                     {"protection", std::string(name_of(options.protection))},
-                    {"improve", std::string(name_of(options.improve.improvement))},
+                    {"improve", std::string(name_of(improvement_of(options)))},
                     {"objective", std::string(name_of(options.improve.objective))},
                     {"target_r", options.improve.target_r},
                     {"target_dihedral", options.improve.target_dihedral},

@@ -1,10 +1,10 @@
 #include "engine/mesher.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/base/stopwatch.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/delaunay/wrap_delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/face_check.h"
@@ -20,38 +20,24 @@
 namespace ccdt {
 namespace {
 
-/// The state of one meshing, from the PLC to the mesh.
-struct Work {
-  const Plc& plc;
-  const MeshOptions& options;
-  const Progress& progress;
-  std::vector<bool> must_be_chain;  ///< by segment
+/// Runs a stage, whose wall-clock seconds are added to a figure.
+template <class Stage>
+auto timed(double& seconds, const Stage& stage) {
+  const Stopwatch watch(seconds);
+  return stage();
+}
+
+/// The Delaunay tetrahedralization and the segments, those that need protection as chains of its edges.
+struct ProtectedDelaunay {
   Delaunay delaunay;
   SegmentChains chains;
-  FacetMesh facets;
-  MeshCounts& counts;
-  StageSeconds& seconds;
+  std::vector<bool> must_be_chain;  ///< by segment
 };
 
-/// Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
-/// whatever the method is. With another method it is there for the sake of protection alone.
-void tetrahedralize_input(Work& w) {
-  const bool stays = w.options.delaunay == DelaunayMethod::insert;
-  const Stopwatch watch(stays ? w.seconds.delaunay : w.seconds.protect);
-  w.delaunay = build_delaunay(w.plc.vertices, w.progress);
-}
-
-void protect(Work& w) {
-  const Stopwatch watch(w.seconds.protect);
-  w.chains = bare_chains(w.plc);
-  w.counts.steiner_vertices =
-      protect_edges(w.plc, w.must_be_chain, w.options.protection, w.delaunay, w.chains, w.progress);
-  w.counts.splits_by_level = count_splits_by_level(w.chains);
-}
-
-void triangulate(Work& w) {
-  const Stopwatch watch(w.seconds.facets);
-  w.facets = triangulate_facets(w.plc, w.chains, w.delaunay, w.progress);
+ProtectedDelaunay protect(const Plc& plc, Delaunay delaunay, const MeshOptions& options, const Progress& progress) {
+  ProtectedDelaunay result{std::move(delaunay), bare_chains(plc), grazeable_segments(plc)};
+  protect_edges(plc, result.must_be_chain, options.protection, result.delaunay, result.chains, progress);
+  return result;
 }
 
 BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
@@ -67,126 +53,132 @@ std::vector<Point3> points_of(const Delaunay& delaunay) {
   return points;
 }
 
-/// The faces and subsegments that the lattice keeps away from.
-std::vector<Point3> lattice_points(const Work& w) {
+/// The points of the lattice, which keeps away from faces and subsegments.
+std::vector<Point3> place_points(const Plc& plc, const ProtectedDelaunay& surface, const FacetMesh& facets,
+                                 const MeshOptions& options, const Progress& progress) {
   std::vector<SurfaceTriangle> triangles;
-  for (std::size_t i = 0; i < w.facets.triangles.size(); ++i) {
-    const Facet& facet = w.plc.facets[w.facets.facet[i]];
-    triangles.push_back({w.facets.triangles[i], w.plc.regions[facet.above].inside, w.plc.regions[facet.below].inside});
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const Facet& facet = plc.facets[facets.facet[i]];
+    triangles.push_back({facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside});
   }
   std::vector<std::array<VertexId, 2>> subsegments;
-  for (const auto& chain : w.chains)
+  for (const auto& chain : surface.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
-  const BackgroundSizes background = in_grid_units(w.options.background, w.plc.grid);
-  const LatticeOptions options{w.options.lattice,   w.options.edge_length / w.plc.grid.unit,
-                               w.options.grading,   w.options.sphere_factor,
-                               w.options.clearance, &background};
-  return place_lattice_points(points_of(w.delaunay), triangles, subsegments, options, w.progress);
+  const BackgroundSizes background = in_grid_units(options.background, plc.grid);
+  const LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
+                               options.grading,   options.sphere_factor,
+                               options.clearance, &background};
+  return place_lattice_points(points_of(surface.delaunay), triangles, subsegments, lattice, progress);
 }
 
-void fill_inside(Work& w) {
+/// Adds those of the points that destroy no protected edge.
+Delaunay add_points(const std::vector<Point3>& points, ProtectedDelaunay surface, const MeshOptions& options,
+                    const Progress& progress) {
+  auto& [delaunay, chains, must_be_chain] = surface;
+  if (options.delaunay == DelaunayMethod::insert)
+    insert_interior(points, must_be_chain, chains, delaunay, progress);
+  else
+    wrap_interior(points, must_be_chain, chains, options.grid_scale, delaunay, progress);
+  return std::move(delaunay);
+}
+
+/// The constrained Delaunay tetrahedralization of an input as a mesh, or why there is none.
+struct Tetrahedralization {
+  Plc plc;
+  SegmentChains chains;
+  TetMesh mesh;                              ///< without coordinates
+  std::vector<Point3> points;                ///< of the mesh, in grid units
+  std::size_t first_interior = 0;            ///< of the points
+  std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
+  MeshCounts counts;
+  std::optional<MeshError> stuck;
+};
+
+/// Makes the faces of the facets part of the tetrahedralization of all vertices, and the mesh of what they enclose.
+void constrain(const Delaunay& delaunay, FacetMesh facets, const MeshOptions& options, const Progress& progress,
+               StageSeconds& s, Tetrahedralization& t) {
+  std::vector<std::uint32_t> codes = timed(s.face_check, [&] {
+    std::vector<std::uint32_t> found = find_delaunay_faces(facets, delaunay);
+    if (t.counts.interior_vertices > 0 && follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
+      found = find_delaunay_faces(facets, delaunay);
+    return found;
+  });
+  t.counts.faces = facets.triangles.size();
+  t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, no_neighbor));
+  if (!options.face_protection) std::ranges::fill(codes, no_neighbor);  // none of them is told apart
+
+  const FrontResult front = timed(s.front, [&] {
+    return advance_front(t.plc, facets, codes, options.face_protection, delaunay, {options.locator, options.grid_scale},
+                         progress);
+  });
+  if ((t.stuck = front.stuck)) return;
+  t.counts.front_tetrahedra = front.tetrahedra.size();
+  t.counts.front_faces = front.undelaunay_faces;
+
+  const CellLabels labels = timed(s.label, [&] { return label_cells(t.plc, delaunay, front.open, codes); });
+  if ((t.stuck = labels.stuck)) return;
+  t.mesh = timed(s.label, [&] { return collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  t.stuck = timed(s.finish, [&] { return check_volume(t.plc, facets, delaunay, t.mesh); });
+  if (t.stuck) return;
+  t.facet_of_face = timed(s.finish, [&] { return finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
+}
+
+/// All stages but improvement.
+Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness,
+                                  const Progress& progress, StageSeconds& s) {
+  Tetrahedralization t;
+  t.plc = timed(s.plc, [&] { return build_plc(input, {flatness}, progress); });
+  // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
+  // whatever the method is. With another method it is there for the sake of protection alone.
+  const bool stays = options.delaunay == DelaunayMethod::insert;
+  Delaunay delaunay = timed(stays ? s.delaunay : s.protect, [&] { return build_delaunay(t.plc.vertices, progress); });
+  ProtectedDelaunay surface = timed(s.protect, [&] { return protect(t.plc, std::move(delaunay), options, progress); });
+  t.chains = surface.chains;
+  t.first_interior = surface.delaunay.vertices.size();
+  t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size();
+  t.counts.splits_by_level = count_splits_by_level(t.chains);
+
+  FacetMesh facets = timed(s.facets, [&] { return triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
   std::vector<Point3> points;
-  if (w.options.lattice != Lattice::none) {
-    const Stopwatch watch(w.seconds.lattice);
-    points = lattice_points(w);
-  }
-  const Stopwatch watch(w.seconds.delaunay);
-  w.counts.interior_vertices =
-      w.options.delaunay == DelaunayMethod::insert
-          ? insert_interior(points, w.must_be_chain, w.chains, w.delaunay, w.progress)
-          : wrap_interior(points, w.must_be_chain, w.chains, w.options.grid_scale, w.delaunay, w.progress);
-  w.counts.dropped_interior_vertices = points.size() - w.counts.interior_vertices;
-}
+  if (options.lattice != Lattice::none)
+    points = timed(s.lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
+  delaunay = timed(s.delaunay, [&] { return add_points(points, std::move(surface), options, progress); });
+  t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
+  t.counts.dropped_interior_vertices = points.size() - t.counts.interior_vertices;
 
-/// The codes of the faces that are Delaunay; none of them is told apart when the check is off.
-std::vector<std::uint32_t> check_faces(Work& w) {
-  const Stopwatch watch(w.seconds.face_check);
-  std::vector<std::uint32_t> codes = find_delaunay_faces(w.facets, w.delaunay);
-  if (w.counts.interior_vertices > 0 && follow_interior_vertices(w.plc, w.chains, w.delaunay, codes, w.facets))
-    codes = find_delaunay_faces(w.facets, w.delaunay);
-  w.counts.faces = w.facets.triangles.size();
-  w.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, no_neighbor));
-  if (!w.options.face_protection) std::ranges::fill(codes, no_neighbor);
-  return codes;
-}
-
-/// Makes a whole mesh of the tetrahedra, and a good one.
-TetMesh complete(Work& w, TetMesh mesh) {
-  std::vector<std::uint32_t> facet_of_face;
-  {
-    const Stopwatch watch(w.seconds.finish);
-    facet_of_face = finish_mesh(w.plc, w.chains, std::move(w.facets), w.delaunay, mesh);
-  }
-  std::vector<Point3> points = points_of(w.delaunay);
-  if (w.options.improve.improvement != Improvement::none) {
-    const Stopwatch watch(w.seconds.improve);
-    const std::size_t first_interior = points.size() - w.counts.interior_vertices;
-    w.counts.improve = improve_mesh(w.plc, w.chains, std::move(facet_of_face), first_interior, w.options.improve,
-                                    points, mesh, w.progress);
-    w.counts.interior_vertices = points.size() - first_interior;
-  }
-  const Stopwatch watch(w.seconds.finish);
-  mesh.vertices = to_world(w.plc, points, mesh.tetrahedra);
-  return mesh;
-}
-
-TetMesh constrain(Work& w) {
-  const std::vector<std::uint32_t> codes = check_faces(w);
-  FrontResult front;
-  {
-    const Stopwatch watch(w.seconds.front);
-    front = advance_front(w.plc, w.facets, codes, w.options.face_protection, w.delaunay,
-                          {w.options.locator, w.options.grid_scale}, w.progress);
-    w.counts.front_tetrahedra = front.tetrahedra.size();
-    w.counts.front_faces = front.undelaunay_faces;
-  }
-  TetMesh mesh;
-  {
-    const Stopwatch watch(w.seconds.label);
-    const std::vector<RegionId> regions = label_cells(w.plc, w.delaunay, front.open, codes);
-    mesh = collect_tetrahedra(w.plc, front, regions, w.delaunay);
-  }
-  return complete(w, std::move(mesh));
-}
-
-TetMesh mesh_with(Work& w) {
-  tetrahedralize_input(w);
-  protect(w);
-  triangulate(w);
-  fill_inside(w);
-  return constrain(w);
+  constrain(delaunay, std::move(facets), options, progress, s, t);
+  t.points = points_of(delaunay);
+  return t;
 }
 
 }  // namespace
 
+Improvement improvement_of(const MeshOptions& options) {
+  return options.improve.improvement.value_or(options.lattice == Lattice::none ? Improvement::none : Improvement::all);
+}
+
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  MeshResult result;
-  StageSeconds& s = result.seconds;
-  const auto attempt = [&](double flatness) {
-    Plc plc;
-    {
-      const Stopwatch watch(s.plc);
-      plc = build_plc(input, {flatness}, progress);
-    }
-    result.largest_rounding = plc.largest_rounding;
-    Work work{plc, options, progress, grazeable_segments(plc), {}, {}, {}, result.counts, s};
-    result.mesh = mesh_with(work);
-  };
-  try {
-    attempt(options.flatness);
-  } catch (const FrontStuck&) {
-    // Only a facet that is flat within the tolerance, but not exactly, can do that: the theorem on protected edges
-    // speaks of exact facets. Taken as it is, the surface costs more Steiner vertices, but then its tetrahedralization
-    // exists.
-    if (options.flatness == 0) throw;
-    result.counts = {};
-    attempt(0);
+  StageSeconds s;
+  Tetrahedralization t = tetrahedralize(input, options, options.flatness, progress, s);
+  // Only a facet that is flat within the tolerance, but not exactly, makes the front stick: the theorem on protected
+  // edges speaks of exact facets. Taken as it is, the surface costs more Steiner vertices, but then its
+  // tetrahedralization exists.
+  if (t.stuck && options.flatness != 0) t = tetrahedralize(input, options, 0, progress, s);
+  if (t.stuck) throw *t.stuck;
+
+  if (ImproveOptions improve = options.improve; (improve.improvement = improvement_of(options)) != Improvement::none) {
+    t.counts.improve = timed(s.improve, [&] {
+      return improve_mesh(t.plc, t.chains, std::move(t.facet_of_face), t.first_interior, improve, t.points, t.mesh,
+                          progress);
+    });
+    t.counts.interior_vertices = t.points.size() - t.first_interior;
   }
-  result.counts.vertices = result.mesh.vertices.size();
-  result.counts.tetrahedra = result.mesh.tetrahedra.size();
+  t.mesh.vertices = timed(s.finish, [&] { return to_world(t.plc, t.points, t.mesh.tetrahedra); });
+  t.counts.vertices = t.mesh.vertices.size();
+  t.counts.tetrahedra = t.mesh.tetrahedra.size();
   s.mesh =
       s.plc + s.protect + s.facets + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.finish + s.improve;
-  return result;
+  return {std::move(t.mesh), std::move(t.counts), s, t.plc.largest_rounding};
 }
 
 }  // namespace ccdt

@@ -27,7 +27,7 @@ struct MeshOptions {
   double flatness = 1e-8;              ///< see PlcOptions
   double sphere_factor = 1;            ///< see LatticeOptions
   double clearance = usual_clearance;  ///< see LatticeOptions
-  ImproveOptions improve = {};         ///< of the finished mesh
+  ImproveOptions improve = {};         ///< of the finished mesh; see `improvement_of`
   BackgroundSizes background = {};     ///< a size function, in the units of the input; with one, the lengths of the
                                        ///< surface's own edges do not matter
 };
@@ -61,11 +61,18 @@ struct MeshResult {
   double largest_rounding = 0;  ///< largest change of an input coordinate, in the units of the input
 };
 
+/// What improvement does with these options: what was asked for; else everything, but nothing where the lattice is
+/// `none`, as the mesh is to be the constrained Delaunay tetrahedralization of the input then.
+Improvement improvement_of(const MeshOptions& options);
+
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
+/// \param progress  called several times in each stage; to cancel the meshing, throw from it: the exception reaches the
+///                  caller, and all memory is given back
 /// \throw InputError  the input is no valid PLC
 /// \throw LimitError  a segment would need a split finer than the grid allows
 /// \throw MeshError   no valid mesh was found
+/// \throw            whatever `progress` throws
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt

@@ -186,8 +186,8 @@ void add_files(CLI::App& verb, MeshCommand& command) {
 }
 
 /// An option whose values are names. The transformer alone would take the numbers behind them as well.
-template <class Value>
-void add_choice(CLI::App& verb, const char* name, Value& target,
+template <class Value, class Target>
+void add_choice(CLI::App& verb, const char* name, Target& target,
                 const std::vector<std::pair<std::string, Value>>& values, const char* what, const char* standard) {
   std::vector<std::string> names;
   for (const auto& value : values) names.push_back(value.first);
@@ -232,7 +232,6 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
 }
 
 void add_improvement(CLI::App& verb, ImproveOptions& options) {
-  options.improvement = Improvement::all;
   add_choice<Improvement>(verb, "--improve", options.improvement,
                           {{"all", Improvement::all},
                            {"swap", Improvement::swap},
@@ -297,11 +296,7 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   add_improvement(*verb, command->options.improve);
   add_numbers(*verb, command->options);
   verb->footer(footer());
-  verb->callback([command, verb, &exit_code] {
-    // Without lattice points the mesh is the constrained Delaunay tetrahedralization of the input, and stays that
-    // unless improvement is asked for.
-    if (command->options.lattice == Lattice::none && verb->count("--improve") == 0)
-      command->options.improve.improvement = Improvement::none;
+  verb->callback([command, &exit_code] {
     run(*command);
     exit_code = done;
   });

@@ -23,6 +23,10 @@ TetMesh cube_mesh() {
   return mesh;
 }
 
+MeshOptions unimproved(double edge_length = 0) {
+  return {.edge_length = edge_length, .improve = {.improvement = Improvement::none}};
+}
+
 /// A mesher of a shell script, which finds the mesh of a cube beside itself.
 class ScriptMesher : public testing::Test {
  protected:
@@ -45,7 +49,7 @@ class ScriptMesher : public testing::Test {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
   }
 
-  MesherRun run(const InputPlc& plc = shapes::cube(), const MeshOptions& options = {}) const {
+  MesherRun run(const InputPlc& plc = shapes::cube(), const MeshOptions& options = unimproved()) const {
     return described_mesher(description_).run(plc, options, {});
   }
 
@@ -96,7 +100,7 @@ TEST_F(ScriptMesher, FindsItsFilesAndItsEnvironment) {
   description_.environment = {{"CCDT_TEST_WORD", "{stem}"}};
   script(R"sh(
     [ "$(cat size.txt)" = "h = 0.5 {1}" ] && [ "$CCDT_TEST_WORD" = input ] && [ -f "$1" ] && cp "$2" input.out.mesh)sh");
-  EXPECT_EQ(run(shapes::cube(), {.edge_length = 0.5}).settings.at(2).second, "h = 0.5 {1}");
+  EXPECT_EQ(run(shapes::cube(), unimproved(0.5)).settings.at(2).second, "h = 0.5 {1}");
 }
 
 TEST_F(ScriptMesher, TakesTheSecondsFromTheLogOrSaysThatItCannot) {
@@ -195,7 +199,7 @@ TEST(TetgenProgram, MakesWhatTheLibraryMakes) {
   if (!find_on_path("tetgen")) GTEST_SKIP() << "the program tetgen is not installed";
   const Mesher& program = mesher(described("tetgen-program"));
   EXPECT_EQ(version_of(program), "1.5");
-  const MesherRun made = program.run(shapes::cube_with_grid(5), {.edge_length = 0.2}, {});
+  const MesherRun made = program.run(shapes::cube_with_grid(5), unimproved(0.2), {});
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
   EXPECT_TRUE(made.settings.at(1).second.starts_with("tetgen -pYq1.414/10a0.001")) << made.settings.at(1).second;

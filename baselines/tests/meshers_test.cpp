@@ -31,6 +31,10 @@ MesherRun run(std::string_view name, const InputPlc& plc, const MeshOptions& opt
 
 const MeshOptions bare = {.lattice = Lattice::none};
 
+MeshOptions unimproved(double edge_length = 0) {
+  return {.edge_length = edge_length, .improve = {.improvement = Improvement::none}};
+}
+
 TEST(Meshers, OursIsFirst) {
   EXPECT_EQ(meshers().front().name, "ccdt");
 }
@@ -56,7 +60,7 @@ TEST(TetGen, MeshesACubeWithoutNewVertices) {
 
 TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
   if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
-  const MesherRun made = run("tetgen", shapes::cube_with_grid(5), {.edge_length = 0.2});
+  const MesherRun made = run("tetgen", shapes::cube_with_grid(5), unimproved(0.2));
   EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
@@ -117,7 +121,7 @@ TEST(CgalDelaunay, OfVerticesInAPlaneIsAMeshError) {
 
 TEST(CgalMesh3, MeshesACubeWithAHoleKeepingItsSharpEdges) {
   if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
-  const MesherRun made = run("cgal-mesh3", shapes::cube_with_hole(), {.edge_length = 0.6});
+  const MesherRun made = run("cgal-mesh3", shapes::cube_with_hole(), unimproved(0.6));
   EXPECT_NEAR(volume(made.result.mesh), 26, 1e-6);
   EXPECT_GT(made.result.mesh.edges.size(), 24u);
   EXPECT_FALSE(made.settings.empty());
@@ -154,7 +158,7 @@ TEST(CgalMesh3, GivesEachRegionItsAttribute) {
   InputPlc plc = shapes::cube_with_hole();
   plc.inside = InputPlc::Inside::seeds;
   plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
-  const MesherRun made = run("cgal-mesh3", plc, {.edge_length = 0.6});
+  const MesherRun made = run("cgal-mesh3", plc, unimproved(0.6));
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-6);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
@@ -163,7 +167,7 @@ TEST(CgalMesh3, GivesEachRegionItsAttribute) {
 TEST(GmshHxt, FillsACubeWithAHoleAndKeepsItsTriangles) {
   if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
   const InputPlc plc = shapes::with_repeated_vertices(shapes::cube_with_hole());
-  const MesherRun made = run("gmsh-hxt", plc, {.edge_length = 1});
+  const MesherRun made = run("gmsh-hxt", plc, unimproved(1));
   EXPECT_NEAR(volume(made.result.mesh), 26, 1e-9);
   EXPECT_EQ(made.result.mesh.faces.size(), 24u);
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
@@ -175,7 +179,7 @@ TEST(GmshHxt, MakesMoreTetrahedraWhereTheEdgesAreShorter) {
   if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
   const InputPlc plc = shapes::cube_with_grid(4);
   const auto count = [&](double edge_length) {
-    return run("gmsh-hxt", plc, {.edge_length = edge_length}).result.counts.tetrahedra;
+    return run("gmsh-hxt", plc, unimproved(edge_length)).result.counts.tetrahedra;
   };
   EXPECT_GT(count(0.1), 3 * count(0.2));
   EXPECT_GT(count(0), 100u);  // as the surface has it
@@ -195,7 +199,7 @@ TEST(GmshHxt, KeepsRegionsAndMarkers) {
   plc.triangle_markers.assign(12, 7);
   plc.triangle_markers.resize(24, 8);
   plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
-  const MesherRun made = run("gmsh-hxt", plc, {.edge_length = 1});
+  const MesherRun made = run("gmsh-hxt", plc, unimproved(1));
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
@@ -218,7 +222,7 @@ TEST(GmshHxt, RefusesFacetsInsideAVolume) {
   plc.inside = InputPlc::Inside::seeds;
   plc.vertices.insert(plc.vertices.end(), {{0.3, 0.3, 0.5}, {0.7, 0.3, 0.5}, {0.3, 0.7, 0.5}});
   plc.triangles.push_back({8, 9, 10});
-  EXPECT_THROW(run("gmsh-hxt", plc, {}), MeshError);
+  EXPECT_THROW(run("gmsh-hxt", plc, unimproved()), MeshError);
 }
 
 }  // namespace

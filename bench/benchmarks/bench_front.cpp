@@ -41,7 +41,7 @@ FrontResult advance(const Stages& s, const Strategy& strategy, const std::vector
 std::string find_fault(const Stages& s, const Strategy& strategy) {
   const auto codes = codes_for(s, strategy.check);
   const FrontResult front = advance(s, strategy, codes);
-  const auto regions = label_cells(s.plc, s.delaunay, front.open, codes);
+  const auto regions = label_cells(s.plc, s.delaunay, front.open, codes).regions;
   if (sorted(collect_tetrahedra(s.plc, front, regions, s.delaunay).tetrahedra) != s.tetrahedra)
     return "the tetrahedra are not those of the grid with the check";
   return {};

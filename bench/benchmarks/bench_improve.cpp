@@ -44,8 +44,9 @@ const Unimproved& unimproved(const Stages& s) {
   const auto [at, is_new] = made.try_emplace(&s);
   Unimproved& u = at->second;
   if (is_new) {
-    u.mesh = collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes), s.delaunay);
-    u.facet_of_face = finish_mesh(s.plc, s.chains, s.facets, s.delaunay, u.mesh);
+    u.mesh =
+        collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
+    u.facet_of_face = finish_mesh(s.plc, s.chains, s.facets, u.mesh);
     u.points = points_of(s.delaunay);
   }
   return u;

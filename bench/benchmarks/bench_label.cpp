@@ -17,7 +17,7 @@ namespace ccdt::benchmarks {
 namespace {
 
 TetMesh label(const Stages& s) {
-  return collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes), s.delaunay);
+  return collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
 }
 
 double six_volumes(const Point3& a, const Point3& b, const Point3& c) {

@@ -79,17 +79,18 @@ Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOp
   if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = find_delaunay_faces(s.facets, s.delaunay);
   s.front = advance_front(s.plc, s.facets, s.codes, true, s.delaunay, {LocatorKind::grid});
-  const auto regions = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
-  s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, regions, s.delaunay).tetrahedra);
+  if (s.front.stuck) return s;
+  const CellLabels labels = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
+  s.front.stuck = labels.stuck;
+  if (!labels.stuck) s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay).tetrahedra);
   return s;
 }
 
 Stages make_stages(const InputPlc& input, const Density& density) {
-  try {
-    return mesh_in_stages(input, density, {});
-  } catch (const FrontStuck&) {
-    return mesh_in_stages(input, density, {.flatness = 0});  // as mesh_plc does
-  }
+  Stages s = mesh_in_stages(input, density, {});
+  if (s.front.stuck) s = mesh_in_stages(input, density, {.flatness = 0});  // as mesh_plc does
+  if (s.front.stuck) throw *s.front.stuck;
+  return s;
 }
 
 using Cache = std::map<std::pair<std::string, std::int64_t>, std::unique_ptr<const Stages>>;

@@ -59,7 +59,7 @@ class Front {
     std::uint32_t side = no_side;                     // of the PLC, if any: such entries stay when they are closed
   };
 
-  [[noreturn]] void fail(const OrientedFace& face, const char* what) const;
+  void fail(const OrientedFace& face, const char* what);
   template <class Finder>
   void add_plc_faces(const Finder& finder);
   bool close(State* found, State& state);
@@ -78,11 +78,14 @@ class Front {
   FrontResult result_;
 };
 
-void Front::fail(const OrientedFace& face, const char* what) const {
+/// Notes that the front is stuck at a face; the first time counts.
+void Front::fail(const OrientedFace& face, const char* what) {
+  if (result_.stuck) return;
   Place place;
   place.file = plc_.name;
   for (const std::uint32_t v : face.corners) place.points.push_back(as_array(plc_.grid.to_world(d_.point(v))));
-  throw FrontStuck(what, place, "the facets near these points are almost but not quite flat: try another --flatness");
+  result_.stuck.emplace(what, place,
+                        "the facets near these points are almost but not quite flat: try another --flatness");
 }
 
 template <class Finder>
@@ -117,13 +120,13 @@ template <class Finder>
 void Front::advance(Finder&& finder, const Progress& progress) {
   add_plc_faces(finder);
   std::uint64_t done = 0;
-  while (!undelaunay_.empty()) {
+  while (!undelaunay_.empty() && !result_.stuck) {
     const OrientedFace face = undelaunay_.back();
     undelaunay_.pop_back();
     State state;
     if (!close(faces_.find(face), state)) continue;
     const auto apex = finder.find(face, state.cavity);
-    if (!apex) fail(face, "the front found no vertex that is visible from a face");
+    if (!apex) return fail(face, "the front found no vertex that is visible from a face");
     add_tetrahedron(face, *apex, state);
     if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
   }
@@ -143,12 +146,12 @@ void Front::add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const 
 void Front::pass(const OrientedFace& inner, const State& state) {
   State* waiting = faces_.find(inner);
   if (State closed; close(waiting, closed)) return;
-  if (waiting != nullptr) fail(inner, "the front passed a facet");
+  if (waiting != nullptr) return fail(inner, "the front passed a facet");
   const OrientedFace outer = inner.reversed();
   const std::uint32_t code =
       face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
   if (!faces_.insert(outer, {{state.face.region, code}, state.cavity, no_side}).second)
-    fail(outer, "two tetrahedra of the front overlap");
+    return fail(outer, "two tetrahedra of the front overlap");
   if (code != no_neighbor) return;
   undelaunay_.push_back(outer);
   ++result_.undelaunay_faces;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/errors.h"
@@ -21,20 +22,15 @@ struct FrontResult {
   std::vector<FrontFace> open;  ///< the Delaunay faces above which the domain is left to the labelling
   /// Undelaunay faces that have been in the front: those of the PLC (by their sides within the domain) and new ones.
   std::uint64_t undelaunay_faces = 0;
+  /// The front found no vertex for a face, or met itself: the vertices have no constrained Delaunay tetrahedralization,
+  /// because a facet that is flat only within the tolerance bends away from a line of sight. The rest is incomplete.
+  std::optional<MeshError> stuck = {};
 };
 
 /// Who finds the vertices and the faces in their way.
 struct FrontLocator {
   LocatorKind kind = LocatorKind::grid;
   double grid_scale = 1;  ///< of the grid: factor of the paper's cell size
-};
-
-/// The front found no vertex for a face, or met itself: the vertices have no constrained Delaunay tetrahedralization,
-/// because a facet that is flat only within the tolerance bends away from a line of sight. `place().points` holds the
-/// corners of the face in grid units.
-class FrontStuck : public MeshError {
- public:
-  using MeshError::MeshError;
 };
 
 /// Advances the front of constrained Delaunay tetrahedra from the undelaunay faces until all faces of the front are
@@ -45,7 +41,6 @@ class FrontStuck : public MeshError {
 ///
 /// \param codes  of `find_delaunay_faces`; all `no_neighbor` to send every face through the front and check none
 /// \param face_protection  are new faces looked up in the tetrahedralization?
-/// \throw FrontStuck
 FrontResult advance_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
                           bool face_protection, const Delaunay& delaunay, const FrontLocator& locator = {},
                           const Progress& progress = {});

@@ -34,7 +34,12 @@ enum class Effort { usual, greatest };
 class Improving {
  public:
   Improving(CellComplex& x, const std::vector<Freedom>& freedom, const ImproveOptions& options)
-      : x_(x), freedom_(freedom), options_(options), goal_(goal_of(options)), begin_(Clock::now()) {}
+      : x_(x),
+        freedom_(freedom),
+        options_(options),
+        improvement_(options.improvement.value_or(Improvement::all)),
+        goal_(goal_of(options)),
+        begin_(Clock::now()) {}
 
   ImproveCounts run(const Progress& progress);
 
@@ -66,6 +71,7 @@ class Improving {
   CellComplex& x_;
   const std::vector<Freedom>& freedom_;
   const ImproveOptions& options_;
+  const Improvement improvement_;
   const QualityGoal goal_;
   const Clock::time_point begin_;
   ImproveCounts counts_;
@@ -82,7 +88,7 @@ ImproveCounts Improving::run(const Progress& progress) {
   while (!found_.empty() && !time_is_up()) {
     const bool changed = pass(effort, progress);
     if (changed) continue;
-    if (effort == Effort::greatest || options_.improvement == Improvement::swap) break;
+    if (effort == Effort::greatest || improvement_ == Improvement::swap) break;
     effort = Effort::greatest;
     for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
   }
@@ -132,15 +138,15 @@ bool Improving::pass(Effort effort, const Progress& progress) {
 }
 
 bool Improving::improve(std::uint32_t cell, Effort effort) {
-  const bool swaps = options_.improvement != Improvement::smooth;
-  const bool smooths = options_.improvement != Improvement::swap;
+  const bool swaps = improvement_ != Improvement::smooth;
+  const bool smooths = improvement_ != Improvement::swap;
   if (swaps && swap(cell)) return true;
   bool improved = false;
   if (smooths && smooth(cell, effort)) {
     improved = true;
     if (!is_bad(cell)) return true;
   }
-  const bool everything = effort == Effort::greatest && options_.improvement == Improvement::all;
+  const bool everything = effort == Effort::greatest && improvement_ == Improvement::all;
   return (everything && insert_or_collapse(cell)) || improved;
 }
 

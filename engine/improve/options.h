@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "engine/base/enum_names.h"
 
@@ -46,7 +47,7 @@ constexpr auto names_of(BoundaryRule) {
 }
 
 struct ImproveOptions {
-  Improvement improvement = Improvement::none;
+  std::optional<Improvement> improvement = {};  ///< unset: all, or none where the lattice is none
   Objective objective = Objective::r;
   BoundaryRule boundary = BoundaryRule::keep;
   double target_dihedral = 20;  ///< degrees: no dihedral angle is to be smaller, or larger than 180 less this

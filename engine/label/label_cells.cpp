@@ -8,13 +8,14 @@ namespace {
 /// Eight bits a cell: the faces that separate, set on both sides, and above them those that are open on this side.
 using FaceBits = std::vector<std::uint8_t>;
 
-[[noreturn]] void fail(const Plc& plc, const Delaunay& d, std::uint32_t cell) {
+CellLabels stuck_at(const Plc& plc, const Delaunay& d, std::uint32_t cell) {
   Place place;
   place.file = plc.name;
   for (const std::uint32_t v : d.cells[cell].vertices)
     if (v != ghost_vertex) place.points.push_back(as_array(plc.grid.to_world(d.point(v))));
-  throw FrontStuck("the front does not separate the inside from the outside", place,
-                   "the facets near these points are almost but not quite flat: try another --flatness");
+  return {{},
+          MeshError("the front does not separate the inside from the outside", place,
+                    "the facets near these points are almost but not quite flat: try another --flatness")};
 }
 
 std::uint32_t across(const Delaunay& d, std::uint32_t code) {
@@ -70,35 +71,38 @@ std::vector<std::uint32_t> join_cells(const Delaunay& d, const FaceBits& bits) {
 
 /// A face of the PLC whose side towards a labelled cell was not open: the front has filled that side, so the labelled
 /// part leaks into what the front has replaced.
-void refuse_leaks(const Plc& plc, const Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
-                  const std::vector<RegionId>& region) {
+/// \return a cell where this happens; `no_neighbor` if there is none
+std::uint32_t find_leak(const Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
+                        const std::vector<RegionId>& region) {
   for (const std::uint32_t code : wall_codes) {
     if (code == no_neighbor) continue;
     for (const std::uint32_t side : {code, across(d, code)}) {
       const std::uint32_t cell = cell_of(side);
-      if (!region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u)) fail(plc, d, cell);
+      if (!region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u)) return cell;
     }
   }
+  return no_neighbor;
 }
 
 }  // namespace
 
-std::vector<RegionId> label_cells(const Plc& plc, const Delaunay& d, const std::vector<FrontFace>& open,
-                                  const std::vector<std::uint32_t>& wall_codes) {
+CellLabels label_cells(const Plc& plc, const Delaunay& d, const std::vector<FrontFace>& open,
+                       const std::vector<std::uint32_t>& wall_codes) {
   const FaceBits bits = mark_walls(d, open, wall_codes);
   const std::vector<std::uint32_t> first = join_cells(d, bits);
   std::vector<RegionId> region(d.cells.size());
   for (const FrontFace& face : open) {
     RegionId& its = region[first[cell_of(face.code)]];
-    if (!its.is_none() && its != face.region) fail(plc, d, cell_of(face.code));
+    if (!its.is_none() && its != face.region) return stuck_at(plc, d, cell_of(face.code));
     its = face.region;
   }
   for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
     region[cell] = region[first[cell]];
-    if (!region[cell].is_none() && d.is_ghost(cell)) fail(plc, d, cell);
+    if (!region[cell].is_none() && d.is_ghost(cell)) return stuck_at(plc, d, cell);
   }
-  refuse_leaks(plc, d, bits, wall_codes, region);
-  return region;
+  const std::uint32_t leak = find_leak(d, bits, wall_codes, region);
+  if (leak != no_neighbor) return stuck_at(plc, d, leak);
+  return {std::move(region)};
 }
 
 }  // namespace ccdt

@@ -1,22 +1,29 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "engine/base/errors.h"
 #include "engine/base/index.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
 
 namespace ccdt {
 
+/// What belongs to the domain.
+struct CellLabels {
+  std::vector<RegionId> regions;  ///< by cell; none for cells outside and for those that the front has replaced
+  /// Parts of different regions hang together: front and tetrahedralization do not fit. There are no regions then.
+  std::optional<MeshError> stuck = {};
+};
+
 /// Labels the Delaunay cells that belong to the domain with their region (paper, section 5.2, step 5): whatever hangs
 /// together above the open faces of the front, without crossing a face of the front or of the PLC. Holes, regions and
 /// slits need no more care: the regions of the facets' sides tell them.
 ///
-/// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are passed
-/// over \return            by cell its region; none for cells outside and for those that the front has replaced \throw
-/// FrontStuck  parts of different regions hang together: front and tetrahedralization do not fit
-std::vector<RegionId> label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,
-                                  const std::vector<std::uint32_t>& wall_codes);
+/// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are skipped
+CellLabels label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,
+                       const std::vector<std::uint32_t>& wall_codes);
 
 }  // namespace ccdt

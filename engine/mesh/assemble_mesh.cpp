@@ -24,21 +24,6 @@ double volume_within(const Plc& plc, const FacetMesh& facets, const Delaunay& d)
   return volume;
 }
 
-/// All cells are positive and share their faces; if their volume is that of the domain too, they fill it once.
-void check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& d, const TetMesh& mesh) {
-  double filled = 0;
-  for (const auto& t : mesh.tetrahedra) {
-    const Point3& a = d.point(t[0]);
-    filled += determinant(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
-  }
-  const double wanted = volume_within(plc, facets, d);
-  if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return;
-  Place place;
-  place.file = plc.name;
-  throw FrontStuck("the tetrahedra do not fill the domain", place,
-                   "some facets are almost but not quite flat: try another --flatness");
-}
-
 /// \return the facet of each face
 std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets,
                                                TetMesh& mesh) {
@@ -62,6 +47,20 @@ std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChai
 
 }  // namespace
 
+std::optional<MeshError> check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& d, const TetMesh& mesh) {
+  double filled = 0;
+  for (const auto& t : mesh.tetrahedra) {
+    const Point3& a = d.point(t[0]);
+    filled += determinant(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
+  }
+  const double wanted = volume_within(plc, facets, d);
+  if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return {};
+  Place place;
+  place.file = plc.name;
+  return MeshError("the tetrahedra do not fill the domain", place,
+                   "some facets are almost but not quite flat: try another --flatness");
+}
+
 TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
                            const Delaunay& delaunay) {
   TetMesh mesh;
@@ -79,9 +78,7 @@ TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::
   return mesh;
 }
 
-std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets,
-                                       const Delaunay& delaunay, TetMesh& mesh) {
-  check_volume(plc, facets, delaunay, mesh);
+std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, TetMesh& mesh) {
   peel_flat_tetrahedra(plc, chains, facets, mesh);
   mesh.constrained_delaunay = true;
   return add_faces_and_edges(plc, chains, facets, mesh);

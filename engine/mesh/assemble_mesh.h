@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
@@ -14,12 +17,15 @@ namespace ccdt {
 TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
                            const Delaunay& delaunay);
 
+/// Why the tetrahedra are no mesh of the domain: their volume is not that within the facets. All cells are positive and
+/// share their faces; if they have that volume too, they fill the domain once, and there is no error.
+std::optional<MeshError> check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& delaunay,
+                                      const TetMesh& mesh);
+
 /// Makes the mesh whole but for its coordinates: takes the flat tetrahedra on its boundary off, gives it the faces of
 /// the facets and the edges of the segments.
 ///
 /// \return the facet of each of the mesh's faces
-/// \throw FrontStuck  the tetrahedra do not fill the domain
-std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets,
-                                       const Delaunay& delaunay, TetMesh& mesh);
+std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, TetMesh& mesh);
 
 }  // namespace ccdt

@@ -238,7 +238,7 @@ TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
 }
 
 TEST(Improving, NoneChangesNothing) {
-  ImproveOptions options;
+  const ImproveOptions options{.improvement = Improvement::none};
   const QualityGoal goal = goal_of(options);
   CellComplex x = complex_of(cube_of(3, 0.4, 1).model, goal);
   const CellComplex before = x;

@@ -123,7 +123,7 @@ void visit_options(const Visit& visit) {
 
 /// \return how far a vertex of the input, or a Steiner vertex, has moved at most
 double expect_improved_by_all_means(const InputPlc& input, Lattice lattice, double edge_length = 0) {
-  MeshOptions plain_options;
+  MeshOptions plain_options = options_of(Improvement::none);
   plain_options.lattice = lattice;
   plain_options.edge_length = edge_length;
   const MeshResult plain = mesh_plc(input, plain_options);
@@ -212,7 +212,7 @@ TEST(ImprovedMesh, NoneLeavesTheConstrainedDelaunayTetrahedralization) {
     const MeshResult result = mesh_plc(plc, options_of(Improvement::none, Objective::dihedral, BoundaryRule::slide));
     EXPECT_TRUE(result.mesh.constrained_delaunay);
     EXPECT_EQ(result.counts.improve.stop, ImproveStop::none);
-    expect_same_cells(result.mesh, mesh_plc(plc).mesh);
+    expect_same_cells(result.mesh, mesh_plc(plc, options_of(Improvement::none)).mesh);
   }
 }
 

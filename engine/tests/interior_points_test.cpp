@@ -11,6 +11,7 @@
 #include "engine/mesher.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/build_plc.h"
+#include "engine/mesher.h"
 #include "engine/protection/insert_interior.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/exhaustive_tetrahedralizations.h"
@@ -151,12 +152,8 @@ TEST(InteriorPoints, OnePointEndsExistenceForASolidOfFiveVertices) {
 
 /// Does the front get to its end, and are its tetrahedra locally Delaunay where two of them meet?
 bool finds_constrained_delaunay(const Protected& p) {
-  FrontResult front;
-  try {
-    front = p.advance();
-  } catch (const FrontStuck&) {
-    return false;
-  }
+  const FrontResult front = p.advance();
+  if (front.stuck) return false;
   for (const auto& s : front.tetrahedra)
     for (const auto& t : front.tetrahedra) {
       std::vector<std::uint32_t> others;
@@ -218,6 +215,7 @@ TEST(InteriorPoints, ThatWereDroppedAreCounted) {
   options.sphere_factor = 0;
   options.clearance = 0.01;
   options.edge_length = 0.3;
+  options.improve.improvement = Improvement::none;
   const MeshResult mesh = mesh_plc(cube_with_turnstile(), options);
   EXPECT_GT(mesh.counts.dropped_interior_vertices, 0u);
   options.sphere_factor = 1;

@@ -59,6 +59,7 @@ MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection p
   MeshOptions options;
   options.lattice = lattice;
   options.protection = protection;
+  options.improve.improvement = Improvement::none;
   MeshResult with_check = mesh_plc(input, options);
   expect_verified(input, with_check.mesh);
   options.face_protection = false;

@@ -168,6 +168,7 @@ MeshResult expect_one_set_of_tetrahedra(const Case& c) {
         options.face_protection = check;
         options.lattice = c.lattice;
         options.edge_length = c.edge_length;
+        options.improve.improvement = Improvement::none;
         MeshResult result = mesh_plc(c.plc, options);
         if (!first) {
           first = std::move(result);
