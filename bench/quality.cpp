@@ -70,10 +70,6 @@ void add_dihedral_angles(const std::array<Point3, 4>& tetrahedron, Quality::Dihe
   }
 }
 
-double length(const Point3& p) {
-  return std::sqrt(squared_length(p));
-}
-
 /// The squared lengths of the shortest and of the longest edge.
 std::pair<double, double> squared_edges(const std::array<Point3, 4>& t) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;

@@ -3,6 +3,7 @@
 set(public_headers
   base/enum_names.h
   base/errors.h
+  base/point.h
   base/progress.h
   delaunay/options.h
   improve/counts.h
@@ -15,7 +16,6 @@ set(public_headers
   locate/options.h
   mesh/tet_mesh.h
   mesher.h
-  numbers/point.h
   plc/input.h
   protection/options.h
   surface/remesh_surface.h

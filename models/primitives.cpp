@@ -15,14 +15,10 @@ int parts_of(double length, double edge_length) {
   return std::max(1, static_cast<int>(std::lround(length / edge_length)));
 }
 
-Point3 unit(const Point3& p) {
-  return (1 / std::sqrt(squared_length(p))) * p;
-}
-
 /// The point of the great circle from a to b at the fraction i / n, the same bits from either end.
 Point3 between(const Point3& a, const Point3& b, int i, int n) {
   const double angle = std::acos(dot(a, b));
-  return unit(std::sin(angle * (n - i) / n) * a + std::sin(angle * i / n) * b);
+  return normalized(std::sin(angle * (n - i) / n) * a + std::sin(angle * i / n) * b);
 }
 
 struct Icosahedron {
@@ -55,7 +51,7 @@ Point3 inside_triangle(const Point3& a, const Point3& b, const Point3& c, int i,
   const Point3 p = between(between(a, b, n - k, n), between(a, c, n - k, n), j, i + j);
   const Point3 q = between(between(b, c, n - i, n), between(b, a, n - i, n), k, j + k);
   const Point3 r = between(between(c, a, n - j, n), between(c, b, n - j, n), i, k + i);
-  return unit(p + q + r);
+  return normalized(p + q + r);
 }
 
 }  // namespace

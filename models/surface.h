@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/input.h"
 
 namespace ccdt {

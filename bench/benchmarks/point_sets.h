@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 /// The points that the benchmarks run on, in grid units (engine/numbers/grid.h); the same on every machine.
 namespace ccdt::benchmarks {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 /// Exact signs by CGAL's filtered kernel. They are the only predicates of the verification, so that an error in those
 /// of the engine cannot hide itself. One translation unit holds CGAL, because it is slow to compile.

@@ -133,7 +133,7 @@ class Search {
 
   /// Is the row of three cells around the middle below the face?
   bool is_below(int y, int z) const {
-    const Point3 to_row = g_.grid.centre({middle_[0], y, z}) - pencil_.origin();
+    const Point3 to_row = g_.grid.center({middle_[0], y, z}) - pencil_.origin();
     return dot(normal_, to_row) + reach_of_row_ < 0;
   }
 

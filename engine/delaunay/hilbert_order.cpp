@@ -5,7 +5,7 @@
 #include <boost/sort/spreadsort/integer_sort.hpp>
 #include <limits>
 
-#include "engine/numbers/morton.h"
+#include "engine/base/morton.h"
 
 namespace ccdt {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/edge_key.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/open_faces.h"
 #include "engine/numbers/predicates.h"
 

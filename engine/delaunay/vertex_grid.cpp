@@ -40,8 +40,8 @@ VertexGrid make_vertex_grid(std::span<const DelaunayVertex> vertices, double sca
     high = {std::max(high.x, v.point.x), std::max(high.y, v.point.y), std::max(high.z, v.point.z)};
   }
   g.extent = high - low;
-  g.grid = make_uniform_grid({}, g.extent, vertices.size(), scale);
-  CellLists lists = make_cell_lists(g.grid.size(), [&](const auto& emit) {
+  g.grid = make_uniform_grid({{}, g.extent}, vertices.size(), scale);
+  IndexLists lists = make_index_lists(g.grid.size(), [&](const auto& emit) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(g.grid.number(g.grid.cell_at(vertices[v].point - low)), v);
   });
   g.first = std::move(lists.first);

@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/index_lists.h"
+#include "engine/base/uniform_grid.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/locate/uniform_grid.h"
 
 namespace ccdt {
 

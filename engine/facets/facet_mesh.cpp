@@ -5,8 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/base/edge_key.h"
-#include "engine/base/edge_map.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/facets/facet_plane.h"
 #include "engine/planar/triangulation.h"
@@ -57,10 +56,10 @@ class FacetMesher {
 
 FacetMesher::FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
     : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(plc.segments.size());
-  for (const Segment& s : plc.segments) keys.push_back(edge_key(s.ends[0], s.ends[1]));
-  segment_of_edge_ = EdgeMap(keys, plc.vertices.size());
+  std::vector<std::array<VertexId, 2>> edges;
+  edges.reserve(plc.segments.size());
+  for (const Segment& s : plc.segments) edges.push_back(s.ends);
+  segment_of_edge_ = EdgeMap(edges, plc.vertices.size());
 }
 
 std::vector<FacetMesher::FacetSegment> FacetMesher::segments_of(const Facet& facet) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/flat_table.h"
+#include "engine/base/hash_table.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/front/apex_finders.h"
 
@@ -73,7 +73,7 @@ class Front {
   const Delaunay& d_;
   CellStar& star_;
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
-  FlatTable<OrientedFace, State, OrientedFaceTraits> faces_;
+  HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
   std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
   FrontResult result_;
 };

@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "engine/base/point.h"
 #include "engine/numbers/filters.h"
-#include "engine/numbers/point.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt {

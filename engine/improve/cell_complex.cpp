@@ -98,7 +98,7 @@ CellComplex make_complex(const TetMesh& mesh, std::vector<Point3> points, std::v
   x.faces = mesh.faces;
   x.facet_of_face = std::move(facet_of_face);
   x.segments.reserve(mesh.edges.size());
-  for (const auto& edge : mesh.edges) x.segments.insert(edge_key(edge[0], edge[1]), true);
+  for (const auto& edge : mesh.edges) x.segments.insert(edge_key(edge[0], edge[1]));
   x.wall_faces.reserve(x.faces.size());
   for (std::uint32_t f = 0; f < x.faces.size(); ++f)
     x.wall_faces.insert(face_key(x.faces[f][0], x.faces[f][1], x.faces[f][2]), f);

@@ -6,41 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/edge_key.h"
-#include "engine/base/flat_table.h"
+#include "engine/base/hash_table.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/improve/cell_quality.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {
-
-/// The corners of a face in growing order: the same from both sides.
-using FaceKey = std::array<std::uint32_t, 3>;
-
-inline FaceKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  if (a > b) std::swap(a, b);
-  if (b > c) std::swap(b, c);
-  if (a > b) std::swap(a, b);
-  return {a, b, c};
-}
-
-struct FaceKeyTraits {
-  static FaceKey none() { return {ghost_vertex, ghost_vertex, ghost_vertex}; }
-  static std::size_t hash(const FaceKey& key) {
-    std::uint64_t h = (std::uint64_t{key[0]} << 32 | key[1]) * 0x9E3779B97F4A7C15u ^ key[2] * 0xC2B2AE3D27D4EB4Fu;
-    h ^= h >> 29;
-    return h * 0x9E3779B97F4A7C15u >> 20;
-  }
-};
-
-struct EdgeKeyTraits {
-  static std::uint64_t none() { return ~std::uint64_t{0}; }
-  static std::size_t hash(std::uint64_t key) {
-    key = (key ^ key >> 31) * 0x9E3779B97F4A7C15u;
-    return key >> 20;
-  }
-};
 
 /// A tetrahedral mesh that can be changed: cells know their neighbors, and which of their faces and edges must stay.
 ///
@@ -61,9 +34,9 @@ struct CellComplex {
   std::vector<std::uint32_t> marks;        ///< by cell: the number of the last question that met it
   std::vector<std::uint32_t> free_cells;
 
-  FlatTable<std::uint64_t, bool, EdgeKeyTraits> segments;       ///< edges that lie on segments
-  FlatTable<FaceKey, std::uint32_t, FaceKeyTraits> wall_faces;  ///< the walls: their places in `faces`
-  std::vector<std::array<std::uint32_t, 3>> faces;              ///< of the mesh, on facets
+  HashSet<std::uint64_t> segments;                  ///< edges that lie on segments
+  HashTable<FaceKey, std::uint32_t> wall_faces;     ///< the walls: their places in `faces`
+  std::vector<std::array<std::uint32_t, 3>> faces;  ///< of the mesh, on facets
   std::vector<std::uint32_t> facet_of_face;
 
   std::uint64_t changes = 0;    ///< so far
@@ -73,7 +46,7 @@ struct CellComplex {
   bool is_interior(std::uint32_t v) const { return v >= first_interior; }
   bool is_wall(std::uint32_t code) const { return (walls[cell_of(code)] >> face_of(code) & 1) != 0; }
   bool is_segment(std::uint32_t a, std::uint32_t b) const {
-    return !is_interior(a) && !is_interior(b) && segments.find(edge_key(a, b)) != nullptr;
+    return !is_interior(a) && !is_interior(b) && segments.contains(edge_key(a, b));
   }
   double worth_of(const QualityGoal& goal, const std::array<std::uint32_t, 4>& v) const {
     return worth(goal, points[v[0]], points[v[1]], points[v[2]], points[v[3]]);

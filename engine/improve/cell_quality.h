@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "engine/base/point.h"
 #include "engine/improve/options.h"
-#include "engine/numbers/point.h"
 
 namespace ccdt {
 

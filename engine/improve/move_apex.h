@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "engine/base/point.h"
 #include "engine/improve/cell_quality.h"
-#include "engine/numbers/point.h"
 
 namespace ccdt {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/point.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/output_file.h"
-#include "engine/numbers/point.h"
 
 /// Medit's ASCII format, which holds surfaces and tetrahedral meshes alike.
 namespace ccdt::io {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt::io {
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "engine/base/point.h"
 #include "engine/io/output_file.h"
 #include "engine/io/text_scanner.h"
-#include "engine/numbers/point.h"
 
 /// What TetGen's formats have in common.
 namespace ccdt::io {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/point.h"
 #include "engine/io/file_bytes.h"
-#include "engine/numbers/point.h"
 
 namespace ccdt::io {
 

@@ -123,7 +123,7 @@ double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) co
 }
 
 bool InterpolatedSizes::is_below(const Box& box, double bound) const {
-  const auto least_if_meeting = [&](const Box& other, double size) { return overlap(other, box) ? size : HUGE_VAL; };
+  const auto least_if_meeting = [&](const Box& other, double size) { return other.meets(box) ? size : HUGE_VAL; };
   if (tetrahedra_.any(bound, least_if_meeting,
                       [&](const SizeTree::Item& item) { return least_in(box, item.number) < bound; }))
     return true;

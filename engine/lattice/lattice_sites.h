@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/morton.h"
 #include "engine/lattice/octree.h"
-#include "engine/numbers/morton.h"
 
 namespace ccdt {
 
@@ -12,11 +12,11 @@ namespace ccdt {
 using Site = std::uint64_t;
 
 inline Site site_at(const std::array<std::uint32_t, 3>& c) {
-  return spread_bits(c[0]) | spread_bits(c[1]) << 1 | spread_bits(c[2]) << 2;
+  return morton_code(c);
 }
 
 inline std::array<std::uint32_t, 3> coordinates_of(Site site) {
-  return {gather_bits(site), gather_bits(site >> 1), gather_bits(site >> 2)};
+  return coordinates_of_morton_code(site);
 }
 
 /// The lattice points of all leaves that are not outside, each once, in Morton order, and strictly within the bounds of

@@ -34,7 +34,7 @@ Octree make_root(const Surface& surface, const SizeField& size, Lattice kind) {
   tree.depth = static_cast<unsigned>(std::min(static_cast<int>(Octree::bits) - 1, exponent - 8 - lowest_bit));
   tree.unit = std::ldexp(side, -static_cast<int>(tree.depth) - 1);
   const auto on_lattice = [cell](double x) { return cell * std::round(x / cell); };
-  const Point3 centre = tree.bounds.centre();
+  const Point3 centre = tree.bounds.center();
   tree.origin =
       Point3{on_lattice(centre.x), on_lattice(centre.y), on_lattice(centre.z)} - 0.5 * Point3{side, side, side};
   tree.nodes.emplace_back();
@@ -147,7 +147,7 @@ class Builder {
             for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
           places.emplace(surface_.corners(t), 0.5 * side, reach + 0.5 * side.x);
         }
-        if (!places->hold(boxes[c].centre())) continue;
+        if (!places->hold(boxes[c].center())) continue;
       }
       lists_[c].push_back(t);
     }
@@ -179,7 +179,7 @@ class Builder {
       if (!contains(tree_.bounds, tree_.box(child))) ++beyond_bounds;
     }
     if (empty == 0) return;
-    const bool inside = beyond_bounds == 0 && is_inside(tree_, surface_, tree_.box(parent).centre(), parent);
+    const bool inside = beyond_bounds == 0 && is_inside(tree_, surface_, tree_.box(parent).center(), parent);
     for (std::uint32_t c = 0; c < 8; ++c) {
       OctreeNode& child = tree_.nodes[first_child + c];
       if (child.triangle_count == 0) child.place = inside ? NodePlace::inside : NodePlace::outside;

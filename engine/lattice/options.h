@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/enum_names.h"
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/base/index.h"
+#include "engine/base/point.h"
 #include "engine/base/progress.h"
 #include "engine/lattice/options.h"
-#include "engine/numbers/point.h"
 
 namespace ccdt {
 

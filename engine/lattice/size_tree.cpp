@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/numbers/morton.h"
+#include "engine/base/morton.h"
 
 namespace ccdt {
 

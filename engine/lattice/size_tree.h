@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/lattice/box.h"
+#include "engine/base/box.h"
 
 namespace ccdt {
 

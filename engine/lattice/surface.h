@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/lattice/box.h"
+#include "engine/base/box.h"
 #include "engine/lattice/place_lattice_points.h"
 
 namespace ccdt {

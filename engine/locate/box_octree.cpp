@@ -4,43 +4,27 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/morton.h"
+
 namespace ccdt {
 namespace {
 
-/// The 21 low bits of x, two free places after each.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x1F00000000FFFFu;
-  x = (x | x << 16) & 0x1F0000FF0000FFu;
-  x = (x | x << 8) & 0x100F00F00F00F00Fu;
-  x = (x | x << 4) & 0x10C30C30C30C30C3u;
-  x = (x | x << 2) & 0x1249249249249249u;
-  return x;
-}
-
-Point3 middle_of(const ClosedBox& box) {
-  return 0.5 * (box.low + box.high);
-}
-
 /// The numbers of the boxes' middles in a cube around all of them.
-std::vector<std::uint64_t> morton_numbers(std::span<const ClosedBox> boxes, unsigned bits) {
-  ClosedBox all = box_of(middle_of(boxes[0]));
-  for (const ClosedBox& box : boxes) all = hull(all, box_of(middle_of(box)));
+std::vector<std::uint64_t> morton_numbers(std::span<const Box> boxes, unsigned bits) {
+  Box all = box_of(boxes[0].center());
+  for (const Box& box : boxes) all = hull(all, box_of(box.center()));
   const Point3 extent = all.high - all.low;
   const double steps = static_cast<double>(1u << bits);
   const double scale = (1 - 1e-9) * steps / std::max({extent.x, extent.y, extent.z, 1.0});
   std::vector<std::uint64_t> numbers;
   numbers.reserve(boxes.size());
-  for (const ClosedBox& box : boxes) {
-    const Point3 p = scale * (middle_of(box) - all.low);
-    numbers.push_back(spread(static_cast<std::uint64_t>(p.x)) | spread(static_cast<std::uint64_t>(p.y)) << 1 |
-                      spread(static_cast<std::uint64_t>(p.z)) << 2);
-  }
+  for (const Box& box : boxes) numbers.push_back(morton_code_at(scale * (box.center() - all.low)));
   return numbers;
 }
 
 }  // namespace
 
-BoxOctree::BoxOctree(std::span<const ClosedBox> boxes, std::uint32_t leaf_size) {
+BoxOctree::BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size) {
   if (boxes.empty()) return;
   std::vector<std::uint64_t> keys;
   order_.resize(boxes.size());

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/box_tree.h"
 #include "engine/locate/cap.h"
-#include "engine/plc/box_tree.h"
 
 namespace ccdt {
 
@@ -21,7 +21,7 @@ class EdgeProbe {
     along_ = w;
   }
 
-  bool misses(const ClosedBox& box) const {
+  bool misses(const Box& box) const {
     const Point3 d = 0.5 * (box.low + box.high) - middle_;
     // For the roundings: of coordinates below 2^53, and of products with d.
     const double slack = 16 + 1e-13 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
@@ -42,14 +42,14 @@ class EdgeProbe {
 class BoxOctree {
  public:
   struct Node {
-    ClosedBox box;
+    Box box;
     std::uint32_t first = 0, last = 0;  ///< its items
     std::uint32_t children = 0;         ///< the first child; the others follow
     std::uint32_t child_count = 0;      ///< none: a leaf
   };
 
   /// \param leaf_size  most items of a leaf, unless more are in one place
-  BoxOctree(std::span<const ClosedBox> boxes, std::uint32_t leaf_size);
+  BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size);
 
   /// The items, in the order that nodes count in.
   const std::vector<std::uint32_t>& order() const { return order_; }
@@ -89,7 +89,7 @@ void BoxOctree::visit_nearest_first(const Point3& start, const Misses& misses, c
     std::array<double, 8> distances;
     const unsigned base = height;
     for (std::uint32_t child = node.children; child < node.children + node.child_count; ++child) {
-      const double distance = squared_distance(start, nodes_[child].box);
+      const double distance = squared_distance(nodes_[child].box, start);
       unsigned i = height++ - base;
       for (; i > 0 && distances[i - 1] < distance; --i) {
         distances[i] = distances[i - 1];

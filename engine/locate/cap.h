@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "engine/numbers/point.h"
-#include "engine/plc/box_tree.h"
+#include "engine/base/box_tree.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 
@@ -15,13 +15,6 @@ struct LocatedVertex {
   Point3 point;
   std::uint32_t rank, id;
 };
-
-inline double squared_distance(const Point3& p, const ClosedBox& box) {
-  const double x = std::max(std::max(box.low.x - p.x, p.x - box.high.x), 0.0),
-               y = std::max(std::max(box.low.y - p.y, p.y - box.high.y), 0.0),
-               z = std::max(std::max(box.low.z - p.z, p.z - box.high.z), 0.0);
-  return x * x + y * y + z * z;
-}
 
 /// What a search for the apex of a face still wants: points above the plane of the face and in a ball that shrinks with
 /// every better vertex. In floating point, a little too large, never too small.
@@ -50,11 +43,11 @@ class Cap {
   }
 
   /// Is the box outside for sure?
-  bool misses(const ClosedBox& box) const {
+  bool misses(const Box& box) const {
     const Point3 top{(normal_.x > 0 ? box.high.x : box.low.x) - foot_.x,
                      (normal_.y > 0 ? box.high.y : box.low.y) - foot_.y,
                      (normal_.z > 0 ? box.high.z : box.low.z) - foot_.z};
-    return dot(normal_, top) < -slack_ || squared_distance(centre_, box) > squared_radius_;
+    return dot(normal_, top) < -slack_ || squared_distance(box, centre_) > squared_radius_;
   }
 
  private:

@@ -2,27 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace ccdt {
 namespace {
 
-Point3 componentwise_min(const Point3& a, const Point3& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-
-Point3 componentwise_max(const Point3& a, const Point3& b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
 UniformGrid grid_of(std::span<const DelaunayVertex> vertices, std::size_t faces, double scale) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Point3 low{inf, inf, inf}, high{-inf, -inf, -inf};
-  for (const DelaunayVertex& v : vertices) {
-    low = componentwise_min(low, v.point);
-    high = componentwise_max(high, v.point);
-  }
-  return make_uniform_grid(low, high, std::max(vertices.size(), faces), scale);
+  Box box = empty_box;
+  for (const DelaunayVertex& v : vertices) box = hull(box, box_of(v.point));
+  return make_uniform_grid(box, std::max(vertices.size(), faces), scale);
 }
 
 /// Calls visit(cell) for every cell of the triangle's box that its plane comes near.
@@ -38,7 +25,7 @@ void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const P
   UniformGrid::for_each(grid.cell_at(componentwise_min(componentwise_min(a, b), c) - s),
                         grid.cell_at(componentwise_max(componentwise_max(a, b), c) + s),
                         [&](const UniformGrid::CellIndex& cell) {
-                          if (std::fabs(dot(normal, grid.centre(cell) - a)) <= reach) visit(grid.number(cell));
+                          if (std::fabs(dot(normal, grid.center(cell) - a)) <= reach) visit(grid.number(cell));
                         });
 }
 
@@ -47,12 +34,12 @@ void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const P
 GridLocator::GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
                          double scale)
     : grid_(grid_of(vertices, faces.size(), scale)) {
-  CellLists by_cell = make_cell_lists(grid_.size(), [&](const auto& emit) {
+  IndexLists by_cell = make_index_lists(grid_.size(), [&](const auto& emit) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(grid_.number(grid_.cell_at(vertices[v].point)), v);
   });
   for (const std::uint32_t v : by_cell.items) vertices_.push_back({vertices[v].point, vertices[v].rank, v});
   first_vertex_ = std::move(by_cell.first);
-  faces_ = make_cell_lists(grid_.size(), [&](const auto& emit) {
+  faces_ = make_index_lists(grid_.size(), [&](const auto& emit) {
     for (std::uint32_t f = 0; f < faces.size(); ++f)
       for_each_cell_of_triangle(grid_, vertices[faces[f][0]].point, vertices[faces[f][1]].point,
                                 vertices[faces[f][2]].point, [&](std::size_t cell) { emit(cell, f); });

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "engine/base/index.h"
+#include "engine/base/index_lists.h"
+#include "engine/base/uniform_grid.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/locate/cap.h"
-#include "engine/locate/uniform_grid.h"
 
 namespace ccdt {
 
@@ -40,7 +41,7 @@ class GridLocator {
   UniformGrid grid_;
   std::vector<LocatedVertex> vertices_;      // by cell
   std::vector<std::uint32_t> first_vertex_;  // of each cell, and one more
-  CellLists faces_;
+  IndexLists faces_;
 };
 
 template <class Visit>

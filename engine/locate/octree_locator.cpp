@@ -14,18 +14,18 @@ std::vector<std::uint32_t> all_numbers(std::size_t count) {
   return numbers;
 }
 
-std::vector<ClosedBox> boxes_of_vertices(std::span<const DelaunayVertex> vertices,
-                                         std::span<const std::uint32_t> some_vertices) {
-  std::vector<ClosedBox> boxes;
+std::vector<Box> boxes_of_vertices(std::span<const DelaunayVertex> vertices,
+                                   std::span<const std::uint32_t> some_vertices) {
+  std::vector<Box> boxes;
   boxes.reserve(some_vertices.size());
   for (const std::uint32_t v : some_vertices) boxes.push_back(box_of(vertices[v].point));
   return boxes;
 }
 
-std::vector<ClosedBox> boxes_of_faces(std::span<const DelaunayVertex> vertices,
-                                      std::span<const std::array<VertexId, 3>> faces,
-                                      std::span<const std::uint32_t> some_faces) {
-  std::vector<ClosedBox> boxes;
+std::vector<Box> boxes_of_faces(std::span<const DelaunayVertex> vertices,
+                                std::span<const std::array<VertexId, 3>> faces,
+                                std::span<const std::uint32_t> some_faces) {
+  std::vector<Box> boxes;
   boxes.reserve(some_faces.size());
   for (const std::uint32_t f : some_faces) {
     const auto& [a, b, c] = faces[f];

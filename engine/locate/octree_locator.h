@@ -28,7 +28,7 @@ class OctreeLocator {
   template <class Visit>
   void spiral(const Point3& start, const Cap& cap, const Visit& visit) const {
     vertex_tree_.visit_nearest_first(
-        start, [&](const ClosedBox& box) { return cap.misses(box); },
+        start, [&](const Box& box) { return cap.misses(box); },
         [&](std::uint32_t first, std::uint32_t last) {
           for (std::uint32_t i = first; i < last; ++i) visit(vertices_[i]);
         });
@@ -51,7 +51,7 @@ class OctreeLocator {
   // In the order of the trees.
   std::vector<LocatedVertex> vertices_;
   std::vector<std::uint32_t> faces_;
-  std::vector<ClosedBox> face_boxes_;
+  std::vector<Box> face_boxes_;
 };
 
 }  // namespace ccdt

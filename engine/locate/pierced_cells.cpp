@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/union_find.h"
 #include "engine/numbers/predicates.h"
-#include "engine/plc/union_find.h"
 
 namespace ccdt {
 namespace {
@@ -143,7 +143,7 @@ class Piercing {
   std::span<const std::uint32_t> missing_;
   const Delaunay& d_;
   CellStar& star_;
-  FlatTable<std::uint32_t, Visit, CellTraits> visits_;
+  HashTable<std::uint32_t, Visit> visits_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owned_;  // cells and their owners
   UnionFind parts_;                                             // of missing faces
   std::vector<std::uint32_t> stack_;

@@ -4,26 +4,18 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/flat_table.h"
+#include "engine/base/hash_table.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 
 namespace ccdt {
 
-struct CellTraits {
-  static std::uint32_t none() { return no_neighbor; }
-  static std::size_t hash(std::uint32_t cell) {
-    const std::uint64_t h = cell * std::uint64_t{0x9E3779B97F4A7C15};
-    return static_cast<std::size_t>(h ^ h >> 32);
-  }
-};
-
 /// The Delaunay cells that missing faces go through, in parts that are connected through their faces.
 struct PiercedCells {
-  std::vector<std::uint32_t> part_of_face;                      ///< of each missing face
-  std::vector<std::vector<std::uint32_t>> cells;                ///< of each part
-  FlatTable<std::uint32_t, std::uint32_t, CellTraits> part_of;  ///< by cell
+  std::vector<std::uint32_t> part_of_face;          ///< of each missing face
+  std::vector<std::vector<std::uint32_t>> cells;    ///< of each part
+  HashTable<std::uint32_t, std::uint32_t> part_of;  ///< by cell
 };
 
 /// Finds the finite cells that meet the inside of some missing face: those that it cuts, and those that touch it with

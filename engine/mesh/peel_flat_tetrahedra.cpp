@@ -5,7 +5,7 @@
 #include <set>
 #include <unordered_set>
 
-#include "engine/base/edge_key.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 
 namespace ccdt {

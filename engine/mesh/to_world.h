@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 

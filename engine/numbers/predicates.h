@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/base/edge_key.h"
+#include "engine/base/simplex_map.h"
 #include "engine/planar/types.h"
 
 /// The steps that the planar algorithms are made of: they change triangles and keep neighbors, constraints and tables,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/errors.h"
-#include "engine/base/flat_table.h"
+#include "engine/base/hash_table.h"
 #include "engine/base/index.h"
 
 namespace ccdt {
@@ -40,7 +40,7 @@ struct PlanarKeyTraits {
 
 /// From vertices or edges of one facet to a position in its arrays. A facet knows only a few of the vertices of the
 /// whole complex, so it cannot afford an array over all ids.
-using PlanarTable = FlatTable<std::uint64_t, std::uint32_t, PlanarKeyTraits>;
+using PlanarTable = HashTable<std::uint64_t, std::uint32_t, PlanarKeyTraits>;
 
 /// A triangulation of a part of a plane: any number of pieces, with holes, slits and pinched vertices.
 ///

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
-#include "engine/plc/box_tree.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
 #include "engine/plc/find_overlaps.h"
@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t most_overlaps_told = 1000;
 
 double box_size(std::span<const Point3> vertices) {
-  ClosedBox box = box_of(vertices.front());
+  Box box = box_of(vertices.front());
   for (const Point3& p : vertices) box = hull(box, box_of(p));
   const Point3 size = box.high - box.low;
   return std::max({size.x, size.y, size.z});

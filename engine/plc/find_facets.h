@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/triangle_set.h"
 

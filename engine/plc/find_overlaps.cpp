@@ -46,7 +46,7 @@ bool are_coplanar(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t
   return std::all_of(t.begin(), t.end(), [&](const Point3& p) { return orient3d(s[0], s[1], s[2], p) == 0; });
 }
 
-ClosedBox box_of_segment(const Point3& a, const Point3& b) {
+Box box_of_segment(const Point3& a, const Point3& b) {
   return hull(box_of(a), box_of(b));
 }
 
@@ -64,8 +64,8 @@ bool share_end(const std::array<VertexId, 2>& a, const std::array<VertexId, 2>& 
 
 }  // namespace
 
-std::vector<ClosedBox> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
-  std::vector<ClosedBox> boxes;
+std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
+  std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles.corners)
     boxes.push_back(hull(hull(box_of(vertices[a]), box_of(vertices[b])), box_of(vertices[c])));
@@ -98,7 +98,7 @@ std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, con
                                            const SegmentSet& segments, std::span<const std::uint32_t> loose,
                                            const BoxTree& tree, std::size_t limit) {
   std::vector<Overlap> found;
-  std::vector<ClosedBox> boxes;
+  std::vector<Box> boxes;
   for (const std::uint32_t s : loose) {
     const auto& ends = segments.ends[s];
     boxes.push_back(box_of_segment(vertices[ends[0]], vertices[ends[1]]));

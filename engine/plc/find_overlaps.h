@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/numbers/point.h"
-#include "engine/plc/box_tree.h"
+#include "engine/base/box_tree.h"
+#include "engine/base/point.h"
 #include "engine/plc/find_facets.h"
 #include "engine/plc/refusals.h"
 #include "engine/plc/triangle_set.h"
@@ -12,7 +12,7 @@
 namespace ccdt {
 
 /// The boxes of triangles.
-std::vector<ClosedBox> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
+std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
 
 /// All pairs of triangles, at most `limit`, that meet in more than common vertices and edges. Pairs with a common edge
 /// are the business of `sort_around_edges`, and those of a facet that is flat only within the tolerance are left out:

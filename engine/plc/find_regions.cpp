@@ -1,6 +1,6 @@
 #include "engine/plc/find_regions.h"
 
-#include "engine/plc/union_find.h"
+#include "engine/base/union_find.h"
 
 namespace ccdt {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/index.h"
+#include "engine/base/point.h"
 #include "engine/numbers/grid.h"
-#include "engine/numbers/point.h"
 
 namespace ccdt {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/base/point.h"
 #include "engine/numbers/grid.h"
-#include "engine/numbers/point.h"
 
 namespace ccdt {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/base/union_find.h"
 #include "engine/plc/quanta.h"
-#include "engine/plc/union_find.h"
 
 namespace ccdt {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/refusals.h"
 

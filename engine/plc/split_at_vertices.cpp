@@ -94,7 +94,7 @@ bool split_triangles_at_vertices(std::span<const Point3> vertices, const BoxTree
 
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments) {
   if (segments.ends.empty()) return;
-  std::vector<ClosedBox> boxes;
+  std::vector<Box> boxes;
   for (const auto& [a, b] : segments.ends) boxes.push_back(hull(box_of(vertices[a]), box_of(vertices[b])));
   const BoxTree tree(std::move(boxes));
   std::vector<std::pair<std::uint32_t, VertexId>> found;  // segment and a vertex on it

@@ -52,12 +52,12 @@ bool is_lower(const Crossing& a, const Crossing& b) {
   return sign < 0;
 }
 
-ClosedBox box_above(const RayStart& start, bool upwards) {
+Box box_above(const RayStart& start, bool upwards) {
   const double scale = DyadicGrid::quantum / 6, slack = DyadicGrid::quantum;  // more than the rounding of this box
   const Point3 p = {scale * static_cast<double>(start.sixfold[0]), scale * static_cast<double>(start.sixfold[1]),
                     scale * static_cast<double>(start.sixfold[2])};
   const Point3 margin = {slack, slack, slack};
-  ClosedBox box = {p - margin, p + margin};
+  Box box = {p - margin, p + margin};
   if (upwards) box.high.z = std::numeric_limits<double>::infinity();
   return box;
 }

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/numbers/point.h"
-#include "engine/plc/box_tree.h"
+#include "engine/base/box_tree.h"
+#include "engine/base/point.h"
 #include "engine/plc/triangle_set.h"
 
 namespace ccdt {

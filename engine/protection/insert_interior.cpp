@@ -4,8 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/base/edge_key.h"
-#include "engine/base/edge_map.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
@@ -25,16 +24,16 @@ struct ProtectedEdges {
 
 ProtectedEdges collect(const std::vector<bool>& must_be_chain, const SegmentChains& chains, std::size_t vertices) {
   std::vector<std::uint8_t> on_edge(vertices, 0);
-  std::vector<std::uint64_t> keys;
+  std::vector<std::array<VertexId, 2>> edges;
   for (std::size_t s = 0; s < chains.size(); ++s) {
     if (!must_be_chain[s]) continue;
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       const VertexId a = chains[s][i].vertex, b = chains[s][i + 1].vertex;
       on_edge[a] = on_edge[b] = 1;
-      keys.push_back(edge_key(a, b));
+      edges.push_back({a, b});
     }
   }
-  return {std::move(on_edge), EdgeMap(keys, vertices)};
+  return {std::move(on_edge), EdgeMap(edges, vertices)};
 }
 
 /// Would filling this cavity destroy a protected edge, one that no face of the cavity has?

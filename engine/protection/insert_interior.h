@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/base/point.h"
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/point.h"
 #include "engine/protection/segment_chains.h"
 
 namespace ccdt {

@@ -289,7 +289,7 @@ int ideal_valence(const WorkingMesh& m, VertexHandle v) {
     const auto [a, b, c] = m.points(m.corners(*h));
     angle += angle_at(a, b, c);
   }
-  return std::max(1, static_cast<int>(std::lround(angle / radians(60)))) + 1;
+  return std::max(1, static_cast<int>(std::lround(angle / to_radians(60)))) + 1;
 }
 
 int square(int i) {

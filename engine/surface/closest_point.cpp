@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/surface/vector_math.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
 
-double squared_distance(const ClosedBox& box, const Point3& p) {
-  const auto beyond = [](double low, double high, double x) { return std::max({low - x, x - high, 0.0}); };
-  return squared_length(
-      {beyond(box.low.x, box.high.x, p.x), beyond(box.low.y, box.high.y, p.y), beyond(box.low.z, box.high.z, p.z)});
-}
-
 double coordinate(const Point3& p, int axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-ClosedBox box_of_triangle(const std::array<Point3, 3>& t) {
+Box box_of_triangle(const std::array<Point3, 3>& t) {
   return hull(hull(box_of(t[0]), box_of(t[1])), box_of(t[2]));
 }
 
@@ -69,7 +63,7 @@ ClosestPoint::ClosestPoint(const OriginalSurface& surface) : surface_(surface), 
 }
 
 void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  ClosedBox box = box_of_triangle(corners(items_[begin]));
+  Box box = box_of_triangle(corners(items_[begin]));
   for (std::uint32_t i = begin + 1; i < end; ++i) box = hull(box, box_of_triangle(corners(items_[i])));
   nodes_[node] = {box, begin, end - begin};
   if (end - begin <= leaf_size) return;

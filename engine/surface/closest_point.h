@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/plc/box_tree.h"
+#include "engine/base/box_tree.h"
 #include "engine/surface/original_surface.h"
 
 namespace ccdt {
@@ -37,7 +37,7 @@ class ClosestPoint {
  private:
   // The children of an inner node are `first` and `first` + 1; a leaf has the `count` items from `first`.
   struct Node {
-    ClosedBox box;
+    Box box;
     std::uint32_t first = 0, count = 0;
   };
   Foot search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const;

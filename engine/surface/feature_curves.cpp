@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/surface/vector_math.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::uint32_t none = 0xFFFFFFFFu;
 class Chainer {
  public:
   Chainer(const OriginalSurface& surface, double sharp_angle)
-      : surface_(surface), sharp_angle_(radians(sharp_angle + 1e-6)), features_at_(surface.points.size()) {
+      : surface_(surface), sharp_angle_(to_radians(sharp_angle + 1e-6)), features_at_(surface.points.size()) {
     for (std::uint32_t f = 0; f < surface.features.size(); ++f)
       for (const std::uint32_t p : surface.features[f].ends) features_at_[p].push_back(f);
     result_.piece_of.assign(surface.features.size(), {none, {}});
@@ -127,7 +127,7 @@ double FeatureCurve::at_bend(double arc_length, double reach) const {
 
 double FeatureCurve::deviation(double from, double to) const {
   if (from > to) std::swap(from, to);
-  const Point3 a = at(from), along = unit(at(to) - a);
+  const Point3 a = at(from), along = normalized(at(to) - a);
   double largest = 0;
   for (auto i = static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), from) - arc.begin());
        i < arc.size() && arc[i] < to; ++i)

@@ -30,7 +30,7 @@ TriangleSet gather_triangles(const InputPlc& surface, const Plc& plc) {
 }
 
 double box_size(const std::vector<Point3>& vertices) {
-  ClosedBox box = box_of(vertices.front());
+  Box box = box_of(vertices.front());
   for (const Point3& p : vertices) box = hull(box, box_of(p));
   const Point3 size = box.high - box.low;
   return std::max({size.x, size.y, size.z});

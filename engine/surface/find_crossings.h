@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/input.h"
 
 namespace ccdt {

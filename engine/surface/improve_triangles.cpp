@@ -17,7 +17,7 @@ std::vector<FaceHandle> bad_triangles(const WorkingMesh& m) {
   std::vector<std::pair<double, int>> found;
   for (const FaceHandle f : m.mesh.faces()) {
     const double angle = smallest_angle_of(m, f);
-    if (angle < radians(good_angle)) found.emplace_back(angle, f.idx());
+    if (angle < to_radians(good_angle)) found.emplace_back(angle, f.idx());
   }
   std::sort(found.begin(), found.end());
   std::vector<FaceHandle> faces;

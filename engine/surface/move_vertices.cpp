@@ -134,7 +134,7 @@ constexpr int directions = 8;
 
 // The smallest angle around a vertex if that was elsewhere; less than 0 if a triangle was turned over there.
 double angle_around(const WorkingMesh& m, VertexHandle v, const Point3& p) {
-  double angle = radians(180);
+  double angle = to_radians(180);
   const Point3 normal = m.at(v).normal;
   for (auto h = m.mesh.cvoh_iter(v); h.is_valid(); ++h) {
     if (m.mesh.is_boundary(*h)) continue;
@@ -158,10 +158,10 @@ std::array<Point3, directions> tangential_directions(const Point3& normal) {
   const Point3 axis = size.x <= size.y && size.x <= size.z ? Point3{1, 0, 0}
                       : size.y <= size.z                   ? Point3{0, 1, 0}
                                                            : Point3{0, 0, 1};
-  const Point3 u = unit(cross(normal, axis)), w = cross(normal, u);
+  const Point3 u = normalized(cross(normal, axis)), w = cross(normal, u);
   std::array<Point3, directions> result;
   for (int i = 0; i < directions; ++i) {
-    const double angle = radians(360.0 * i / directions);
+    const double angle = to_radians(360.0 * i / directions);
     result[i] = std::cos(angle) * u + std::sin(angle) * w;
   }
   return result;
@@ -201,7 +201,7 @@ bool improve_vertex(WorkingMesh& m, VertexHandle v) {
 }
 
 double angle_around(const WorkingMesh& m, const WorkingMesh::Knot& knot, const Point3& p) {
-  double angle = radians(180);
+  double angle = to_radians(180);
   for (const VertexHandle v : knot.copies) angle = std::min(angle, angle_around(m, v, p));
   return angle;
 }

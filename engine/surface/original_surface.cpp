@@ -4,13 +4,13 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "engine/base/edge_key.h"
-#include "engine/plc/box_tree.h"
+#include "engine/base/box_tree.h"
+#include "engine/base/point.h"
+#include "engine/base/simplex_map.h"
+#include "engine/base/union_find.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/split_at_vertices.h"
 #include "engine/plc/triangulate_polygons.h"
-#include "engine/plc/union_find.h"
-#include "engine/surface/vector_math.h"
 
 namespace ccdt {
 namespace {
@@ -55,10 +55,10 @@ std::vector<char> find_vertices_listed_alone(const InputPlc& input, const Plc& p
 class SurfaceCutter {
  public:
   SurfaceCutter(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness)
-      : plc_(plc), cosine_(std::cos(radians(sharp_angle + 1e-6))) {
+      : plc_(plc), cosine_(std::cos(to_radians(sharp_angle + 1e-6))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
-    ClosedBox box = box_of(plc.vertices.front());
+    Box box = box_of(plc.vertices.front());
     for (const Point3& p : plc.vertices) box = hull(box, box_of(p));
     const Point3 size = box.high - box.low;
     segments_ = declared_segments(input, plc, flatness * std::max({size.x, size.y, size.z}));
@@ -86,7 +86,7 @@ class SurfaceCutter {
       for (const auto& t : plc_.facets[f].triangles) {
         corners_.push_back(t);
         surface_.facet_of.push_back(f);
-        surface_.triangle_normals.push_back(unit(area));
+        surface_.triangle_normals.push_back(normalized(area));
       }
     }
   }
@@ -251,7 +251,7 @@ class SurfaceCutter {
         normal = normal + angle * surface_.triangle_normals[t];
       }
     }
-    for (Point3& normal : surface_.wedge_normals) normal = unit(normal);
+    for (Point3& normal : surface_.wedge_normals) normal = normalized(normal);
   }
 
   const Plc& plc_;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 

@@ -90,12 +90,12 @@ std::vector<Point3> thinned(const std::vector<Point3>& places, double distance) 
 
 void freeze(const OriginalSurface& original, const std::vector<Point3>& places, double radius,
             std::vector<char>& frozen) {
-  std::vector<ClosedBox> boxes;
+  std::vector<Box> boxes;
   for (const Point3& p : places)
     boxes.push_back({p - Point3{radius, radius, radius}, p + Point3{radius, radius, radius}});
   const BoxTree tree(std::move(boxes));
   for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
-    ClosedBox box = box_of(original.points[original.triangles[t][0]]);
+    Box box = box_of(original.points[original.triangles[t][0]]);
     for (const std::uint32_t p : original.triangles[t]) box = hull(box, box_of(original.points[p]));
     tree.for_each_meeting(box, [&](std::uint32_t) { frozen[t] = 1; });
   }

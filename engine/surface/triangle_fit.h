@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "engine/surface/vector_math.h"
+#include "engine/base/point.h"
 
 namespace ccdt {
 
@@ -33,7 +33,7 @@ inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point
   const double size = length(area);
   const double squares = squared_length(p[1] - p[0]) + squared_length(p[2] - p[1]) + squared_length(p[0] - p[2]);
   if (size == 0) return {0, -1};
-  return {measure == TriangleMeasure::area ? two_root_three * size / squares : smallest_angle(p) / radians(60),
+  return {measure == TriangleMeasure::area ? two_root_three * size / squares : smallest_angle(p) / to_radians(60),
           std::min({dot(area, normals[0]), dot(area, normals[1]), dot(area, normals[2])}) / size};
 }
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/point.h"
 #include "engine/surface/feature_curves.h"
-#include "engine/surface/vector_math.h"
 
 namespace ccdt {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 /// Small sets of points in grid units: general ones, and the ones that are hard for a Delaunay tetrahedralization.
 namespace ccdt::test {

@@ -72,7 +72,7 @@ TEST(LatticeOctree, KnowsWhereItsNodesAre) {
     for (const OctreeNode& node : tree.nodes) {
       if (!node.is_leaf() || node.place == NodePlace::surface) continue;
       const bool is_in = node.place == NodePlace::inside;
-      ASSERT_NEAR(winding_number(shape, tree.box(node).centre()), is_in ? 1 : 0, 1e-6);
+      ASSERT_NEAR(winding_number(shape, tree.box(node).center()), is_in ? 1 : 0, 1e-6);
       inside += is_in;
     }
     EXPECT_GT(inside, 0u);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt::test {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 /// The signs of engine/numbers/predicates.h by other means: CGAL's exact kernel, and determinants in GMP's integers in
 /// which every infinitesimal is a tiny number indeed.

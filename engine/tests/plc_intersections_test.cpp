@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
+#include "engine/base/box_tree.h"
 #include "engine/numbers/predicates.h"
-#include "engine/plc/box_tree.h"
 #include "engine/plc/intersect_triangles.h"
 #include "engine/plc/quanta.h"
 #include "engine/plc/sort_around_edges.h"
@@ -170,7 +170,7 @@ TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {
 TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
   std::mt19937 random(9);
   for (const std::size_t count : {0, 1, 3, 4, 5, 17, 200}) {
-    std::vector<ClosedBox> boxes;
+    std::vector<Box> boxes;
     for (std::size_t i = 0; i < count; ++i)
       boxes.push_back(hull(box_of(random_point(random, 12)), box_of(random_point(random, 12))));
     if (count == 17) boxes.assign(count, box_of({1, 2, 3}));
@@ -183,7 +183,7 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
 
-    const ClosedBox query = hull(box_of(random_point(random, 12)), box_of(random_point(random, 12)));
+    const Box query = hull(box_of(random_point(random, 12)), box_of(random_point(random, 12)));
     std::vector<std::uint32_t> met, should_meet;
     tree.for_each_meeting(query, [&](std::uint32_t i) { met.push_back(i); });
     for (std::uint32_t i = 0; i < count; ++i)

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "engine/plc/union_find.h"
+#include "engine/base/union_find.h"
 #include "engine/tests/plc_test_solids.h"
 
 namespace ccdt {

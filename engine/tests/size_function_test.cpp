@@ -212,7 +212,7 @@ TEST(SphereFactor, ScalesTheSpheresThatNoPointMayBeIn) {
         // All triangles are half squares, so their spheres are those of their longest edges.
         const Corners c = surface_of(shape).corners(t);
         const Box box = bounding_box(c);
-        EXPECT_GT(std::sqrt(squared_length(p - box.centre())), factor * std::sqrt(0.5) * shape.unit);
+        EXPECT_GT(std::sqrt(squared_length(p - box.center())), factor * std::sqrt(0.5) * shape.unit);
       }
   }
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 
 namespace ccdt::testing {
 

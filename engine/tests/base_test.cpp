@@ -1,10 +1,10 @@
-#include "engine/base/flat_table.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <map>
 #include <random>
+
+#include "engine/base/hash_table.h"
 
 namespace ccdt {
 namespace {
@@ -15,8 +15,8 @@ struct CrowdedTraits {
   static std::size_t hash(std::uint32_t key) { return ~std::size_t{0} - key % 5; }
 };
 
-TEST(FlatTable, HoldsWhatAMapHoldsAfterRandomInsertionsAndRemovals) {
-  FlatTable<std::uint32_t, int, CrowdedTraits> table;
+TEST(HashTable, HoldsWhatAMapHoldsAfterRandomInsertionsAndRemovals) {
+  HashTable<std::uint32_t, int, CrowdedTraits> table;
   std::map<std::uint32_t, int> map;
   std::mt19937 random(1);
   for (int i = 0; i < 20000; ++i) {

@@ -4,11 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "engine/numbers/point.h"
-#include "engine/plc/box_tree.h"
+#include "engine/base/box.h"
 
 namespace ccdt {
 
@@ -28,11 +25,11 @@ struct UniformGrid {
     return (static_cast<std::size_t>(c[2]) * cells[1] + c[1]) * cells[0] + c[0];
   }
   std::size_t size() const { return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]; }
-  Point3 centre(const CellIndex& c) const {
+  Point3 center(const CellIndex& c) const {
     return {low.x + (c[0] + 0.5) * cell_size, low.y + (c[1] + 0.5) * cell_size, low.z + (c[2] + 0.5) * cell_size};
   }
   /// A little larger than the cell, for the roundings of `cell_at`.
-  ClosedBox box(const CellIndex& c) const {
+  Box box(const CellIndex& c) const {
     const double slack = 1e-6 * cell_size, side = cell_size + 2 * slack;
     const Point3 corner{low.x + c[0] * cell_size - slack, low.y + c[1] * cell_size - slack,
                         low.z + c[2] * cell_size - slack};
@@ -57,28 +54,6 @@ struct UniformGrid {
 /// The grid of the paper: about as many cubes as there are vertices or faces, whichever are more.
 ///
 /// \param scale  factor of the paper's cell size; a tenth of it means a thousand times the cells
-UniformGrid make_uniform_grid(const Point3& low, const Point3& high, std::size_t items, double scale = 1);
-
-/// Lists by cell in two flat arrays: the items of cell c are items[first[c] .. first[c + 1]).
-struct CellLists {
-  std::vector<std::uint32_t> first, items;
-
-  std::span<const std::uint32_t> of(std::size_t cell) const {
-    return {items.data() + first[cell], items.data() + first[cell + 1]};
-  }
-};
-
-/// Builds the lists from `visit_pairs(emit)`, which calls emit(cell, item) for each pair, twice over in the same order.
-template <class VisitPairs>
-CellLists make_cell_lists(std::size_t cells, const VisitPairs& visit_pairs) {
-  CellLists lists;
-  lists.first.assign(cells + 1, 0);
-  visit_pairs([&](std::size_t cell, std::uint32_t) { ++lists.first[cell + 1]; });
-  for (std::size_t c = 0; c < cells; ++c) lists.first[c + 1] += lists.first[c];
-  lists.items.resize(lists.first[cells]);
-  std::vector<std::uint32_t> next(lists.first.begin(), lists.first.end() - 1);
-  visit_pairs([&](std::size_t cell, std::uint32_t item) { lists.items[next[cell]++] = item; });
-  return lists;
-}
+UniformGrid make_uniform_grid(const Box& box, std::size_t items, double scale = 1);
 
 }  // namespace ccdt

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace ccdt {
 
@@ -30,8 +32,37 @@ inline Point3 cross(const Point3& a, const Point3& b) {
 inline double squared_length(const Point3& a) {
   return dot(a, a);
 }
+inline double length(const Point3& a) {
+  return std::sqrt(squared_length(a));
+}
+inline Point3 componentwise_min(const Point3& a, const Point3& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+inline Point3 componentwise_max(const Point3& a, const Point3& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
 inline std::array<double, 3> as_array(const Point3& a) {
   return {a.x, a.y, a.z};
+}
+
+/// The vector scaled to length one; a vector of length zero stays as it is.
+inline Point3 normalized(const Point3& a) {
+  const double l = length(a);
+  return l > 0 ? (1 / l) * a : a;
+}
+
+/// The normal of a triangle, as long as twice its area.
+inline Point3 area_vector(const std::array<Point3, 3>& p) {
+  return cross(p[1] - p[0], p[2] - p[0]);
+}
+
+/// The angle at a between b and c, in radians.
+inline double angle_at(const Point3& a, const Point3& b, const Point3& c) {
+  return std::atan2(length(cross(b - a, c - a)), dot(b - a, c - a));
+}
+
+inline double to_radians(double degrees) {
+  return degrees * (std::acos(-1.0) / 180);
 }
 
 }  // namespace ccdt

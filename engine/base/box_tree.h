@@ -5,40 +5,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/numbers/point.h"
+#include "engine/base/box.h"
 
 namespace ccdt {
 
-/// An axis-parallel box, closed.
-struct ClosedBox {
-  Point3 low, high;
-
-  // Which of the six fails is as good as random: all are asked, without branches.
-  bool meets(const ClosedBox& o) const {
-    return (int{low.x <= o.high.x} & int{o.low.x <= high.x} & int{low.y <= o.high.y} & int{o.low.y <= high.y} &
-            int{low.z <= o.high.z} & int{o.low.z <= high.z}) != 0;
-  }
-};
-
-inline ClosedBox hull(const ClosedBox& a, const ClosedBox& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
-inline ClosedBox box_of(const Point3& p) {
-  return {p, p};
-}
-
-/// A hierarchy of bounding boxes: the items in Morton order of their centres, halved again and again.
+/// A hierarchy of bounding boxes: the items in Morton order of their centers, halved again and again.
 ///
 ///     node 1 = [2 3], node i = [2i 2i+1], the last `leaf_count` nodes are runs of `leaf_size` items
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<ClosedBox> boxes);
+  explicit BoxTree(std::vector<Box> boxes);
 
   /// Calls visit(item) for all items whose box meets the given one.
   template <class Visit>
-  void for_each_meeting(const ClosedBox& box, Visit&& visit) const {
+  void for_each_meeting(const Box& box, Visit&& visit) const {
     if (!items_.empty() && nodes_[1].meets(box)) descend(1, box, visit);
   }
 
@@ -59,7 +39,7 @@ class BoxTree {
   }
 
   template <class Visit>
-  void descend(std::uint32_t node, const ClosedBox& box, Visit& visit) const {
+  void descend(std::uint32_t node, const Box& box, Visit& visit) const {
     if (!is_leaf(node)) {
       for (const std::uint32_t child : {2 * node, 2 * node + 1})
         if (nodes_[child].meets(box)) descend(child, box, visit);
@@ -103,8 +83,8 @@ class BoxTree {
   }
 
   std::vector<std::uint32_t> items_;  // in Morton order
-  std::vector<ClosedBox> boxes_;      // of these
-  std::vector<ClosedBox> nodes_;
+  std::vector<Box> boxes_;            // of these
+  std::vector<Box> nodes_;
   std::uint32_t leaf_count_ = 1;  // a power of two
 };
 

@@ -1,17 +1,57 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "engine/base/index.h"
+
 namespace ccdt {
+
+/// What a `HashTable` needs to know of its keys: `none()` is a key that never occurs and marks the empty places;
+/// `hash(key)` should fill all bits, as tables use the lowest.
+template <class Key>
+struct HashTraits;
+
+/// Indices of any kind.
+template <>
+struct HashTraits<std::uint32_t> {
+  static constexpr std::uint32_t none() { return 0xFFFFFFFFu; }
+  static std::size_t hash(std::uint32_t key) {
+    const std::uint64_t h = key * std::uint64_t{0x9E3779B97F4A7C15};
+    return static_cast<std::size_t>(h ^ h >> 32);
+  }
+};
+template <class Tag>
+struct HashTraits<Index<Tag>> {
+  static constexpr Index<Tag> none() { return {}; }
+  static std::size_t hash(Index<Tag> key) { return HashTraits<std::uint32_t>::hash(key.value); }
+};
+
+/// Edges, by `edge_key`, and other numbers of 64 bits.
+template <>
+struct HashTraits<std::uint64_t> {
+  static constexpr std::uint64_t none() { return ~std::uint64_t{0}; }
+  static std::size_t hash(std::uint64_t key) { return (key ^ key >> 31) * 0x9E3779B97F4A7C15u >> 20; }
+};
+
+/// Faces, by `face_key`.
+template <>
+struct HashTraits<std::array<std::uint32_t, 3>> {
+  static constexpr std::array<std::uint32_t, 3> none() { return {0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu}; }
+  static std::size_t hash(const std::array<std::uint32_t, 3>& key) {
+    std::uint64_t h = (std::uint64_t{key[0]} << 32 | key[1]) * 0x9E3779B97F4A7C15u ^ key[2] * 0xC2B2AE3D27D4EB4Fu;
+    h ^= h >> 29;
+    return h * 0x9E3779B97F4A7C15u >> 20;
+  }
+};
 
 /// A hash table in one flat array: open addressing with linear probing, entries move back when one before them goes, so
 /// that no tombstones stay. Pointers to values hold until the next insertion or removal.
-///
-/// `Traits::none()` is a key that never occurs and marks the empty places; `Traits::hash(key)` should fill all bits.
-template <class Key, class Value, class Traits>
-class FlatTable {
+template <class Key, class Value, class Traits = HashTraits<Key>>
+class HashTable {
  public:
   struct Entry {
     Key key = Traits::none();
@@ -19,6 +59,8 @@ class FlatTable {
   };
 
   std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  void clear() { *this = {}; }
 
   /// Room for so many entries without growing.
   void reserve(std::size_t entries) {
@@ -34,10 +76,19 @@ class FlatTable {
       if (entries_[i].key == Traits::none()) return nullptr;
     }
   }
-  const Value* find(const Key& key) const { return const_cast<FlatTable*>(this)->find(key); }
+  const Value* find(const Key& key) const { return const_cast<HashTable*>(this)->find(key); }
 
-  /// \return the value of the key, and whether it is new
-  std::pair<Value*, bool> insert(const Key& key, const Value& value) {
+  bool contains(const Key& key) const { return find(key) != nullptr; }
+  /// A copy of the value of the key, or `otherwise` if it has none.
+  Value get(const Key& key, const Value& otherwise) const {
+    const Value* value = find(key);
+    return value != nullptr ? *value : otherwise;
+  }
+
+  /// Adds the entry unless the key has one already.
+  ///
+  /// \return  the value of the key, and whether it is new
+  std::pair<Value*, bool> insert(const Key& key, const Value& value = {}) {
     if (2 * (size_ + 1) > entries_.size()) grow(entries_.empty() ? least_places : 2 * entries_.size());
     std::size_t i = home(key);
     for (; !(entries_[i].key == Traits::none()); i = next(i))
@@ -46,6 +97,9 @@ class FlatTable {
     ++size_;
     return {&entries_[i].value, true};
   }
+
+  /// Adds the entry, or changes the value of the one that the key has.
+  void set(const Key& key, const Value& value) { *insert(key, value).first = value; }
 
   /// Removes the entry of a value that `find` gave.
   void erase(const Value* value) {
@@ -95,5 +149,9 @@ class FlatTable {
   std::vector<Entry> entries_;
   std::size_t size_ = 0;
 };
+
+struct NoValue {};
+template <class Key, class Traits = HashTraits<Key>>
+using HashSet = HashTable<Key, NoValue, Traits>;
 
 }  // namespace ccdt

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "engine/base/point.h"
+
+namespace ccdt {
+
+/// An axis-parallel box with its boundary.
+struct Box {
+  Point3 low, high;
+
+  Point3 center() const { return 0.5 * (low + high); }
+  // Which of the six comparisons fails is as good as random: all are made, without branches.
+  bool meets(const Box& o) const {
+    return (int{low.x <= o.high.x} & int{o.low.x <= high.x} & int{low.y <= o.high.y} & int{o.low.y <= high.y} &
+            int{low.z <= o.high.z} & int{o.low.z <= high.z}) != 0;
+  }
+};
+
+/// The empty box: the hull of it and another box is the other box.
+inline constexpr Box empty_box = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+
+inline Box hull(const Box& a, const Box& b) {
+  return {componentwise_min(a.low, b.low), componentwise_max(a.high, b.high)};
+}
+
+inline Box box_of(const Point3& p) {
+  return {p, p};
+}
+
+/// \return  `empty_box` if there are no points
+inline Box bounding_box(std::span<const Point3> points) {
+  Box box = empty_box;
+  for (const Point3& p : points) box = hull(box, box_of(p));
+  return box;
+}
+
+inline Box intersection(const Box& a, const Box& b) {
+  return {componentwise_max(a.low, b.low), componentwise_min(a.high, b.high)};
+}
+
+/// The box with a margin added on all sides.
+inline Box expanded(const Box& box, double margin) {
+  const Point3 m{margin, margin, margin};
+  return {box.low - m, box.high + m};
+}
+
+inline bool strictly_contains(const Box& box, const Point3& p) {
+  return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y && p.z > box.low.z &&
+         p.z < box.high.z;
+}
+
+inline bool contains(const Box& outer, const Box& inner) {
+  return inner.low.x >= outer.low.x && inner.high.x <= outer.high.x && inner.low.y >= outer.low.y &&
+         inner.high.y <= outer.high.y && inner.low.z >= outer.low.z && inner.high.z <= outer.high.z;
+}
+
+inline double squared_distance(const Box& a, const Box& b) {
+  const auto gap = [](double a_low, double a_high, double b_low, double b_high) {
+    return std::max(std::max(a_low - b_high, b_low - a_high), 0.0);
+  };
+  return squared_length({gap(a.low.x, a.high.x, b.low.x, b.high.x), gap(a.low.y, a.high.y, b.low.y, b.high.y),
+                         gap(a.low.z, a.high.z, b.low.z, b.high.z)});
+}
+
+inline double squared_distance(const Box& box, const Point3& p) {
+  return squared_distance(box, box_of(p));
+}
+
+/// The squared distance to the point of the box that is farthest from p.
+inline double squared_farthest_distance(const Box& box, const Point3& p) {
+  return squared_length(componentwise_max(p - box.low, box.high - p));
+}
+
+}  // namespace ccdt

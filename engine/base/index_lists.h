@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ccdt {
+
+/// Lists of indices in two flat arrays: list i is items[first[i] .. first[i + 1]).
+struct IndexLists {
+  std::vector<std::uint32_t> first, items;
+
+  std::span<const std::uint32_t> of(std::size_t list) const {
+    return {items.data() + first[list], items.data() + first[list + 1]};
+  }
+};
+
+/// Builds lists from `visit_pairs(emit)`, which calls emit(list, item) for each pair. It is called twice and must emit
+/// the same pairs in the same order.
+///
+/// \param count  how many lists; each `list` is below it
+template <class VisitPairs>
+IndexLists make_index_lists(std::size_t count, const VisitPairs& visit_pairs) {
+  IndexLists lists;
+  lists.first.assign(count + 1, 0);
+  visit_pairs([&](std::size_t list, std::uint32_t) { ++lists.first[list + 1]; });
+  for (std::size_t i = 0; i < count; ++i) lists.first[i + 1] += lists.first[i];
+  lists.items.resize(lists.first[count]);
+  std::vector<std::uint32_t> next(lists.first.begin(), lists.first.end() - 1);
+  visit_pairs([&](std::size_t list, std::uint32_t item) { lists.items[next[list]++] = item; });
+  return lists;
+}
+
+}  // namespace ccdt

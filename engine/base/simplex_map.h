@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace ccdt {
+
+/// An undirected edge as one number: the smaller end in the upper half. Keys sort as pairs of ends do.
+constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+}
+
+/// The corners of a triangle in increasing order: the same from both sides.
+using FaceKey = std::array<std::uint32_t, 3>;
+
+constexpr FaceKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  return {a, b, c};
+}
+
+/// A fixed set of edges (N = 2) or triangles (N = 3), each found at its least vertex, in any order of its corners.
+template <std::size_t N>
+class SimplexMap {
+ public:
+  using Corners = std::array<std::uint32_t, N>;
+  static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+  SimplexMap() = default;
+  /// \param simplices  different ones; corners of any integer or index type
+  /// \param vertices   more than each corner
+  template <class Id>
+  SimplexMap(const std::vector<std::array<Id, N>>& simplices, std::size_t vertices)
+      : first_(vertices + 1, 0), entries_(simplices.size()) {
+    for (const auto& s : simplices) ++first_[*std::ranges::min_element(s)];
+    // From counts to ends; filling from behind turns the ends into beginnings.
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    for (std::uint32_t i = 0; i < simplices.size(); ++i) {
+      Corners corners;
+      std::ranges::copy(simplices[i], corners.begin());
+      std::ranges::sort(corners);
+      Entry& entry = entries_[--first_[corners[0]]];
+      std::copy(corners.begin() + 1, corners.end(), entry.others.begin());
+      entry.index = i;
+    }
+  }
+
+  bool empty() const { return entries_.empty(); }
+
+  /// The index of the edge among those given; `none` if it was not there.
+  std::uint32_t find(std::uint32_t a, std::uint32_t b) const requires(N == 2) {
+    if (b < a) std::swap(a, b);
+    for (std::uint32_t i = first_[a]; i < first_[a + 1]; ++i)
+      if (entries_[i].others[0] == b) return entries_[i].index;
+    return none;
+  }
+  /// The index of the triangle among those given; `none` if it was not there.
+  std::uint32_t find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
+    const FaceKey key = face_key(a, b, c);
+    for (std::uint32_t i = first_[key[0]]; i < first_[key[0] + 1]; ++i)
+      if (entries_[i].others[0] == key[1] && entries_[i].others[1] == key[2]) return entries_[i].index;
+    return none;
+  }
+
+ private:
+  struct Entry {
+    std::array<std::uint32_t, N - 1> others;  // greater than the least corner, increasing
+    std::uint32_t index;
+  };
+  std::vector<std::uint32_t> first_;  // entries of least vertex v: first_[v] .. first_[v + 1]
+  std::vector<Entry> entries_;
+};
+
+using EdgeMap = SimplexMap<2>;
+using FaceMap = SimplexMap<3>;
+
+/// A value that belongs to an edge, such as a face or a half-edge at it.
+struct AtEdge {
+  std::uint64_t edge;  ///< `edge_key`
+  std::uint32_t value;
+
+  auto operator<=>(const AtEdge&) const = default;
+};
+
+/// Sorts the values by edge, then calls visit(group) for the values of each edge, in increasing order of the edges and
+/// of the values of an edge. Visit takes a `std::span<const AtEdge>`.
+template <class Visit>
+void for_each_edge_group(std::vector<AtEdge>& values, const Visit& visit) {
+  std::ranges::sort(values);
+  for (std::size_t i = 0, next; i < values.size(); i = next) {
+    for (next = i + 1; next < values.size() && values[next].edge == values[i].edge;) ++next;
+    visit(std::span<const AtEdge>(values).subspan(i, next - i));
+  }
+}
+
+}  // namespace ccdt
