@@ -126,7 +126,7 @@ void expect_faces_and_segments_there(const CellComplex& x) {
     ASSERT_NE(place, nullptr);
     EXPECT_EQ(*place, f);
   }
-  x.segments.for_each([&](std::uint64_t key, bool) {
+  x.segments.for_each([&](std::uint64_t key, NoValue) {
     EXPECT_TRUE(edges.contains(key)) << "segment " << (key >> 32) << " " << (key & 0xFFFFFFFFu);
   });
 }
