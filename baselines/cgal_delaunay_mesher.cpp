@@ -5,8 +5,9 @@
 
 #include <chrono>
 
-#include "baselines/common.h"
 #include "baselines/known_meshers.h"
+#include "baselines/mesh_cleanup.h"
+#include "baselines/mesher_input.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {

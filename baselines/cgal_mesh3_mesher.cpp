@@ -14,8 +14,9 @@
 #include <map>
 #include <unordered_map>
 
-#include "baselines/common.h"
 #include "baselines/known_meshers.h"
+#include "baselines/mesh_cleanup.h"
+#include "baselines/mesher_input.h"
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 

@@ -2,9 +2,10 @@
 #include <memory>
 #include <optional>
 
-#include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
+#include "baselines/mesh_cleanup.h"
+#include "baselines/mesher_input.h"
 #include "baselines/process.h"
 #include "engine/base/errors.h"
 #include "engine/io/output_file.h"
@@ -101,26 +102,11 @@ MesherSettings settings_of_described(const Description& description, const Input
   return settings;
 }
 
-/// The input with triangles for facets that are polygons, unless the format is one of PLCs: programs that read surfaces
-/// want triangles.
-InputPlc as_its_format_has_it(const Description& description, const InputPlc& input, const MeshOptions& options) {
+/// Formats of surfaces want triangles, those of PLCs keep polygons.
+InputPlc input_for_format(const Description& description, const InputPlc& input, const MeshOptions& options) {
   const bool keeps_polygons = description.input_format == "poly" || description.input_format == "smesh";
   if (keeps_polygons || input.polygon_facets.empty()) return merge_equal_vertices(input);
-  const Plc plc = build_plc(input, {.flatness = options.flatness});
-  InputPlc triangles = input;
-  triangles.vertices = plc.world;
-  triangles.triangles.clear();
-  triangles.triangle_markers.clear();
-  triangles.triangle_numbers.clear();
-  triangles.polygon_facets.clear();
-  for (const Facet& facet : plc.facets)
-    for (const auto& [a, b, c] : facet.triangles) {
-      triangles.triangles.push_back({a.value, b.value, c.value});
-      triangles.triangle_markers.push_back(facet.marker);
-    }
-  for (auto& segment : triangles.segments)
-    for (std::uint32_t& v : segment) v = plc.vertex_of_input[v].value;
-  return triangles;
+  return triangulate_facets(input, options);
 }
 
 void write_input(const Description& description, const InputPlc& input, const std::filesystem::path& folder) {
@@ -192,7 +178,7 @@ void tidy(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& notes)
 
 MesherRun run_described(const Description& description, const InputPlc& input, const MeshOptions& options,
                         const Progress& progress) {
-  const InputPlc given = as_its_format_has_it(description, input, options);
+  const InputPlc given = input_for_format(description, input, options);
   const TemporaryFolder temporary;
   const auto folder = temporary.path() / "run", log = temporary.path() / "log";
   std::filesystem::create_directory(folder);

@@ -7,9 +7,10 @@
 #include <new>
 #include <sstream>
 
-#include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
+#include "baselines/mesh_cleanup.h"
+#include "baselines/mesher_input.h"
 #include "baselines/process.h"
 #include "engine/base/errors.h"
 

@@ -4,24 +4,15 @@
 #include <filesystem>
 #include <fstream>
 
-#include "baselines/common.h"
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
+#include "baselines/mesher_input.h"
 #include "baselines/tests/shapes.h"
 #include "engine/base/errors.h"
 #include "engine/io/tet_mesh_files.h"
 
 namespace ccdt {
 namespace {
-
-/// A cube of six tetrahedra.
-TetMesh cube_mesh() {
-  TetMesh mesh;
-  mesh.vertices = shapes::cube().vertices;
-  mesh.tetrahedra = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
-  mesh.regions.assign(6, 0);
-  return mesh;
-}
 
 MeshOptions unimproved(double edge_length = 0) {
   return {.edge_length = edge_length, .improve = {.improvement = Improvement::none}};
@@ -31,7 +22,7 @@ MeshOptions unimproved(double edge_length = 0) {
 class ScriptMesher : public testing::Test {
  protected:
   ScriptMesher() {
-    TetMesh mesh = cube_mesh();
+    TetMesh mesh = shapes::cube_mesh();
     for (auto& t : mesh.tetrahedra) std::swap(t[0], t[1]);  // some programs orient the other way
     write_tet_mesh(mesh, folder_.path() / "cube.mesh");
     description_.file = folder_.path() / "mine.json";
@@ -160,33 +151,6 @@ TEST_F(ScriptMesher, RefusesWhatItsFormatCannotHold) {
   EXPECT_THROW(run(plc), MeshError);
   description_.input_format = "poly";
   EXPECT_EQ(run(plc).result.counts.tetrahedra, 6u);
-}
-
-TEST(RestoreCoordinates, GivesBackWhatWasRounded) {
-  InputPlc plc = shapes::cube();
-  for (Point3& p : plc.vertices) p = (0.1 + 0.2) * p + Point3{0.1, 0.7, 1.0 / 3};
-  TetMesh mesh = cube_mesh();
-  mesh.vertices = plc.vertices;
-  for (Point3& p : mesh.vertices) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-  mesh.vertices[7] = plc.vertices[7];
-  EXPECT_EQ(restore_coordinates(plc.vertices, mesh), 7u);
-  for (std::size_t v = 0; v < 8; ++v) EXPECT_EQ(as_array(mesh.vertices[v]), as_array(plc.vertices[v]));
-  mesh.vertices[0].x += 1e-6;
-  EXPECT_EQ(restore_coordinates(plc.vertices, mesh), 0u) << "that is no rounding";
-}
-
-TEST(RestoreCoordinates, SpoilsNoTetrahedron) {
-  const double tiny = 0x1p-40;
-  const std::vector<Point3> input = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1 + tiny}};
-  TetMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}, {0.25, 0.25, 1 + tiny / 2}};
-  mesh.tetrahedra = {{0, 1, 2, 4}, {0, 1, 4, 3}};
-  mesh.regions = {0, 0};
-  EXPECT_EQ(restore_coordinates(input, mesh), 1u);
-  mesh.vertices[3].z = 1;
-  mesh.tetrahedra[1] = {0, 4, 1, 3};  // stands on its head if vertex 3 moves
-  EXPECT_EQ(restore_coordinates(input, mesh), 0u);
-  EXPECT_EQ(mesh.vertices[3].z, 1);
 }
 
 const MeshOptions bare = {.lattice = Lattice::none};

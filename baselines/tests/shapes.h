@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 
 namespace ccdt::shapes {
@@ -34,6 +35,15 @@ inline InputPlc cube() {
   plc.name = "cube";
   add_cube(plc, 0, 1);
   return plc;
+}
+
+/// A cube of six tetrahedra.
+inline TetMesh cube_mesh() {
+  TetMesh mesh;
+  mesh.vertices = cube().vertices;
+  mesh.tetrahedra = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  mesh.regions.assign(6, 0);
+  return mesh;
 }
 
 /// A cube of side 3 around a cubic hole of side 1: volume 26.

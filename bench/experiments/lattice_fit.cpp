@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baselines/common.h"
+#include "baselines/mesher_input.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
 

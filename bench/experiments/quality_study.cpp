@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baselines/common.h"
+#include "baselines/mesher_input.h"
 #include "bench/experiments/count_search.h"
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"

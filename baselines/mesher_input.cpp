@@ -1,4 +1,4 @@
-#include "baselines/common.h"
+#include "baselines/mesher_input.h"
 
 #include <algorithm>
 #include <array>
@@ -6,24 +6,13 @@
 #include <cmath>
 
 #include "engine/io/merge_vertices.h"
+#include "engine/plc/build_plc.h"
 
 namespace ccdt {
 namespace {
 
-using Coordinates = std::array<double, 3>;
-
-/// Adding zero turns -0 into +0, so that equal coordinates also compare and sort as equal.
-Coordinates key(const Point3& p) {
-  return {p.x + 0.0, p.y + 0.0, p.z + 0.0};
-}
-
 double distance(const Point3& a, const Point3& b) {
   return std::sqrt(squared_length(a - b));
-}
-
-double signed_volume(const TetMesh& mesh, const std::array<std::uint32_t, 4>& t) {
-  const auto& v = mesh.vertices;
-  return dot(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]), v[t[3]] - v[t[0]]) / 6;
 }
 
 }  // namespace
@@ -43,6 +32,24 @@ InputPlc merge_equal_vertices(const InputPlc& input) {
   for (auto& segment : merged.segments)
     for (auto& v : segment) v = renumbered[v];
   return merged;
+}
+
+InputPlc triangulate_facets(const InputPlc& input, const MeshOptions& options) {
+  const Plc plc = build_plc(input, {.flatness = options.flatness});
+  InputPlc triangles = input;
+  triangles.vertices = plc.world;
+  triangles.triangles.clear();
+  triangles.triangle_markers.clear();
+  triangles.triangle_numbers.clear();
+  triangles.polygon_facets.clear();
+  for (const Facet& facet : plc.facets)
+    for (const auto& [a, b, c] : facet.triangles) {
+      triangles.triangles.push_back({a.value, b.value, c.value});
+      triangles.triangle_markers.push_back(facet.marker);
+    }
+  for (auto& segment : triangles.segments)
+    for (std::uint32_t& v : segment) v = plc.vertex_of_input[v].value;
+  return triangles;
 }
 
 double median_edge_length(const InputPlc& input) {
@@ -73,36 +80,6 @@ double regular_tetrahedron_volume(double edge_length) {
 double largest_tetrahedron_volume(double edge_length) {
   constexpr double largest_to_average = 2;
   return largest_to_average * regular_tetrahedron_volume(edge_length);
-}
-
-void orient_positively(TetMesh& mesh) {
-  double total = 0;  // of the sum, because rounding may turn the sign of a single sliver
-  for (const auto& t : mesh.tetrahedra) total += signed_volume(mesh, t);
-  if (total >= 0) return;
-  for (auto& t : mesh.tetrahedra) std::swap(t[0], t[1]);
-}
-
-MeshCounts count_elements(const InputPlc& input, const TetMesh& mesh) {
-  std::vector<Coordinates> known;
-  known.reserve(input.vertices.size());
-  for (const Point3& p : input.vertices) known.push_back(key(p));
-  std::ranges::sort(known);
-
-  std::vector<char> on_facet(mesh.vertices.size(), 0);
-  for (const auto& face : mesh.faces)
-    for (const auto v : face) on_facet[v] = 1;
-  for (const auto& edge : mesh.edges)
-    for (const auto v : edge) on_facet[v] = 1;
-
-  MeshCounts counts;
-  counts.vertices = mesh.vertices.size();
-  counts.tetrahedra = mesh.tetrahedra.size();
-  counts.faces = mesh.faces.size();
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (std::ranges::binary_search(known, key(mesh.vertices[v]))) continue;
-    ++(on_facet[v] ? counts.steiner_vertices : counts.interior_vertices);
-  }
-  return counts;
 }
 
 std::string digits(double value) {

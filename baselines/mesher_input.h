@@ -1,0 +1,30 @@
+#pragma once
+
+#include "baselines/mesher.h"
+
+namespace ccdt {
+
+/// The input with vertices of equal coordinates merged: surface formats repeat a vertex in every triangle, and the
+/// other meshers want them shared. Triangles, polygons and segments keep their order.
+InputPlc merge_equal_vertices(const InputPlc& input);
+
+/// The input with triangles for facets that are polygons: programs that read surfaces want triangles.
+InputPlc triangulate_facets(const InputPlc& input, const MeshOptions& options);
+
+/// Median length of the edges of the input's triangles and polygons; 0 without any.
+double median_edge_length(const InputPlc& input);
+
+/// The target edge length of a mesh: that of the options, or where it is 0 that of the surface.
+double target_edge_length(const InputPlc& input, const MeshOptions& options);
+
+/// Volume of the regular tetrahedron of this edge length.
+double regular_tetrahedron_volume(double edge_length);
+
+/// Volume of the largest tetrahedron of a mesh of this edge length: twice that of the regular one, which is about the
+/// average.
+double largest_tetrahedron_volume(double edge_length);
+
+/// The shortest digits that read back bit for bit.
+std::string digits(double value);
+
+}  // namespace ccdt
