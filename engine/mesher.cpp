@@ -14,7 +14,6 @@
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/to_world.h"
 #include "engine/plc/build_plc.h"
-#include "engine/protection/insert_interior.h"
 #include "engine/protection/protect_edges.h"
 
 namespace ccdt {
@@ -68,7 +67,8 @@ std::vector<Point3> place_points(const Plc& plc, const ProtectedDelaunay& surfac
   const LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
                                options.grading,   options.sphere_factor,
                                options.clearance, &background};
-  return place_lattice_points(points_of(surface.delaunay), triangles, subsegments, lattice, progress);
+  const std::vector<Point3> vertices = points_of(surface.delaunay);
+  return place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
 }
 
 /// Adds those of the points that destroy no protected edge.

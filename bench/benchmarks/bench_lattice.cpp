@@ -24,7 +24,7 @@ namespace {
 std::vector<Point3> place(const LatticeInput& input, Lattice kind) {
   LatticeOptions options = input.options;
   options.kind = kind;
-  return place_lattice_points(input.vertices, input.triangles, input.subsegments, options);
+  return place_lattice_points({input.vertices, input.triangles, input.subsegments}, options);
 }
 
 std::string find_fault(const Stages& s, Lattice kind) {

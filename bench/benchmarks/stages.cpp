@@ -11,7 +11,6 @@
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/build_plc.h"
-#include "engine/protection/insert_interior.h"
 #include "engine/protection/protect_edges.h"
 #include "models/solids.h"
 
@@ -73,7 +72,7 @@ Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOp
   s.facets = triangulate_facets(s.plc, s.chains, s.delaunay);
   s.lattice = lattice_input(s, density);
   const auto points =
-      place_lattice_points(s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments, s.lattice.options);
+      place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options);
   insert_interior(points, s.must_be_chain, s.chains, s.delaunay);
   s.codes = find_delaunay_faces(s.facets, s.delaunay);
   if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))

@@ -9,11 +9,16 @@
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
-#include "engine/front/front_faces.h"
 #include "engine/locate/options.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt {
+
+/// What the front knows of one of its faces.
+struct FrontFace {
+  RegionId region;                   ///< the part of the domain above it
+  std::uint32_t code = no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
+};
 
 /// What the front has built, and where it stopped.
 struct FrontResult {

@@ -1,13 +1,29 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
-#include "engine/front/front_faces.h"
 
 namespace ccdt {
+
+/// An oriented face by its corners, the smallest first. What is above it waits to be filled.
+struct OrientedFace {
+  std::array<std::uint32_t, 3> corners;
+
+  OrientedFace(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+      : corners(a < b && a < c ? std::array{a, b, c}
+                : b < c        ? std::array{b, c, a}
+                               : std::array{c, a, b}) {}
+
+  OrientedFace reversed() const { return {corners[0], corners[2], corners[1]}; }
+  // Inline; that of std::array calls memcmp.
+  friend bool operator==(const OrientedFace& f, const OrientedFace& g) {
+    return f.corners[0] == g.corners[0] && f.corners[1] == g.corners[1] && f.corners[2] == g.corners[2];
+  }
+};
 
 /// Finds the vertex that makes the constrained Delaunay tetrahedron above a face (paper, section 5.1).
 ///

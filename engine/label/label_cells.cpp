@@ -69,7 +69,7 @@ std::vector<std::uint32_t> join_cells(const Delaunay& d, const FaceBits& bits) {
   return parent;
 }
 
-/// A face of the PLC whose side towards a labelled cell was not open: the front has filled that side, so the labelled
+/// A face of the PLC whose side towards a labeled cell was not open: the front has filled that side, so the labeled
 /// part leaks into what the front has replaced.
 /// \return a cell where this happens; `no_neighbor` if there is none
 std::uint32_t find_leak(const Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <span>
 
-#include "engine/lattice/cell_size.h"
-
 namespace ccdt {
 
 // The usual clearance was measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of
@@ -24,17 +22,36 @@ namespace ccdt {
 namespace {
 
 /// Covers the rounding of the test whether a point is in a ball, or near enough to a triangle.
-constexpr double hair = 1e-9;
+constexpr double relative_margin = 1e-9;
+
+double squared_distance(const Point3& a, const Point3& b, const Point3& p) {
+  const Point3 ab = b - a, ap = p - a;
+  const double length = squared_length(ab);
+  const double t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0;
+  return squared_length(ap - t * ab);
+}
 
 }  // namespace
 
-Ball smallest_ball(const Point3& a, const Point3& b) {
-  return {0.5 * (a + b), 0.5 * std::sqrt(squared_length(b - a)) * (1 + hair)};
+double squared_distance(const TrianglePoints& triangle, const Point3& p) {
+  const auto& [a, b, c] = triangle;
+  const Point3 normal = cross(b - a, c - a);
+  const double area = squared_length(normal);
+  if (area > 0 && dot(cross(b - a, p - a), normal) >= 0 && dot(cross(c - b, p - b), normal) >= 0 &&
+      dot(cross(a - c, p - c), normal) >= 0) {
+    const double height = dot(p - a, normal);
+    return height * height / area;
+  }
+  return std::min({squared_distance(a, b, p), squared_distance(b, c, p), squared_distance(c, a, p)});
 }
 
-Ball smallest_ball(const Corners& triangle) {
+Ball smallest_ball(const Point3& a, const Point3& b) {
+  return {0.5 * (a + b), 0.5 * std::sqrt(squared_length(b - a)) * (1 + relative_margin)};
+}
+
+Ball smallest_ball(const TrianglePoints& triangle) {
   // a to b is the longest edge, c the corner across.
-  Corners t = triangle;
+  TrianglePoints t = triangle;
   for (int turn = 0; turn < 2; ++turn) {
     const double opposite_c = squared_length(t[1] - t[0]);
     if (opposite_c >= squared_length(t[2] - t[1]) && opposite_c >= squared_length(t[0] - t[2])) break;
@@ -46,11 +63,11 @@ Ball smallest_ball(const Corners& triangle) {
   const Point3 height = to_c - (dot(to_c, along) / squared_length(along)) * along;
   const double height2 = squared_length(height);
   if (excess <= 0 || height2 == 0) return smallest_ball(a, b);
-  // On the way from the middle of ab towards c, the centre is where a and c are equally far.
+  // On the way from the middle of ab towards c, the center is where a and c are equally far.
   const double shift = excess / (2 * height2);
   const double radius = std::sqrt(radius2 + shift * shift * height2);
   constexpr double rounding = 1e-15;
-  return {middle + shift * height, radius * (1 + hair) + rounding * radius2 / std::sqrt(height2)};
+  return {middle + shift * height, radius * (1 + relative_margin) + rounding * radius2 / std::sqrt(height2)};
 }
 
 namespace {
@@ -66,14 +83,14 @@ struct Obstacle {
   bool needs_clearance = true;
   Range near;          ///< of the triangle
   Range in_ball;       ///< of the triangle and its ball
-  Point3 ball_centre;  ///< no site may be in this ball
+  Point3 ball_center;  ///< no site may be in this ball
   double squared_ball_radius = -1;
 };
 
 /// Tells quickly how near a point is to a triangle.
 class TriangleDistance {
  public:
-  explicit TriangleDistance(const Corners& triangle)
+  explicit TriangleDistance(const TrianglePoints& triangle)
       : corners_(triangle),
         normal_(cross(triangle[1] - triangle[0], triangle[2] - triangle[0])),
         squared_area_(squared_length(normal_)) {}
@@ -87,7 +104,7 @@ class TriangleDistance {
   }
 
  private:
-  Corners corners_;
+  TrianglePoints corners_;
   Point3 normal_;
   double squared_area_;
 };
@@ -95,7 +112,7 @@ class TriangleDistance {
 /// Collects the obstacles of a surface.
 class ObstacleList {
  public:
-  ObstacleList(const Octree& tree, const Surface& surface, double sphere_factor)
+  ObstacleList(const Octree& tree, const DomainSurface& surface, double sphere_factor)
       : tree_(tree), surface_(surface), sphere_factor_(sphere_factor) {
     obstacles_.reserve(surface.triangles.size() + surface.subsegments.size());
     std::vector<bool> in_triangle(surface.vertices.size(), false);
@@ -114,7 +131,7 @@ class ObstacleList {
 
  private:
   void add(const std::array<VertexId, 3>& vertices, bool needs_clearance, const Ball& ball) {
-    Obstacle o{vertices, needs_clearance, {}, {}, ball.centre};
+    Obstacle o{vertices, needs_clearance, {}, {}, ball.center};
     const Box box = bounding_box(
         std::array{surface_.vertices[vertices[0]], surface_.vertices[vertices[1]], surface_.vertices[vertices[2]]});
     o.in_ball = o.near = range(box);
@@ -122,7 +139,7 @@ class ObstacleList {
       const double r = ball.radius * sphere_factor_;
       o.squared_ball_radius = r * r;
       o.in_ball = range(
-          bounding_box(std::array{box.low, box.high, ball.centre - Point3{r, r, r}, ball.centre + Point3{r, r, r}}));
+          bounding_box(std::array{box.low, box.high, ball.center - Point3{r, r, r}, ball.center + Point3{r, r, r}}));
     }
     obstacles_.push_back(o);
   }
@@ -140,7 +157,7 @@ class ObstacleList {
   }
 
   const Octree& tree_;
-  const Surface& surface_;
+  const DomainSurface& surface_;
   double sphere_factor_;
   std::vector<Obstacle> obstacles_;
 };
@@ -148,7 +165,8 @@ class ObstacleList {
 /// Hands the obstacles down the octree, to the leaves whose sites they may clear.
 class Clearing {
  public:
-  Clearing(const Octree& tree, const Surface& surface, const std::vector<Site>& sites, const LatticeOptions& options)
+  Clearing(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
+           const LatticeOptions& options)
       : tree_(tree),
         surface_(surface),
         sites_(sites),
@@ -158,7 +176,8 @@ class Clearing {
     for (unsigned level = 0; level <= tree.depth; ++level) {
       const double radius =
           options.clearance * edge_length_of_cell(options.kind, tree.length(2u << (tree.depth - level)));
-      clearance_.push_back({radius * radius, static_cast<std::uint32_t>(std::ceil(radius * (1 + hair) / tree.unit))});
+      clearance_.push_back(
+          {radius * radius, static_cast<std::uint32_t>(std::ceil(radius * (1 + relative_margin) / tree.unit))});
     }
     find_sites(0, 0);
   }
@@ -239,7 +258,7 @@ class Clearing {
     if (largest_squared_ball_radius_ < least) return false;
     return std::ranges::any_of(reaching, [&](std::uint32_t o) {
       const double bound = obstacles_[o].squared_ball_radius;
-      return bound >= least && squared_farthest_distance(box, obstacles_[o].ball_centre) <= bound;
+      return bound >= least && squared_farthest_distance(box, obstacles_[o].ball_center) <= bound;
     });
   }
 
@@ -261,7 +280,7 @@ class Clearing {
     for (std::uint32_t s = here.begin; s < here.end; ++s) {
       const Point3 p = tree_.point(coordinates_of(sites_[s]));
       if (std::ranges::any_of(reaching, [&](std::uint32_t o) {
-            return squared_length(p - obstacles_[o].ball_centre) <= obstacles_[o].squared_ball_radius;
+            return squared_length(p - obstacles_[o].ball_center) <= obstacles_[o].squared_ball_radius;
           }))
         stays_[s] = false;
       else
@@ -297,7 +316,7 @@ class Clearing {
   };
 
   const Octree& tree_;
-  const Surface& surface_;
+  const DomainSurface& surface_;
   const std::vector<Site>& sites_;
   std::vector<Obstacle> obstacles_;
   std::vector<NodeSites> nodes_;
@@ -312,7 +331,7 @@ class Clearing {
 
 }  // namespace
 
-std::vector<bool> find_clear_sites(const Octree& tree, const Surface& surface, const std::vector<Site>& sites,
+std::vector<bool> find_clear_sites(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
                                    const LatticeOptions& options) {
   return Clearing(tree, surface, sites, options).clear();
 }

@@ -3,21 +3,24 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/lattice/lattice_sites.h"
+#include "engine/lattice/octree.h"
 
 namespace ccdt {
 
 /// A ball that a surface triangle or a subsegment wants empty.
 struct Ball {
-  Point3 centre;
+  Point3 center;
   double radius;
 };
 
-/// The smallest ball around a triangle (the paper's minimal circumsphere), a hair larger, so that a point on the sphere
-/// is in it.
-Ball smallest_ball(const Corners& triangle);
-/// The smallest ball around a segment, a hair larger.
+/// The smallest ball around a triangle (the paper's minimal circumsphere), slightly enlarged, so that a point on the
+/// sphere is in it.
+Ball smallest_ball(const TrianglePoints& triangle);
+/// The smallest ball around a segment, slightly enlarged.
 Ball smallest_ball(const Point3& a, const Point3& b);
+
+/// The squared distance of p and the triangle, which may be degenerate.
+double squared_distance(const TrianglePoints& triangle, const Point3& p);
 
 /// Finds the sites that are too near to the surface: in the smallest ball of a triangle or a subsegment, its radius
 /// times `options.sphere_factor` (paper, section 3; Cavendish, Field and Frey 1985), or not farther from a triangle, a
@@ -25,7 +28,7 @@ Ball smallest_ball(const Point3& a, const Point3& b);
 ///
 /// \param sites  of the tree, in Morton order
 /// \return       for each site: does it stay?
-std::vector<bool> find_clear_sites(const Octree& tree, const Surface& surface, const std::vector<Site>& sites,
+std::vector<bool> find_clear_sites(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
                                    const LatticeOptions& options);
 
 }  // namespace ccdt

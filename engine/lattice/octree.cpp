@@ -2,23 +2,109 @@
 
 #include <algorithm>
 #include <bit>
+#include <boost/sort/spreadsort/integer_sort.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/cell_size.h"
-#include "engine/lattice/sees_inside.h"
+#include "engine/lattice/inside_test.h"
 
 namespace ccdt {
 
 namespace {
 
+/// side / edge_length, see the table in the header.
+double side_for_unit_edge(Lattice kind) {
+  switch (kind) {
+    case Lattice::bcc:
+      return std::exp2(1.0 / 6);
+    case Lattice::sc:
+      return std::exp2(-1.0 / 6);
+    case Lattice::fcc:
+    case Lattice::none:
+      break;
+  }
+  return std::sqrt(2.0);
+}
+
+/// Places in a cell, in halves of its side.
+using CellPoint = std::array<std::uint8_t, 3>;
+
+constexpr CellPoint corners_then_faces[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2},
+                                            {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 0}, {1, 0, 1},
+                                            {0, 1, 1}, {1, 1, 2}, {1, 2, 1}, {2, 1, 1}};
+constexpr CellPoint corners_then_center[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2},
+                                             {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 1}};
+
+std::span<const CellPoint> points_of_cell(Lattice kind) {
+  switch (kind) {
+    case Lattice::fcc:
+      return corners_then_faces;
+    case Lattice::bcc:
+      return corners_then_center;
+    case Lattice::sc:
+      return std::span(corners_then_center).first(8);
+    case Lattice::none:
+      break;
+  }
+  return {};
+}
+
+/// Where boxes of one size may touch a triangle: separating axes, with a margin for rounding.
+class TouchingPlaces {
+ public:
+  /// \param half  of the sides of the boxes
+  /// \param reach no coordinate of a corner is farther than this from the center of any box that is asked for
+  TouchingPlaces(const TrianglePoints& triangle, const Point3& half, double reach);
+
+  /// False only if the triangle and the box with this center are certainly apart though their bounding boxes overlap.
+  bool hold(const Point3& center) const {
+    const Point3 from_corner = center - corner_;
+    for (const Slab& slab : slabs_) {
+      const double along = dot(slab.axis, from_corner);
+      if (along < slab.low || along > slab.high) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Slab {
+    Point3 axis;  // of any length
+    double low, high;
+  };
+  Point3 corner_;
+  std::array<Slab, 10> slabs_;
+};
+
+TouchingPlaces::TouchingPlaces(const TrianglePoints& triangle, const Point3& half, double reach)
+    : corner_(triangle[0]) {
+  const Point3 ab = triangle[1] - triangle[0], bc = triangle[2] - triangle[1], ca = triangle[0] - triangle[2];
+  double longest = 0;
+  for (const Point3& edge : {ab, bc, ca})
+    for (const double c : as_array(edge)) longest = std::max(longest, std::abs(c));
+  // The boxes grow by a margin, so that rounding can only make us say that they touch.
+  const auto grown = [&](double h) { return h * (1 + 1e-9) + 1e-12 * reach; };
+  const Point3 size{grown(half.x), grown(half.y), grown(half.z)};
+  std::size_t count = 0;
+  const auto add = [&](const Point3& axis, double slack) {
+    const double b = dot(axis, ab), c = -dot(axis, ca);
+    const double radius = size.x * std::abs(axis.x) + size.y * std::abs(axis.y) + size.z * std::abs(axis.z) + slack;
+    slabs_[count++] = {axis, std::min({0.0, b, c}) - radius, std::max({0.0, b, c}) + radius};
+  };
+  add(cross(ab, triangle[2] - triangle[0]), 1e-14 * longest * longest * reach);
+  for (const Point3& edge : {ab, bc, ca}) {
+    add({0, -edge.z, edge.y}, 0);
+    add({edge.z, 0, -edge.x}, 0);
+    add({-edge.y, edge.x, 0}, 0);
+  }
+}
+
 /// A leaf is split when its side is more than this times the target.
 const double largest_excess = std::sqrt(2.0);
 
 /// Places the root: a power of two times the reference cell, and on a multiple of that cell, around the surface.
-Octree make_root(const Surface& surface, const SizeField& size, Lattice kind) {
+Octree make_root(const DomainSurface& surface, const SizeField& size, Lattice kind) {
   Octree tree;
   tree.bounds = bounding_box(surface.vertices);
   const auto extent = as_array(tree.bounds.high - tree.bounds.low);
@@ -34,9 +120,9 @@ Octree make_root(const Surface& surface, const SizeField& size, Lattice kind) {
   tree.depth = static_cast<unsigned>(std::min(static_cast<int>(Octree::bits) - 1, exponent - 8 - lowest_bit));
   tree.unit = std::ldexp(side, -static_cast<int>(tree.depth) - 1);
   const auto on_lattice = [cell](double x) { return cell * std::round(x / cell); };
-  const Point3 centre = tree.bounds.center();
+  const Point3 center = tree.bounds.center();
   tree.origin =
-      Point3{on_lattice(centre.x), on_lattice(centre.y), on_lattice(centre.z)} - 0.5 * Point3{side, side, side};
+      Point3{on_lattice(center.x), on_lattice(center.y), on_lattice(center.z)} - 0.5 * Point3{side, side, side};
   tree.nodes.emplace_back();
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) tree.triangles.push_back(t);
   tree.nodes[0].triangle_count = static_cast<std::uint32_t>(surface.triangles.size());
@@ -46,7 +132,8 @@ Octree make_root(const Surface& surface, const SizeField& size, Lattice kind) {
 
 class Builder {
  public:
-  Builder(Octree& tree, const Surface& surface) : tree_(tree), surface_(surface), around_(surface.triangles.size()) {
+  Builder(Octree& tree, const DomainSurface& surface)
+      : tree_(tree), surface_(surface), around_(surface.triangles.size()) {
     for (std::uint32_t t = 0; t < around_.size(); ++t) around_[t] = bounding_box(surface.corners(t));
   }
 
@@ -60,7 +147,7 @@ class Builder {
     }
   }
 
-  /// The neighbours of a split node must exist at its level: else a leaf would meet one that is two levels coarser.
+  /// The neighbors of a split node must exist at its level: else a leaf would meet one that is two levels coarser.
   void balance() {
     std::vector<std::vector<std::uint32_t>> split_nodes(tree_.depth + 1);
     for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
@@ -68,8 +155,8 @@ class Builder {
     }
     for (unsigned level = tree_.depth; level > 0; --level) {
       for (std::uint32_t i : split_nodes[level]) {
-        for (int neighbour = 0; neighbour < 27; ++neighbour) {
-          const int step[] = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
+        for (int neighbor = 0; neighbor < 27; ++neighbor) {
+          const int step[] = {neighbor % 3 - 1, neighbor / 3 % 3 - 1, neighbor / 9 - 1};
           const OctreeNode& node = tree_.nodes[i];
           std::array<std::uint32_t, 3> corner;
           // Below 0 wraps around to a large number.
@@ -141,9 +228,9 @@ class Builder {
       const auto c = static_cast<std::uint32_t>(std::countr_zero(children));
       if (!contains(boxes[c], around)) {
         if (!places) {
-          const Point3 centre = boxes[0].high, side = boxes[0].high - boxes[0].low;
+          const Point3 center = boxes[0].high, side = boxes[0].high - boxes[0].low;
           double reach = 0;
-          for (const Point3& corner : {around.low - centre, around.high - centre})
+          for (const Point3& corner : {around.low - center, around.high - center})
             for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
           places.emplace(surface_.corners(t), 0.5 * side, reach + 0.5 * side.x);
         }
@@ -169,7 +256,7 @@ class Builder {
     return children;
   }
 
-  /// All empty children meet in the centre of the parent, so they are in the same place as the centre is.
+  /// All empty children meet in the center of the parent, so they are in the same place as the center is.
   void place_empty_children(const OctreeNode& parent, std::uint32_t first_child) {
     std::uint32_t empty = 0, beyond_bounds = 0;
     for (std::uint32_t c = 0; c < 8; ++c) {
@@ -187,12 +274,27 @@ class Builder {
   }
 
   Octree& tree_;
-  const Surface& surface_;
+  const DomainSurface& surface_;
   std::vector<Box> around_;                          ///< by triangle
   std::array<std::vector<std::uint32_t>, 8> lists_;  ///< scratch of `hand_down_triangles`
 };
 
 }  // namespace
+
+double cell_side(Lattice kind, double edge_length) {
+  return edge_length * side_for_unit_edge(kind);
+}
+
+double edge_length_of_cell(Lattice kind, double side) {
+  return side / side_for_unit_edge(kind);
+}
+
+double round_to_few_bits(double positive) {
+  constexpr int significant_bits = 8;
+  int exponent = 0;
+  const double fraction = std::frexp(positive, &exponent);
+  return std::ldexp(std::round(std::ldexp(fraction, significant_bits)), exponent - significant_bits);
+}
 
 std::uint32_t Octree::child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const {
   const std::uint32_t half = side(node) / 2;
@@ -207,7 +309,7 @@ const OctreeNode& Octree::leaf_at(const std::array<std::uint32_t, 3>& c) const {
   return nodes[i];
 }
 
-bool is_inside(const Octree& tree, const Surface& surface, const Point3& p, const OctreeNode& node) {
+bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node) {
   const auto answer_in = [&](const OctreeNode& n) {
     return sees_inside(p, intersection(tree.box(n), tree.bounds), surface, tree.triangles_of(n));
   };
@@ -222,12 +324,30 @@ bool is_inside(const Octree& tree, const Surface& surface, const Point3& p, cons
   return false;
 }
 
-Octree build_octree(const Surface& surface, const SizeField& size, Lattice kind) {
+Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice kind) {
   Octree tree = make_root(surface, size, kind);
   Builder builder(tree, surface);
   builder.refine(size, kind);
   builder.balance();
   return tree;
+}
+
+std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
+  const std::span<const CellPoint> cell = points_of_cell(kind);
+  std::vector<Site> sites;
+  for (const OctreeNode& node : tree.nodes) {
+    if (!node.is_leaf() || node.place == NodePlace::outside) continue;
+    const std::uint32_t half = tree.side(node) / 2;
+    for (const CellPoint& p : cell) {
+      const std::array<std::uint32_t, 3> c = {node.corner[0] + p[0] * half, node.corner[1] + p[1] * half,
+                                              node.corner[2] + p[2] * half};
+      if (strictly_contains(tree.bounds, tree.point(c))) sites.push_back(site_at(c));
+    }
+  }
+  boost::sort::spreadsort::integer_sort(sites.begin(), sites.end());
+  const auto repeated = std::ranges::unique(sites);
+  sites.erase(repeated.begin(), repeated.end());
+  return sites;
 }
 
 }  // namespace ccdt

@@ -5,10 +5,31 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/morton.h"
+#include "engine/lattice/domain_surface.h"
+#include "engine/lattice/options.h"
 #include "engine/lattice/size_field.h"
-#include "engine/lattice/surface.h"
 
 namespace ccdt {
+
+/// The side of the cubic cell of a lattice for a target edge length.
+///
+/// All three lattices have the same number of points per volume for the same target, that of FCC whose nearest
+/// neighbors are exactly `edge_length` apart: sqrt(2) / edge_length^3.
+///
+///     lattice  points a cell  side / edge_length     nearest neighbors
+///     fcc      4              sqrt(2)   = 1.41421    12 at 1.00000 edge_length
+///     bcc      2              2^(1/6)   = 1.12246     8 at 0.97208 edge_length
+///     sc       1              2^(-1/6)  = 0.89090     6 at 0.89090 edge_length
+double cell_side(Lattice kind, double edge_length);
+
+/// The inverse of `cell_side`.
+double edge_length_of_cell(Lattice kind, double side);
+
+/// The nearest number that has at most 8 significant bits: a change below 0.4 per cent. Lattice points are small
+/// multiples of half a cell, so they share all trailing zero bits below these; powers of two alone would miss the
+/// wanted size by up to 41 per cent.
+double round_to_few_bits(double positive);
 
 /// Where a node lies: touched by the surface, or wholly on one side of it.
 enum class NodePlace : std::uint8_t { outside, surface, inside };
@@ -62,10 +83,25 @@ struct Octree {
 /// is the reference of the size field, within 0.4 per cent.
 ///
 /// \throw LimitError  more leaves than a program can index
-Octree build_octree(const Surface& surface, const SizeField& size, Lattice kind);
+Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice kind);
 
 /// Is a point of a node on the surface strictly inside the domain? Exact; should no sight in the whole tree decide, the
 /// answer is no: a point may be missing then, but none is wrong.
-bool is_inside(const Octree& tree, const Surface& surface, const Point3& p, const OctreeNode& node);
+bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node);
+
+/// A point of the lattice that may become a vertex: the Morton code of its octree coordinates.
+using Site = std::uint64_t;
+
+inline Site site_at(const std::array<std::uint32_t, 3>& c) {
+  return morton_code(c);
+}
+
+inline std::array<std::uint32_t, 3> coordinates_of(Site site) {
+  return coordinates_of_morton_code(site);
+}
+
+/// The lattice points of all leaves that are not outside, each once, in Morton order, and strictly within the bounds of
+/// the surface. Those of leaves on the surface may be outside of the domain.
+std::vector<Site> list_sites(const Octree& tree, Lattice kind);
 
 }  // namespace ccdt

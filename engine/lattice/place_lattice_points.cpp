@@ -3,10 +3,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/cell_size.h"
 #include "engine/lattice/clear_surface.h"
-#include "engine/lattice/lattice_sites.h"
-#include "engine/lattice/octree.h"
 #include "engine/lattice/size_field.h"
 
 namespace ccdt {
@@ -22,7 +19,7 @@ constexpr double most_vertices = 4294967295.0;  ///< ids of 32 bits, of which on
 }
 
 /// By the divergence theorem, as if each triangle told of the sides that are inside.
-double volume_inside(const Surface& surface) {
+double volume_inside(const DomainSurface& surface) {
   if (surface.triangles.empty()) return 0;
   const Point3 origin = surface.vertices[surface.triangles[0].vertices[0]];
   double volume = 0;
@@ -36,18 +33,16 @@ double volume_inside(const Surface& surface) {
 }
 
 /// Before memory is asked for. The lattice is nowhere coarser than the greatest target.
-void check_number(const Surface& surface, const SizeField& size) {
+void check_number(const DomainSurface& surface, const SizeField& size) {
   const double points = std::sqrt(2.0) * volume_inside(surface) / std::pow(size.largest(), 3);
   if (points > most_vertices) throw_too_many_points();
 }
 
 }  // namespace
 
-std::vector<Point3> place_lattice_points(std::span<const Point3> vertices, std::span<const SurfaceTriangle> triangles,
-                                         std::span<const std::array<VertexId, 2>> subsegments,
-                                         const LatticeOptions& options, const Progress& progress) {
-  if (options.kind == Lattice::none || triangles.empty()) return {};
-  const Surface surface{vertices, triangles, subsegments};
+std::vector<Point3> place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
+                                         const Progress& progress) {
+  if (options.kind == Lattice::none || surface.triangles.empty()) return {};
   constexpr std::uint64_t steps = 4;
   report(progress, stage, 0, steps);
   const SizeField size(surface, options.edge_length, options.grading, options.background);
@@ -68,7 +63,7 @@ std::vector<Point3> place_lattice_points(std::span<const Point3> vertices, std::
     const Point3 p = tree.point(coordinates);
     if (leaf.place == NodePlace::inside || is_inside(tree, surface, p, leaf)) points.push_back(p);
   }
-  if (static_cast<double>(vertices.size() + points.size()) > most_vertices) throw_too_many_points();
+  if (static_cast<double>(surface.vertices.size() + points.size()) > most_vertices) throw_too_many_points();
   report(progress, stage, steps, steps);
   return points;
 }

@@ -29,17 +29,17 @@ class Cap {
     slack_ = 32 * std::sqrt(squared_length(u) * squared_length(v));
   }
 
-  void shrink_to(const Point3& centre, double radius) {
-    centre_ = centre;
+  void shrink_to(const Point3& center, double radius) {
+    center_ = center;
     radius_ = radius;
     squared_radius_ = radius * radius;
   }
 
-  const Point3& centre() const { return centre_; }
+  const Point3& center() const { return center_; }
   double radius() const { return radius_; }
 
   bool may_hold(const Point3& p) const {
-    return dot(normal_, p - foot_) >= -slack_ && squared_length(p - centre_) <= squared_radius_;
+    return dot(normal_, p - foot_) >= -slack_ && squared_length(p - center_) <= squared_radius_;
   }
 
   /// Is the box outside for sure?
@@ -47,13 +47,13 @@ class Cap {
     const Point3 top{(normal_.x > 0 ? box.high.x : box.low.x) - foot_.x,
                      (normal_.y > 0 ? box.high.y : box.low.y) - foot_.y,
                      (normal_.z > 0 ? box.high.z : box.low.z) - foot_.z};
-    return dot(normal_, top) < -slack_ || squared_distance(box, centre_) > squared_radius_;
+    return dot(normal_, top) < -slack_ || squared_distance(box, center_) > squared_radius_;
   }
 
  private:
   Point3 foot_, normal_;
   double slack_;
-  Point3 centre_;
+  Point3 center_;
   double radius_ = std::numeric_limits<double>::infinity(), squared_radius_ = radius_;
 };
 

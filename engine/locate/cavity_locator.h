@@ -4,13 +4,20 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/hash_table.h"
 #include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/locate/octree_locator.h"
-#include "engine/locate/pierced_cells.h"
 
 namespace ccdt {
+
+/// The Delaunay cells that missing faces go through, in parts that are connected through their faces.
+struct PiercedCells {
+  std::vector<std::uint32_t> part_of_face;          ///< of each missing face
+  std::vector<std::vector<std::uint32_t>> cells;    ///< of each part
+  HashTable<std::uint32_t, std::uint32_t> part_of;  ///< by cell
+};
 
 /// Finds vertices near a face and PLC faces near an edge within the *cavity* of the face alone: a connected part of the
 /// Delaunay cells that missing faces go through. All other cells of the domain are constrained Delaunay as they are, so

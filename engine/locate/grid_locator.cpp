@@ -17,16 +17,14 @@ template <class Visit>
 void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const Point3& b, const Point3& c,
                                const Visit& visit) {
   const double slack = 1e-3 * grid.cell_size;
-  const Point3 s{slack, slack, slack};
   const Point3 normal = cross(b - a, c - a);
-  // How far a cell's corner can be from its centre, along the normal.
+  // How far a cell's corner can be from its center, along the normal.
   const double reach =
       (std::fabs(normal.x) + std::fabs(normal.y) + std::fabs(normal.z)) * (0.5 * grid.cell_size + slack) * (1 + 1e-9);
-  UniformGrid::for_each(grid.cell_at(componentwise_min(componentwise_min(a, b), c) - s),
-                        grid.cell_at(componentwise_max(componentwise_max(a, b), c) + s),
-                        [&](const UniformGrid::CellIndex& cell) {
-                          if (std::fabs(dot(normal, grid.center(cell) - a)) <= reach) visit(grid.number(cell));
-                        });
+  const Box box = expanded(hull(hull(box_of(a), box_of(b)), box_of(c)), slack);
+  UniformGrid::for_each(grid.cell_at(box.low), grid.cell_at(box.high), [&](const UniformGrid::CellIndex& cell) {
+    if (std::fabs(dot(normal, grid.center(cell) - a)) <= reach) visit(grid.number(cell));
+  });
 }
 
 }  // namespace

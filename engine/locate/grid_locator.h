@@ -50,7 +50,7 @@ void GridLocator::spiral(const Point3& start, const Cap& cap, const Visit& visit
   int rings = 0;
   for (int i = 0; i < 3; ++i) rings = std::max({rings, middle[i], grid_.cells[i] - 1 - middle[i]});
   for (int ring = 0; ring <= rings; ++ring) {
-    const double farthest = std::sqrt(squared_length(cap.centre() - start)) + cap.radius();
+    const double farthest = std::sqrt(squared_length(cap.center() - start)) + cap.radius();
     if ((ring - 1) * grid_.cell_size > farthest) return;
     visit_ring(middle, ring, cap, visit);
   }
@@ -59,7 +59,7 @@ void GridLocator::spiral(const Point3& start, const Cap& cap, const Visit& visit
 template <class Visit>
 void GridLocator::visit_ring(const UniformGrid::CellIndex& middle, int ring, const Cap& cap, const Visit& visit) const {
   const Point3 r{cap.radius(), cap.radius(), cap.radius()};
-  UniformGrid::CellIndex from = grid_.cell_at(cap.centre() - r), to = grid_.cell_at(cap.centre() + r);
+  UniformGrid::CellIndex from = grid_.cell_at(cap.center() - r), to = grid_.cell_at(cap.center() + r);
   for (int i = 0; i < 3; ++i) {
     from[i] = std::max(from[i], middle[i] - ring);
     to[i] = std::min(to[i], middle[i] + ring);
@@ -94,9 +94,8 @@ bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& v
   for (int i = 0; i < pieces; ++i) {
     const Point3 a = p + (static_cast<double>(i) / pieces) * (q - p),
                  b = p + (static_cast<double>(i + 1) / pieces) * (q - p);
-    const Point3 low{std::min(a.x, b.x) - slack, std::min(a.y, b.y) - slack, std::min(a.z, b.z) - slack};
-    const Point3 high{std::max(a.x, b.x) + slack, std::max(a.y, b.y) + slack, std::max(a.z, b.z) + slack};
-    const UniformGrid::CellIndex from = grid_.cell_at(low), to = grid_.cell_at(high);
+    const Box box = expanded(hull(box_of(a), box_of(b)), slack);
+    const UniformGrid::CellIndex from = grid_.cell_at(box.low), to = grid_.cell_at(box.high);
     if (from == last_from && to == last_to) continue;
     last_from = from, last_to = to;
     for (int z = from[2]; z <= to[2]; ++z)

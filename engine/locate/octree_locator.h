@@ -1,16 +1,123 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/base/index.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/locate/box_octree.h"
 #include "engine/locate/cap.h"
 
 namespace ccdt {
+
+/// The straight edge between two points, and whether it meets boxes: by projection to their axes and to the products of
+/// these with the edge. A little too wide, never too narrow.
+class EdgeProbe {
+ public:
+  EdgeProbe(const Point3& p, const Point3& q) : middle_(0.5 * (p + q)) {
+    const Point3 w = 0.5 * (q - p);
+    half_ = {std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)};
+    along_ = w;
+  }
+
+  bool misses(const Box& box) const {
+    const Point3 d = 0.5 * (box.low + box.high) - middle_;
+    // For the roundings: of coordinates below 2^53, and of products with d.
+    const double slack = 16 + 1e-13 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
+    const Point3 h = 0.5 * (box.high - box.low) + Point3{slack, slack, slack};
+    if (std::fabs(d.x) > half_.x + h.x || std::fabs(d.y) > half_.y + h.y || std::fabs(d.z) > half_.z + h.z) return true;
+    const Point3 turn = cross(along_, d);
+    return std::fabs(turn.x) > half_.y * h.z + half_.z * h.y || std::fabs(turn.y) > half_.z * h.x + half_.x * h.z ||
+           std::fabs(turn.z) > half_.x * h.y + half_.y * h.x;
+  }
+
+ private:
+  Point3 middle_, along_, half_;
+};
+
+/// An octree over items with boxes, in flat arrays: items in Morton order of the middles of their boxes, every node a
+/// run of them with the box around it, so that an item is in one leaf only, whatever its size. Nodes adapt to graded
+/// density: octants without items have no node, and a node with a single octant is that octant.
+class BoxOctree {
+ public:
+  struct Node {
+    Box box;
+    std::uint32_t first = 0, last = 0;  ///< its items
+    std::uint32_t children = 0;         ///< the first child; the others follow
+    std::uint32_t child_count = 0;      ///< none: a leaf
+  };
+
+  /// \param leaf_size  most items of a leaf, unless more are in one place
+  BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size);
+
+  /// The items, in the order that nodes count in.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+  /// Calls visit(first, last) for the leaves, nearest to `start` first among the children of each node, but for nodes
+  /// that `misses(box)` at their turn.
+  template <class Misses, class Visit>
+  void visit_nearest_first(const Point3& start, const Misses& misses, const Visit& visit) const;
+
+  /// Calls visit(first, last) for the leaves whose box the probe does not miss, until it returns true. \return did it?
+  template <class Visit>
+  bool any_leaf_at(const EdgeProbe& probe, const Visit& visit) const;
+
+ private:
+  static constexpr unsigned deepest = 21;                  // levels of Morton numbers of 63 bits
+  static constexpr unsigned stack_room = 7 * deepest + 8;  // of a depth-first walk
+
+  void split(std::uint32_t node, const std::vector<std::uint64_t>& keys, std::vector<unsigned>& levels);
+
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+template <class Misses, class Visit>
+void BoxOctree::visit_nearest_first(const Point3& start, const Misses& misses, const Visit& visit) const {
+  std::array<std::uint32_t, stack_room> stack;
+  unsigned height = 0;
+  if (!nodes_.empty()) stack[height++] = 0;
+  while (height > 0) {
+    const Node& node = nodes_[stack[--height]];
+    if (misses(node.box)) continue;
+    if (node.child_count == 0) {
+      visit(node.first, node.last);
+      continue;
+    }
+    // Sorted into the stack, the nearest on top.
+    std::array<double, 8> distances;
+    const unsigned base = height;
+    for (std::uint32_t child = node.children; child < node.children + node.child_count; ++child) {
+      const double distance = squared_distance(nodes_[child].box, start);
+      unsigned i = height++ - base;
+      for (; i > 0 && distances[i - 1] < distance; --i) {
+        distances[i] = distances[i - 1];
+        stack[base + i] = stack[base + i - 1];
+      }
+      distances[i] = distance;
+      stack[base + i] = child;
+    }
+  }
+}
+
+template <class Visit>
+bool BoxOctree::any_leaf_at(const EdgeProbe& probe, const Visit& visit) const {
+  std::array<std::uint32_t, stack_room> stack;
+  unsigned height = 0;
+  if (!nodes_.empty()) stack[height++] = 0;
+  while (height > 0) {
+    const Node& node = nodes_[stack[--height]];
+    if (probe.misses(node.box)) continue;
+    if (node.child_count == 0) {
+      if (visit(node.first, node.last)) return true;
+      continue;
+    }
+    for (std::uint32_t i = 0; i < node.child_count; ++i) stack[height++] = node.children + i;
+  }
+  return false;
+}
 
 /// Finds vertices near a face and PLC faces near an edge by two octrees, which adapt to graded density. Few vertices
 /// and faces are plain lists: a single leaf.

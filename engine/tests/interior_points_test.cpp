@@ -11,8 +11,6 @@
 #include "engine/mesher.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/build_plc.h"
-#include "engine/mesher.h"
-#include "engine/protection/insert_interior.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/exhaustive_tetrahedralizations.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -97,7 +95,7 @@ struct Protected {
 };
 
 bool is_in_ball(const Ball& ball, const Point3& p) {
-  return std::sqrt(squared_length(p - ball.centre)) <= ball.radius;
+  return std::sqrt(squared_length(p - ball.center)) <= ball.radius;
 }
 
 Polyhedron polyhedron_of(const InputPlc& input, const std::vector<Point3>& interior = {}) {
@@ -181,7 +179,7 @@ TEST(InteriorPoints, ThePaperSphereRuleDoesNotSaveTheEdge) {
   const FacetMesh facets = triangulate_facets(p.plc, p.chains, p.delaunay);
   const auto& v = p.plc.vertices;
   for (const auto& [a, b, c] : facets.triangles)
-    EXPECT_FALSE(is_in_ball(smallest_ball(Corners{v[a], v[b], v[c]}), p.point));
+    EXPECT_FALSE(is_in_ball(smallest_ball(TrianglePoints{v[a], v[b], v[c]}), p.point));
   for (const Segment& s : p.plc.segments) EXPECT_FALSE(is_in_ball(smallest_ball(v[s.ends[0]], v[s.ends[1]]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_EQ(p.insert(false), 1u);

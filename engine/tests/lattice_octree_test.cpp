@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/lattice/cell_size.h"
+#include "engine/lattice/inside_test.h"
 #include "engine/lattice/octree.h"
-#include "engine/lattice/sees_inside.h"
 #include "engine/tests/lattice_shapes.h"
 
 namespace ccdt::test {
 namespace {
 
-Surface surface_of(const Shape& shape) {
+DomainSurface surface_of(const Shape& shape) {
   return {shape.vertices, shape.triangles, shape.subsegments};
 }
 
 Octree octree_of(const Shape& shape, double edge_length, double grading) {
-  const Surface surface = surface_of(shape);
+  const DomainSurface surface = surface_of(shape);
   return build_octree(surface, SizeField(surface, edge_length, grading), Lattice::fcc);
 }
 
@@ -134,7 +133,7 @@ TEST(SeesInside, TellsTheSideAndDeclinesPointsOfTheSurface) {
   const std::vector<Point3> vertices = {{0, 0, 0}, {u, 0, 0}, {0, u, 0}, {u, u, 0}};
   const std::vector<SurfaceTriangle> triangles = {{{VertexId(0), VertexId(1), VertexId(2)}, true, false},
                                                   {{VertexId(1), VertexId(3), VertexId(2)}, true, false}};
-  const Surface surface{vertices, triangles, {}};
+  const DomainSurface surface{vertices, triangles, {}};
   const Box box{{-u, -u, -u}, {2 * u, 2 * u, u}};
   const std::uint32_t both[] = {0, 1};
   EXPECT_EQ(sees_inside({100, 100, 50}, box, surface, both), std::optional(true));
@@ -157,7 +156,7 @@ TEST(SeesInside, TakesTheNearestOfSeveralSheets) {
         {{VertexId(3 * sheet), VertexId(3 * sheet + 1), VertexId(3 * sheet + 2)}, sheet % 2 == 0, sheet % 2 == 1});
     all.push_back(static_cast<std::uint32_t>(sheet));
   }
-  const Surface surface{vertices, triangles, {}};
+  const DomainSurface surface{vertices, triangles, {}};
   const Box box{{-u, -u, -u}, {u, u, u}};
   const double heights[] = {-50, 50, 150, 250, 350};
   for (int i = 0; i < 5; ++i)

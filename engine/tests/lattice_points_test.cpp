@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/cell_size.h"
 #include "engine/lattice/clear_surface.h"
+#include "engine/lattice/octree.h"
 #include "engine/tests/lattice_shapes.h"
 
 namespace ccdt::test {
@@ -30,8 +30,8 @@ bool in_smallest_sphere(const Point3& a, const Point3& b, const Point3& c, const
   if (lb >= lc + la) return in_diametral(c, a);
   if (lc >= la + lb) return in_diametral(a, b);
   const double wa = la * (lb + lc - la), wb = lb * (lc + la - lb), wc = lc * (la + lb - lc), sum = wa + wb + wc;
-  const Point3 centre = (wa / sum) * a + (wb / sum) * b + (wc / sum) * c;
-  return squared_length(p - centre) <= squared_length(a - centre);
+  const Point3 center = (wa / sum) * a + (wb / sum) * b + (wc / sum) * c;
+  return squared_length(p - center) <= squared_length(a - center);
 }
 
 void expect_inside(const Shape& shape, const std::vector<Point3>& points) {
@@ -115,7 +115,8 @@ TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
         ++missing;
         if (std::abs(winding_number(shape, q)) < 0.5) continue;
         const bool near = std::ranges::any_of(shape.triangles, [&](const SurfaceTriangle& t) {
-          const Corners c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]], shape.vertices[t.vertices[2]]};
+          const TrianglePoints c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]],
+                                 shape.vertices[t.vertices[2]]};
           return in_smallest_sphere(c[0], c[1], c[2], q) ||
                  std::sqrt(squared_distance(c, q)) < 1.01 * usual_clearance * edge_length;
         });
@@ -148,7 +149,7 @@ Neighbours nearest(const std::vector<Point3>& points, const Point3& p) {
 TEST(LatticePoints, HaveTheNeighboursOfTheirLattice) {
   struct Case {
     Lattice kind;
-    int neighbours;
+    int neighbors;
     double distance;
   };
   const Shape shape = cube(10);
@@ -160,7 +161,7 @@ TEST(LatticePoints, HaveTheNeighboursOfTheirLattice) {
       if (squared_length(p) > std::pow(2.5 * edge_length, 2)) continue;
       ++inner;
       const Neighbours found = nearest(points, p);
-      EXPECT_EQ(found.count, c.neighbours);
+      EXPECT_EQ(found.count, c.neighbors);
       EXPECT_NEAR(found.distance / edge_length, c.distance, 0.004);
     }
     EXPECT_GT(inner, 50);
@@ -298,12 +299,12 @@ TEST(CellSize, HasFewBitsAndIsNear) {
 }
 
 TEST(SmallestBall, TouchesTheCornersOfAnAcuteTriangleAndTheLongestEdgeOfAnObtuseOne) {
-  const Ball acute = smallest_ball(Corners{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
+  const Ball acute = smallest_ball(TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
   for (const Point3& p : {Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}})
-    EXPECT_NEAR(std::sqrt(squared_length(p - acute.centre)), acute.radius, 1e-7);
-  const Ball obtuse = smallest_ball(Corners{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
-  EXPECT_NEAR(obtuse.centre.x, 5, 1e-12);
-  EXPECT_NEAR(obtuse.centre.y, 0, 1e-12);
+    EXPECT_NEAR(std::sqrt(squared_length(p - acute.center)), acute.radius, 1e-7);
+  const Ball obtuse = smallest_ball(TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
+  EXPECT_NEAR(obtuse.center.x, 5, 1e-12);
+  EXPECT_NEAR(obtuse.center.y, 0, 1e-12);
   EXPECT_NEAR(obtuse.radius, 5, 1e-7);
 }
 

@@ -19,7 +19,7 @@ struct Shape {
   double unit = 1;
 
   std::vector<Point3> place(const LatticeOptions& options) const {
-    return place_lattice_points(vertices, triangles, subsegments, options);
+    return place_lattice_points({vertices, triangles, subsegments}, options);
   }
 };
 

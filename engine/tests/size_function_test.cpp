@@ -5,7 +5,6 @@
 #include <random>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/interpolated_sizes.h"
 #include "engine/lattice/size_field.h"
 #include "engine/tests/lattice_shapes.h"
 
@@ -14,7 +13,7 @@ namespace {
 
 constexpr std::array lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
 
-Surface surface_of(const Shape& shape) {
+DomainSurface surface_of(const Shape& shape) {
   return {shape.vertices, shape.triangles, shape.subsegments};
 }
 
@@ -210,7 +209,7 @@ TEST(SphereFactor, ScalesTheSpheresThatNoPointMayBeIn) {
     for (const Point3& p : points)
       for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         // All triangles are half squares, so their spheres are those of their longest edges.
-        const Corners c = surface_of(shape).corners(t);
+        const TrianglePoints c = surface_of(shape).corners(t);
         const Box box = bounding_box(c);
         EXPECT_GT(std::sqrt(squared_length(p - box.center())), factor * std::sqrt(0.5) * shape.unit);
       }

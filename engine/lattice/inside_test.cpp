@@ -1,4 +1,4 @@
-#include "engine/lattice/sees_inside.h"
+#include "engine/lattice/inside_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,35 @@
 namespace ccdt {
 
 namespace {
+
+using Vector = std::array<double, 3>;
+
+/// A triangle has at most nine corners after six cuts.
+struct Polygon {
+  std::array<Vector, 9> corners;
+  std::size_t count = 0;
+
+  void add(const Vector& v) { corners[count++] = v; }
+};
+
+/// The part of a convex polygon with sign * (coordinate - bound) >= 0.
+Polygon clip(const Polygon& polygon, int axis, double bound, double sign) {
+  Polygon part;
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    const Vector& a = polygon.corners[i];
+    const Vector& b = polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
+    const double inside_a = sign * (a[axis] - bound), inside_b = sign * (b[axis] - bound);
+    if (inside_a >= 0) part.add(a);
+    if ((inside_a > 0 && inside_b < 0) || (inside_a < 0 && inside_b > 0)) {
+      const double t = inside_a / (inside_a - inside_b);
+      Vector crossing;
+      for (int k = 0; k < 3; ++k) crossing[k] = a[k] + t * (b[k] - a[k]);
+      crossing[axis] = bound;
+      part.add(crossing);
+    }
+  }
+  return part;
+}
 
 /// The part of the line of sight that is in the box: all triangles that it hits are known.
 struct Sight {
@@ -44,7 +73,7 @@ Sight sight_through(const Point3& eye, const Point3& target, const Box& box) {
            clamp_round(end.z, box.low.z, box.high.z)}};
 }
 
-bool boxes_apart(const Box& sight, const Corners& t) {
+bool boxes_apart(const Box& sight, const TrianglePoints& t) {
   const auto apart = [](double low, double high, double a, double b, double c) {
     return (a < low && b < low && c < low) || (a > high && b > high && c > high);
   };
@@ -58,7 +87,7 @@ struct RoundedVolume {
   double value, error;
 };
 
-RoundedVolume rounded_volume(const Corners& t, const Point3& p) {
+RoundedVolume rounded_volume(const TrianglePoints& t, const Point3& p) {
   const Point3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const Point3 size{std::abs(w.x) * (std::abs(u.y * v.z) + std::abs(u.z * v.y)),
                     std::abs(w.y) * (std::abs(u.z * v.x) + std::abs(u.x * v.z)),
@@ -66,7 +95,7 @@ RoundedVolume rounded_volume(const Corners& t, const Point3& p) {
   return {dot(cross(u, v), w), 1e-15 * (size.x + size.y + size.z)};
 }
 
-Hit locate_hit(const Sight& sight, const Corners& corners, const SurfaceTriangle& triangle, int eye_side) {
+Hit locate_hit(const Sight& sight, const TrianglePoints& corners, const SurfaceTriangle& triangle, int eye_side) {
   const RoundedVolume at_eye = rounded_volume(corners, sight.eye), at_end = rounded_volume(corners, sight.end);
   const double span = std::abs(at_eye.value - at_end.value), error = at_eye.error + at_end.error;
   Hit hit;
@@ -76,7 +105,7 @@ Hit locate_hit(const Sight& sight, const Corners& corners, const SurfaceTriangle
   return hit;
 }
 
-Meeting meet(const Sight& sight, const Corners& corners, const SurfaceTriangle& triangle, Hit& hit) {
+Meeting meet(const Sight& sight, const TrianglePoints& corners, const SurfaceTriangle& triangle, Hit& hit) {
   const auto& [a, b, c] = corners;
   const int eye_side = orient3d(a, b, c, sight.eye), end_side = orient3d(a, b, c, sight.end);
   if (eye_side == 0 && end_side == 0) return Meeting::unclear;
@@ -92,12 +121,12 @@ Meeting meet(const Sight& sight, const Corners& corners, const SurfaceTriangle& 
 }
 
 /// What one sight tells; nothing if it is unclear or hits nothing.
-std::optional<bool> look(const Sight& sight, const Surface& surface, std::span<const std::uint32_t> nearby,
+std::optional<bool> look(const Sight& sight, const DomainSurface& surface, std::span<const std::uint32_t> nearby,
                          std::vector<Hit>& hits) {
   const Box around = bounding_box(std::array{sight.eye, sight.end});
   hits.clear();
   for (std::uint32_t t : nearby) {
-    const Corners corners = surface.corners(t);
+    const TrianglePoints corners = surface.corners(t);
     if (boxes_apart(around, corners)) continue;
     Hit hit;
     switch (meet(sight, corners, surface.triangles[t], hit)) {
@@ -122,7 +151,23 @@ std::optional<bool> look(const Sight& sight, const Surface& surface, std::span<c
 
 }  // namespace
 
-std::optional<bool> sees_inside(const Point3& p, const Box& box, const Surface& surface,
+bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point) {
+  Polygon polygon;
+  for (const Point3& p : triangle) polygon.add(as_array(p));
+  const Vector low = as_array(box.low), high = as_array(box.high);
+  for (int axis = 0; axis < 3; ++axis) {
+    polygon = clip(polygon, axis, low[axis], 1);
+    polygon = clip(polygon, axis, high[axis], -1);
+  }
+  if (polygon.count == 0) return false;
+  Point3 sum;
+  for (std::size_t i = 0; i < polygon.count; ++i)
+    sum = sum + Point3{polygon.corners[i][0], polygon.corners[i][1], polygon.corners[i][2]};
+  point = (1.0 / static_cast<double>(polygon.count)) * sum;
+  return true;
+}
+
+std::optional<bool> sees_inside(const Point3& p, const Box& box, const DomainSurface& surface,
                                 std::span<const std::uint32_t> nearby) {
   // A second round looks a little aside of each target.
   constexpr double aside[] = {0, 0.11, 0.23};
@@ -131,7 +176,7 @@ std::optional<bool> sees_inside(const Point3& p, const Box& box, const Surface& 
   const std::size_t targets = std::min(nearby.size(), most_targets);
   for (double shift : aside) {
     for (std::size_t i = 0; i < targets; ++i) {
-      const Corners corners = surface.corners(nearby[i * nearby.size() / targets]);
+      const TrianglePoints corners = surface.corners(nearby[i * nearby.size() / targets]);
       Point3 target;
       if (!common_point(box, corners, target)) continue;
       if (shift > 0 && !common_point(box, {corners[0], corners[1], target + shift * (corners[2] - target)}, target))

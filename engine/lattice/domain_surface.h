@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "engine/base/index.h"
+#include "engine/base/point.h"
+
+namespace ccdt {
+
+/// A triangle of a facet, counterclockwise seen from above, and what is on its two sides.
+struct SurfaceTriangle {
+  std::array<VertexId, 3> vertices;
+  bool inside_above = false, inside_below = false;  ///< does the domain lie there?
+};
+
+/// The corners of a triangle.
+using TrianglePoints = std::array<Point3, 3>;
+
+/// The surface that the lattice must stay clear of: views of what the caller has.
+struct DomainSurface {
+  std::span<const Point3> vertices;
+  std::span<const SurfaceTriangle> triangles;
+  std::span<const std::array<VertexId, 2>> subsegments;
+
+  TrianglePoints corners(std::uint32_t triangle) const {
+    const auto& v = triangles[triangle].vertices;
+    return {vertices[v[0]], vertices[v[1]], vertices[v[2]]};
+  }
+};
+
+}  // namespace ccdt
