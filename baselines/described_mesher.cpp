@@ -9,8 +9,8 @@
 #include "baselines/process.h"
 #include "engine/base/errors.h"
 #include "engine/io/output_file.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/io/write_plc.h"
 #include "engine/plc/build_plc.h"
 
 namespace ccdt {

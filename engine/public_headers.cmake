@@ -8,10 +8,9 @@ set(public_headers
   delaunay/options.h
   improve/counts.h
   improve/options.h
-  io/read_plc.h
+  io/plc_files.h
   io/read_sizes.h
   io/tet_mesh_files.h
-  io/write_plc.h
   lattice/options.h
   locate/options.h
   mesh/tet_mesh.h

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "bench/results/numbers.h"
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 #include "models/solids.h"
 #include "tools/commands.h"
 #include "tools/options.h"

@@ -3,7 +3,7 @@
 
 #include "bench/verify/verify.h"
 #include "engine/io/output_file.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "reports/verification_report.h"
 #include "tools/commands.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/front/face_check.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/build_plc.h"

@@ -8,7 +8,7 @@
 #include "baselines/mesher.h"
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 #include "models/solids.h"
 
 namespace ccdt {

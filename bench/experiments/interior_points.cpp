@@ -5,7 +5,7 @@
 
 #include "bench/experiments/case_runner.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "models/solids.h"
 
 namespace ccdt {

@@ -4,7 +4,7 @@
 
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 
 namespace ccdt {
 namespace {

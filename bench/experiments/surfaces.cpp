@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 #include "models/solids.h"
 
 namespace ccdt {

@@ -7,9 +7,8 @@
 
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/io/write_plc.h"
 #include "models/solids.h"
 
 namespace ccdt {

@@ -9,8 +9,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/results/numbers.h"
 #include "engine/base/errors.h"
-#include "engine/io/read_plc.h"
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"
 #include "models/solids.h"
 

@@ -7,7 +7,7 @@
 #include "bench/experiments/small_plcs/families.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 
 namespace ccdt {
 namespace {

@@ -17,15 +17,6 @@ struct CloseFile {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
 
-void resize_or_throw(std::string& bytes, std::size_t size, const std::string& name) {
-  try {
-    bytes.resize(size);
-  } catch (const std::exception&) {
-    throw LimitError("a file of " + std::to_string(size) + " bytes does not fit into memory", place_in(name),
-                     "use a machine with more memory or a coarser model");
-  }
-}
-
 }  // namespace
 
 void check_is_file(const std::filesystem::path& file) {
@@ -52,7 +43,12 @@ FileBytes read_whole_file(const std::filesystem::path& file) {
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw InputError("cannot be read: " + error.message(), place, "check the file's permissions");
   if (size == 0) throw InputError("the file is empty", place, "write the file again; its writer may have failed");
-  resize_or_throw(result.bytes, size, result.name);
+  try {
+    result.bytes.resize(size);
+  } catch (const std::exception&) {
+    throw LimitError("a file of " + std::to_string(size) + " bytes does not fit into memory", place,
+                     "use a machine with more memory or a coarser model");
+  }
   if (const std::size_t got = std::fread(result.bytes.data(), 1, size, in.get()); got != size)
     throw InputError("reading stopped after " + std::to_string(got) + " of " + std::to_string(size) + " bytes", place,
                      "check the disk, and that nobody is writing the file");
@@ -64,6 +60,12 @@ std::string lower_ending(const std::filesystem::path& file) {
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return ending;
+}
+
+Place line_of_byte(const FileBytes& file, std::size_t byte) {
+  Place place = place_in(file.name);
+  place.line = 1 + std::count(file.bytes.begin(), file.bytes.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
+  return place;
 }
 
 void fail_at_byte(const FileBytes& file, std::size_t byte, const std::string& what, const std::string& remedy,

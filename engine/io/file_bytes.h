@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -33,8 +36,21 @@ inline Place place_in(std::string file) {
   return place;
 }
 
+/// The place of the line of a text in which a byte is.
+Place line_of_byte(const FileBytes& file, std::size_t byte);
+
 /// Throws an InputError at an offset of a binary file.
 [[noreturn]] void fail_at_byte(const FileBytes& file, std::size_t byte, const std::string& what,
                                const std::string& remedy, std::vector<long long> facets = {});
+
+/// A number in binary.
+template <class Number>
+Number number_at(const char* bytes, bool big_endian = false) {
+  static_assert(std::endian::native == std::endian::little);
+  char digits[sizeof(Number)];
+  std::memcpy(digits, bytes, sizeof digits);
+  if (big_endian) std::reverse(digits, digits + sizeof digits);
+  return std::bit_cast<Number>(digits);
+}
 
 }  // namespace ccdt::io

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <system_error>
 
@@ -50,18 +49,6 @@ OutputFile& OutputFile::operator<<(std::string_view text) {
   buffer_ += text;
   if (buffer_.size() >= buffer_size) flush();
   return *this;
-}
-
-OutputFile& OutputFile::operator<<(double value) {
-  char digits[40];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
-}
-
-OutputFile& OutputFile::write_integer(long long value) {
-  char digits[24];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
 }
 
 void OutputFile::flush() {

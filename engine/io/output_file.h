@@ -1,10 +1,13 @@
 #pragma once
 
+#include <charconv>
 #include <concepts>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "engine/base/point.h"
 
 namespace ccdt::io {
 
@@ -22,11 +25,12 @@ class OutputFile {
   OutputFile& operator<<(std::string_view text);
   OutputFile& operator<<(const char* text) { return *this << std::string_view(text); }
   OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
-  OutputFile& operator<<(double value);
-  template <std::integral Integer>
-  requires(!std::same_as<Integer, char>) OutputFile& operator<<(Integer value) {
-    return write_integer(static_cast<long long>(value));
+  template <class Number>
+  requires(std::integral<Number> || std::same_as<Number, double>) OutputFile& operator<<(Number value) {
+    char digits[40];
+    return *this << std::string_view(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
   }
+  OutputFile& operator<<(const Point3& p) { return *this << p.x << ' ' << p.y << ' ' << p.z; }
   /// The bytes of a value as they are in memory.
   template <class T>
   OutputFile& raw(const T& value) {
@@ -39,7 +43,6 @@ class OutputFile {
   void commit();
 
  private:
-  OutputFile& write_integer(long long value);
   void flush();
   [[noreturn]] void fail(int error) const;
 

@@ -1,8 +1,7 @@
 #include "engine/io/read_sizes.h"
 
-#include "engine/io/medit_parts.h"
-#include "engine/io/tet_mesh_formats.h"
-#include "engine/io/tetgen_parts.h"
+#include "engine/io/formats.h"
+#include "engine/io/text_scanner.h"
 
 namespace ccdt {
 
@@ -24,7 +23,7 @@ bool is_there(const std::filesystem::path& file) {
 
 /// Reads how many sizes there are: as many as vertices.
 void read_count(TextScanner& in, const BackgroundSizes& background) {
-  const Item item{"number of sizes"};
+  const Item item = "number of sizes";
   const std::size_t count = in.count(item, 2), vertices = background.vertices.size();
   if (count != vertices)
     in.fail(item,
@@ -37,49 +36,44 @@ void read_count(TextScanner& in, const BackgroundSizes& background) {
 void read_values(TextScanner& in, BackgroundSizes& background) {
   background.sizes.reserve(background.vertices.size());
   for (std::size_t i = 0; i < background.vertices.size(); ++i) {
-    const Item item{"size of vertex", static_cast<std::int64_t>(i)};
+    const Item item{"size of vertex", i};
     background.sizes.push_back(in.number(item));
     if (!(background.sizes.back() > 0)) in.fail(item, "it is not greater than 0", scalar_remedy);
   }
   const std::string_view next = in.peek();
   if (!next.empty() && std::string_view("+-.0123456789").find(next[0]) != std::string_view::npos)
-    in.fail({"sizes"}, "after one for each vertex another number follows: " + in_quotes(next), scalar_remedy);
+    in.fail("sizes", "after one for each vertex another number follows: " + in_quotes(next), scalar_remedy);
 }
 
 /// Goes to the section that matters.
 void find_sizes(TextScanner& in) {
-  if (const std::string_view first = in.word({"header"}); first != "MeshVersionFormatted")
-    in.fail({"header"}, "expected 'MeshVersionFormatted', found " + in_quotes(first),
-            "check that this is a Medit text file");
-  in.integer({"MeshVersionFormatted"});
-  const Item section{"keyword 'SolAtVertices'"};
+  in.expect("header", "MeshVersionFormatted", "check that this is a Medit text file");
+  in.integer("MeshVersionFormatted");
+  const Item section = "keyword 'SolAtVertices'";
   for (std::string_view word = in.word(section); word != "SolAtVertices"; word = in.word(section)) {
     if (word == "End") in.fail(section, "the file ends without it", scalar_remedy);
-    if (word != "Dimension") continue;
-    if (const std::int64_t dimension = in.integer({"Dimension"}); dimension != 3)
-      in.fail({"Dimension"}, "it is " + std::to_string(dimension) + ", not 3", "give sizes in three dimensions");
+    if (word == "Dimension") in.expect_integer("Dimension", 3, "give sizes in three dimensions");
   }
 }
 
-/// Medit tells how many values a vertex has, and of what type each is.
+/// Medit says how many values a vertex has, and of what type each is.
 void check_scalar(TextScanner& in) {
-  if (const std::int64_t fields = in.integer({"number of fields"}); fields != 1)
-    in.fail({"number of fields"}, "it is " + std::to_string(fields) + ", not 1", scalar_remedy);
-  const std::int64_t type = in.integer({"type of the field"});
+  in.expect_integer("number of fields", 1, scalar_remedy);
+  const std::int64_t type = in.integer("type of the field");
   if (type == 1) return;
   const char* name = type == 2 ? " (a vector)" : type == 3 ? " (a tensor: an anisotropic metric)" : "";
-  in.fail({"type of the field"}, "it is " + std::to_string(type) + name + ", not 1 (a scalar)", scalar_remedy);
+  in.fail("type of the field", "it is " + std::to_string(type) + name + ", not 1 (a scalar)", scalar_remedy);
 }
 
 BackgroundSizes read_sol(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
   const std::filesystem::path beside = sibling(file, ".mesh");
   if (!is_there(beside)) fail_without_background(file, ".mesh");
-  MeditFile mesh = read_medit(read_whole_file(beside), true);
+  TetMesh mesh = read_medit_mesh(read_whole_file(beside));
   BackgroundSizes result;
   result.mesh_name = beside.string();
   result.vertices = std::move(mesh.vertices);
-  result.tetrahedra = std::move(mesh.tetrahedra.corners);
+  result.tetrahedra = std::move(mesh.tetrahedra);
   TextScanner in(bytes);
   find_sizes(in);
   read_count(in, result);
@@ -104,15 +98,11 @@ BackgroundSizes read_mtr(const std::filesystem::path& file) {
     result.vertices = std::move(mesh.vertices);
     result.tetrahedra = std::move(mesh.tetrahedra);
   } else {
-    const FileBytes nodes = read_whole_file(beside);
-    TextScanner node_in(nodes);
-    result.vertices = read_tetgen_nodes(node_in).vertices;
+    result.vertices = read_node(read_whole_file(beside)).vertices;
   }
   TextScanner in(bytes);
   read_count(in, result);
-  if (!in.at_line_end())
-    if (const std::int64_t values = in.integer({"values a vertex"}); values != 1)
-      in.fail({"values a vertex"}, "they are " + std::to_string(values) + ", not 1", scalar_remedy);
+  if (!in.at_line_end()) in.expect_integer("values a vertex", 1, scalar_remedy, "they are");
   in.skip_line();
   read_values(in, result);
   return result;

@@ -21,13 +21,35 @@ bool is_space(char c) {
 
 constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits and one value means none
 
-std::string name_of(const Item& item) {
-  std::string name(item.kind);
-  if (item.number >= 0) name += " " + std::to_string(item.number);
-  return name;
+std::string expected(const std::string& what, std::string_view found) {
+  return "expected " + what + ", found " + in_quotes(found);
+}
+
+/// Skips the plus sign, which from_chars does not know.
+const char* digits_begin(std::string_view word) {
+  return word.data() + (word.size() > 1 && word[0] == '+');
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  const char* end = word.data() + word.size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(digits_begin(word), end, value);
+  if (stop != end) return std::nullopt;
+  // Too large for a double or too small: strtod says which; from_chars has already seen that the form is right.
+  if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
+  if (error != std::errc()) return std::nullopt;
+  return value;
 }
 
 }  // namespace
+
+std::string Item::name() const {
+  return std::string(kind) + (number >= 0 ? " " + std::to_string(number) : "");
+}
+
+std::vector<long long> Item::facets() const {
+  return kind == "facet" && number >= 0 ? std::vector<long long>{number} : std::vector<long long>{};
+}
 
 std::string in_quotes(std::string_view word) {
   std::string result = "'";
@@ -107,16 +129,9 @@ std::string_view TextScanner::peek() {
   return next;
 }
 
-std::optional<double> TextScanner::parse_number(std::string_view word) const {
-  const char *begin = word.data(), *end = begin + word.size();
-  if (word.size() > 1 && word[0] == '+') ++begin;
-  double value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end) return std::nullopt;
-  // Too large for a double or too small: strtod tells which; from_chars has already seen that the form is right.
-  if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
-  if (error != std::errc()) return std::nullopt;
-  return value;
+void TextScanner::expect(const Item& item, std::string_view word, const std::string& remedy) {
+  const std::string_view found = this->word(item);
+  if (found != word) fail(item, expected("'" + std::string(word) + "'", found), remedy);
 }
 
 double TextScanner::number(const Item& item) {
@@ -135,12 +150,17 @@ Point3 TextScanner::point(const Item& item) {
 
 std::int64_t TextScanner::integer(const Item& item) {
   const std::string_view found = word(item);
-  const char *begin = found.data(), *end = begin + found.size();
-  if (found.size() > 1 && found[0] == '+') ++begin;
+  const char* end = found.data() + found.size();
   std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
+  const auto [stop, error] = std::from_chars(digits_begin(found), end, value);
   if (error != std::errc() || stop != end) fail(item, expected("a whole number", found));
   return value;
+}
+
+void TextScanner::expect_integer(const Item& item, std::int64_t expected, const std::string& remedy,
+                                 const char* it_is) {
+  if (const std::int64_t value = integer(item); value != expected)
+    fail(item, std::string(it_is) + " " + std::to_string(value) + ", not " + std::to_string(expected), remedy);
 }
 
 int TextScanner::attribute(const Item& item) {
@@ -175,23 +195,17 @@ std::size_t TextScanner::count(const Item& item, std::size_t least_bytes_each) {
   return result;
 }
 
-std::string TextScanner::expected(const char* what, std::string_view found) const {
-  return std::string("expected ") + what + ", found " + in_quotes(found);
-}
-
 void TextScanner::fail(const Item& item, const std::string& what, const std::string& remedy) const {
-  Place place = place_in(file_.name);
-  place.line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(word_begin_), '\n');
-  if (item.kind == "facet" && item.number >= 0) place.facets = {item.number};
-  throw InputError(name_of(item) + ": " + what, std::move(place), remedy);
+  Place place = line_of_byte(file_, word_begin_);
+  place.facets = item.facets();
+  throw InputError(item.name() + ": " + what, std::move(place), remedy);
 }
 
 void TextScanner::fail_truncated(const Item& item) const {
-  Place place = place_in(file_.name);
-  place.line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end_), '\n');
+  Place place = line_of_byte(file_, end_);
   place.byte = static_cast<long long>(end_);
-  if (item.kind == "facet" && item.number >= 0) place.facets = {item.number};
-  throw InputError("the file is truncated: it ends within or before " + name_of(item), std::move(place),
+  place.facets = item.facets();
+  throw InputError("the file is truncated: it ends within or before " + item.name(), std::move(place),
                    "copy or export the file again");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,11 +11,18 @@
 
 namespace ccdt::io {
 
-/// What is being read, for messages: "vertex 17". A number of -1 is not told. Items of the kind "facet" also go into
-/// the place of the error.
+/// What is being read, for messages: "vertex 17". Items of the kind "facet" also go into the place of the error.
 struct Item {
   std::string_view kind;
-  std::int64_t number = -1;
+  std::int64_t number = -1;  ///< -1: none
+
+  Item(const char* k) : kind(k) {}
+  Item(std::string_view k) : kind(k) {}
+  template <std::integral Integer>
+  Item(std::string_view k, Integer n) : kind(k), number(static_cast<std::int64_t>(n)) {}
+
+  std::string name() const;
+  std::vector<long long> facets() const;
 };
 
 /// Walks over the words of a text. It knows no formats, but it knows where it is: all errors carry the file and the
@@ -43,14 +51,24 @@ class TextScanner {
   std::string_view word(const Item& item);
   /// The next word without moving on; empty at the end.
   std::string_view peek();
+  /// Reads a word that must be this one.
+  void expect(const Item& item, std::string_view word, const std::string& remedy);
 
   double number(const Item& item);  ///< finite
   Point3 point(const Item& item);
   std::int64_t integer(const Item& item);
+  /// Reads a whole number that must be this one. `it_is` begins the message.
+  void expect_integer(const Item& item, std::int64_t expected, const std::string& remedy, const char* it_is = "it is");
   /// A whole number that fits an int; also written as "3.0".
   int attribute(const Item& item);
   /// An index from `first` to `first + count - 1`, returned from 0.
   std::uint32_t index(const Item& item, std::int64_t first, std::size_t count);
+  template <std::size_t Corners>
+  std::array<std::uint32_t, Corners> indices(const Item& item, std::int64_t first, std::size_t count) {
+    std::array<std::uint32_t, Corners> result;
+    for (std::uint32_t& corner : result) corner = index(item, first, count);
+    return result;
+  }
   /// How many of something follow. Each needs at least so many bytes, which the rest of the file must have.
   std::size_t count(const Item& item, std::size_t least_bytes_each);
 
@@ -63,8 +81,6 @@ class TextScanner {
 
  private:
   void skip_blanks(bool also_lines);
-  std::optional<double> parse_number(std::string_view word) const;
-  std::string expected(const char* what, std::string_view found) const;
 
   const FileBytes& file_;
   std::string_view text_;

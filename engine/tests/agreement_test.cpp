@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "engine/tests/real_parts.h"

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/locate/cavity_locator.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"

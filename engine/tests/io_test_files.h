@@ -12,9 +12,8 @@
 #include <string_view>
 
 #include "engine/base/errors.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/io/write_plc.h"
 
 namespace ccdt::io_test {
 

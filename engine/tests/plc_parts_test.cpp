@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/tests/plc_test_solids.h"
 #include "engine/tests/real_parts.h"
 

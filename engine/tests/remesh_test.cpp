@@ -2,7 +2,7 @@
 
 // after GoogleTest, whose macros it uses
 #include "engine/base/errors.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/mesher.h"
 #include "engine/surface/remesh_surface.h"
 #include "engine/tests/mesh_test_solids.h"

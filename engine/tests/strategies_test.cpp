@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_checks.h"

@@ -1,9 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/io/write_plc.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "tools/tests/program.h"
 

@@ -4,10 +4,9 @@
 /// All that the library offers: reading, meshing and writing.
 
 #include "engine/base/errors.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/io/write_plc.h"
 #include "engine/mesher.h"
 #include "engine/surface/remesh_surface.h"
 #include "engine/version.h"

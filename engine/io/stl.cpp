@@ -1,25 +1,20 @@
-#include <bit>
+#include <cfloat>
 #include <cmath>
-#include <cstring>
 
 #include "engine/base/errors.h"
+#include "engine/io/formats.h"
 #include "engine/io/merge_vertices.h"
-#include "engine/io/plc_formats.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary STL is copied as it is in memory");
-
 constexpr std::size_t header_size = 84, facet_size = 50, first_corner = 12, corner_size = 12;
 
-template <class T>
-T value_at(const FileBytes& file, std::size_t byte) {
-  T value;
-  std::memcpy(&value, file.bytes.data() + byte, sizeof value);
-  return value;
+/// How many facets the header of a binary file claims.
+std::size_t claimed_facets(const FileBytes& file) {
+  return number_at<std::uint32_t>(file.bytes.data() + 80);
 }
 
 /// Text begins with `solid` and has no control characters. A binary header may begin with `solid`, too, but a
@@ -34,7 +29,7 @@ bool looks_like_text(const FileBytes& file) {
 
 bool has_binary_size(const FileBytes& file) {
   if (file.bytes.size() < header_size) return false;
-  const std::size_t needed = header_size + facet_size * value_at<std::uint32_t>(file, 80);
+  const std::size_t needed = header_size + facet_size * claimed_facets(file);
   // Some writers pad the end; a whole facet more would be data that nobody reads.
   return file.bytes.size() >= needed && file.bytes.size() - needed < facet_size;
 }
@@ -47,7 +42,7 @@ bool has_binary_size(const FileBytes& file) {
                  "the file is truncated, or no STL: " + std::to_string(size) +
                      " bytes, but a binary STL begins with a header of 84 bytes and a text STL with 'solid'",
                  remedy);
-  const std::size_t count = value_at<std::uint32_t>(file, 80), needed = header_size + facet_size * count;
+  const std::size_t count = claimed_facets(file), needed = header_size + facet_size * count;
   const std::string claim = "the header claims " + std::to_string(count) + " triangles (" + std::to_string(needed) +
                             " bytes), but the file has " + std::to_string(size) + " bytes";
   if (needed > size)
@@ -57,7 +52,7 @@ bool has_binary_size(const FileBytes& file) {
 }
 
 InputPlc read_binary(const FileBytes& file) {
-  const std::size_t count = value_at<std::uint32_t>(file, 80);
+  const std::size_t count = claimed_facets(file);
   InputPlc plc;
   plc.triangles.reserve(count);
   VertexMerger merger(plc.vertices);
@@ -65,7 +60,7 @@ InputPlc read_binary(const FileBytes& file) {
     std::array<std::uint32_t, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t byte = header_size + i * facet_size + first_corner + k * corner_size;
-      const auto xyz = value_at<std::array<float, 3>>(file, byte);
+      const auto xyz = number_at<std::array<float, 3>>(file.bytes.data() + byte);
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (!std::isfinite(xyz[axis]))
           fail_at_byte(file, byte + 4 * axis,
@@ -107,7 +102,7 @@ InputPlc read_text(const FileBytes& file) {
     expect(in, {"start of a solid"}, "solid");
     in.skip_line();  // its name, which may be anything
     while (true) {
-      const Item facet{"facet", static_cast<std::int64_t>(plc.triangles.size())};
+      const Item facet{"facet", plc.triangles.size()};
       const std::string_view keyword = in.word(facet);
       if (equal_ignoring_case(keyword, "endsolid")) break;
       if (!equal_ignoring_case(keyword, "facet"))
@@ -119,12 +114,44 @@ InputPlc read_text(const FileBytes& file) {
   return plc;
 }
 
+void write_vector(const Point3& p, OutputFile& out) {
+  out.raw(static_cast<float>(p.x)).raw(static_cast<float>(p.y)).raw(static_cast<float>(p.z));
+}
+
+Point3 unit_normal(const std::array<Point3, 3>& corners) {
+  const Point3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double length = std::sqrt(squared_length(normal));
+  return length > 0 && std::isfinite(length) ? (1 / length) * normal : Point3{};
+}
+
 }  // namespace
 
 InputPlc read_stl(const FileBytes& file) {
   if (has_binary_size(file)) return read_binary(file);  // also when its header begins with `solid`
   if (looks_like_text(file)) return read_text(file);
   fail_for_size(file);
+}
+
+void write_stl(const InputPlc& plc, OutputFile& out) {
+  for (const Point3& p : plc.vertices)
+    if (std::fabs(p.x) > FLT_MAX || std::fabs(p.y) > FLT_MAX || std::fabs(p.z) > FLT_MAX) {
+      Place place;
+      place.points = {as_array(p)};
+      throw OutputError("STL holds numbers of single precision; a coordinate is too large", std::move(place),
+                        "write a .off, .ply or .poly file instead");
+    }
+  std::string header = "binary STL by ccdt";  // must not begin with `solid`
+  header.resize(80, ' ');
+  const std::vector<FacetLoop> facets = facets_in_order(plc);
+  out << header;
+  out.raw(static_cast<std::uint32_t>(facets.size()));
+  for (const FacetLoop& facet : facets) {
+    std::array<Point3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = plc.vertices[facet.corners[k]];
+    write_vector(unit_normal(corners), out);
+    for (const Point3& corner : corners) write_vector(corner, out);
+    out.raw(std::uint16_t{0});
+  }
 }
 
 }  // namespace ccdt::io

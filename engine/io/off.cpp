@@ -1,19 +1,18 @@
-#include "engine/io/plc_formats.h"
+#include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
 
 namespace {
 
-/// The keyword is [ST][C][N][4][n]OFF and may be missing. Texture coordinates, colours and normals follow the
+/// The keyword is [ST][C][N][4][n]OFF and may be missing. Texture coordinates, colors and normals follow the
 /// coordinates on a vertex's line and are skipped; four-dimensional, n-dimensional and binary files are refused.
 void read_keyword(TextScanner& in) {
   const Item header{"header"};
   const std::string_view first = in.peek();
   if (first.size() < 3 || !equal_ignoring_case(first.substr(first.size() - 3), "off")) {
     if (!first.empty() && first[0] >= '0' && first[0] <= '9') return;
-    const std::string_view found = in.word(header);
-    in.fail(header, "expected 'OFF', found " + in_quotes(found), "check that this is an OFF file");
+    in.expect(header, "OFF", "check that this is an OFF file");
   }
   std::string_view prefix = in.word(header);
   prefix.remove_suffix(3);
@@ -28,15 +27,6 @@ void read_keyword(TextScanner& in) {
   }
 }
 
-void read_face(TextScanner& in, std::uint32_t number, InputPlc& plc, std::vector<std::uint32_t>& corners) {
-  const Item facet{"facet", number};
-  corners.resize(in.count(facet, 2));
-  if (corners.empty()) in.fail(facet, "it has no corners");
-  for (std::uint32_t& corner : corners) corner = in.index(facet, 0, plc.vertices.size());
-  in.skip_line();  // a colour
-  add_facet(plc, corners, 0, number);
-}
-
 }  // namespace
 
 InputPlc read_off(const FileBytes& file) {
@@ -48,11 +38,18 @@ InputPlc read_off(const FileBytes& file) {
   plc.vertices.reserve(vertices);
   plc.triangles.reserve(faces);
   for (std::size_t i = 0; i < vertices; ++i) {
-    plc.vertices.push_back(in.point({"vertex", static_cast<std::int64_t>(i)}));
+    plc.vertices.push_back(in.point({"vertex", i}));
     in.skip_line();
   }
   std::vector<std::uint32_t> corners;
-  for (std::size_t i = 0; i < faces; ++i) read_face(in, static_cast<std::uint32_t>(i), plc, corners);
+  for (std::size_t i = 0; i < faces; ++i) {
+    const Item facet{"facet", i};
+    corners.resize(in.count(facet, 2));
+    if (corners.empty()) in.fail(facet, "it has no corners");
+    for (std::uint32_t& corner : corners) corner = in.index(facet, 0, vertices);
+    in.skip_line();  // a color
+    add_facet(plc, corners, 0, i);
+  }
   if (!in.at_end()) {
     const Item end{"end of the file"};
     const std::string_view found = in.word(end);
@@ -61,6 +58,16 @@ InputPlc read_off(const FileBytes& file) {
   }
   finish_facets(plc);
   return plc;
+}
+
+void write_off(const InputPlc& plc, OutputFile& out) {
+  out << "OFF\n" << plc.vertices.size() << ' ' << plc.facet_count() << " 0\n";
+  for (const Point3& p : plc.vertices) out << p << '\n';
+  for (const FacetLoop& facet : facets_in_order(plc)) {
+    out << facet.corners.size();
+    write_corners(facet.corners, out, 0);
+    out << '\n';
+  }
 }
 
 }  // namespace ccdt::io

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "engine/io/plc_formats.h"
+#include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
@@ -20,8 +20,8 @@ std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertic
   const std::int64_t count = static_cast<std::int64_t>(vertices);
   if (index < -count || index > count || index == 0)
     in.fail(facet,
-            "vertex index " + std::to_string(index) + " is out of range: " +
-                (count == 0 ? "no vertices come before it" : std::to_string(count) + " vertices come before it"),
+            "vertex index " + std::to_string(index) +
+                " is out of range: " + (count == 0 ? "no" : std::to_string(count)) + " vertices come before it",
             "correct the index; vertices are numbered from 1 and must come before the facets that use them");
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
 }
@@ -65,14 +65,6 @@ class Groups {
   int current_ = 0;
 };
 
-void read_face(TextScanner& in, InputPlc& plc, std::uint32_t number, int group, std::vector<std::uint32_t>& corners) {
-  const Item facet{"facet", number};
-  corners.clear();
-  while (!in.at_line_end()) corners.push_back(read_corner(in, facet, plc.vertices.size()));
-  if (corners.size() < 3) in.fail(facet, "it has " + std::to_string(corners.size()) + " corners, but needs three");
-  add_facet(plc, corners, group, number);
-}
-
 }  // namespace
 
 InputPlc read_obj(const FileBytes& file) {
@@ -80,16 +72,19 @@ InputPlc read_obj(const FileBytes& file) {
   Groups groups;
   TextScanner in(file);
   in.join_lines_at_backslash();
-  std::uint32_t faces = 0;
+  std::size_t faces = 0;
   std::vector<std::uint32_t> corners;
   while (!in.at_end()) {
     const std::string_view keyword = in.word({"statement"});
     if (keyword == "v") {
-      const Item vertex{"vertex", static_cast<std::int64_t>(plc.vertices.size())};
-      plc.vertices.push_back(in.point(vertex));
+      plc.vertices.push_back(in.point({"vertex", plc.vertices.size()}));
       in.skip_line();
     } else if (keyword == "f") {
-      read_face(in, plc, faces++, groups.current(), corners);
+      const Item facet{"facet", faces};
+      corners.clear();
+      while (!in.at_line_end()) corners.push_back(read_corner(in, facet, plc.vertices.size()));
+      if (corners.size() < 3) in.fail(facet, "it has " + std::to_string(corners.size()) + " corners, but needs three");
+      add_facet(plc, corners, groups.current(), faces++);
     } else if (keyword == "g" || keyword == "o") {
       groups.enter(in.rest_of_line());
     } else {
@@ -102,6 +97,20 @@ InputPlc read_obj(const FileBytes& file) {
   for (PolygonFacet& facet : plc.polygon_facets) facet.marker = markers[static_cast<std::size_t>(facet.marker)];
   finish_facets(plc);
   return plc;
+}
+
+void write_obj(const InputPlc& plc, OutputFile& out) {
+  for (const Point3& p : plc.vertices) out << "v " << p << '\n';
+  int group = 0;
+  for (const FacetLoop& facet : facets_in_order(plc)) {
+    if (facet.marker != group) {
+      group = facet.marker;
+      out << "g " << group << '\n';
+    }
+    out << 'f';
+    write_corners(facet.corners, out);
+    out << '\n';
+  }
 }
 
 }  // namespace ccdt::io

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/io/file_bytes.h"
+#include "engine/io/output_file.h"
+#include "engine/mesh/tet_mesh.h"
+#include "engine/plc/input.h"
+
+/// The formats: one file each, with what it reads and writes. `read_plc`, `write_plc`, `read_tet_mesh` and
+/// `write_tet_mesh` choose among them by the ending.
+namespace ccdt::io {
+
+/// Surfaces and piecewise linear complexes. No reader builds a mesh structure: what the file says is what the caller
+/// gets, non-manifold or not. (OpenMesh's readers drop faces that do not fit a half-edge mesh, take coordinates in
+/// single precision and are silent about truncation and NaN; so they serve as the independent cross-reader of our
+/// tests, not here.) The readers fill all of an `InputPlc` but its name. All throw InputError as `read_plc` says.
+InputPlc read_stl(const FileBytes& file);
+InputPlc read_off(const FileBytes& file);
+InputPlc read_obj(const FileBytes& file);
+InputPlc read_ply(const FileBytes& file);
+InputPlc read_poly(const FileBytes& file);
+InputPlc read_smesh(const FileBytes& file);
+InputPlc read_node(const FileBytes& file);
+InputPlc read_medit_plc(const FileBytes& file);
+
+/// The writers expect what `write_plc` has checked.
+void write_stl(const InputPlc& plc, OutputFile& out);
+void write_off(const InputPlc& plc, OutputFile& out);
+void write_obj(const InputPlc& plc, OutputFile& out);
+void write_ply(const InputPlc& plc, OutputFile& out);
+void write_poly(const InputPlc& plc, OutputFile& out);
+void write_smesh(const InputPlc& plc, OutputFile& out);
+void write_medit_plc(const InputPlc& plc, OutputFile& out);
+
+/// Tetrahedral meshes.
+TetMesh read_medit_mesh(const FileBytes& file);
+TetMesh read_vtu(const FileBytes& file);
+TetMesh read_gmsh(const FileBytes& file);
+/// Reads .node and .ele, and .face and .edge where they are, given the path of one of the first three.
+TetMesh read_tetgen_mesh(const std::filesystem::path& file);
+
+void write_medit_mesh(const TetMesh& mesh, OutputFile& out);
+void write_vtu(const TetMesh& mesh, OutputFile& out);
+void write_gmsh(const TetMesh& mesh, OutputFile& out);
+/// Writes .node, .ele, .face and .edge (also empty ones, so that none is left of an older mesh).
+void write_tetgen_mesh(const TetMesh& mesh, const std::filesystem::path& file);
+
+/// Adds a facet with one loop: a triangle, a polygon, or, of two corners, a segment. Less is nothing.
+void add_facet(InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t number);
+
+/// To be called when all facets are in: numbers that equal the indices are not kept, nor are markers that are all 0.
+void finish_facets(InputPlc& plc);
+
+/// One facet with one loop, wherever the PLC holds it.
+struct FacetLoop {
+  std::span<const std::uint32_t> corners;
+  int marker = 0;
+  const PolygonFacet* polygon = nullptr;  ///< null for a triangle
+};
+
+/// All facets, in the order of their numbers in the file that they came from.
+std::vector<FacetLoop> facets_in_order(const InputPlc& plc);
+
+/// Our writers leave this comment in the formats that are read with seeds when the PLC goes by even and odd.
+inline constexpr std::string_view even_odd_claim = "# ccdt inside even_odd";
+/// How text formats keep `TetMesh::constrained_delaunay`: words in a comment near the file's start.
+inline constexpr std::string_view constrained_delaunay_claim = "ccdt constrained_delaunay";
+
+/// Does a claim stand near the file's start?
+inline bool has_claim(const FileBytes& file, std::string_view claim) {
+  return std::string_view(file.bytes).substr(0, 1024).find(claim) != std::string_view::npos;
+}
+inline InputPlc::Inside inside_claimed(const FileBytes& file) {
+  return has_claim(file, even_odd_claim) ? InputPlc::Inside::even_odd : InputPlc::Inside::seeds;
+}
+
+/// The i-th of the attributes, which may be missing as a whole.
+inline int attribute_of(const std::vector<int>& attributes, std::size_t i) {
+  return i < attributes.size() ? attributes[i] : 0;
+}
+
+/// Writes the corners of an element, each with a blank before it. `first` is the number of the first vertex.
+inline void write_corners(std::span<const std::uint32_t> corners, OutputFile& out, std::uint32_t first = 1) {
+  for (const std::uint32_t v : corners) out << ' ' << v + first;
+}
+
+/// Writes a line "number x y z" a point, numbered from 1.
+inline void write_numbered(const std::vector<Point3>& points, OutputFile& out) {
+  for (std::size_t i = 0; i < points.size(); ++i) out << i + 1 << ' ' << points[i] << '\n';
+}
+
+/// The file beside the given one with another ending.
+inline std::filesystem::path sibling(std::filesystem::path file, const char* ending) {
+  return file.replace_extension(ending);
+}
+
+}  // namespace ccdt::io

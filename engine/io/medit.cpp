@@ -1,0 +1,152 @@
+#include "engine/io/formats.h"
+#include "engine/io/text_scanner.h"
+
+namespace ccdt::io {
+
+namespace {
+
+/// Medit's text format holds surfaces and tetrahedral meshes alike. Each element has a "reference".
+struct MeditFile {
+  TetMesh mesh;
+  std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
+  std::vector<int> quadrilateral_references;
+  std::size_t first_triangle = 0, first_quadrilateral = 0;  ///< how many facets came before them in the file
+};
+
+bool starts_with_letter(std::string_view word) {
+  return !word.empty() && ((word[0] >= 'A' && word[0] <= 'Z') || (word[0] >= 'a' && word[0] <= 'z'));
+}
+
+void read_vertices(TextScanner& in, std::vector<Point3>& vertices) {
+  const std::size_t count = in.count("number of vertices", 8);
+  vertices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Item vertex{"vertex", i};
+    vertices.push_back(in.point(vertex));
+    in.integer(vertex);  // its reference
+  }
+}
+
+/// \param item  the first element
+template <std::size_t Corners>
+void read_elements(TextScanner& in, Item item, std::size_t vertices,
+                   std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& references) {
+  const std::size_t count = in.count("number of elements", 2 * Corners + 2);
+  elements.reserve(count);
+  references.reserve(count);
+  for (std::size_t i = 0; i < count; ++i, ++item.number) {
+    elements.push_back(in.indices<Corners>(item, 1, vertices));
+    references.push_back(in.attribute(item));
+  }
+}
+
+/// \param with_tetrahedra  false: they are skipped as every section that is not listed above
+MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
+  MeditFile medit;
+  TetMesh& mesh = medit.mesh;
+  TextScanner in(file);
+  in.expect("header", "MeshVersionFormatted", "check that this is a Medit text file");
+  in.integer("MeshVersionFormatted");
+  bool ended = false;
+  while (!ended && !in.at_end()) {
+    const std::string_view keyword = in.word("keyword");
+    const std::size_t vertices = mesh.vertices.size();
+    const std::size_t facets = mesh.faces.size() + medit.quadrilaterals.size();
+    if (keyword == "Dimension") {
+      in.expect_integer("Dimension", 3, "give a mesh in three dimensions");
+    } else if (keyword == "Vertices") {
+      read_vertices(in, mesh.vertices);
+    } else if (keyword == "Edges") {
+      read_elements(in, {"edge", mesh.edges.size()}, vertices, mesh.edges, mesh.edge_markers);
+    } else if (keyword == "Triangles") {
+      medit.first_triangle = facets;
+      read_elements(in, {"facet", facets}, vertices, mesh.faces, mesh.face_markers);
+    } else if (keyword == "Quadrilaterals") {
+      medit.first_quadrilateral = facets;
+      read_elements(in, {"facet", facets}, vertices, medit.quadrilaterals, medit.quadrilateral_references);
+    } else if (keyword == "Tetrahedra" && with_tetrahedra) {
+      read_elements(in, {"tetrahedron", mesh.tetrahedra.size()}, vertices, mesh.tetrahedra, mesh.regions);
+    } else if (keyword == "End") {
+      ended = true;
+    } else if (starts_with_letter(keyword)) {
+      while (!in.at_end() && !starts_with_letter(in.peek())) in.word("section");
+    } else {
+      in.fail("keyword", "expected a keyword, found " + in_quotes(keyword));
+    }
+  }
+  if (!ended) in.fail_truncated("keyword 'End'");
+  return medit;
+}
+
+/// \param comment  a line "# ...", or empty; it comes second because other readers want the version in the first line
+void write_head(std::string_view comment, const std::vector<Point3>& vertices, OutputFile& out) {
+  out << "MeshVersionFormatted 2\n" << comment << "\nDimension 3\n\nVertices\n" << vertices.size() << '\n';
+  for (const Point3& p : vertices) out << p << " 0\n";
+}
+
+/// Writes a section, or nothing if there are no elements. `references` is empty (all 0) or has one an element.
+template <std::size_t Corners>
+void write_elements(const char* keyword, std::span<const std::array<std::uint32_t, Corners>> elements,
+                    std::span<const int> references, OutputFile& out) {
+  if (elements.empty()) return;
+  out << '\n' << keyword << '\n' << elements.size() << '\n';
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (const std::uint32_t v : elements[i]) out << v + 1 << ' ';
+    out << (references.empty() ? 0 : references[i]) << '\n';
+  }
+}
+
+}  // namespace
+
+InputPlc read_medit_plc(const FileBytes& file) {
+  MeditFile medit = read_medit(file, false);
+  const TetMesh& mesh = medit.mesh;
+  InputPlc plc;
+  plc.inside = inside_claimed(file);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
+    add_facet(plc, mesh.faces[i], mesh.face_markers[i], medit.first_triangle + i);
+  for (std::size_t i = 0; i < medit.quadrilaterals.size(); ++i)
+    add_facet(plc, medit.quadrilaterals[i], medit.quadrilateral_references[i], medit.first_quadrilateral + i);
+  for (std::size_t i = 0; i < mesh.edges.size(); ++i) add_facet(plc, mesh.edges[i], mesh.edge_markers[i], 0);
+  plc.vertices = std::move(medit.mesh.vertices);
+  finish_facets(plc);
+  return plc;
+}
+
+TetMesh read_medit_mesh(const FileBytes& file) {
+  TetMesh mesh = read_medit(file, true).mesh;
+  mesh.constrained_delaunay = has_claim(file, constrained_delaunay_claim);
+  return mesh;
+}
+
+void write_medit_plc(const InputPlc& plc, OutputFile& out) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
+  std::vector<int> triangle_references, quadrilateral_references;
+  for (const FacetLoop& facet : facets_in_order(plc)) {
+    const auto& c = facet.corners;
+    if (c.size() == 3) {
+      triangles.push_back({c[0], c[1], c[2]});
+      triangle_references.push_back(facet.marker);
+    } else {
+      quadrilaterals.push_back({c[0], c[1], c[2], c[3]});
+      quadrilateral_references.push_back(facet.marker);
+    }
+  }
+  write_head(plc.inside == InputPlc::Inside::even_odd ? even_odd_claim : "", plc.vertices, out);
+  write_elements<2>("Edges", plc.segments, plc.segment_markers, out);
+  write_elements<3>("Triangles", triangles, triangle_references, out);
+  write_elements<4>("Quadrilaterals", quadrilaterals, quadrilateral_references, out);
+  out << "\nEnd\n";
+}
+
+void write_medit_mesh(const TetMesh& mesh, OutputFile& out) {
+  const std::string claim = mesh.constrained_delaunay ? "# " + std::string(constrained_delaunay_claim) : "";
+  write_head(claim, mesh.vertices, out);
+  write_elements<2>("Edges", mesh.edges, mesh.edge_markers, out);
+  write_elements<3>("Triangles", mesh.faces, mesh.face_markers, out);
+  write_elements<4>("Tetrahedra", mesh.tetrahedra, mesh.regions, out);
+  out << "\nEnd\n";
+}
+
+}  // namespace ccdt::io

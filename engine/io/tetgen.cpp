@@ -1,0 +1,292 @@
+#include <algorithm>
+
+#include "engine/io/formats.h"
+#include "engine/io/text_scanner.h"
+
+namespace ccdt::io {
+
+namespace {
+
+/// TetGen's files number the vertices from 0 or 1; indices in all lists count from there.
+struct TetgenNodes {
+  std::vector<Point3> vertices;
+  std::int64_t first = 0;
+};
+
+/// Reads a list of nodes: a line "count dimension attributes markers", then "number x y z ..." a node.
+TetgenNodes read_nodes(TextScanner& in) {
+  TetgenNodes nodes;
+  const std::size_t count = in.count("number of vertices", 8);
+  if (!in.at_line_end()) in.expect_integer("dimension", 3, "give points in three dimensions");
+  in.skip_line();  // how many attributes and markers follow each point: both are skipped with the line
+  nodes.vertices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Item vertex{"vertex", i};
+    const std::int64_t number = in.integer(vertex);
+    if (i == 0) nodes.first = number;
+    if (nodes.first != 0 && nodes.first != 1)
+      in.fail(vertex, "the first vertex has the number " + std::to_string(number), "number the vertices from 0 or 1");
+    if (const std::int64_t expected = nodes.first + vertex.number; number != expected)
+      in.fail(vertex, "it has the number " + std::to_string(number) + " where " + std::to_string(expected) + " is due",
+              "number the vertices without gaps");
+    nodes.vertices.push_back(in.point(vertex));
+    in.skip_line();
+  }
+  return nodes;
+}
+
+TetgenNodes read_nodes(const FileBytes& file) {
+  TextScanner in(file);
+  return read_nodes(in);
+}
+
+/// The nodes stand in the file itself or, when their count is 0, in the .node file beside it.
+TetgenNodes read_nodes_here_or_beside(const FileBytes& file, TextScanner& in) {
+  TetgenNodes nodes = read_nodes(in);
+  if (nodes.vertices.empty()) nodes = read_nodes(read_whole_file(sibling(file.name, ".node")));
+  return nodes;
+}
+
+int read_marker(TextScanner& in, const Item& facet, bool has_markers) {
+  return has_markers && !in.at_line_end() ? in.attribute(facet) : 0;
+}
+
+std::vector<std::uint32_t> read_polygon(TextScanner& in, const Item& facet, const TetgenNodes& nodes) {
+  std::vector<std::uint32_t> corners(in.count(facet, 2));
+  if (corners.empty()) in.fail(facet, "a polygon without corners");
+  for (std::uint32_t& corner : corners) corner = in.index(facet, nodes.first, nodes.vertices.size());
+  return corners;
+}
+
+/// A facet of .poly: a line "polygons holes marker", the polygons, the holes.
+void read_poly_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers, const Item& item, InputPlc& plc) {
+  PolygonFacet facet;
+  facet.number = static_cast<std::uint32_t>(item.number);
+  const std::size_t polygons = in.count(item, 4);
+  const std::size_t holes = in.at_line_end() ? 0 : in.count(item, 8);
+  facet.marker = read_marker(in, item, has_markers);
+  in.skip_line();
+  for (std::size_t i = 0; i < polygons; ++i) {
+    facet.polygons.push_back(read_polygon(in, item, nodes));
+    in.skip_line();
+  }
+  for (std::size_t i = 0; i < holes; ++i) {
+    in.integer(item);
+    facet.holes.push_back(in.point(item));
+    in.skip_line();
+  }
+  // Without an area there is no facet: segments, and vertices, which are in the list of nodes anyway.
+  const bool has_area = std::ranges::any_of(facet.polygons, [](const auto& polygon) { return polygon.size() > 2; });
+  if (!has_area || (facet.polygons.size() == 1 && facet.polygons[0].size() == 3 && holes == 0)) {
+    for (const auto& polygon : facet.polygons) add_facet(plc, polygon, facet.marker, facet.number);
+  } else {
+    plc.polygon_facets.push_back(std::move(facet));
+  }
+}
+
+/// A facet of .smesh: "corners c1 c2 ... marker".
+void read_smesh_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers, const Item& item, InputPlc& plc) {
+  const std::vector<std::uint32_t> corners = read_polygon(in, item, nodes);
+  add_facet(plc, corners, read_marker(in, item, has_markers), static_cast<std::size_t>(item.number));
+  in.skip_line();
+}
+
+/// "number x y z" each. The list may be missing.
+void read_holes(TextScanner& in, InputPlc& plc) {
+  if (in.at_end()) return;
+  const std::size_t count = in.count("number of holes", 8);
+  in.skip_line();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Item hole{"hole", i};
+    in.integer(hole);
+    plc.holes.push_back(in.point(hole));
+    in.skip_line();
+  }
+}
+
+/// "number x y z attribute [largest volume]" each. The list may be missing.
+void read_regions(TextScanner& in, InputPlc& plc) {
+  if (in.at_end()) return;
+  const std::size_t count = in.count("number of regions", 10);
+  in.skip_line();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Item item{"region", i};
+    InputPlc::RegionSeed region;
+    in.integer(item);
+    region.seed = in.point(item);
+    region.attribute = in.attribute(item);
+    if (!in.at_line_end()) region.max_volume = std::max(0.0, in.number(item));  // TetGen: negative is none
+    in.skip_line();
+    plc.regions.push_back(region);
+  }
+}
+
+using FacetReader = void (*)(TextScanner&, const TetgenNodes&, bool, const Item&, InputPlc&);
+
+InputPlc read_tetgen_plc(const FileBytes& file, FacetReader read_facet) {
+  InputPlc plc;
+  plc.inside = inside_claimed(file);
+  TextScanner in(file);
+  TetgenNodes nodes = read_nodes_here_or_beside(file, in);
+  const std::size_t facets = in.count("number of facets", 4);
+  const bool has_markers = !in.at_line_end() && in.integer("facet markers") != 0;
+  in.skip_line();
+  for (std::size_t i = 0; i < facets; ++i) read_facet(in, nodes, has_markers, {"facet", i}, plc);
+  read_holes(in, plc);
+  read_regions(in, plc);
+  plc.vertices = std::move(nodes.vertices);
+  finish_facets(plc);
+  return plc;
+}
+
+/// "count [corners of each] attributes", then "number corners... [attribute]" an element.
+template <std::size_t Corners>
+void read_elements(const FileBytes& file, std::string_view kind, const TetgenNodes& nodes,
+                   std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& attributes) {
+  TextScanner in(file);
+  const std::size_t count = in.count("number of elements", 2 * (Corners + 1));
+  if (Corners == 4 && !in.at_line_end())
+    in.expect_integer("corners of a tetrahedron", 4, "write linear tetrahedra", "they are");
+  const bool has_attribute = !in.at_line_end() && in.integer("number of attributes") != 0;
+  in.skip_line();
+  elements.reserve(count);
+  attributes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Item item{kind, i};
+    in.integer(item);
+    elements.push_back(in.indices<Corners>(item, nodes.first, nodes.vertices.size()));
+    attributes.push_back(has_attribute && !in.at_line_end() ? in.attribute(item) : 0);
+    in.skip_line();  // adjacent tetrahedra, more attributes
+  }
+}
+
+template <std::size_t Corners>
+void read_elements_if_there(const std::filesystem::path& file, std::string_view kind, const TetgenNodes& nodes,
+                            std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& attributes) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) read_elements(read_whole_file(file), kind, nodes, elements, attributes);
+}
+
+void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {
+  out << vertices.size() << " 3 0 0\n";
+  write_numbered(vertices, out);
+}
+
+void write_head(const InputPlc& plc, OutputFile& out) {
+  if (plc.inside == InputPlc::Inside::even_odd) out << even_odd_claim << '\n';
+  write_nodes(plc.vertices, out);
+  out << plc.facet_count() + plc.segments.size() << " 1\n";
+}
+
+/// Writes "count v1 v2 ...".
+void write_polygon(std::span<const std::uint32_t> corners, OutputFile& out) {
+  out << corners.size();
+  write_corners(corners, out);
+}
+
+void write_seeds(const InputPlc& plc, OutputFile& out) {
+  out << plc.holes.size() << '\n';
+  write_numbered(plc.holes, out);
+  out << plc.regions.size() << '\n';
+  for (std::size_t i = 0; i < plc.regions.size(); ++i) {
+    const InputPlc::RegionSeed& region = plc.regions[i];
+    out << i + 1 << ' ' << region.seed << ' ' << region.attribute << ' ';
+    if (region.max_volume > 0)
+      out << region.max_volume;
+    else
+      out << -1;
+    out << '\n';
+  }
+}
+
+template <std::size_t Corners>
+void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& elements, const std::vector<int>& attributes,
+                    OutputFile& out) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    out << i + 1;
+    write_corners(elements[i], out);
+    out << ' ' << attribute_of(attributes, i) << '\n';
+  }
+}
+
+}  // namespace
+
+InputPlc read_poly(const FileBytes& file) {
+  return read_tetgen_plc(file, read_poly_facet);
+}
+InputPlc read_smesh(const FileBytes& file) {
+  return read_tetgen_plc(file, read_smesh_facet);
+}
+
+InputPlc read_node(const FileBytes& file) {
+  InputPlc plc;
+  plc.inside = InputPlc::Inside::seeds;
+  plc.vertices = read_nodes(file).vertices;
+  return plc;
+}
+
+void write_poly(const InputPlc& plc, OutputFile& out) {
+  write_head(plc, out);
+  const auto write_simple_facet = [&](std::span<const std::uint32_t> corners, int marker) {
+    out << "1 0 " << marker << '\n';
+    write_polygon(corners, out);
+    out << '\n';
+  };
+  for (const FacetLoop& facet : facets_in_order(plc)) {
+    if (!facet.polygon) {
+      write_simple_facet(facet.corners, facet.marker);
+      continue;
+    }
+    out << facet.polygon->polygons.size() << ' ' << facet.polygon->holes.size() << ' ' << facet.marker << '\n';
+    for (const auto& polygon : facet.polygon->polygons) {
+      write_polygon(polygon, out);
+      out << '\n';
+    }
+    write_numbered(facet.polygon->holes, out);
+  }
+  for (std::size_t i = 0; i < plc.segments.size(); ++i)
+    write_simple_facet(plc.segments[i], attribute_of(plc.segment_markers, i));
+  write_seeds(plc, out);
+}
+
+void write_smesh(const InputPlc& plc, OutputFile& out) {
+  write_head(plc, out);
+  const auto write_facet = [&](std::span<const std::uint32_t> corners, int marker) {
+    write_polygon(corners, out);
+    out << ' ' << marker << '\n';
+  };
+  for (const FacetLoop& facet : facets_in_order(plc)) write_facet(facet.corners, facet.marker);
+  for (std::size_t i = 0; i < plc.segments.size(); ++i)
+    write_facet(plc.segments[i], attribute_of(plc.segment_markers, i));
+  write_seeds(plc, out);
+}
+
+TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
+  check_is_file(file);  // the message should name what the user named
+  TetgenNodes nodes = read_nodes(read_whole_file(sibling(file, ".node")));
+  const FileBytes ele_file = read_whole_file(sibling(file, ".ele"));
+  TetMesh mesh;
+  read_elements(ele_file, "tetrahedron", nodes, mesh.tetrahedra, mesh.regions);
+  read_elements_if_there(sibling(file, ".face"), "face", nodes, mesh.faces, mesh.face_markers);
+  read_elements_if_there(sibling(file, ".edge"), "edge", nodes, mesh.edges, mesh.edge_markers);
+  mesh.vertices = std::move(nodes.vertices);
+  mesh.constrained_delaunay = has_claim(ele_file, constrained_delaunay_claim);
+  return mesh;
+}
+
+void write_tetgen_mesh(const TetMesh& mesh, const std::filesystem::path& file) {
+  OutputFile node(sibling(file, ".node")), ele(sibling(file, ".ele")), face(sibling(file, ".face")),
+      edge(sibling(file, ".edge"));
+  write_nodes(mesh.vertices, node);
+  if (mesh.constrained_delaunay) ele << "# " << constrained_delaunay_claim << '\n';
+  ele << mesh.tetrahedra.size() << " 4 1\n";
+  write_elements(mesh.tetrahedra, mesh.regions, ele);
+  face << mesh.faces.size() << " 1\n";
+  write_elements(mesh.faces, mesh.face_markers, face);
+  edge << mesh.edges.size() << " 1\n";
+  write_elements(mesh.edges, mesh.edge_markers, edge);
+  for (OutputFile* out : {&node, &ele, &face, &edge}) out->close();
+  for (OutputFile* out : {&node, &ele, &face, &edge}) out->commit();
+}
+
+}  // namespace ccdt::io
