@@ -17,6 +17,8 @@ struct FileBytes {
   std::string bytes;
 };
 
+bool is_there(const std::filesystem::path& file);
+
 /// \throw InputError  no such file, a directory or another thing that is no file
 void check_is_file(const std::filesystem::path& file);
 

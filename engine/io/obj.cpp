@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 
@@ -13,11 +11,9 @@ namespace {
 /// A corner is v, v/vt, v//vn or v/vt/vn; only v counts. From 1, or, negative, back from the last vertex so far.
 std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertices) {
   const std::string_view word = in.word(facet), digits = word.substr(0, word.find('/'));
-  std::int64_t index = 0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
-  if (error != std::errc() || stop != digits.data() + digits.size())
-    in.fail(facet, "expected a vertex index, found " + in_quotes(word));
-  const std::int64_t count = static_cast<std::int64_t>(vertices);
+  const std::optional<std::int64_t> parsed = parse_whole<std::int64_t>(digits);
+  if (!parsed) in.fail(facet, "expected a vertex index, found " + in_quotes(word));
+  const std::int64_t index = *parsed, count = static_cast<std::int64_t>(vertices);
   if (index < -count || index > count || index == 0)
     in.fail(facet,
             "vertex index " + std::to_string(index) +
@@ -39,22 +35,18 @@ class Groups {
   }
   int current() const { return current_; }
 
+  /// The markers of the groups, by the numbers that `current` gave.
   std::vector<int> markers() const {
-    std::vector<int> markers(names_.size(), 0);
-    std::vector<bool> named(names_.size(), false);
     std::set<int> used = {0};
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      const std::string& name = names_[i];
-      const char* end = name.data() + name.size();
-      const auto [stop, error] = std::from_chars(name.data(), end, markers[i]);
-      named[i] = error == std::errc() && stop == end;
-      if (named[i]) used.insert(markers[i]);
-    }
-    int next = 1;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (named[i]) continue;
-      while (used.contains(next)) ++next;
-      markers[i] = next++;
+    for (const std::string& name : names_)
+      if (const auto marker = parse_whole<int>(name)) used.insert(*marker);
+    std::vector<int> markers;
+    int next = 0;
+    for (const std::string& name : names_) {
+      const auto marker = parse_whole<int>(name);
+      while (!marker && used.contains(++next)) {
+      }
+      markers.push_back(marker ? *marker : next);
     }
     return markers;
   }
@@ -75,7 +67,7 @@ InputPlc read_obj(const FileBytes& file) {
   std::size_t faces = 0;
   std::vector<std::uint32_t> corners;
   while (!in.at_end()) {
-    const std::string_view keyword = in.word({"statement"});
+    const std::string_view keyword = in.word("statement");
     if (keyword == "v") {
       plc.vertices.push_back(in.point({"vertex", plc.vertices.size()}));
       in.skip_line();
@@ -88,7 +80,7 @@ InputPlc read_obj(const FileBytes& file) {
     } else if (keyword == "g" || keyword == "o") {
       groups.enter(in.rest_of_line());
     } else {
-      while (!in.at_line_end()) in.word({"statement"});  // a joined line is one line
+      while (!in.at_line_end()) in.word("statement");  // a joined line is one line
       in.skip_line();
     }
   }

@@ -11,13 +11,12 @@ using namespace io;
 
 constexpr const char* scalar_remedy = "write one size a vertex, the target edge length there";
 
-bool is_there(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
-}
-
-[[noreturn]] void fail_without_background(const std::filesystem::path& file, const std::string& endings) {
-  throw InputError("there is no " + endings + " file of this name beside it, so it is not known where the sizes belong",
+/// The file that the sizes belong to: the first of these beside them.
+std::filesystem::path background_of(const std::filesystem::path& file, std::initializer_list<const char*> endings,
+                                    const std::string& names) {
+  for (const char* ending : endings)
+    if (is_there(sibling(file, ending))) return sibling(file, ending);
+  throw InputError("there is no " + names + " file of this name beside it, so it is not known where the sizes belong",
                    place_in(file.string()), "put the mesh that the sizes belong to beside them, under the same name");
 }
 
@@ -67,8 +66,7 @@ void check_scalar(TextScanner& in) {
 
 BackgroundSizes read_sol(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
-  const std::filesystem::path beside = sibling(file, ".mesh");
-  if (!is_there(beside)) fail_without_background(file, ".mesh");
+  const std::filesystem::path beside = background_of(file, {".mesh"}, ".mesh");
   TetMesh mesh = read_medit_mesh(read_whole_file(beside));
   BackgroundSizes result;
   result.mesh_name = beside.string();
@@ -82,15 +80,10 @@ BackgroundSizes read_sol(const std::filesystem::path& file) {
   return result;
 }
 
-std::filesystem::path background_of_mtr(const std::filesystem::path& file) {
-  for (const char* ending : {".node", ".poly", ".smesh"})
-    if (is_there(sibling(file, ending))) return sibling(file, ending);
-  fail_without_background(file, ".node, .poly or .smesh");
-}
-
 BackgroundSizes read_mtr(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
-  const std::filesystem::path beside = background_of_mtr(file), cells = sibling(file, ".ele");
+  const auto beside = background_of(file, {".node", ".poly", ".smesh"}, ".node, .poly or .smesh");
+  const std::filesystem::path cells = sibling(file, ".ele");
   BackgroundSizes result;
   result.mesh_name = beside.string();
   if (beside.extension() == ".node" && is_there(cells)) {

@@ -57,18 +57,17 @@ InputPlc read_binary(const FileBytes& file) {
   plc.triangles.reserve(count);
   VertexMerger merger(plc.vertices);
   for (std::size_t i = 0; i < count; ++i) {
-    std::array<std::uint32_t, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t byte = header_size + i * facet_size + first_corner + k * corner_size;
+    std::size_t byte = header_size + i * facet_size + first_corner;
+    for (std::uint32_t& corner : plc.triangles.emplace_back()) {
       const auto xyz = number_at<std::array<float, 3>>(file.bytes.data() + byte);
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (!std::isfinite(xyz[axis]))
           fail_at_byte(file, byte + 4 * axis,
                        "facet " + std::to_string(i) + ": a coordinate is not a finite number (NaN or infinite)",
                        "repair this facet, or export the file again", {static_cast<long long>(i)});
-      corners[k] = merger.index_of({xyz[0], xyz[1], xyz[2]});
+      corner = merger.index_of({xyz[0], xyz[1], xyz[2]});
+      byte += corner_size;
     }
-    plc.triangles.push_back(corners);
   }
   return plc;
 }
@@ -79,27 +78,12 @@ void expect(TextScanner& in, const Item& facet, std::string_view keyword) {
     in.fail(facet, "expected '" + std::string(keyword) + "', found " + in_quotes(found));
 }
 
-std::array<std::uint32_t, 3> read_text_facet(TextScanner& in, const Item& facet, VertexMerger& merger) {
-  expect(in, facet, "normal");
-  for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and nobody needs them
-  expect(in, facet, "outer");
-  expect(in, facet, "loop");
-  std::array<std::uint32_t, 3> corners;
-  for (std::uint32_t& corner : corners) {
-    expect(in, facet, "vertex");
-    corner = merger.index_of(in.point(facet));
-  }
-  expect(in, facet, "endloop");
-  expect(in, facet, "endfacet");
-  return corners;
-}
-
 InputPlc read_text(const FileBytes& file) {
   InputPlc plc;
   VertexMerger merger(plc.vertices);
   TextScanner in(file, TextScanner::no_comments);
   while (!in.at_end()) {
-    expect(in, {"start of a solid"}, "solid");
+    expect(in, "start of a solid", "solid");
     in.skip_line();  // its name, which may be anything
     while (true) {
       const Item facet{"facet", plc.triangles.size()};
@@ -107,19 +91,24 @@ InputPlc read_text(const FileBytes& file) {
       if (equal_ignoring_case(keyword, "endsolid")) break;
       if (!equal_ignoring_case(keyword, "facet"))
         in.fail(facet, "expected 'facet' or 'endsolid', found " + in_quotes(keyword));
-      plc.triangles.push_back(read_text_facet(in, facet, merger));
+      expect(in, facet, "normal");
+      for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and nobody needs them
+      expect(in, facet, "outer");
+      expect(in, facet, "loop");
+      for (std::uint32_t& corner : plc.triangles.emplace_back()) {
+        expect(in, facet, "vertex");
+        corner = merger.index_of(in.point(facet));
+      }
+      expect(in, facet, "endloop");
+      expect(in, facet, "endfacet");
     }
     in.skip_line();
   }
   return plc;
 }
 
-void write_vector(const Point3& p, OutputFile& out) {
-  out.raw(static_cast<float>(p.x)).raw(static_cast<float>(p.y)).raw(static_cast<float>(p.z));
-}
-
-Point3 unit_normal(const std::array<Point3, 3>& corners) {
-  const Point3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+Point3 unit_normal(const Point3& a, const Point3& b, const Point3& c) {
+  const Point3 normal = cross(b - a, c - a);
   const double length = std::sqrt(squared_length(normal));
   return length > 0 && std::isfinite(length) ? (1 / length) * normal : Point3{};
 }
@@ -146,10 +135,11 @@ void write_stl(const InputPlc& plc, OutputFile& out) {
   out << header;
   out.raw(static_cast<std::uint32_t>(facets.size()));
   for (const FacetLoop& facet : facets) {
-    std::array<Point3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = plc.vertices[facet.corners[k]];
-    write_vector(unit_normal(corners), out);
-    for (const Point3& corner : corners) write_vector(corner, out);
+    std::array<Point3, 4> vectors;  // the normal, then the corners
+    for (std::size_t k = 0; k < 3; ++k) vectors[k + 1] = plc.vertices[facet.corners[k]];
+    vectors[0] = unit_normal(vectors[1], vectors[2], vectors[3]);
+    for (const Point3& p : vectors)
+      out.raw(static_cast<float>(p.x)).raw(static_cast<float>(p.y)).raw(static_cast<float>(p.z));
     out.raw(std::uint16_t{0});
   }
 }

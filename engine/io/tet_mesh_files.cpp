@@ -11,26 +11,24 @@ using namespace io;
 
 struct TetMeshFormat {
   std::string_view ending;
-  TetMesh (*read)(const FileBytes&);  ///< null: TetGen's, of several files
-  void (*write)(const TetMesh&, OutputFile&);
+  TetMesh (*read)(const FileBytes&) = nullptr;  ///< null: TetGen's, of several files
+  void (*write)(const TetMesh&, OutputFile&) = nullptr;
 };
 
 constexpr TetMeshFormat formats[] = {
     {".mesh", read_medit_mesh, write_medit_mesh},
     {".vtu", read_vtu, write_vtu},
     {".msh", read_gmsh, write_gmsh},
-    {".node", nullptr, nullptr},
-    {".ele", nullptr, nullptr},
-    {".face", nullptr, nullptr},
+    {".node"},
+    {".ele"},
+    {".face"},
 };
 
 const char* known_endings = ".mesh (Medit), .vtu (VTK), .msh (Gmsh), .node, .ele and .face (TetGen)";
 
 const TetMeshFormat* format_of(const std::filesystem::path& file) {
-  const std::string ending = lower_ending(file);
-  for (const TetMeshFormat& format : formats)
-    if (format.ending == ending) return &format;
-  return nullptr;
+  const auto format = std::ranges::find(formats, lower_ending(file), &TetMeshFormat::ending);
+  return format == std::end(formats) ? nullptr : format;
 }
 
 }  // namespace

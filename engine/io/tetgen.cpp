@@ -91,33 +91,17 @@ void read_smesh_facet(TextScanner& in, const TetgenNodes& nodes, bool has_marker
   in.skip_line();
 }
 
-/// "number x y z" each. The list may be missing.
-void read_holes(TextScanner& in, InputPlc& plc) {
+/// Reads a list of items that begin with "number x y z"; the list may be missing.
+template <class ReadRest>
+void read_seeds(TextScanner& in, std::string_view kind, std::size_t least_bytes_each, const ReadRest& read_rest) {
   if (in.at_end()) return;
-  const std::size_t count = in.count("number of holes", 8);
+  const std::size_t count = in.count(std::string_view("number of " + std::string(kind) + "s"), least_bytes_each);
   in.skip_line();
   for (std::size_t i = 0; i < count; ++i) {
-    const Item hole{"hole", i};
-    in.integer(hole);
-    plc.holes.push_back(in.point(hole));
-    in.skip_line();
-  }
-}
-
-/// "number x y z attribute [largest volume]" each. The list may be missing.
-void read_regions(TextScanner& in, InputPlc& plc) {
-  if (in.at_end()) return;
-  const std::size_t count = in.count("number of regions", 10);
-  in.skip_line();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Item item{"region", i};
-    InputPlc::RegionSeed region;
+    const Item item{kind, i};
     in.integer(item);
-    region.seed = in.point(item);
-    region.attribute = in.attribute(item);
-    if (!in.at_line_end()) region.max_volume = std::max(0.0, in.number(item));  // TetGen: negative is none
+    read_rest(item, in.point(item));
     in.skip_line();
-    plc.regions.push_back(region);
   }
 }
 
@@ -132,8 +116,11 @@ InputPlc read_tetgen_plc(const FileBytes& file, FacetReader read_facet) {
   const bool has_markers = !in.at_line_end() && in.integer("facet markers") != 0;
   in.skip_line();
   for (std::size_t i = 0; i < facets; ++i) read_facet(in, nodes, has_markers, {"facet", i}, plc);
-  read_holes(in, plc);
-  read_regions(in, plc);
+  read_seeds(in, "hole", 8, [&](const Item&, const Point3& seed) { plc.holes.push_back(seed); });
+  read_seeds(in, "region", 10, [&](const Item& item, const Point3& seed) {  // and "attribute [largest volume]"
+    plc.regions.push_back({seed, in.attribute(item)});
+    if (!in.at_line_end()) plc.regions.back().max_volume = std::max(0.0, in.number(item));  // TetGen: negative is none
+  });
   plc.vertices = std::move(nodes.vertices);
   finish_facets(plc);
   return plc;
@@ -158,13 +145,6 @@ void read_elements(const FileBytes& file, std::string_view kind, const TetgenNod
     attributes.push_back(has_attribute && !in.at_line_end() ? in.attribute(item) : 0);
     in.skip_line();  // adjacent tetrahedra, more attributes
   }
-}
-
-template <std::size_t Corners>
-void read_elements_if_there(const std::filesystem::path& file, std::string_view kind, const TetgenNodes& nodes,
-                            std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& attributes) {
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) read_elements(read_whole_file(file), kind, nodes, elements, attributes);
 }
 
 void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {
@@ -267,8 +247,10 @@ TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
   const FileBytes ele_file = read_whole_file(sibling(file, ".ele"));
   TetMesh mesh;
   read_elements(ele_file, "tetrahedron", nodes, mesh.tetrahedra, mesh.regions);
-  read_elements_if_there(sibling(file, ".face"), "face", nodes, mesh.faces, mesh.face_markers);
-  read_elements_if_there(sibling(file, ".edge"), "edge", nodes, mesh.edges, mesh.edge_markers);
+  if (const auto face_file = sibling(file, ".face"); is_there(face_file))
+    read_elements(read_whole_file(face_file), "face", nodes, mesh.faces, mesh.face_markers);
+  if (const auto edge_file = sibling(file, ".edge"); is_there(edge_file))
+    read_elements(read_whole_file(edge_file), "edge", nodes, mesh.edges, mesh.edge_markers);
   mesh.vertices = std::move(nodes.vertices);
   mesh.constrained_delaunay = has_claim(ele_file, constrained_delaunay_claim);
   return mesh;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -89,6 +90,14 @@ class TextScanner {
   int comment_;
   bool joins_lines_ = false;
 };
+
+/// The number that a word is, if it is one.
+template <std::integral Integer>
+std::optional<Integer> parse_whole(std::string_view word) {
+  Integer value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && stop == word.data() + word.size() ? std::optional(value) : std::nullopt;
+}
 
 /// A word for a message: in quotes, shortened, unprintable characters replaced.
 std::string in_quotes(std::string_view word);

@@ -11,8 +11,7 @@ namespace ccdt::io {
 
 namespace {
 
-constexpr const char *remedy = "export the file again", *damaged_remedy = "the file is damaged: export it again";
-
+constexpr const char* remedy = "export the file again";
 constexpr const char* outline_remedy = "export the file again as a VTK XML unstructured grid, uncompressed";
 
 // VTK's types of cells
@@ -57,16 +56,12 @@ class XmlTags {
   explicit XmlTags(const FileBytes& file) : file_(file), text_(file.bytes) {}
 
   bool next(XmlTag& tag) {
-    while (true) {
-      at_ = text_.find('<', at_);
-      if (at_ == std::string_view::npos) return false;
-      if (text_.substr(at_, 4) == "<!--")
-        at_ = find("-->", at_);
-      else if (text_.substr(at_, 2) == "<?" || text_.substr(at_, 2) == "<!")
-        at_ = find(">", at_);
-      else
-        break;
+    for (at_ = text_.find('<', at_); at_ != std::string_view::npos; at_ = text_.find('<', at_)) {
+      const std::string_view rest = text_.substr(at_);
+      if (!rest.starts_with("<?") && !rest.starts_with("<!")) break;
+      at_ = find(rest.starts_with("<!--") ? "-->" : ">", at_);
     }
+    if (at_ == std::string_view::npos) return false;
     tag = XmlTag{};
     tag.begin = at_++;
     tag.closes = accept('/');
@@ -93,9 +88,9 @@ class XmlTags {
   }
   bool accept_end(XmlTag& tag) {
     tag.is_empty = accept('/');
-    if (accept('>')) return true;
-    if (tag.is_empty) fail("expected '>' after '/'");
-    return false;
+    const bool ends = accept('>');
+    if (tag.is_empty && !ends) fail("expected '>' after '/'");
+    return ends;
   }
   std::string name() {
     skip_blanks();
@@ -209,13 +204,12 @@ std::optional<std::string> decode_base64(std::string_view text) {
     bits = 0;
     digits = padded = 0;
   }
-  if (digits != 0) return std::nullopt;
-  return bytes;
+  return digits == 0 ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
 template <class Stored, class Value>
-void convert(std::string_view bytes, bool big_endian, std::vector<Value>& values) {
-  values.resize(bytes.size() / sizeof(Stored));
+std::vector<Value> convert(std::string_view bytes, bool big_endian) {
+  std::vector<Value> values(bytes.size() / sizeof(Stored));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Stored stored = number_at<Stored>(bytes.data() + i * sizeof(Stored), big_endian);
     if constexpr (std::is_floating_point_v<Stored> && std::is_integral_v<Value>)
@@ -223,10 +217,11 @@ void convert(std::string_view bytes, bool big_endian, std::vector<Value>& values
     else
       values[i] = static_cast<Value>(stored);
   }
+  return values;
 }
 
 template <class Value>
-constexpr std::pair<const char*, void (*)(std::string_view, bool, std::vector<Value>&)> converters[] = {
+constexpr std::pair<const char*, std::vector<Value> (*)(std::string_view, bool)> converters[] = {
     {"Float32", convert<float, Value>},      {"Float64", convert<double, Value>},
     {"Int8", convert<std::int8_t, Value>},   {"UInt8", convert<std::uint8_t, Value>},
     {"Int16", convert<std::int16_t, Value>}, {"UInt16", convert<std::uint16_t, Value>},
@@ -267,7 +262,7 @@ class VtuArrays {
       fail(array.begin,
            "array " + in_quotes(array.attributes.value("Name")) + " has " + std::to_string(found) + " values, not " +
                std::to_string(due),
-           damaged_remedy);
+           "the file is damaged: export it again");
   }
 
   /// The numbers of an array. Value is double or std::int64_t.
@@ -277,12 +272,8 @@ class VtuArrays {
     if (format.empty() || format == "ascii") return read_text<Value>(array);
     std::string decoded;
     const std::string_view bytes = bytes_of(array, decoded);
-    std::vector<Value> values;
     for (const auto& [name, convert_bytes] : converters<Value>)
-      if (type == name) {
-        convert_bytes(bytes, big_endian_, values);
-        return values;
-      }
+      if (type == name) return convert_bytes(bytes, big_endian_);
     fail(array.begin, name_of(array) + ": unknown type " + in_quotes(type));
   }
 
@@ -314,10 +305,8 @@ class VtuArrays {
     if (appended && outline_.appended_encoding != "base64")
       return without_length(array, std::string_view(file_.bytes).substr(begin, end - begin), begin);
     // Appended arrays follow each other; this one's end is where its padding or the next offset is.
-    for (const VtkArray& other : outline_.arrays) {
-      if (!appended || !is_appended(other)) continue;
-      if (const std::size_t next = appended_begin(other); next > begin) end = std::min(end, next);
-    }
+    for (const VtkArray& other : outline_.arrays)
+      if (appended && is_appended(other) && appended_begin(other) > begin) end = std::min(end, appended_begin(other));
     std::optional<std::string> bytes = decode_base64(std::string_view(file_.bytes).substr(begin, end - begin));
     if (!bytes) fail(begin, name_of(array) + " is not valid base64");
     decoded = std::move(*bytes);
@@ -381,16 +370,16 @@ struct VtuCells {
   void add(std::size_t cell, const std::vector<std::int64_t>& attributes,
            std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& element_attributes) const {
     const std::int64_t begin = cell == 0 ? 0 : offsets[cell - 1], end = offsets[cell];
-    const std::string name = "cell " + std::to_string(cell);
+    const auto refuse = [&](const std::string& what) { arrays.fail(0, "cell " + std::to_string(cell) + ": " + what); };
     if (begin < 0 || end < begin || end - begin != static_cast<std::int64_t>(Corners) ||
         static_cast<std::size_t>(end) > connectivity.size())
-      arrays.fail(0, name + ": its offsets " + std::to_string(begin) + " and " + std::to_string(end) + " are wrong");
+      refuse("its offsets " + std::to_string(begin) + " and " + std::to_string(end) + " are wrong");
     std::array<std::uint32_t, Corners> corners;
     for (std::size_t k = 0; k < Corners; ++k) {
       const std::int64_t index = connectivity[static_cast<std::size_t>(begin) + k];
       if (index < 0 || static_cast<std::size_t>(index) >= vertices)
-        arrays.fail(0, name + ": vertex index " + std::to_string(index) + " is out of range: the file has " +
-                           std::to_string(vertices) + " vertices, counted from 0");
+        refuse("vertex index " + std::to_string(index) + " is out of range: the file has " + std::to_string(vertices) +
+               " vertices, counted from 0");
       corners[k] = static_cast<std::uint32_t>(index);
     }
     elements.push_back(corners);
