@@ -39,7 +39,7 @@ std::vector<std::uint32_t> nesting_depths(const PlanarTriangulation& t) {
 
   std::vector<std::uint32_t> here, behind;
   for (const PlanarEdge& edge : planar_border_edges(t)) {
-    const PlanarSide s = unpack(look_up(t.fixed_edges, edge_key(edge[0], edge[1])));
+    const PlanarSide s = unpack(t.fixed_edges.get(edge_key(edge[0], edge[1]), none));
     (is_constrained(t, s) ? behind : here).push_back(s.triangle);
   }
   while (!here.empty() || !behind.empty()) {

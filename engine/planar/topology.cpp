@@ -12,7 +12,7 @@ namespace {
 /// Enters a constrained or border edge into the table where it is found without a search.
 void register_edge(PlanarTriangulation& t, PlanarSide s) {
   if (is_constrained(t, s) || neighbor(t, s) == none) {
-    set(t.fixed_edges, edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
+    t.fixed_edges.set(edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
   }
 }
 
@@ -90,7 +90,7 @@ std::uint32_t append_triangle(PlanarTriangulation& t, VertexId a, VertexId b, Ve
 
 void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c) {
   t.triangles[triangle] = {a, b, c};
-  for (VertexId v : {a, b, c}) set(t.triangle_of_vertex, v, triangle);
+  for (VertexId v : {a, b, c}) t.triangle_of_vertex.set(v, triangle);
 }
 
 std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
@@ -103,8 +103,8 @@ std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
   // c and d keep both triangles, and so whatever the table says of them; a and b lose one.
   t.triangles[s.triangle] = {c, a, d};
   t.triangles[o.triangle] = {d, b, c};
-  set(t.triangle_of_vertex, a, s.triangle);
-  set(t.triangle_of_vertex, b, o.triangle);
+  t.triangle_of_vertex.set(a, s.triangle);
+  t.triangle_of_vertex.set(b, o.triangle);
   // The triangles may be neighbours of each other across a second edge only if a vertex lies on that edge's line:
   // never.
   attach(t, {s.triangle, 2}, ca);
@@ -162,21 +162,21 @@ PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3
     const PlanarSide s = unpack(packed);
     const VertexId from = edge_start(t, s), to = edge_end(t, s);
     if (from == to) throw PlanarDefect("a triangle of a facet has the same vertex twice", {from, to});
-    if (look_up(side_of_edge, directed_key(from, to)) != none) {
+    if (side_of_edge.contains(directed_key(from, to))) {
       throw PlanarDefect("two triangles of a facet lie on the same side of an edge", {from, to});
     }
-    set(side_of_edge, directed_key(from, to), packed);
-    set(t.triangle_of_vertex, apex(t, s), s.triangle);
+    side_of_edge.set(directed_key(from, to), packed);
+    t.triangle_of_vertex.set(apex(t, s), s.triangle);
   }
   for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
     const PlanarSide s = unpack(packed);
-    const std::uint32_t other = look_up(side_of_edge, directed_key(edge_end(t, s), edge_start(t, s)));
+    const std::uint32_t other = side_of_edge.get(directed_key(edge_end(t, s), edge_start(t, s)), none);
     if (other != none) t.neighbors[s.triangle][s.corner] = other / 3;
     register_edge(t, s);
   }
   for (const auto& [a, b] : constrained_edges) {
-    std::uint32_t packed = look_up(side_of_edge, directed_key(a, b));
-    if (packed == none) packed = look_up(side_of_edge, directed_key(b, a));
+    std::uint32_t packed = side_of_edge.get(directed_key(a, b), none);
+    if (packed == none) packed = side_of_edge.get(directed_key(b, a), none);
     if (packed == none) throw PlanarDefect("a constrained edge of a facet is no edge of its triangles", {a, b});
     planar_set_constrained(t, unpack(packed), true);
   }
@@ -184,7 +184,7 @@ PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3
 }
 
 std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexId a, VertexId b) {
-  const std::uint32_t fixed = look_up(t.fixed_edges, edge_key(a, b));
+  const std::uint32_t fixed = t.fixed_edges.get(edge_key(a, b), none);
   if (fixed != none) {
     // An entry is not withdrawn when an edge is split or set free, so it must be looked at.
     const PlanarSide s = unpack(fixed);
@@ -204,7 +204,7 @@ std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexI
 }
 
 bool planar_has_vertex(const PlanarTriangulation& t, VertexId v) {
-  return look_up(t.triangle_of_vertex, v) != none;
+  return t.triangle_of_vertex.contains(v);
 }
 
 void planar_set_constrained(PlanarTriangulation& t, PlanarSide side, bool constrained) {

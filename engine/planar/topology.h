@@ -28,15 +28,6 @@ constexpr std::uint64_t directed_key(VertexId from, VertexId to) {
   return (std::uint64_t{from.value} << 32) | to.value;
 }
 
-/// The value of a key, or `none`.
-inline std::uint32_t look_up(const PlanarTable& table, std::uint64_t key) {
-  const std::uint32_t* value = table.find(key);
-  return value ? *value : none;
-}
-inline void set(PlanarTable& table, std::uint64_t key, std::uint32_t value) {
-  *table.insert(key, value).first = value;
-}
-
 /// Start and end of the edge, with the triangle on its left.
 inline VertexId edge_start(const PlanarTriangulation& t, PlanarSide s) {
   return t.triangles[s.triangle][next_corner(s.corner)];
@@ -99,7 +90,7 @@ void replace_channel(PlanarTriangulation& t, const std::vector<std::uint32_t>& c
 /// returns true; returns whether it did. At a pinched vertex these need not be all.
 template <class Visit>
 bool visit_fan(const PlanarTriangulation& t, VertexId v, Visit visit) {
-  const std::uint32_t first = look_up(t.triangle_of_vertex, v);
+  const std::uint32_t first = t.triangle_of_vertex.get(v, none);
   if (first == none) return false;
   std::uint32_t triangle = first;
   do {  // counterclockwise

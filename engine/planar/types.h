@@ -33,14 +33,9 @@ struct PlanarSide {
   std::uint32_t corner = 0;
 };
 
-struct PlanarKeyTraits {
-  static constexpr std::uint64_t none() { return ~std::uint64_t{0}; }
-  static std::size_t hash(std::uint64_t key) { return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 29); }
-};
-
 /// From vertices or edges of one facet to a position in its arrays. A facet knows only a few of the vertices of the
 /// whole complex, so it cannot afford an array over all ids.
-using PlanarTable = HashTable<std::uint64_t, std::uint32_t, PlanarKeyTraits>;
+using PlanarTable = HashTable<std::uint64_t, std::uint32_t>;
 
 /// A triangulation of a part of a plane: any number of pieces, with holes, slits and pinched vertices.
 ///

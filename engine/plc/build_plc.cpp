@@ -1,86 +1,75 @@
 #include "engine/plc/build_plc.h"
 
-#include <algorithm>
-
 #include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/find_regions.h"
-#include "engine/plc/find_segments.h"
-#include "engine/plc/refusals.h"
-#include "engine/plc/snap_vertices.h"
-#include "engine/plc/sort_around_edges.h"
-#include "engine/plc/split_at_vertices.h"
+#include "engine/plc/gather_parts.h"
+#include "engine/plc/input_faults.h"
 #include "engine/plc/triangulate_polygons.h"
-#include "engine/plc/vertical_ray.h"
 
 namespace ccdt {
 
 namespace {
 
-constexpr std::size_t most_overlaps_told = 1000;
+constexpr std::size_t most_overlaps = 1000;
 
-double box_size(std::span<const Point3> vertices) {
-  Box box = box_of(vertices.front());
-  for (const Point3& p : vertices) box = hull(box, box_of(p));
-  const Point3 size = box.high - box.low;
-  return std::max({size.x, size.y, size.z});
-}
-
-TriangleSet gather_triangles(const InputPlc& input, const Plc& plc) {
+// The input as triangles and segments, with what has been found about them.
+struct PlcParts {
   TriangleSet triangles;
-  for (std::uint32_t t = 0; t < input.triangles.size(); ++t) {
-    const auto [a, b, c] = input.triangles[t];
-    triangles.add({plc.vertex_of_input[a], plc.vertex_of_input[b], plc.vertex_of_input[c]},
-                  input.triangle_markers.empty() ? 0 : input.triangle_markers[t],
-                  input.triangle_numbers.empty() ? t : input.triangle_numbers[t]);
-  }
-  return triangles;
-}
-
-SegmentSet gather_segments(const InputPlc& input, const Plc& plc) {
   SegmentSet segments;
-  for (std::uint32_t s = 0; s < input.segments.size(); ++s)
-    segments.add(plc.vertex_of_input[input.segments[s][0]], plc.vertex_of_input[input.segments[s][1]],
-                 input.segment_markers.empty() ? 0 : input.segment_markers[s]);
-  return segments;
-}
+  EdgeTable edges;
+  SegmentMatch match;
+  FacetPatches patches;
+};
 
-void refuse_no_facets(const InputPlc& input) {
+void check_facets_exist(const InputPlc& input) {
   if (input.facet_count() > 0 && !input.vertices.empty()) return;
   Place place;
   place.file = input.name;
   throw InputError("there are no facets", place, "give a surface, or a .poly or .smesh with facets");
 }
 
-// Edges that the input names segments, and the segments that are no edge.
-struct SegmentMatch {
-  std::vector<std::uint32_t> segment_of;  // of each edge
-  std::vector<char> is_segment;           // of each edge
-  std::vector<std::uint32_t> loose;
-};
-
-SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges) {
-  SegmentMatch match;
-  match.segment_of.assign(edges.size(), EdgeTable::none);
-  match.is_segment.assign(edges.size(), 0);
-  for (std::uint32_t s = 0; s < segments.size(); ++s) {
-    const std::uint32_t e = edges.find(segments.ends[s][0], segments.ends[s][1]);
-    if (e == EdgeTable::none) {
-      match.loose.push_back(s);
-      continue;
-    }
-    match.segment_of[e] = s;
-    match.is_segment[e] = 1;
-  }
-  return match;
+void check_overlaps(const Plc& plc, const PlcParts& parts, const std::vector<Overlap>& overlaps) {
+  if (!overlaps.empty())
+    throw_overlaps(plc, parts.triangles, parts.segments, overlaps, overlaps.size() == most_overlaps);
 }
 
-void refuse_if_any(const Plc& plc, const TriangleSet& triangles, const SegmentSet& segments,
-                   const std::vector<Overlap>& overlaps) {
-  if (!overlaps.empty()) refuse_overlaps(plc, triangles, segments, overlaps, overlaps.size() == most_overlaps_told);
+// Is a sector of the domain of 180 degrees or more around the edge?
+bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
+  const auto [a, b] = parts.edges.ends[e];
+  const auto around = parts.edges.around(e);
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const VertexTriple& s = parts.triangles.corners[around[i]];
+    const VertexTriple& t = parts.triangles.corners[around[(i + 1) % around.size()]];
+    const RegionId sector = map.of(around[i], runs_along(s, a, b));
+    if (!map.regions[sector].inside) continue;
+    const Turn angle = around.size() == 1 ? Turn::above_180
+                                          : turn_about(vertices[a], vertices[b], vertices[apex_over(s, a, b)],
+                                                       vertices[apex_over(t, a, b)]);
+    if (angle == Turn::exactly_180 || angle == Turn::above_180) return true;
+  }
+  return false;
+}
+
+// The edges that do not lie within one facet, and the segments of the input that are no edge.
+std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map,
+                                      const VerticalRays& rays) {
+  std::vector<Segment> segments;
+  for (std::uint32_t e = 0; e < parts.edges.size(); ++e) {
+    if (parts.patches.is_inner_edge[e]) continue;
+    const std::uint32_t s = parts.match.segment_of[e];
+    const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
+    segments.push_back({parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e)});
+  }
+  for (const std::uint32_t s : parts.match.loose) {
+    const auto& ends = parts.segments.ends[s];
+    const RegionId region = region_at(map, rays, RayStart::middle_of(vertices[ends[0]], vertices[ends[1]]));
+    segments.push_back({ends, parts.segments.markers[s], map.regions[region].inside});
+  }
+  return segments;
 }
 
 std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatches& patches, const RegionMap& map) {
@@ -108,40 +97,41 @@ std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatch
 Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& progress) {
   constexpr std::uint64_t steps = 5;
   report(progress, "plc", 0, steps);
-  refuse_no_facets(input);
+  check_facets_exist(input);
   Plc plc;
   plc.name = input.name;
   snap_vertices(input, plc);
-  TriangleSet triangles = gather_triangles(input, plc);
-  SegmentSet segments = gather_segments(input, plc);
-  const double tolerance = options.flatness * box_size(plc.vertices);
+  PlcParts parts;
+  auto& [triangles, segments, edges, match, patches] = parts;
+  triangles = gather_triangles(input, plc);
+  segments = gather_segments(input, plc);
+  const double tolerance = tolerance_of(plc, options.flatness);
   triangulate_polygons(input, plc, tolerance, triangles, segments);
-  refuse_degenerate_triangles(plc, triangles);
-  refuse_duplicate_triangles(plc, triangles);
+  check_degenerate_triangles(plc, triangles);
+  check_duplicate_triangles(plc, triangles);
 
   report(progress, "plc", 1, steps);
   BoxTree tree(boxes_of(plc.vertices, triangles));
   if (split_triangles_at_vertices(plc.vertices, tree, triangles)) tree = BoxTree(boxes_of(plc.vertices, triangles));
   split_segments_at_vertices(plc.vertices, segments);
-  EdgeTable edges = make_edge_table(triangles.corners);
-  const SegmentMatch match = match_segments(segments, edges);
+  edges = make_edge_table(triangles.corners);
+  match = match_segments(segments, edges);
 
   report(progress, "plc", 2, steps);
-  const FacetPatches patches = find_facets(plc.vertices, triangles, edges, match.is_segment, tolerance);
+  patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
 
   report(progress, "plc", 3, steps);
   if (const auto covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges))
-    refuse_overlaps(plc, triangles, segments, {&*covering, 1}, false);
-  refuse_if_any(plc, triangles, segments, find_overlaps(plc.vertices, triangles, patches, tree, most_overlaps_told));
-  refuse_if_any(plc, triangles, segments,
-                find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_overlaps_told));
+    throw_overlaps(plc, triangles, segments, {&*covering, 1}, false);
+  check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, tree, most_overlaps));
+  check_overlaps(plc, parts,
+                 find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_overlaps));
 
   report(progress, "plc", 4, steps);
   const VerticalRays rays(plc.vertices, triangles, tree);
   RegionMap map = find_regions(triangles, plc.vertices, edges, patches, rays);
   mark_inside(input, plc, triangles, edges, rays, map);
-  plc.segments =
-      find_segments(plc.vertices, triangles, edges, patches, segments, match.segment_of, match.loose, map, rays);
+  plc.segments = collect_segments(plc.vertices, parts, map, rays);
   plc.facets = collect_facets(triangles, patches, map);
   plc.regions = std::move(map.regions);
   report(progress, "plc", steps, steps);

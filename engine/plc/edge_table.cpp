@@ -1,44 +1,65 @@
 #include "engine/plc/edge_table.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/base/simplex_map.h"
+#include "engine/numbers/predicates.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
-
 namespace {
 
-struct HalfEdge {
-  std::uint64_t key;   // smaller end in the upper half, greater end in the lower
-  std::uint32_t slot;  // 3 * triangle + corner
-};
+// For c and d coplanar with the edge ab: are they on the same side of it?
+bool on_same_side(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const int axis = dominant_axis({a, b, c});
+  return orient_along(axis, a, b, c) == orient_along(axis, a, b, d);
+}
 
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-  return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+// A facet is near another only if their angle says so, and narrow triangles make no reliable angle with anything.
+constexpr double reliable_heights = 100;  // tolerances
+
+bool nearly_cover(const Point3& a, const Point3& b, const Point3& c, const Point3& d, double tolerance) {
+  const Point3 m = cross(b - a, c - a), n = cross(b - a, d - a);
+  const double mm = squared_length(m), nn = squared_length(n);
+  const double least = reliable_heights * tolerance;
+  const double least_area = least * least * squared_length(b - a);
+  if (dot(m, n) <= 0 || mm < least_area || nn < least_area) return false;
+  return std::fabs(dot(m, d - a)) <= tolerance * std::sqrt(mm) && std::fabs(dot(n, c - a)) <= tolerance * std::sqrt(nn);
+}
+
+// A point of both triangles abc and abd, which are on the same side of ab: from the middle of the edge inwards until it
+// is in both.
+Point3 common_point(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const Point3 middle = 0.5 * (a + b), inwards = 0.5 * (c + d) - middle;
+  const auto holds = [&](const Point3& apex, const Point3& p) {
+    const Point3 normal = cross(b - a, apex - a);
+    return dot(normal, cross(apex - b, p - b)) >= 0 && dot(normal, cross(a - apex, p - apex)) >= 0;
+  };
+  double step = 0.5;
+  while (step > 1e-6 && !(holds(c, middle + step * inwards) && holds(d, middle + step * inwards))) step *= 0.5;
+  return middle + step * inwards;
 }
 
 }  // namespace
 
-EdgeTable make_edge_table(std::span<const Corners> triangles) {
-  std::vector<HalfEdge> halves;
-  halves.reserve(triangles.size() * 3);
+EdgeTable make_edge_table(std::span<const VertexTriple> triangles) {
+  std::vector<AtEdge> slots;  // 3 * triangle + corner
+  slots.reserve(triangles.size() * 3);
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k)
-      halves.push_back({key_of(triangles[t][k], triangles[t][(k + 1) % 3]), 3 * t + k});
-  std::sort(halves.begin(), halves.end(),
-            [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.slot < b.slot; });
+      slots.push_back({edge_key(triangles[t][k], triangles[t][(k + 1) % 3]), 3 * t + k});
 
   EdgeTable table;
-  table.triangles.resize(halves.size());
+  table.triangles.reserve(slots.size());
   table.edges_of.resize(triangles.size());
-  for (std::uint32_t i = 0; i < halves.size(); ++i) {
-    const auto [key, slot] = halves[i];
-    if (i == 0 || halves[i - 1].key != key) {
-      table.ends.push_back({VertexId(key >> 32), VertexId(key & 0xFFFFFFFFu)});
-      table.first.push_back(i);
-    }
-    table.triangles[i] = slot / 3;
-    table.edges_of[slot / 3][slot % 3] = table.size() - 1;
-  }
-  table.first.push_back(static_cast<std::uint32_t>(halves.size()));
+  for_each_edge_group(slots, [&](std::span<const AtEdge> group) {
+    for (const auto& [key, slot] : group) table.edges_of[slot / 3][slot % 3] = table.size();
+    table.ends.push_back({VertexId(group[0].edge >> 32), VertexId(group[0].edge & 0xFFFFFFFFu)});
+    table.first.push_back(static_cast<std::uint32_t>(table.triangles.size()));
+    for (const auto& [key, slot] : group) table.triangles.push_back(slot / 3);
+  });
+  table.first.push_back(static_cast<std::uint32_t>(slots.size()));
   return table;
 }
 
@@ -46,6 +67,58 @@ std::uint32_t EdgeTable::find(VertexId a, VertexId b) const {
   const std::array<VertexId, 2> sought = {std::min(a, b), std::max(a, b)};
   const auto at = std::lower_bound(ends.begin(), ends.end(), sought);
   return at != ends.end() && *at == sought ? static_cast<std::uint32_t>(at - ends.begin()) : none;
+}
+
+SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges) {
+  SegmentMatch match;
+  match.segment_of.assign(edges.size(), EdgeTable::none);
+  for (std::uint32_t s = 0; s < segments.size(); ++s) {
+    const std::uint32_t e = edges.find(segments.ends[s][0], segments.ends[s][1]);
+    if (e == EdgeTable::none)
+      match.loose.push_back(s);
+    else
+      match.segment_of[e] = s;
+  }
+  return match;
+}
+
+Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const int sign = orient3d(a, b, c, d);
+  if (sign > 0) return Turn::below_180;
+  if (sign < 0) return Turn::above_180;
+  return on_same_side(a, b, c, d) ? Turn::zero : Turn::exactly_180;
+}
+
+std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
+                                         const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges) {
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    const std::span<std::uint32_t> around = edges.around(e);
+    if (is_inner_edge[e] || around.size() < 2) continue;
+    const Point3 &a = vertices[edges.ends[e][0]], &b = vertices[edges.ends[e][1]];
+    const auto apex = [&](std::uint32_t t) -> const Point3& {
+      return vertices[apex_over(triangles.corners[t], edges.ends[e][0], edges.ends[e][1])];
+    };
+    if (around.size() > 2) {
+      const Point3& zero = apex(around[0]);
+      std::sort(around.begin() + 1, around.end(), [&](std::uint32_t s, std::uint32_t t) {
+        const Turn to_s = turn_about(a, b, zero, apex(s)), to_t = turn_about(a, b, zero, apex(t));
+        if (to_s != to_t) return to_s < to_t;
+        if (to_s == Turn::below_180 || to_s == Turn::above_180) {
+          const int sign = orient3d(a, b, apex(s), apex(t));
+          if (sign != 0) return sign > 0;
+        }
+        return s < t;
+      });
+    }
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (i == 1 && around.size() == 2) break;  // the same pair once more
+      const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
+      const Point3 &c = apex(s), &d = apex(t);
+      if (nearly_cover(a, b, c, d, tolerance) || turn_about(a, b, c, d) == Turn::zero)
+        return Overlap{Overlap::Between::covering_facets, s, t, common_point(a, b, c, d)};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace ccdt

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "engine/numbers/predicates.h"
-#include "engine/plc/quanta.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
 
@@ -42,7 +42,7 @@ struct FittedPlane {
 class PatchFinder {
  public:
   PatchFinder(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
-              const std::vector<char>& is_segment, double tolerance)
+              std::span<const std::uint32_t> segment_of, double tolerance)
       : vertices_(vertices),
         triangles_(triangles),
         edges_(edges),
@@ -52,14 +52,11 @@ class PatchFinder {
         turned_(triangles.size(), 0),
         round_of_(triangles.size(), 0),
         may_cross_(edges.size()) {
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      const auto [a, b, c] = corner_points(t);
-      normals_[t] = rounded_normal(a, b, c);
-    }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) normals_[t] = rounded_normal(corner_points(t));
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
       const auto around = edges.around(e);
       may_cross_[e] =
-          around.size() == 2 && !is_segment[e] && triangles.markers[around[0]] == triangles.markers[around[1]];
+          around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
     }
   }
 
@@ -85,10 +82,7 @@ class PatchFinder {
   }
 
  private:
-  std::array<Point3, 3> corner_points(std::uint32_t t) const {
-    const Corners& c = triangles_.corners[t];
-    return {vertices_[c[0]], vertices_[c[1]], vertices_[c[2]]};
-  }
+  std::array<Point3, 3> corner_points(std::uint32_t t) const { return points_of(vertices_, triangles_.corners[t]); }
 
   // Leaves the patch of the seed in `patch_`: grown along a plane that is fitted on the way and, if some vertex turns
   // out to be too far from the final plane, once more along that plane as it is.
@@ -97,7 +91,7 @@ class PatchFinder {
     fitted.add(normals_[seed], corner_points(seed));
     grow(seed, fitted, true);
     if (patch_.size() <= 1) return;
-    const Plane plane = centred(fitted.plane());
+    const Plane plane = centered(fitted.plane());
     if (all_within(plane)) return;
     if (!is_within(seed, plane)) {
       FittedPlane alone;
@@ -116,7 +110,7 @@ class PatchFinder {
     for (std::size_t i = 0; i < patch_.size(); ++i) {
       const std::uint32_t t = patch_[i];
       for (const std::uint32_t e : edges_.edges_of[t]) {
-        const std::uint32_t next = neighbour_across(e, t);
+        const std::uint32_t next = neighbor_across(e, t);
         if (next == none || !accept(next, e, t, plane)) continue;
         patch_.push_back(next);
         round_of_[next] = round_;
@@ -127,14 +121,14 @@ class PatchFinder {
     }
   }
 
-  std::uint32_t neighbour_across(std::uint32_t e, std::uint32_t t) const {
+  std::uint32_t neighbor_across(std::uint32_t e, std::uint32_t t) const {
     if (!may_cross_[e]) return none;
     const auto around = edges_.around(e);
     const std::uint32_t next = around[0] == t ? around[1] : around[0];
     return facet_of_[next] == none && round_of_[next] != round_ ? next : none;
   }
 
-  // Is the neighbour in the plane and, turned as its neighbour demands, counterclockwise in the projection?
+  // Is the neighbor in the plane and, turned as its neighbor demands, counterclockwise in the projection?
   bool accept(std::uint32_t next, std::uint32_t e, std::uint32_t t, const Plane& plane) {
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[next], a, b);
@@ -161,7 +155,7 @@ class PatchFinder {
   }
 
   // The parallel plane in the middle of the patch's vertices.
-  Plane centred(Plane plane) const {
+  Plane centered(Plane plane) const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const std::uint32_t t : patch_)
       for (const Point3& p : corner_points(t)) {
@@ -221,8 +215,8 @@ class PatchFinder {
 }  // namespace
 
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
-                         const std::vector<char>& is_segment, double tolerance) {
-  return PatchFinder(vertices, triangles, edges, is_segment, tolerance).find();
+                         std::span<const std::uint32_t> segment_of, double tolerance) {
+  return PatchFinder(vertices, triangles, edges, segment_of, tolerance).find();
 }
 
 }  // namespace ccdt

@@ -28,9 +28,9 @@ struct FacetPatches {
 ///
 /// \param vertices    in grid units
 /// \param triangles   the corners of a triangle may be exchanged
-/// \param is_segment  of each edge: the input names it a segment
+/// \param segment_of  of each edge: the segment of the input that it is, or `EdgeTable::none`
 /// \param tolerance   in grid units; all vertices of a patch are this near to one plane
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
-                         const std::vector<char>& is_segment, double tolerance);
+                         std::span<const std::uint32_t> segment_of, double tolerance);
 
 }  // namespace ccdt

@@ -1,10 +1,75 @@
 #include "engine/plc/find_regions.h"
 
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <limits>
+#include <string>
+
+#include "engine/base/errors.h"
 #include "engine/base/union_find.h"
+#include "engine/plc/gather_parts.h"
+#include "engine/plc/input_faults.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
-
 namespace {
+
+using VeryWide = boost::multiprecision::int256_t;
+
+IntegerPoint six_times(const Point3& p) {
+  const IntegerPoint q = to_integers(p);
+  return {6 * q[0], 6 * q[1], 6 * q[2]};
+}
+
+IntegerPoint sum(const IntegerPoint& a, const IntegerPoint& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+// On which side of the line pq, seen from above, is the point x after its infinitesimal move?
+int side_of_moved(const IntegerPoint& p, const IntegerPoint& q, const IntegerPoint& x) {
+  const std::int64_t ux = q[0] - p[0], uy = q[1] - p[1];
+  const int sign = sign_of(Wide(ux) * (x[1] - p[1]) - Wide(uy) * (x[0] - p[0]));
+  if (sign != 0) return sign;
+  if (uy != 0) return uy > 0 ? -1 : 1;
+  return (ux > 0) - (ux < 0);
+}
+
+// A triangle over the start of the ray, with its height there as a fraction.
+struct Crossing {
+  std::uint32_t triangle;
+  WideVector normal;  // turned upwards
+  bool turned;
+  VeryWide height;  // sixfold, times normal[2]
+};
+
+int compare_products(const VeryWide& a, const VeryWide& b, const VeryWide& c, const VeryWide& d) {
+  const VeryWide left = a * b, right = c * d;
+  return left < right ? -1 : left > right ? 1 : 0;
+}
+
+// Lower at the start of the ray or, where both are equal, after the move aside.
+bool is_lower(const Crossing& a, const Crossing& b) {
+  const VeryWide az = a.normal[2], bz = b.normal[2];
+  int sign = compare_products(a.height, bz, b.height, az);
+  for (int k = 0; k < 2 && sign == 0; ++k)  // the slopes in x and y are -normal[k] / normal[2]
+    sign = -compare_products(a.normal[k], bz, b.normal[k], az);
+  return sign < 0;
+}
+
+Box box_above(const RayStart& start, bool upwards) {
+  const double scale = DyadicGrid::quantum / 6, slack = DyadicGrid::quantum;  // more than the rounding of this box
+  const Point3 p = {scale * static_cast<double>(start.sixfold[0]), scale * static_cast<double>(start.sixfold[1]),
+                    scale * static_cast<double>(start.sixfold[2])};
+  const Point3 margin = {slack, slack, slack};
+  Box box = {p - margin, p + margin};
+  if (upwards) box.high.z = std::numeric_limits<double>::infinity();
+  return box;
+}
+
+// Of q over the plane through a, times the length of its normal.
+Wide height_over(const IntegerPoint& a, const WideVector& normal, const IntegerPoint& q) {
+  return normal[0] * (q[0] - a[0]) + normal[1] * (q[1] - a[1]) + normal[2] * (q[2] - a[2]);
+}
 
 std::uint32_t side(std::uint32_t triangle, bool above) {
   return 2 * triangle + (above ? 0 : 1);
@@ -36,7 +101,89 @@ UnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
   return components;
 }
 
+RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
+                        const Point3& seed, const std::string& name) {
+  const std::string remedy = "move the seed into the part of space that it is for, or remove it";
+  const std::string outside = name + " is outside of all that the facets enclose";
+  // Seeds beyond the box of the vertices may not fit the grid.
+  if (!contains(bounding_box(plc.world), box_of(seed))) throw_input_error(plc, outside, remedy, {seed});
+  const RayStart start = RayStart::at(plc.grid.snap(seed));
+  if (const auto t = rays.triangle_at(start))
+    throw_input_error(plc, name + " is on a facet", remedy, {seed}, {triangles.numbers[*t]});
+  const RegionId region = region_at(map, rays, start);
+  if (region == 0u) throw_input_error(plc, outside, remedy, {seed});
+  return region;
+}
+
+bool has_free_edge(const EdgeTable& edges) {
+  for (std::uint32_t e = 0; e < edges.size(); ++e)
+    if (edges.around(e).size() == 1) return true;
+  return false;
+}
+
+// Inside are the regions behind an odd number of connected surfaces, seen from infinity.
+void mark_by_nesting(RegionMap& map) {
+  for (std::uint32_t c = 1; c < map.regions.size(); ++c)
+    for (RegionId outer(c); outer != 0u; outer = map.around[outer]) map.regions[c].inside = !map.regions[c].inside;
+}
+
 }  // namespace
+
+RayStart RayStart::at(const Point3& p) {
+  return {six_times(p)};
+}
+
+RayStart RayStart::middle_of(const Point3& a, const Point3& b) {
+  const IntegerPoint s = sum(to_integers(a), to_integers(b));
+  return {{3 * s[0], 3 * s[1], 3 * s[2]}};
+}
+
+RayStart RayStart::centroid_of(const Point3& a, const Point3& b, const Point3& c) {
+  const IntegerPoint s = sum(sum(to_integers(a), to_integers(b)), to_integers(c));
+  return {{2 * s[0], 2 * s[1], 2 * s[2]}};
+}
+
+std::vector<RayHit> VerticalRays::shoot(const RayStart& start, std::optional<std::uint32_t> own) const {
+  const IntegerPoint& q = start.sixfold;
+  std::vector<Crossing> crossings;
+  tree_.for_each_meeting(box_above(start, true), [&](std::uint32_t t) {
+    if (own && *own == t) return;
+    const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
+    const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
+    const int side = side_of_moved(a, b, q);
+    if (side_of_moved(b, c, q) != side || side_of_moved(c, a, q) != side) return;
+    WideVector n = exact_normal(points);
+    const bool turned = n[2] < 0;
+    if (turned) n = {-n[0], -n[1], -n[2]};
+    if (height_over(a, n, q) > 0) return;  // zero is for the caller to exclude: the start is on the triangle then
+    const Wide height = n[2] * a[2] - n[0] * (q[0] - a[0]) - n[1] * (q[1] - a[1]);
+    crossings.push_back({t, n, turned, VeryWide(height)});
+  });
+  std::sort(crossings.begin(), crossings.end(), is_lower);
+  std::vector<RayHit> hits;
+  for (const Crossing& c : crossings) hits.push_back({c.triangle, c.turned});
+  return hits;
+}
+
+bool VerticalRays::leaves_above(std::uint32_t triangle) const {
+  const WideVector n = exact_normal(points_of(vertices_, triangles_.corners[triangle]));
+  if (n[2] != 0) return n[2] > 0;
+  return n[0] != 0 ? n[0] > 0 : n[1] > 0;
+}
+
+std::optional<std::uint32_t> VerticalRays::triangle_at(const RayStart& start) const {
+  const IntegerPoint& q = start.sixfold;
+  std::optional<std::uint32_t> found;
+  tree_.for_each_meeting(box_above(start, false), [&](std::uint32_t t) {
+    const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
+    const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
+    if (height_over(a, exact_normal(points), q) != 0) return;
+    const int axis = dominant_axis(points);
+    const int u = orient_along(axis, a, b, q), v = orient_along(axis, b, c, q), w = orient_along(axis, c, a, q);
+    if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) found = found ? std::min(*found, t) : t;
+  });
+  return found;
+}
 
 // That one ray a component suffices: the sides of one component that see the same connected part of space, seen alone,
 // are all joined already. So on the way from a component up to whatever encloses it, everything passed joins the
@@ -85,6 +232,30 @@ RegionMap find_regions(const TriangleSet& triangles, std::span<const Point3> ver
 RegionId region_at(const RegionMap& map, const VerticalRays& rays, const RayStart& point) {
   const std::vector<RayHit> hits = rays.shoot(point);
   return hits.empty() ? RegionId(0u) : map.of(hits.front().triangle, hits.front().enters_above);
+}
+
+void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& triangles, const EdgeTable& edges,
+                 const VerticalRays& rays, RegionMap& map) {
+  const bool is_surface = input.inside == InputPlc::Inside::even_odd;
+  const bool encloses = map.regions.size() > 1;
+  if ((is_surface || !encloses) && has_free_edge(edges)) throw_open_surface(plc, edges);
+  if (!encloses) throw_input_error(plc, "the facets enclose nothing", "add the facets that close the surface");
+
+  if (is_surface)
+    mark_by_nesting(map);
+  else
+    for (std::uint32_t c = 1; c < map.regions.size(); ++c) map.regions[c].inside = true;
+  for (std::size_t i = 0; i < input.holes.size(); ++i) {
+    const std::string name = "hole seed " + std::to_string(i) + " (counted from 0)";
+    map.regions[region_of_seed(plc, triangles, rays, map, input.holes[i], name)].inside = false;
+  }
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    const std::string name = "region seed " + std::to_string(i) + " (counted from 0)";
+    map.regions[region_of_seed(plc, triangles, rays, map, input.regions[i].seed, name)].attribute =
+        input.regions[i].attribute;
+  }
+  if (std::none_of(map.regions.begin(), map.regions.end(), [](const Region& c) { return c.inside; }))
+    throw_input_error(plc, "the hole seeds leave nothing to mesh", "remove the hole seed of the part to be meshed");
 }
 
 }  // namespace ccdt

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 
-#include "engine/base/errors.h"
+#include "engine/base/box_tree.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
-#include "engine/plc/quanta.h"
+#include "engine/plc/gather_parts.h"
+#include "engine/plc/input_faults.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
 
@@ -25,9 +26,7 @@ struct ProjectedPlane {
   const Point3& point(VertexId v) const {
     return v < vertices.size() ? vertices[v] : seeds[v - static_cast<std::uint32_t>(vertices.size())];
   }
-  int orient(VertexId a, VertexId b, VertexId c) const {
-    return orient_along(axis, to_quanta(point(a)), to_quanta(point(b)), to_quanta(point(c)));
-  }
+  int orient(VertexId a, VertexId b, VertexId c) const { return orient_along(axis, point(a), point(b), point(c)); }
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
     return incircle_perturbed(flat(a), flat(b), flat(c), above(a), flat(d), {a, b, c, d});
   }
@@ -49,16 +48,16 @@ class FacetTriangulator {
  public:
   FacetTriangulator(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                     SegmentSet& segments)
-      : plc_(plc), tolerance_(tolerance), triangles_(triangles), segments_(segments), plane_{plc.vertices, {}, 2} {
+      : plc_(plc),
+        tolerance_(tolerance),
+        triangles_(triangles),
+        segments_(segments),
+        plane_{plc.vertices, {}, 2},
+        world_box_(bounding_box(plc.world)) {
     const std::uint32_t given = segments.size();
     segments_at_.resize(plc.vertices.size());
     for (std::uint32_t s = 0; s < given; ++s)
       segments_at_[std::min(segments.ends[s][0], segments.ends[s][1])].push_back(s);
-    low_ = high_ = plc.world.empty() ? Point3{} : plc.world.front();
-    for (const Point3& p : plc.world) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
-    }
     for (const PolygonFacet& facet : input.polygon_facets) add(facet);
   }
 
@@ -66,12 +65,12 @@ class FacetTriangulator {
   void add(const PolygonFacet& facet) {
     facet_ = &facet;
     gather();
-    if (vertices_.empty()) refuse("a facet has no vertices", {}, "remove it");
+    if (vertices_.empty()) fail("a facet has no vertices", {}, "remove it");
     if (!find_plane()) {
       const bool only_segments = std::all_of(facet.polygons.begin(), facet.polygons.end(),
                                              [](const auto& polygon) { return polygon.size() <= 2; });
       if (only_segments) return;  // dangling segments and vertices, written as a facet
-      refuse("the corners of a facet are on one line", vertices_, "remove this facet");
+      fail("the corners of a facet are on one line", vertices_, "remove this facet");
     }
     const bool plain = facet.polygons.size() == 1 && facet.holes.empty();
     if (plain && vertices_.size() == 3 && edges_.size() == 3)
@@ -82,15 +81,12 @@ class FacetTriangulator {
 
   void add_triangle(VertexId a, VertexId b, VertexId c) { triangles_.add({a, b, c}, facet_->marker, facet_->number); }
 
-  [[noreturn]] void refuse(const std::string& what, const std::vector<VertexId>& corners,
-                           const std::string& remedy) const {
-    constexpr std::size_t told = 6;
-    Place place;
-    place.file = plc_.name;
-    place.facets = {facet_->number};
-    for (std::size_t i = 0; i < std::min(told, corners.size()); ++i)
-      place.points.push_back(as_array(plc_.world[corners[i]]));
-    throw InputError(what, place, remedy);
+  [[noreturn]] void fail(const std::string& what, const std::vector<VertexId>& corners,
+                         const std::string& remedy) const {
+    constexpr std::size_t most_points = 6;
+    std::vector<Point3> points;
+    for (std::size_t i = 0; i < std::min(most_points, corners.size()); ++i) points.push_back(plc_.world[corners[i]]);
+    throw_input_error(plc_, what, remedy, points, {facet_->number});
   }
 
   // The different vertices of the facet, and its edges between different vertices.
@@ -118,14 +114,14 @@ class FacetTriangulator {
     });
   }
 
-  // Takes the plane through three vertices that are far apart and refuses the facet if it leaves it. False if all are
+  // Takes the plane through three vertices that are far apart and fails if the facet leaves it. False if all are
   // on one line.
   bool find_plane() {
     const auto& points = plc_.vertices;
     const Point3 a = points[vertices_.front()];
     const Point3 b = points[farthest([&](const Point3& p) { return squared_length(p - a); })];
-    const Point3 c = points[farthest([&](const Point3& p) { return squared_length(rounded_normal(a, b, p)); })];
-    const Point3 normal = rounded_normal(a, b, c);
+    const Point3 c = points[farthest([&](const Point3& p) { return squared_length(rounded_normal({a, b, p})); })];
+    const Point3 normal = rounded_normal({a, b, c});
     if (normal == Point3{}) return false;
     plane_.axis = dominant_axis(normal);
 
@@ -143,7 +139,7 @@ class FacetTriangulator {
       std::ostringstream what;
       what << "a facet is not planar: its vertices are up to " << deviation * plc_.grid.unit
            << " away from a plane, and " << tolerance_ * plc_.grid.unit << " is allowed";
-      refuse(what.str(), {worst}, "split this facet into triangles, or give its vertices with more digits");
+      fail(what.str(), {worst}, "split this facet into triangles, or give its vertices with more digits");
     }
     return true;
   }
@@ -172,10 +168,8 @@ class FacetTriangulator {
     PlanarCarving carving;
     std::vector<Point3> seeds;
     for (const Point3& hole : facet_->holes) {
-      const bool within = hole.x >= low_.x && hole.x <= high_.x && hole.y >= low_.y && hole.y <= high_.y &&
-                          hole.z >= low_.z && hole.z <= high_.z;
-      if (!within)
-        refuse("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
+      if (!contains(world_box_, box_of(hole)))
+        fail("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
       carving.hole_seeds.push_back(VertexId(plc_.vertices.size() + seeds.size()));
       seeds.push_back(plc_.grid.snap(hole));
     }
@@ -185,21 +179,21 @@ class FacetTriangulator {
     using Status = PlanarTriangulationResult::Status;
     if (result.status == Status::crossing) {
       const PlanarEdge &e = edges_[result.crossing[0]], &f = edges_[result.crossing[1]];
-      refuse("two edges of a facet cross each other (their ends follow)", {e[0], e[1], f[0], f[1]},
-             "correct the order of the facet's vertices, or add the point where the edges cross");
+      fail("two edges of a facet cross each other (their ends follow)", {e[0], e[1], f[0], f[1]},
+           "correct the order of the facet's vertices, or add the point where the edges cross");
     }
     if (result.status != Status::ok)
-      refuse("a facet has vertices at the same place, or all on one line, within the tolerance", vertices_,
-             "remove this facet");
+      fail("a facet has vertices at the same place, or all on one line, within the tolerance", vertices_,
+           "remove this facet");
     if (!result.lost_seeds.empty())
-      refuse("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
+      fail("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
     PlanarTriangulation& t = result.triangulation;
     if (t.triangles.empty())
-      refuse("the outline of a facet is not closed, or its holes leave nothing", vertices_,
-             "close the outline, or remove the facet");
+      fail("the outline of a facet is not closed, or its holes leave nothing", vertices_,
+           "close the outline, or remove the facet");
     for (const VertexId v : result.unused)
       if (!is_end_of_edge(v))
-        refuse("a vertex of a facet is outside its outline", {v}, "take the vertex out of the facet");
+        fail("a vertex of a facet is outside its outline", {v}, "take the vertex out of the facet");
 
     insert_given_segments(t);
     for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
@@ -231,7 +225,7 @@ class FacetTriangulator {
   SegmentSet& segments_;
   ProjectedPlane plane_;
   std::vector<std::vector<std::uint32_t>> segments_at_;  // of each vertex: the given segments whose smaller end it is
-  Point3 low_, high_;                                    // the box of all vertices, in the units of the input
+  Box world_box_;                                        // of all vertices, in the units of the input
   const PolygonFacet* facet_ = nullptr;
   std::vector<VertexId> vertices_;  // of the current facet, sorted
   std::vector<PlanarEdge> edges_;

@@ -15,7 +15,7 @@ namespace ccdt {
 ///
 /// \param tolerance  in grid units: how far from a plane the vertices of a facet may be
 /// \throw InputError  a facet that is not planar, that has no area, whose edges cross, or with a hole seed or vertex
-/// outside
+///                    outside
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments);
 

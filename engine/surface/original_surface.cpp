@@ -4,12 +4,11 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/point.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/union_find.h"
 #include "engine/plc/edge_table.h"
-#include "engine/plc/split_at_vertices.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/plc/triangulate_polygons.h"
 
 namespace ccdt {
@@ -19,17 +18,14 @@ constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key
 
-std::uint32_t place_in(const Corners& corners, std::uint32_t point) {
+std::uint32_t place_in(const VertexTriple& corners, std::uint32_t point) {
   return corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
 }
 
 // The segments that the input itself names, among them the polygons of two vertices and the slits within its polygon
 // facets, split at all vertices that lie on them.
 SegmentSet declared_segments(const InputPlc& input, const Plc& plc, double tolerance) {
-  SegmentSet segments;
-  for (std::uint32_t s = 0; s < input.segments.size(); ++s)
-    segments.add(plc.vertex_of_input[input.segments[s][0]], plc.vertex_of_input[input.segments[s][1]],
-                 input.segment_markers.empty() ? 0 : input.segment_markers[s]);
+  SegmentSet segments = gather_segments(input, plc);
   TriangleSet ignored;
   triangulate_polygons(input, plc, tolerance, ignored, segments);
   split_segments_at_vertices(plc.vertices, segments);
@@ -58,10 +54,7 @@ class SurfaceCutter {
       : plc_(plc), cosine_(std::cos(to_radians(sharp_angle + 1e-6))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
-    Box box = box_of(plc.vertices.front());
-    for (const Point3& p : plc.vertices) box = hull(box, box_of(p));
-    const Point3 size = box.high - box.low;
-    segments_ = declared_segments(input, plc, flatness * std::max({size.x, size.y, size.z}));
+    segments_ = declared_segments(input, plc, tolerance_of(plc, flatness));
     collect_triangles();
   }
 
@@ -208,7 +201,7 @@ class SurfaceCutter {
     surface_.points.push_back(surface_.points[a] + 0.5 * (surface_.points[b] - surface_.points[a]));
     surface_.is_listed_alone.push_back(0);
     for (const std::uint32_t t : edges_.around(e)) {
-      Corners half = corners_[t];
+      VertexTriple half = corners_[t];
       half[place_in(half, a)] = middle;
       corners_[t][place_in(corners_[t], b)] = middle;
       corners_.push_back(half);
@@ -258,7 +251,7 @@ class SurfaceCutter {
   double cosine_;
   SegmentSet segments_;
   SegmentMarkers segment_markers_;
-  std::vector<Corners> corners_;
+  std::vector<VertexTriple> corners_;
   EdgeTable edges_;
   std::vector<char> is_feature_;
   OriginalSurface surface_;

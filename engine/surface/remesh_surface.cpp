@@ -7,7 +7,11 @@
 
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
-#include "engine/surface/find_crossings.h"
+#include "engine/plc/edge_table.h"
+#include "engine/plc/find_facets.h"
+#include "engine/plc/find_overlaps.h"
+#include "engine/plc/gather_parts.h"
+#include "engine/plc/integer_points.h"
 #include "engine/surface/remesh_steps.h"
 
 namespace ccdt {
@@ -54,6 +58,33 @@ void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
   flip_edges_for_quality(m);
   improve_worst_triangles(m);
   report(progress, "remesh", static_cast<std::uint64_t>(iterations), static_cast<std::uint64_t>(iterations));
+}
+
+/// Places, in the units of the surface, where its triangles or segments meet in more than common vertices and edges, or
+/// where a triangle has no area: all of them up to some thousands, unlike `build_plc`, which stops at the first.
+std::vector<Point3> find_crossings(const InputPlc& surface, double flatness) {
+  constexpr std::size_t most_places = 4000;
+  Plc plc;
+  snap_vertices(surface, plc);
+  TriangleSet triangles = gather_triangles(surface, plc);
+  std::vector<Point3> places;
+  for (const VertexTriple& t : triangles.corners)
+    if (has_no_area(points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
+  if (!places.empty()) return places;
+
+  EdgeTable edges = make_edge_table(triangles.corners);
+  const SegmentSet segments = gather_segments(surface, plc);
+  const SegmentMatch match = match_segments(segments, edges);
+  const double tolerance = tolerance_of(plc, flatness);
+  const FacetPatches facets = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
+  const auto add = [&](const Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
+  if (const auto covering = sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges))
+    add(*covering);
+  const BoxTree tree(boxes_of(plc.vertices, triangles));
+  for (const Overlap& o : find_overlaps(plc.vertices, triangles, facets, tree, most_places)) add(o);
+  for (const Overlap& o : find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
+    add(o);
+  return places;
 }
 
 /// Places that hinder the result from being built, and the words for them if there is nothing that can be done there.

@@ -137,7 +137,7 @@ inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane
     EXPECT_EQ(plane.orient(a, b, c), 1);
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const VertexId from = t.triangles[i][(corner + 1) % 3], to = t.triangles[i][(corner + 2) % 3];
-      const auto& around = t.triangles[planar::look_up(t.triangle_of_vertex, from)];
+      const auto& around = t.triangles[t.triangle_of_vertex.get(from, planar::none)];
       EXPECT_NE(std::find(around.begin(), around.end(), from), around.end());
       if (const auto other = other_side(t, {i, corner})) {
         EXPECT_EQ(t.constrained[other->triangle][other->corner], t.constrained[i][corner]);

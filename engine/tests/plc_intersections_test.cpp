@@ -5,9 +5,9 @@
 
 #include "engine/base/box_tree.h"
 #include "engine/numbers/predicates.h"
-#include "engine/plc/intersect_triangles.h"
-#include "engine/plc/quanta.h"
-#include "engine/plc/sort_around_edges.h"
+#include "engine/plc/edge_table.h"
+#include "engine/plc/find_overlaps.h"
+#include "engine/plc/integer_points.h"
 #include "engine/tests/plc_test_solids.h"
 
 namespace ccdt {

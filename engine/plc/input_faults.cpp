@@ -1,4 +1,4 @@
-#include "engine/plc/refusals.h"
+#include "engine/plc/input_faults.h"
 
 #include <algorithm>
 #include <map>
@@ -7,48 +7,45 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/union_find.h"
-#include "engine/plc/quanta.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
 
 namespace {
 
-constexpr std::size_t told_loops = 5;
-
-std::array<double, 3> world_corner(const Plc& plc, VertexId v) {
-  return as_array(plc.world[v]);
-}
-
-Place place_of(const Plc& plc) {
-  Place place;
-  place.file = plc.name;
-  return place;
-}
-
-std::string counted(std::size_t n, const std::string& thing) {
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+std::vector<Point3> world_points(const Plc& plc, std::span<const VertexId> vertices) {
+  std::vector<Point3> points;
+  for (const VertexId v : vertices) points.push_back(plc.world[v]);
+  return points;
 }
 
 }  // namespace
 
-void refuse_degenerate_triangles(const Plc& plc, const TriangleSet& triangles) {
+void throw_input_error(const Plc& plc, const std::string& what, const std::string& remedy,
+                       const std::vector<Point3>& world_points, const std::vector<long long>& facets) {
+  Place place;
+  place.file = plc.name;
+  for (const Point3& p : world_points) place.points.push_back(as_array(p));
+  place.facets = facets;
+  throw InputError(what, place, remedy);
+}
+
+void check_degenerate_triangles(const Plc& plc, const TriangleSet& triangles) {
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto [a, b, c] = triangles.corners[t];
     const bool equal = a == b || b == c || c == a;
-    if (!equal && rounded_normal(plc.vertices[a], plc.vertices[b], plc.vertices[c]) != Point3{}) continue;
-    Place place = place_of(plc);
-    place.facets = {triangles.numbers[t]};
-    place.points = {world_corner(plc, a), world_corner(plc, b), world_corner(plc, c)};
-    throw InputError(
-        equal ? "a facet has two corners at the same point" : "the corners of a facet are on one line", place,
+    if (!equal && !has_no_area(points_of(plc.vertices, triangles.corners[t]))) continue;
+    throw_input_error(
+        plc, equal ? "a facet has two corners at the same point" : "the corners of a facet are on one line",
         "remove this facet (if its neighbours then leave a gap, merge its vertices in them too), or repair the "
-        "surface in the program that made it");
+        "surface in the program that made it",
+        world_points(plc, triangles.corners[t]), {triangles.numbers[t]});
   }
 }
 
-void refuse_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  std::vector<Corners> sorted = triangles.corners;
-  for (Corners& c : sorted) std::sort(c.begin(), c.end());
+void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
+  std::vector<VertexTriple> sorted = triangles.corners;
+  for (VertexTriple& c : sorted) std::sort(c.begin(), c.end());
   std::vector<std::uint32_t> order(triangles.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),
@@ -56,14 +53,13 @@ void refuse_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
   const auto twin = std::adjacent_find(order.begin(), order.end(),
                                        [&](std::uint32_t s, std::uint32_t t) { return sorted[s] == sorted[t]; });
   if (twin == order.end()) return;
-  Place place = place_of(plc);
-  place.facets = {triangles.numbers[twin[0]], triangles.numbers[twin[1]]};
-  for (const VertexId v : triangles.corners[twin[0]]) place.points.push_back(world_corner(plc, v));
-  throw InputError("two facets have the same corners", place, "remove one of the two");
+  throw_input_error(plc, "two facets have the same corners", "remove one of the two",
+                    world_points(plc, triangles.corners[twin[0]]),
+                    {triangles.numbers[twin[0]], triangles.numbers[twin[1]]});
 }
 
-void refuse_overlaps(const Plc& plc, const TriangleSet& triangles, const SegmentSet& segments,
-                     std::span<const Overlap> pairs, bool at_least) {
+void throw_overlaps(const Plc& plc, const TriangleSet& triangles, const SegmentSet& segments,
+                    std::span<const Overlap> pairs, bool at_least) {
   using Between = Overlap::Between;
   const auto numbers_of = [&](const Overlap& o) -> std::vector<long long> {
     if (o.between == Between::segments) return {};
@@ -73,9 +69,11 @@ void refuse_overlaps(const Plc& plc, const TriangleSet& triangles, const Segment
   };
   const Overlap& pair = *std::min_element(
       pairs.begin(), pairs.end(), [&](const Overlap& a, const Overlap& b) { return numbers_of(a) < numbers_of(b); });
-  Place place = place_of(plc);
-  place.facets = numbers_of(pair);
-  place.points = {as_array(plc.grid.to_world(pair.where))};
+  const std::vector<long long> facets = numbers_of(pair);
+  std::vector<Point3> points = {plc.grid.to_world(pair.where)};
+  const auto add_ends = [&](std::uint32_t segment) {
+    for (const VertexId v : segments.ends[segment]) points.push_back(plc.world[v]);
+  };
   std::string what,
       remedy =
           "cut them along their intersection (a Boolean union in the program that made the model does it), or move "
@@ -86,24 +84,24 @@ void refuse_overlaps(const Plc& plc, const TriangleSet& triangles, const Segment
       remedy = "remove one of the two, or cut both along their common outline and keep each piece once";
       break;
     case Between::facets:
-      what = place.facets[0] == place.facets[1] ? "a facet crosses itself" : "two facets cross each other";
+      what = facets[0] == facets[1] ? "a facet crosses itself" : "two facets cross each other";
       break;
     case Between::facet_and_segment:
       what = "a segment crosses a facet, or lies in it without being an edge of its triangles";
-      for (const VertexId v : segments.ends[pair.second]) place.points.push_back(world_corner(plc, v));
+      add_ends(pair.second);
       break;
     case Between::segments:
       what = "two segments cross each other";
-      for (const std::uint32_t s : {pair.first, pair.second})
-        for (const VertexId v : segments.ends[s]) place.points.push_back(world_corner(plc, v));
+      add_ends(pair.first);
+      add_ends(pair.second);
       break;
   }
   if (pairs.size() > 1)
     what += std::string("; there are ") + (at_least ? "at least " : "") + std::to_string(pairs.size()) + " such pairs";
-  throw InputError(what, place, remedy);
+  throw_input_error(plc, what, remedy, points, facets);
 }
 
-void refuse_open_surface(const Plc& plc, const EdgeTable& edges) {
+void throw_open_surface(const Plc& plc, const EdgeTable& edges) {
   UnionFind loops(plc.vertices.size());
   for (std::uint32_t e = 0; e < edges.size(); ++e)
     if (edges.around(e).size() == 1) loops.join(edges.ends[e][0], edges.ends[e][1]);
@@ -111,22 +109,24 @@ void refuse_open_surface(const Plc& plc, const EdgeTable& edges) {
   for (std::uint32_t e = 0; e < edges.size(); ++e)
     if (edges.around(e).size() == 1) ++edge_counts[loops.find(edges.ends[e][0])];
 
-  Place place = place_of(plc);
+  constexpr std::size_t most_loops = 5;
+  std::vector<Point3> points;
   std::string lengths;
   for (const auto& [vertex, count] : edge_counts) {
-    if (place.points.size() == told_loops) {
+    if (points.size() == most_loops) {
       lengths += ", ...";
       break;
     }
     lengths += (lengths.empty() ? "" : ", ") + std::to_string(count);
-    place.points.push_back(world_corner(plc, VertexId(vertex)));
+    points.push_back(plc.world[vertex]);
   }
-  throw InputError("the surface is open: it has " + counted(edge_counts.size(), "boundary loop") + ", of " + lengths +
-                       " edges; a point of each follows",
-                   place,
-                   "close the holes, or merge vertices that should be one; a surface that is meant to be open inside a "
-                   "closed one has to "
-                   "come as .poly, .smesh or .mesh");
+  throw_input_error(
+      plc,
+      "the surface is open: it has " + std::to_string(edge_counts.size()) + " boundary loop" +
+          (edge_counts.size() == 1 ? "" : "s") + ", of " + lengths + " edges; a point of each follows",
+      "close the holes, or merge vertices that should be one; a surface that is meant to be open inside a "
+      "closed one has to come as .poly, .smesh or .mesh",
+      points);
 }
 
 }  // namespace ccdt

@@ -13,11 +13,11 @@ namespace ccdt {
 /// planar orientations then fit 128 bits and need no filter.
 __extension__ typedef __int128 Wide;
 
-using Quanta = std::array<std::int64_t, 3>;
+using IntegerPoint = std::array<std::int64_t, 3>;
 using WideVector = std::array<Wide, 3>;
 
-/// A vertex of the input in quanta.
-inline Quanta to_quanta(const Point3& p) {
+/// A vertex of the input, measured in quanta.
+inline IntegerPoint to_integers(const Point3& p) {
   constexpr double inverse = 1.0 / DyadicGrid::quantum;
   return {static_cast<std::int64_t>(p.x * inverse), static_cast<std::int64_t>(p.y * inverse),
           static_cast<std::int64_t>(p.z * inverse)};
@@ -28,16 +28,23 @@ inline int sign_of(Wide w) {
 }
 
 /// (b - a) x (c - a), exactly.
-inline WideVector exact_normal(const Quanta& a, const Quanta& b, const Quanta& c) {
+inline WideVector exact_normal(const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
   const std::int64_t ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
   const std::int64_t vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
   return {Wide(uy) * vz - Wide(uz) * vy, Wide(uz) * vx - Wide(ux) * vz, Wide(ux) * vy - Wide(uy) * vx};
 }
 
+inline WideVector exact_normal(const std::array<Point3, 3>& t) {
+  return exact_normal(to_integers(t[0]), to_integers(t[1]), to_integers(t[2]));
+}
+
 /// The exact normal rounded to doubles; zero components stay zero and signs are exact.
-inline Point3 rounded_normal(const Point3& a, const Point3& b, const Point3& c) {
-  const WideVector n = exact_normal(to_quanta(a), to_quanta(b), to_quanta(c));
+inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
+  const WideVector n = exact_normal(t);
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
+}
+inline bool has_no_area(const std::array<Point3, 3>& t) {
+  return rounded_normal(t) == Point3{};
 }
 
 /// The axis along which a vector is longest: 0, 1 or 2.
@@ -46,10 +53,18 @@ inline int dominant_axis(const Point3& v) {
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
+/// An axis that the plane of a triangle is not parallel to.
+inline int dominant_axis(const std::array<Point3, 3>& t) {
+  return dominant_axis(rounded_normal(t));
+}
+
 /// Exact orientation of abc seen against the axis: the sign of that component of (b - a) x (c - a).
-inline int orient_along(int axis, const Quanta& a, const Quanta& b, const Quanta& c) {
+inline int orient_along(int axis, const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   return sign_of(Wide(b[u] - a[u]) * (c[v] - a[v]) - Wide(b[v] - a[v]) * (c[u] - a[u]));
+}
+inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3& c) {
+  return orient_along(axis, to_integers(a), to_integers(b), to_integers(c));
 }
 
 }  // namespace ccdt

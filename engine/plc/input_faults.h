@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/plc/edge_table.h"
+#include "engine/plc/plc.h"
+#include "engine/plc/triangle_set.h"
+
+namespace ccdt {
+
+/// \throw InputError  a facet has no area; its vertices may be equal after rounding only
+void check_degenerate_triangles(const Plc& plc, const TriangleSet& triangles);
+
+/// \throw InputError  a facet is there twice
+void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
+
+/// \param pairs     not empty; the one of the smallest facet numbers is named
+/// \param at_least  there may be more than `pairs` holds
+/// \throw InputError  always
+[[noreturn]] void throw_overlaps(const Plc& plc, const TriangleSet& triangles, const SegmentSet& segments,
+                                 std::span<const Overlap> pairs, bool at_least);
+
+/// The loops of edges that have only one triangle.
+/// \throw InputError  always; to be called if there is such an edge
+[[noreturn]] void throw_open_surface(const Plc& plc, const EdgeTable& edges);
+
+/// \throw InputError  always, with this place in the input
+[[noreturn]] void throw_input_error(const Plc& plc, const std::string& what, const std::string& remedy,
+                                    const std::vector<Point3>& world_points = {},
+                                    const std::vector<long long>& facets = {});
+
+}  // namespace ccdt
