@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "bench/verify/print.h"
 
 namespace ccdt {
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bench/tests/verify_cases.h"
-#include "bench/verify/print.h"
 
 namespace ccdt {
 namespace {

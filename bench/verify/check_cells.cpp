@@ -1,21 +1,12 @@
-#include "bench/verify/check_cells.h"
-
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "bench/verify/checks.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
 
 namespace ccdt::verification {
 
 namespace {
-
-std::string text_of_tetrahedron(const TetMesh& mesh, std::size_t t) {
-  std::string s = "tetrahedron " + std::to_string(t) + ":";
-  for (const std::uint32_t v : mesh.tetrahedra[t]) s += " " + text(mesh.vertices[v]);
-  return s;
-}
 
 void check_array(Check& check, const char* what, std::size_t size, std::size_t wanted) {
   ++check.checked;
@@ -27,8 +18,7 @@ template <class Elements>
 void check_elements(Check& check, const char* what, const Elements& elements, std::size_t vertices) {
   check.checked += elements.size();
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    auto sorted = elements[i];
-    std::sort(sorted.begin(), sorted.end());
+    const auto sorted = ascending(elements[i]);
     if (sorted.back() < vertices && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) continue;
     fail(check, [&] {
       std::string s = std::string(what) + " " + std::to_string(i) + " has the vertices";
@@ -70,7 +60,7 @@ Check check_orientation(const TetMesh& mesh, const Progress& progress) {
     if (t % 65536 == 0) report(progress, "verify orientation", t, mesh.tetrahedra.size());
     const auto& [a, b, c, d] = mesh.tetrahedra[t];
     if (orientation(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]) > 0) continue;
-    fail(check, [&] { return text_of_tetrahedron(mesh, t); });
+    fail(check, [&] { return "tetrahedron " + std::to_string(t) + ":" + text(mesh.vertices, mesh.tetrahedra[t]); });
   }
   return check;
 }
@@ -106,11 +96,9 @@ Check check_used_vertices(const TetMesh& mesh, const Topology& topology) {
 Check check_shared_faces(const TetMesh& mesh, const Topology& topology) {
   Check check = make_check("faces of one or two tetrahedra");
   check.checked = topology.faces.size();
-  for (const std::uint32_t f : topology.wrong_faces) {
+  for (const std::uint32_t f : topology.bad_faces) {
     fail(check, [&] {
-      std::string s = "more than two tetrahedra, or two on one side, at the face";
-      for (const std::uint32_t v : topology.faces[f]) s += " " + text(mesh.vertices[v]);
-      return s;
+      return "more than two tetrahedra, or two on one side, at the face" + text(mesh.vertices, topology.faces[f]);
     });
   }
   return check;

@@ -1,8 +1,6 @@
-#include "bench/verify/check_delaunay.h"
-
-#include <algorithm>
 #include <cmath>
 
+#include "bench/verify/checks.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
 
@@ -57,12 +55,9 @@ Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
   return {value, change + norm1(of_origin), 2880 * largest * largest * largest};
 }
 
-std::string describe(const TetMesh& mesh, const std::array<std::uint32_t, 3>& face, std::uint32_t before,
-                     std::uint32_t behind, double ratio) {
-  std::string s = "the face";
-  for (const std::uint32_t v : face) s += " " + text(mesh.vertices[v]);
-  return s + " between " + text(mesh.vertices[before]) + " and " + text(mesh.vertices[behind]) + ", " +
-         std::to_string(ratio) + " times what rounding explains";
+std::string describe(const TetMesh& mesh, const Face& face, std::uint32_t before, std::uint32_t behind, double ratio) {
+  return "the face" + text(mesh.vertices, face) + " between " + text(mesh.vertices[before]) + " and " +
+         text(mesh.vertices[behind]) + ", " + std::to_string(ratio) + " times what rounding explains";
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
-#include "bench/verify/check_domain.h"
-
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
 #include <unordered_set>
 
+#include "bench/verify/checks.h"
 #include "bench/verify/findings.h"
 
 namespace ccdt::verification {
@@ -27,9 +24,9 @@ class Sum {
 };
 
 std::string text_of_tetrahedron(const TetMesh& mesh, std::size_t t) {
-  Point3 centre;
-  for (const std::uint32_t v : mesh.tetrahedra[t]) centre = centre + 0.25 * mesh.vertices[v];
-  return "tetrahedron " + std::to_string(t) + " around " + text(centre);
+  Point3 center;
+  for (const std::uint32_t v : mesh.tetrahedra[t]) center = center + 0.25 * mesh.vertices[v];
+  return "tetrahedron " + std::to_string(t) + " around " + text(center);
 }
 
 int attribute_of(const TetMesh& mesh, std::size_t t) {
@@ -38,11 +35,13 @@ int attribute_of(const TetMesh& mesh, std::size_t t) {
 
 /// The attributes that tetrahedra of each region may have: where there is no seed, that of the first one. (A region
 /// of tetrahedra within facets alone has none.)
-std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Regions& regions, const Rooms& rooms) {
+std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Regions& regions,
+                                             const RegionsOfTetrahedra& assigned) {
   auto wanted = regions.attributes;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = rooms.region[t];
-    if (c != none && wanted[c].empty() && rooms.beyond.count(t) == 0) wanted[c].push_back(attribute_of(mesh, t));
+    const std::uint32_t c = assigned.region[t];
+    if (c != none && wanted[c].empty() && assigned.other_region.count(t) == 0)
+      wanted[c].push_back(attribute_of(mesh, t));
   }
   return wanted;
 }
@@ -51,21 +50,22 @@ std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Regions&
 /// the sheet that was taken and near its plane, that a way through such connects with it.
 class FlatTetrahedra {
  public:
-  FlatTetrahedra(const TetMesh& mesh, const Topology& topology, const Regions& regions, double flat, Rooms& rooms)
-      : mesh_(mesh), topology_(topology), regions_(regions), flat_(flat), rooms_(rooms) {}
+  FlatTetrahedra(const TetMesh& mesh, const Topology& topology, const Regions& regions, double flat,
+                 RegionsOfTetrahedra& assigned)
+      : mesh_(mesh), topology_(topology), regions_(regions), flat_(flat), assigned_(assigned) {}
 
-  void find(std::span<const CoverFace> sheet, const Plane& plane) {
+  void find(std::span<const MatchedFace> sheet, const Plane& plane) {
     const std::uint32_t a = regions_.of_side[2 * sheet[0].piece], b = regions_.of_side[2 * sheet[0].piece + 1];
     if (a == b) return;
     on_sheet_.clear();
-    for (const CoverFace& f : sheet) on_sheet_.insert(topology_.faces[f.face].begin(), topology_.faces[f.face].end());
+    for (const MatchedFace& f : sheet) on_sheet_.insert(topology_.faces[f.face].begin(), topology_.faces[f.face].end());
     std::vector<std::uint32_t> queue;
     const auto enter = [&](std::uint32_t tet) {
-      const std::uint32_t c = rooms_.region[tet];
+      const std::uint32_t c = assigned_.region[tet];
       if ((c != a && c != b) || !is_within(tet, plane)) return;
-      if (rooms_.beyond.try_emplace(tet, c == a ? b : a).second) queue.push_back(tet);
+      if (assigned_.other_region.try_emplace(tet, c == a ? b : a).second) queue.push_back(tet);
     };
-    for (const CoverFace& f : sheet) {
+    for (const MatchedFace& f : sheet) {
       enter(f.tet_above);
       enter(f.tet_below);
     }
@@ -74,9 +74,7 @@ class FlatTetrahedra {
       queue.pop_back();
       for (std::uint32_t corner = 0; corner < 4; ++corner) {
         const std::uint32_t f = topology_.face_of[4 * t + corner];
-        if (topology_.on_boundary(f)) continue;
-        const auto& halves = topology_.half_faces[f];
-        enter(halves[0] / 4 == t ? halves[1] / 4 : halves[0] / 4);
+        if (!topology_.on_boundary(f)) enter(topology_.across(f, t));
       }
     }
   }
@@ -93,27 +91,27 @@ class FlatTetrahedra {
   const Topology& topology_;
   const Regions& regions_;
   double flat_;
-  Rooms& rooms_;
+  RegionsOfTetrahedra& assigned_;
   std::unordered_set<std::uint32_t> on_sheet_;
 };
 
 }  // namespace
 
-Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Regions& regions, const Covers& covers,
-                 double flat) {
-  Rooms rooms;
-  rooms.region.assign(mesh.tetrahedra.size(), none);
+RegionsOfTetrahedra assign_regions(const TetMesh& mesh, const Topology& topology, const Regions& regions,
+                                   const FacetMatches& matches, double flat) {
+  RegionsOfTetrahedra assigned;
+  assigned.region.assign(mesh.tetrahedra.size(), none);
   std::vector<std::uint32_t> queue;
   const auto enter = [&](std::uint32_t tet, std::uint32_t region) {
     if (tet == none) return;
-    if (rooms.region[tet] == none) {
-      rooms.region[tet] = region;
+    if (assigned.region[tet] == none) {
+      assigned.region[tet] = region;
       queue.push_back(tet);
-    } else if (rooms.region[tet] != region) {
-      rooms.conflicts.push_back(tet);
+    } else if (assigned.region[tet] != region) {
+      assigned.conflicts.push_back(tet);
     }
   };
-  for (const CoverFace& f : covers.faces) {
+  for (const MatchedFace& f : matches.faces) {
     enter(f.tet_above, regions.of_side[2 * f.piece]);
     enter(f.tet_below, regions.of_side[2 * f.piece + 1]);
   }
@@ -122,38 +120,35 @@ Rooms find_rooms(const TetMesh& mesh, const Topology& topology, const Regions& r
     queue.pop_back();
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
       const std::uint32_t f = topology.face_of[4 * t + corner];
-      if (covers.covers[f] || topology.on_boundary(f)) continue;
-      const auto& halves = topology.half_faces[f];
-      enter(halves[0] / 4 == t ? halves[1] / 4 : halves[0] / 4, rooms.region[t]);
+      if (!matches.is_matched[f] && !topology.on_boundary(f)) enter(topology.across(f, t), assigned.region[t]);
     }
   }
-  std::sort(rooms.conflicts.begin(), rooms.conflicts.end());
-  rooms.conflicts.erase(std::unique(rooms.conflicts.begin(), rooms.conflicts.end()), rooms.conflicts.end());
-  FlatTetrahedra flat_tetrahedra(mesh, topology, regions, flat, rooms);
-  for (auto begin = covers.faces.begin(); begin != covers.faces.end();) {
+  sort_and_unique(assigned.conflicts);
+  FlatTetrahedra flat_tetrahedra(mesh, topology, regions, flat, assigned);
+  for (auto begin = matches.faces.begin(); begin != matches.faces.end();) {
     const auto end =
-        std::find_if(begin, covers.faces.end(), [&](const CoverFace& f) { return f.plane != begin->plane; });
-    if (begin->plane != none) flat_tetrahedra.find({begin, end}, covers.planes[begin->plane]);
+        std::find_if(begin, matches.faces.end(), [&](const MatchedFace& f) { return f.plane != begin->plane; });
+    if (begin->plane != none) flat_tetrahedra.find({begin, end}, matches.planes[begin->plane]);
     begin = end;
   }
-  return rooms;
+  return assigned;
 }
 
-void resolve_unknown(const Rooms& rooms, Regions& regions) {
+void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions) {
   std::vector<bool> filled(regions.count(), false);
-  for (const std::uint32_t c : rooms.region)
+  for (const std::uint32_t c : assigned.region)
     if (c != none) filled[c] = true;
   for (std::uint32_t c = 0; c < regions.count(); ++c)
     if (regions.inside[c] == Inside::unknown) regions.inside[c] = filled[c] ? Inside::yes : Inside::no;
 }
 
-Check check_rooms(const TetMesh& mesh, const Regions& regions, const Rooms& rooms) {
+Check check_domain(const TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check = make_check("tetrahedra in the domain");
   check.checked = mesh.tetrahedra.size();
-  for (const std::uint32_t t : rooms.conflicts)
+  for (const std::uint32_t t : assigned.conflicts)
     fail(check, [&] { return text_of_tetrahedron(mesh, t) + " leaks through a facet"; });
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = rooms.region[t];
+    const std::uint32_t c = assigned.region[t];
     if (c == none)
       fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is connected with no facet of the input"; });
     else if (regions.inside[c] != Inside::yes)
@@ -162,19 +157,19 @@ Check check_rooms(const TetMesh& mesh, const Regions& regions, const Rooms& room
   return check;
 }
 
-Check check_regions(const TetMesh& mesh, const Regions& regions, const Rooms& rooms) {
+Check check_regions(const TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check = make_check("regions");
   check.checked = mesh.tetrahedra.size();
-  const auto wanted = wanted_regions(mesh, regions, rooms);
+  const auto wanted = wanted_regions(mesh, regions, assigned);
   const auto is_wanted = [&](int region, std::uint32_t c) {
     return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
   };
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = rooms.region[t];
+    const std::uint32_t c = assigned.region[t];
     const int region = attribute_of(mesh, t);
     if (c == none || is_wanted(region, c)) continue;
-    const auto beyond = rooms.beyond.find(t);
-    if (beyond != rooms.beyond.end() && is_wanted(region, beyond->second)) continue;
+    const auto other_region = assigned.other_region.find(t);
+    if (other_region != assigned.other_region.end() && is_wanted(region, other_region->second)) continue;
     fail(check, [&] {
       return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(region) + " instead of " +
              std::to_string(wanted[c][0]);
@@ -183,11 +178,11 @@ Check check_regions(const TetMesh& mesh, const Regions& regions, const Rooms& ro
   return check;
 }
 
-Check check_holes(const InputPlc& input, const Regions& regions, const Rooms& rooms) {
+Check check_holes(const InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check = make_check("holes");
   check.checked = input.holes.size();
   std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
-  for (const std::uint32_t c : rooms.region)
+  for (const std::uint32_t c : assigned.region)
     if (c != none) ++tetrahedra[c];
   for (std::uint32_t c = 0; c < regions.count(); ++c) {
     if (regions.hole_seeds[c] == 0 || tetrahedra[c] == 0) continue;

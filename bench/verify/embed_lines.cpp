@@ -1,18 +1,39 @@
 #include "bench/verify/embed_lines.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
-#include "bench/verify/covers.h"
-#include "bench/verify/piece_tree.h"
+#include "bench/verify/patches.h"
 #include "bench/verify/polygon_cells.h"
 
 namespace ccdt::verification {
 
 namespace {
 
-using Edge = std::array<std::uint32_t, 2>;
+namespace geometry = boost::geometry;
+using Corner = geometry::model::point<double, 3, geometry::cs::cartesian>;
+using Box = geometry::model::box<Corner>;
+
+std::vector<std::pair<Box, std::uint32_t>> boxes_of(const Surface& surface) {
+  std::vector<std::pair<Box, std::uint32_t>> items;
+  items.reserve(surface.pieces());
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
+    Point3 low = surface.origin(p), high = low;
+    for (const auto& [site, next] : surface.edges_of(p)) {
+      const Point3& v = surface.at(site);
+      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+    items.emplace_back(Box(Corner(low.x, low.y, low.z), Corner(high.x, high.y, high.z)), p);
+  }
+  return items;
+}
+
+double squared_distance(const Point3& p, const Point3& a, const Point3& b) {
+  const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
+  return squared_length(p - a - along * (b - a));
+}
 
 Point3 point_along(const Surface& surface, std::uint32_t edge, double fraction) {
   const auto& [a, b] = surface.edges[edge];
@@ -20,9 +41,7 @@ Point3 point_along(const Surface& surface, std::uint32_t edge, double fraction) 
 }
 
 bool has_edge(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
-  return std::any_of(&surface.uses[surface.use_begin[edge]],
-                     &surface.uses[surface.use_begin[edge]] + surface.use_count(edge),
-                     [&](std::uint32_t use) { return surface.piece_of[use] == piece; });
+  return std::ranges::any_of(surface.uses.of(edge), [&](std::uint32_t use) { return surface.piece_of[use] == piece; });
 }
 
 /// Does an edge run along the piece's plane, as far as a piece of that size tells its slope?
@@ -41,8 +60,8 @@ std::vector<std::uint32_t> find_touching(const Surface& surface, const PieceTree
     const Point3 middle = point_along(surface, e, 0.5);
     bool touches = false;
     tree.for_each_near(middle, middle, [&](std::uint32_t p) {
-      touches = touches ||
-                (!has_edge(surface, p, e) && runs_along(surface, p, e) && place_of(surface, p, middle) != Place::off);
+      touches = touches || (!has_edge(surface, p, e) && runs_along(surface, p, e) &&
+                            locate_on_piece(surface, p, middle) != PointOnPiece::off);
     });
     if (touches) touching.push_back(e);
   }
@@ -51,8 +70,7 @@ std::vector<std::uint32_t> find_touching(const Surface& surface, const PieceTree
 
 std::vector<std::uint32_t> sites_of(const Surface& surface, std::uint32_t piece) {
   std::vector<std::uint32_t> sites;
-  for (std::uint32_t i = surface.piece_begin[piece]; i < surface.piece_begin[piece + 1]; ++i)
-    sites.push_back(surface.directed[i][0]);
+  for (const auto& [site, next] : surface.edges_of(piece)) sites.push_back(site);
   return sites;
 }
 
@@ -69,17 +87,16 @@ void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& l
       candidates[e].insert(candidates[e].end(), of_piece.begin(), of_piece.end());
     });
   }
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  sort_and_unique(sites);
   for (const std::uint32_t s : sites)
     tree.for_each_near(surface.at(s), surface.at(s), [&](std::uint32_t p) {
-      for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i)
-        candidates[surface.edge_of[i]].push_back(s);
+      for (const std::uint32_t use : surface.uses_of(p)) candidates[surface.edge_of[use]].push_back(s);
     });
   for (auto& [e, list] : candidates) {
     list = select_within(surface, surface.edges[e], list);
-    for (std::uint32_t i = surface.use_begin[e]; i < surface.use_begin[e + 1] && !list.empty(); ++i) {
-      const auto own = sites_of(surface, surface.piece_of[surface.uses[i]]);
+    for (const std::uint32_t use : surface.uses.of(e)) {
+      if (list.empty()) break;
+      const auto own = sites_of(surface, surface.piece_of[use]);
       std::erase_if(list, [&](std::uint32_t s) { return std::find(own.begin(), own.end(), s) != own.end(); });
     }
   }
@@ -108,17 +125,16 @@ std::vector<std::uint32_t> patches_around(const Surface& surface, const PieceTre
     tree.for_each_near(point, point, [&](std::uint32_t p) {
       const std::uint32_t patch = patches.of_piece[p];
       const auto in_plane = [&](std::uint32_t site) {
-        return std::fabs(dot(patches.normal[patch], surface.at(site) - patches.centre[patch])) <= flat;
+        return std::fabs(patches.height(patch, surface.at(site))) <= flat;
       };
       if (patches.thickness[patch] > flat || !in_plane(surface.edges[line][0]) || !in_plane(surface.edges[line][1]))
         return;
-      const auto own = patches.pieces_of(patch);
-      if (std::any_of(own.begin(), own.end(), [&](std::uint32_t q) { return has_edge(surface, q, line); })) return;
-      if (place_of(surface, p, point) == Place::within) found.push_back(patch);
+      if (std::ranges::any_of(patches.pieces.of(patch), [&](std::uint32_t q) { return has_edge(surface, q, line); }))
+        return;
+      if (locate_on_piece(surface, p, point) == PointOnPiece::within) found.push_back(patch);
     });
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_and_unique(found);
   return found;
 }
 
@@ -128,9 +144,7 @@ Drawings find_drawings(const Surface& surface, const PieceTree& tree) {
   drawings.joined = find_features(surface);
   drawings.joined.flip();
   for (const std::uint32_t e : touching) drawings.joined[e] = false;
-  Chains none_yet;
-  none_yet.begin.assign(surface.edges.size() + 1, 0);
-  drawings.patches = group_pieces(surface, none_yet, drawings.joined);
+  drawings.patches = group_pieces(surface, drawings.joined);
   for (const std::uint32_t e : touching)
     for (const std::uint32_t patch : patches_around(surface, tree, drawings.patches, e))
       drawings.lines[patch].push_back(e);
@@ -138,53 +152,52 @@ Drawings find_drawings(const Surface& surface, const PieceTree& tree) {
 }
 
 /// The cells into which lines divide a patch: loops that have an edge of its outline to run along, or lines alone.
-std::vector<Cell> divide_patch(const Surface& surface, const Drawings& drawings, std::uint32_t patch,
-                               const std::vector<std::uint32_t>& lines) {
+std::vector<PolygonCell> divide_patch(const Surface& surface, const Drawings& drawings, std::uint32_t patch,
+                                      const std::vector<std::uint32_t>& lines) {
   std::set<Edge> outline, undirected;
-  for (const std::uint32_t p : drawings.patches.pieces_of(patch))
-    for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i) {
-      if (drawings.joined[surface.edge_of[i]]) continue;
-      const auto& [a, b] = surface.directed[i];
+  for (const std::uint32_t p : drawings.patches.pieces.of(patch))
+    for (const std::uint32_t use : surface.uses_of(p)) {
+      if (drawings.joined[surface.edge_of[use]]) continue;
+      const auto& [a, b] = surface.directed[use];
       outline.insert(drawings.patches.flipped[p] ? Edge{b, a} : Edge{a, b});
-      undirected.insert(surface.edges[surface.edge_of[i]]);
+      undirected.insert(surface.edges[surface.edge_of[use]]);
     }
   for (const std::uint32_t e : lines) undirected.insert(surface.edges[e]);
   const auto drawn = trace_drawing(drawings.patches.normal[patch], undirected, surface.sites.position);
-  std::vector<Cell> cells;
+  std::vector<PolygonCell> cells;
   for (std::size_t i = 0; i < drawn.loops.size(); ++i) {
-    const Cell& loop = drawn.loops[i];
+    const PolygonCell& loop = drawn.loops[i];
     const auto is_wrong_way = [&](const Edge& e) { return outline.count(e) == 0 && outline.count({e[1], e[0]}) > 0; };
     if (drawn.areas[i] > 0 && std::none_of(loop.begin(), loop.end(), is_wrong_way)) cells.push_back(drawn.cells[i]);
   }
   return cells;
 }
 
-void replace_pieces(const Drawings& drawings, Surface& surface) {
-  Surface drawn;
-  drawn.piece_begin.push_back(0);
-  const auto add = [&](std::span<const Edge> edges, std::uint32_t like) {
-    drawn.directed.insert(drawn.directed.end(), edges.begin(), edges.end());
-    drawn.piece_begin.push_back(static_cast<std::uint32_t>(drawn.directed.size()));
-    drawn.marker.push_back(surface.marker[like]);
-    drawn.number.push_back(surface.number[like]);
-  };
+void divide_patches(const Drawings& drawings, Surface& surface) {
+  Pieces divided;
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
     if (drawings.lines.count(drawings.patches.of_piece[p]) == 0)
-      add(std::span(surface.directed)
-              .subspan(surface.piece_begin[p], surface.piece_begin[p + 1] - surface.piece_begin[p]),
-          p);
-  for (const auto& [patch, lines] : drawings.lines)
-    for (const Cell& cell : divide_patch(surface, drawings, patch, lines))
-      add(cell, drawings.patches.pieces_of(patch)[0]);
-  surface.piece_begin = std::move(drawn.piece_begin);
-  surface.directed = std::move(drawn.directed);
-  surface.marker = std::move(drawn.marker);
-  surface.number = std::move(drawn.number);
-  surface.piece_of.clear();
-  index_surface(surface);
+      divided.add(surface.edges_of(p), surface.marker[p], surface.number[p]);
+  for (const auto& [patch, lines] : drawings.lines) {
+    const std::uint32_t first = drawings.patches.pieces.of(patch)[0];
+    for (const PolygonCell& cell : divide_patch(surface, drawings, patch, lines))
+      divided.add(cell, surface.marker[first], surface.number[first]);
+  }
+  set_pieces(std::move(divided), surface);
 }
 
 }  // namespace
+
+PieceTree::PieceTree(const Surface& surface) : tolerance_(surface.tolerances.flat), tree_(boxes_of(surface)) {}
+
+PointOnPiece locate_on_piece(const Surface& surface, std::uint32_t piece, const Point3& p) {
+  const Point3& area = surface.area_vector[piece];
+  const double size = std::sqrt(squared_length(area)), tolerance = surface.tolerances.place;
+  if (std::fabs(dot(area, p - surface.origin(piece))) > surface.tolerances.flat * size) return PointOnPiece::off;
+  for (const auto& [a, b] : surface.edges_of(piece))
+    if (squared_distance(p, surface.at(a), surface.at(b)) <= tolerance * tolerance) return PointOnPiece::border;
+  return encloses(area, surface.edges_of(piece), surface.sites.position, p) ? PointOnPiece::within : PointOnPiece::off;
+}
 
 void embed_lines(Surface& surface) {
   const PieceTree tree(surface);
@@ -194,7 +207,7 @@ void embed_lines(Surface& surface) {
   if (lines.empty()) return;
   split_at_touches(tree, lines, surface);
   const Drawings drawings = find_drawings(surface, tree);
-  if (!drawings.lines.empty()) replace_pieces(drawings, surface);
+  if (!drawings.lines.empty()) divide_patches(drawings, surface);
 }
 
 }  // namespace ccdt::verification

@@ -1,77 +1,170 @@
 #include "bench/verify/patches.h"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
+#include <unordered_set>
 
 #include "bench/verify/findings.h"
-#include "bench/verify/union_find.h"
+#include "engine/base/union_find.h"
 
 namespace ccdt::verification {
 
 namespace {
 
+/// The vertex of a piece that is farthest from the line ab.
+Point3 farthest_from(const Surface& surface, std::uint32_t piece, const Point3& a, const Point3& axis) {
+  Point3 farthest = a;
+  double best = -1;
+  for (const Edge& e : surface.edges_of(piece)) {
+    const Point3 p = surface.at(e[0]);
+    const double distance = squared_length(cross(axis, p - a));
+    if (distance <= best) continue;
+    best = distance;
+    farthest = p;
+  }
+  return farthest;
+}
+
+/// How far two pieces at an edge are from lying in one plane: the least altitude of the tetrahedron that they span,
+/// which is small for needles whatever their normal.
+double fold_width(const Surface& surface, std::uint32_t edge) {
+  const Point3 a = surface.at(surface.edges[edge][0]), b = surface.at(surface.edges[edge][1]);
+  const auto use = surface.uses.of(edge);
+  const Point3 u = farthest_from(surface, surface.piece_of[use[0]], a, b - a) - a;
+  const Point3 v = farthest_from(surface, surface.piece_of[use[1]], a, b - a) - a;
+  const Point3 axis = b - a;
+  const double base = std::max({squared_length(cross(axis, u)), squared_length(cross(axis, v)),
+                                squared_length(cross(u, v)), squared_length(cross(u - axis, v - axis))});
+  return base > 0 ? std::fabs(dot(axis, cross(u, v))) / std::sqrt(base) : 0;
+}
+
+/// Do two pieces lie on each other, as the two leaves of a closed book?
+bool folds_back(const Surface& surface, std::uint32_t edge) {
+  const auto use = surface.uses.of(edge);
+  const double along =
+      dot(surface.area_vector[surface.piece_of[use[0]]], surface.area_vector[surface.piece_of[use[1]]]);
+  return (along < 0) == (surface.is_forward(use[0]) != surface.is_forward(use[1])) && along != 0;
+}
+
+/// Walks from one end of an edge to the other over mesh edges that lie along it.
+class EdgeWalk {
+ public:
+  EdgeWalk(const TetMesh& mesh, const Topology& topology, const Surface& surface, Edge ends)
+      : mesh_(mesh),
+        topology_(topology),
+        ends_(ends),
+        origin_(surface.at(ends[0])),
+        axis_(surface.at(ends[1]) - surface.at(ends[0])),
+        tolerance_(surface.tolerances.place) {
+    length_ = std::sqrt(squared_length(axis_));
+    axis_ = (1 / length_) * axis_;
+  }
+
+  /// Depth first, nearest vertices first; on nearly every edge there is one way only.
+  bool run(std::vector<std::uint32_t>& chain) {
+    std::vector<std::vector<std::pair<double, std::uint32_t>>> ahead;  // of each vertex of the chain, nearest last
+    chain.assign(1, ends_[0]);
+    seen_.insert(ends_[0]);
+    ahead.push_back(ahead_of(ends_[0], 0));
+    while (!ahead.empty()) {
+      if (ahead.back().empty()) {
+        ahead.pop_back();
+        chain.pop_back();
+        continue;
+      }
+      const auto [along, v] = ahead.back().back();
+      ahead.back().pop_back();
+      if (!seen_.insert(v).second) continue;
+      chain.push_back(v);
+      if (v == ends_[1]) return true;
+      ahead.push_back(ahead_of(v, along));
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::pair<double, std::uint32_t>> ahead_of(std::uint32_t vertex, double from) const {
+    std::vector<std::pair<double, std::uint32_t>> ahead;
+    for (const std::uint32_t t : topology_.stars.of(vertex))
+      for (const std::uint32_t v : mesh_.tetrahedra[t]) {
+        if (seen_.count(v) > 0) continue;
+        const Point3 p = mesh_.vertices[v] - origin_;
+        const double along = v == ends_[1] ? length_ : dot(p, axis_);
+        if (along <= from || along > length_) continue;
+        if (v != ends_[1] && squared_length(p - along * axis_) > tolerance_ * tolerance_) continue;
+        ahead.emplace_back(along, v);
+      }
+    std::sort(ahead.rbegin(), ahead.rend());
+    ahead.erase(std::unique(ahead.begin(), ahead.end()), ahead.end());
+    return ahead;
+  }
+
+  const TetMesh& mesh_;
+  const Topology& topology_;
+  Edge ends_;
+  Point3 origin_, axis_;
+  double length_ = 0, tolerance_;
+  std::unordered_set<std::uint32_t> seen_;
+};
+
 void join_pieces(const Surface& surface, const std::vector<bool>& joined, Patches& patches) {
-  UnionFind sets(surface.pieces());
+  // The two sides of each piece, of which 2 * piece looks where the piece does.
+  UnionFind sides(2 * std::size_t{surface.pieces()});
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (!joined[e]) continue;
-    const std::uint32_t a = surface.uses[surface.use_begin[e]], b = surface.uses[surface.use_begin[e] + 1];
-    sets.join(surface.piece_of[a], surface.piece_of[b], surface.is_forward(a) == surface.is_forward(b));
+    const auto use = surface.uses.of(e);
+    const std::uint32_t a = 2 * surface.piece_of[use[0]], b = 2 * surface.piece_of[use[1]];
+    const std::uint32_t flip = surface.is_forward(use[0]) == surface.is_forward(use[1]) ? 1 : 0;
+    sides.join(a, b + flip);
+    sides.join(a + 1, b + 1 - flip);
   }
   std::vector<std::uint32_t> number(surface.pieces(), none);
   std::uint32_t count = 0;
   for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    const auto [root, flip] = sets.find(p);
-    if (number[root] == none) number[root] = count++;
-    patches.of_piece.push_back(number[root]);
-    patches.flipped.push_back(flip);
+    const std::uint32_t first = sides.find(2 * p);  // a side of the patch's first piece
+    std::uint32_t& its_number = number[first / 2];
+    if (its_number == none) its_number = count++;
+    patches.of_piece.push_back(its_number);
+    patches.flipped.push_back(first % 2 == 1);
   }
   patches.open.assign(count, false);
-  patches.piece_begin.assign(count + 1, 0);
-  for (const std::uint32_t n : patches.of_piece) ++patches.piece_begin[n + 1];
-  for (std::uint32_t n = 0; n < count; ++n) patches.piece_begin[n + 1] += patches.piece_begin[n];
-  std::vector<std::uint32_t> next(patches.piece_begin.begin(), patches.piece_begin.end() - 1);
-  patches.pieces.resize(surface.pieces());
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) patches.pieces[next[patches.of_piece[p]]++] = p;
+  patches.pieces = make_index_lists(count, [&](const auto& add) {
+    for (std::uint32_t p = 0; p < surface.pieces(); ++p) add(patches.of_piece[p], p);
+  });
 }
 
 void find_links(const Surface& surface, const Chains& chains, const std::vector<bool>& joined, Patches& patches) {
-  patches.link_begin.push_back(0);
-  for (std::uint32_t n = 0; n < patches.count(); ++n) {
-    for (const std::uint32_t p : patches.pieces_of(n))
-      for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i) {
-        const std::uint32_t e = surface.edge_of[i];
-        if (joined[e]) continue;
-        if (chains.missing(e)) patches.open[n] = true;
-        const auto chain = chains.of(e);
-        const bool backward = surface.is_forward(i) == patches.flipped[p];
-        for (std::size_t k = 1; k < chain.size(); ++k)
-          patches.links.push_back({chain[backward ? k : k - 1], chain[backward ? k - 1 : k]});
-      }
-    std::sort(patches.links.begin() + patches.link_begin[n], patches.links.end());
-    patches.link_begin.push_back(static_cast<std::uint32_t>(patches.links.size()));
-  }
+  patches.links.resize(patches.count());
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
+    for (const std::uint32_t use : surface.uses_of(p)) {
+      const std::uint32_t e = surface.edge_of[use], patch = patches.of_piece[p];
+      if (joined[e]) continue;
+      const auto chain = chains.of(e);
+      if (chain.empty()) patches.open[patch] = true;
+      const bool backward = surface.is_forward(use) == patches.flipped[p];
+      for (std::size_t k = 1; k < chain.size(); ++k)
+        patches.links[patch].push_back({chain[backward ? k : k - 1], chain[backward ? k - 1 : k]});
+    }
+  for (auto& links : patches.links) std::sort(links.begin(), links.end());
 }
 
 void find_planes(const Surface& surface, Patches& patches) {
   for (std::uint32_t n = 0; n < patches.count(); ++n) {
-    Point3 sum, centre;
+    Point3 sum, center;
     double corners = 0, thickness = 0, perimeter = 0;
-    for (const std::uint32_t p : patches.pieces_of(n)) {
+    for (const std::uint32_t p : patches.pieces.of(n)) {
       sum = sum + (patches.flipped[p] ? -1.0 : 1.0) * surface.area_vector[p];
-      for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i, ++corners)
-        centre = centre + (surface.at(surface.directed[i][0]) - surface.origin(p)) + surface.origin(p);
+      for (const auto& [site, next] : surface.edges_of(p)) {
+        center = center + (surface.at(site) - surface.origin(p)) + surface.origin(p);
+        ++corners;
+      }
     }
     const double area = std::sqrt(squared_length(sum));
-    const Point3 normal = area > 0 ? (1 / area) * sum : Point3{};
-    centre = (1 / corners) * centre;
-    for (const std::uint32_t p : patches.pieces_of(n))
-      for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i)
-        thickness = std::max(thickness, std::fabs(dot(normal, surface.at(surface.directed[i][0]) - centre)));
-    for (const auto& [a, b] : patches.links_of(n))
-      perimeter += std::sqrt(squared_length(surface.at(a) - surface.at(b)));
-    patches.normal.push_back(normal);
-    patches.centre.push_back(centre);
+    patches.normal.push_back(area > 0 ? (1 / area) * sum : Point3{});
+    patches.center.push_back((1 / corners) * center);
+    for (const std::uint32_t p : patches.pieces.of(n))
+      for (const auto& [site, next] : surface.edges_of(p))
+        thickness = std::max(thickness, std::fabs(patches.height(n, surface.at(site))));
+    for (const auto& [a, b] : patches.links[n]) perimeter += std::sqrt(squared_length(surface.at(a) - surface.at(b)));
     patches.area.push_back(area);
     patches.thickness.push_back(thickness);
     patches.perimeter.push_back(perimeter);
@@ -79,6 +172,43 @@ void find_planes(const Surface& surface, Patches& patches) {
 }
 
 }  // namespace
+
+std::vector<bool> find_features(const Surface& surface) {
+  std::vector<bool> features(surface.edges.size(), true);
+  for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
+    if (surface.use_count(e) != 2) continue;
+    const auto use = surface.uses.of(e);
+    features[e] = surface.marker[surface.piece_of[use[0]]] != surface.marker[surface.piece_of[use[1]]] ||
+                  fold_width(surface, e) > surface.tolerances.flat;
+    if (!features[e] && folds_back(surface, e)) {
+      // Two leaves of one needle are as good as flat; two broad ones are a fold that the surface may not lose.
+      const double length =
+          std::sqrt(squared_length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1])));
+      const auto broad = [&](std::uint32_t u) {
+        return std::sqrt(squared_length(surface.area_vector[surface.piece_of[u]])) > surface.tolerances.flat * length;
+      };
+      features[e] = broad(use[0]) && broad(use[1]);
+    }
+  }
+  return features;
+}
+
+Chains find_chains(const TetMesh& mesh, const Topology& topology, const Surface& surface, std::span<const Edge> edges) {
+  Chains chains;
+  chains.first.reserve(edges.size() + 1);
+  chains.first.push_back(0);
+  std::vector<std::uint32_t> chain;
+  for (const auto& [a, b] : edges) {
+    if (surface.sites.in_mesh(a) && surface.sites.in_mesh(b)) {
+      if (has_edge(mesh, topology, a, b))
+        chains.items.insert(chains.items.end(), {a, b});
+      else if (EdgeWalk(mesh, topology, surface, {a, b}).run(chain))
+        chains.items.insert(chains.items.end(), chain.begin(), chain.end());
+    }
+    chains.first.push_back(static_cast<std::uint32_t>(chains.items.size()));
+  }
+  return chains;
+}
 
 Patches group_pieces(const Surface& surface, const Chains& chains, const std::vector<bool>& joined) {
   Patches patches;
@@ -88,9 +218,15 @@ Patches group_pieces(const Surface& surface, const Chains& chains, const std::ve
   return patches;
 }
 
+Patches group_pieces(const Surface& surface, const std::vector<bool>& joined) {
+  Chains no_chains;
+  no_chains.first.assign(surface.edges.size() + 1, 0);
+  return group_pieces(surface, no_chains, joined);
+}
+
 std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, const Patches& patches, std::uint32_t patch,
-                               std::span<const std::array<std::uint32_t, 3>> faces) {
-  const auto pieces = patches.pieces_of(patch);
+                               std::span<const Face> faces) {
+  const auto pieces = patches.pieces.of(patch);
   if (pieces.size() == 1 && surface.is_triangle(pieces[0]) && faces.size() == 1)
     return {};  // the links are the whole triangle
   const double flat = surface.tolerances.flat;
@@ -104,7 +240,7 @@ std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, cons
   for (const auto& [a, b, c] : faces) {
     for (const std::uint32_t v : {a, b, c}) {
       vertices.push_back(v);
-      if (std::fabs(dot(normal, mesh.vertices[v] - patches.centre[patch])) > flat)
+      if (std::fabs(patches.height(patch, mesh.vertices[v])) > flat)
         return "the vertex " + text(mesh.vertices[v]) + " is off the facet's plane";
     }
     const Point3 ab = mesh.vertices[b] - mesh.vertices[a], ac = mesh.vertices[c] - mesh.vertices[a];
@@ -118,9 +254,9 @@ std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, cons
     return "the area is " + std::to_string(area) + " instead of " + std::to_string(patches.area[patch]);
   std::sort(vertices.begin(), vertices.end());
   for (const std::uint32_t p : pieces)
-    for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i)
-      if (!std::binary_search(vertices.begin(), vertices.end(), surface.directed[i][0]))
-        return "no face of the mesh there has the facet's vertex " + text(surface.at(surface.directed[i][0]));
+    for (const auto& [site, next] : surface.edges_of(p))
+      if (!std::binary_search(vertices.begin(), vertices.end(), site))
+        return "no face of the mesh there has the facet's vertex " + text(surface.at(site));
   return {};
 }
 

@@ -1,34 +1,45 @@
 #pragma once
 
-#include "bench/verify/chains.h"
+#include <string>
+
+#include "bench/verify/surface.h"
 
 namespace ccdt::verification {
+
+/// Is the edge one that a mesh must have: not between two facets in one plane with one marker?
+std::vector<bool> find_features(const Surface& surface);
+
+/// For each of a list of straight edges between sites, the vertices of the chain of mesh edges along it, both ends
+/// included; none where the mesh has no such chain.
+struct Chains : IndexLists {
+  bool missing(std::size_t edge) const { return of(edge).empty(); }
+};
+
+/// A vertex is on an edge if it is within `tolerances.place` of it.
+Chains find_chains(const TetMesh& mesh, const Topology& topology, const Surface& surface, std::span<const Edge> edges);
 
 /// Sets of pieces that the mesh may triangulate as it likes, because their common edges are not in the mesh or need not
 /// be.
 struct Patches {
   std::vector<std::uint32_t> of_piece;
-  std::vector<bool> flipped;                       ///< of each piece: is it against the orientation of its patch?
-  std::vector<std::uint32_t> piece_begin, pieces;  ///< pieces of each patch
-  std::vector<std::uint32_t> link_begin;           ///< links of each patch, see `links`
-  std::vector<std::array<std::uint32_t, 2>>
-      links;                           ///< directed mesh edges that bound the patch, which is to their left; sorted
-  std::vector<bool> open;              ///< the mesh does not have all edges that bound the patch
-  std::vector<Point3> normal, centre;  ///< of the plane of each patch
+  std::vector<bool> flipped;             ///< of each piece: is it against the orientation of its patch?
+  IndexLists pieces;                     ///< of each patch
+  std::vector<std::vector<Edge>> links;  ///< of each patch: directed mesh edges around it, it is to their left; sorted
+  std::vector<bool> open;                ///< the mesh does not have all edges that bound the patch
+  std::vector<Point3> normal, center;    ///< of the plane of each patch
   std::vector<double> area, perimeter, thickness;  ///< projected area; greatest distance of a site from the plane
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(open.size()); }
-  std::span<const std::uint32_t> pieces_of(std::uint32_t patch) const {
-    return std::span(pieces).subspan(piece_begin[patch], piece_begin[patch + 1] - piece_begin[patch]);
-  }
-  std::span<const std::array<std::uint32_t, 2>> links_of(std::uint32_t patch) const {
-    return std::span(links).subspan(link_begin[patch], link_begin[patch + 1] - link_begin[patch]);
-  }
+  double height(std::uint32_t patch, const Point3& p) const { return dot(normal[patch], p - center[patch]); }
 };
 
 /// Joins the two pieces at each edge that `joined` names.
-/// \pre those edges have two pieces
+/// \param chains  of the surface's edges
+/// \pre           those edges have two pieces
 Patches group_pieces(const Surface& surface, const Chains& chains, const std::vector<bool>& joined);
+
+/// The same without a mesh, so without links.
+Patches group_pieces(const Surface& surface, const std::vector<bool>& joined);
 
 /// Is what the mesh has in place of a patch as good as the patch?
 ///
@@ -40,6 +51,6 @@ Patches group_pieces(const Surface& surface, const Chains& chains, const std::ve
 /// \param faces  oriented like the patch
 /// \return       what is wrong; empty if nothing is
 std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, const Patches& patches, std::uint32_t patch,
-                               std::span<const std::array<std::uint32_t, 3>> faces);
+                               std::span<const Face> faces);
 
 }  // namespace ccdt::verification

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <set>
 
 namespace ccdt::verification {
 
 namespace {
-
-using Edge = std::array<std::uint32_t, 2>;
 
 std::vector<Edge> edges_of(const std::vector<std::uint32_t>& polygon, std::span<const std::uint32_t> site_of_input) {
   std::vector<Edge> edges;
@@ -22,7 +18,7 @@ std::vector<Edge> edges_of(const std::vector<std::uint32_t>& polygon, std::span<
   return edges;
 }
 
-Point3 area_vector(const std::vector<Edge>& loop, std::span<const Point3> position) {
+Point3 area_vector(const PolygonCell& loop, std::span<const Point3> position) {
   Point3 sum;
   if (loop.empty()) return sum;
   const Point3 origin = position[loop[0][0]];
@@ -32,13 +28,10 @@ Point3 area_vector(const std::vector<Edge>& loop, std::span<const Point3> positi
 
 /// A drawing of the facet seen along the axis that its plane is most across.
 struct Drawing {
-  int first = 0, second = 1;
+  std::size_t first = 0, second = 1;
   std::span<const Point3> position;
 
-  std::array<double, 2> at(const Point3& p) const {
-    const auto c = as_array(p);
-    return {c[static_cast<std::size_t>(first)], c[static_cast<std::size_t>(second)]};
-  }
+  std::array<double, 2> at(const Point3& p) const { return {as_array(p)[first], as_array(p)[second]}; }
   std::array<double, 2> at(std::uint32_t site) const { return at(position[site]); }
 };
 
@@ -47,12 +40,12 @@ Drawing draw(const Point3& normal, std::span<const Point3> position) {
   std::size_t axis = 0;
   for (std::size_t i = 1; i < 3; ++i)
     if (std::fabs(n[i]) > std::fabs(n[axis])) axis = i;
-  int first = static_cast<int>((axis + 1) % 3), second = static_cast<int>((axis + 2) % 3);
-  if (n[axis] < 0) std::swap(first, second);
-  return {first, second, position};
+  Drawing drawing{(axis + 1) % 3, (axis + 2) % 3, position};
+  if (n[axis] < 0) std::swap(drawing.first, drawing.second);
+  return drawing;
 }
 
-double area(const Drawing& drawing, const std::vector<Edge>& loop) {
+double area(const Drawing& drawing, const PolygonCell& loop) {
   double sum = 0;
   const auto o = drawing.at(loop[0][0]);
   for (const auto& [u, v] : loop) {
@@ -62,7 +55,7 @@ double area(const Drawing& drawing, const std::vector<Edge>& loop) {
   return sum / 2;
 }
 
-bool contains(const Drawing& drawing, const std::vector<Edge>& loop, const std::array<double, 2>& p) {
+bool contains(const Drawing& drawing, std::span<const Edge> loop, const std::array<double, 2>& p) {
   bool inside = false;
   for (const auto& [u, v] : loop) {
     const auto a = drawing.at(u), b = drawing.at(v);
@@ -74,7 +67,7 @@ bool contains(const Drawing& drawing, const std::vector<Edge>& loop, const std::
 
 /// Closed walks around the drawing's faces, each with its face to the left: at each vertex the next edge clockwise from
 /// the one that it came by.
-std::vector<std::vector<Edge>> trace_loops(const Drawing& drawing, const std::set<Edge>& undirected) {
+std::vector<PolygonCell> trace_loops(const Drawing& drawing, const std::set<Edge>& undirected) {
   std::map<std::uint32_t, std::vector<std::pair<double, std::uint32_t>>> around;
   for (const auto& [a, b] : undirected) {
     const auto p = drawing.at(a), q = drawing.at(b);
@@ -89,7 +82,7 @@ std::vector<std::vector<Edge>> trace_loops(const Drawing& drawing, const std::se
   };
   std::set<Edge> left;
   for (const auto& [a, b] : undirected) left.insert({{a, b}, {b, a}});
-  std::vector<std::vector<Edge>> loops;
+  std::vector<PolygonCell> loops;
   while (!left.empty()) {
     loops.emplace_back();
     for (Edge e = *left.begin(); left.erase(e) > 0; e = next(e)) loops.back().push_back(e);
@@ -106,7 +99,7 @@ bool share_a_vertex(const std::vector<Edge>& a, const std::vector<Edge>& b) {
 
 /// The smallest of the outer loops around a point that `skip` does not rule out, or none.
 template <class Skip>
-std::size_t smallest_around(const Drawing& drawing, const std::vector<std::vector<Edge>>& loops,
+std::size_t smallest_around(const Drawing& drawing, const std::vector<PolygonCell>& loops,
                             const std::vector<double>& areas, const std::array<double, 2>& p, const Skip& skip) {
   std::size_t smallest = loops.size();
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -138,10 +131,15 @@ DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected,
   return drawn;
 }
 
+bool encloses(const Point3& normal, std::span<const Edge> loop, std::span<const Point3> position, const Point3& point) {
+  const Drawing drawing = draw(normal, position);
+  return contains(drawing, loop, drawing.at(point));
+}
+
 PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
                                 std::span<const Point3> position) {
   PolygonCells result;
-  std::vector<std::vector<Edge>> polygons;
+  std::vector<PolygonCell> polygons;
   for (const auto& polygon : facet.polygons) polygons.push_back(edges_of(polygon, site_of_input));
   if (polygons.size() == 1 && facet.holes.empty()) {
     result.cells.push_back(polygons[0]);
@@ -152,7 +150,7 @@ PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::
   for (const auto& polygon : polygons) {
     const Point3 n = area_vector(polygon, position);
     if (squared_length(n) > squared_length(normal)) normal = n;
-    for (const auto& [a, b] : polygon) undirected.insert({std::min(a, b), std::max(a, b)});
+    for (const Edge& e : polygon) undirected.insert(ascending(e));
   }
   const Drawing drawing = draw(normal, position);
   const auto [loops, areas, cells] = trace_drawing(normal, undirected, position);

@@ -1,15 +1,47 @@
 #include "bench/verify/regions.h"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "bench/verify/exact.h"
-#include "bench/verify/union_find.h"
+#include "engine/base/union_find.h"
 
 namespace ccdt::verification {
 
 namespace {
+
+enum class Crossing { no, up, down, grazes };
+
+/// How the line through p and q crosses the triangle abc, and whether between p and q.
+Crossing cross_triangle(const Point3& p, const Point3& q, const Point3& a, const Point3& b, const Point3& c) {
+  const int ab = orientation(p, q, a, b), bc = orientation(p, q, b, c), ca = orientation(p, q, c, a);
+  const int low = std::min({ab, bc, ca}), high = std::max({ab, bc, ca});
+  if (low < 0 && high > 0) return Crossing::no;
+  const int from = orientation(a, b, c, p), to = orientation(a, b, c, q);
+  if (from * to > 0) return Crossing::no;
+  if (from == 0 || to == 0 || low == 0 || high == 0) return Crossing::grazes;
+  return from < 0 ? Crossing::up : Crossing::down;
+}
+
+/// A piece is the sum of the triangles of its directed edges with one of its vertices, as far as a ray can tell.
+Crossing cross_piece(const Surface& surface, std::uint32_t piece, const Point3& p, const Point3& q) {
+  const std::uint32_t origin = surface.directed[surface.piece_begin[piece]][0];
+  int sum = 0;
+  for (const auto& [a, b] : surface.edges_of(piece)) {
+    if (a == origin || b == origin) continue;
+    const Crossing crossing = cross_triangle(p, q, surface.at(origin), surface.at(a), surface.at(b));
+    if (crossing == Crossing::grazes) return crossing;
+    sum += crossing == Crossing::up ? 1 : crossing == Crossing::down ? -1 : 0;
+  }
+  return sum == 0 ? Crossing::no : sum > 0 ? Crossing::up : Crossing::down;
+}
+
+/// A number between -1 and 1 without a pattern that the input could share.
+double scatter(int i) {
+  const double x = std::sin(12.9898 * (i + 1)) * 43758.5453;
+  return 2 * (x - std::floor(x)) - 1;
+}
 
 constexpr int attempts = 30;
 
@@ -30,7 +62,7 @@ const Point3& apex(const Surface& surface, std::uint32_t use) {
 }
 
 /// Is `b` ahead of `a` around the edge? Nearly equal angles are decided exactly.
-bool is_ahead(const Surface& surface, const std::array<std::uint32_t, 2>& edge, const Spoke& a, const Spoke& b) {
+bool is_ahead(const Surface& surface, const Edge& edge, const Spoke& a, const Spoke& b) {
   const bool triangles = surface.is_triangle(surface.piece_of[a.use]) && surface.is_triangle(surface.piece_of[b.use]);
   if (!triangles || std::fabs(a.angle - b.angle) > 1e-6) return a.angle < b.angle;
   return orientation(surface.at(edge[0]), surface.at(edge[1]), apex(surface, a.use), apex(surface, b.use)) > 0;
@@ -41,8 +73,7 @@ std::vector<Spoke> spokes(const Surface& surface, std::uint32_t edge) {
   std::vector<Spoke> result;
   const Point3 axis = surface.at(surface.edges[edge][1]) - surface.at(surface.edges[edge][0]);
   Point3 first;
-  for (std::uint32_t i = surface.use_begin[edge]; i < surface.use_begin[edge + 1]; ++i) {
-    const std::uint32_t use = surface.uses[i];
+  for (const std::uint32_t use : surface.uses.of(edge)) {
     Point3 inward = cross(surface.area_vector[surface.piece_of[use]], axis);
     if (!surface.is_forward(use)) inward = -1.0 * inward;
     if (const double length = std::sqrt(squared_length(inward)); length > 0) inward = (1 / length) * inward;
@@ -60,7 +91,7 @@ UnionFind glue_sides(const Surface& surface) {
   UnionFind sides(2 * surface.pieces() + 1);
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (surface.use_count(e) <= 2) {
-      const std::uint32_t a = surface.uses[surface.use_begin[e]], b = surface.uses[surface.use_begin[e + 1] - 1];
+      const std::uint32_t a = surface.uses.of(e).front(), b = surface.uses.of(e).back();
       sides.join(side(surface, a, true), side(surface, b, false));
       sides.join(side(surface, b, true), side(surface, a, false));
       continue;
@@ -74,25 +105,18 @@ UnionFind glue_sides(const Surface& surface) {
 
 /// Connected sets of pieces, and how they lie in each other.
 struct Shells {
-  std::vector<std::uint32_t> of_piece;
-  std::vector<std::uint32_t> outer_side;  ///< a side of the shell that looks at what is around it
+  std::vector<std::uint32_t> of_piece;    ///< the shell of each piece; its name is its first piece
+  std::vector<std::uint32_t> outer_side;  ///< of each shell: a side that looks at what is around it
 };
 
 Shells find_shells(const Surface& surface) {
   UnionFind joined(surface.pieces());
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
-    for (std::uint32_t i = surface.use_begin[e] + 1; i < surface.use_begin[e + 1]; ++i)
-      joined.join(surface.piece_of[surface.uses[i - 1]], surface.piece_of[surface.uses[i]]);
+    for (const std::uint32_t use : surface.uses.of(e))
+      joined.join(surface.piece_of[surface.uses.of(e).front()], surface.piece_of[use]);
   Shells shells;
-  std::vector<std::uint32_t> number(surface.pieces(), none);
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    std::uint32_t& n = number[joined.root(p)];
-    if (n == none) {
-      n = static_cast<std::uint32_t>(shells.outer_side.size());
-      shells.outer_side.push_back(none);
-    }
-    shells.of_piece.push_back(n);
-  }
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) shells.of_piece.push_back(joined.find(p));
+  shells.outer_side.assign(surface.pieces(), none);
   return shells;
 }
 
@@ -131,10 +155,10 @@ void nest_shells(const Surface& surface, const RayShooter& rays, Shells& shells,
 /// Numbers the regions; the one at infinity is 0.
 void number_regions(const Surface& surface, UnionFind& sides, Regions& regions) {
   std::vector<std::uint32_t> number(2 * surface.pieces() + 1, none);
-  number[sides.root(2 * surface.pieces())] = 0;
+  number[sides.find(2 * surface.pieces())] = 0;
   std::uint32_t count = 1;
   for (std::uint32_t s = 0; s < 2 * surface.pieces(); ++s) {
-    std::uint32_t& n = number[sides.root(s)];
+    std::uint32_t& n = number[sides.find(s)];
     if (n == none) n = count++;
     regions.of_side.push_back(n);
   }
@@ -146,18 +170,18 @@ void number_regions(const Surface& surface, UnionFind& sides, Regions& regions) 
 
 /// Of each region, the fewest pieces between it and infinity.
 std::vector<std::uint32_t> depth_by_pieces(const Regions& regions) {
-  std::vector<std::vector<std::uint32_t>> neighbours(regions.count());
+  std::vector<std::vector<std::uint32_t>> neighbors(regions.count());
   for (std::size_t s = 0; s < regions.of_side.size(); s += 2) {
     const std::uint32_t above = regions.of_side[s], below = regions.of_side[s + 1];
     if (above == below) continue;
-    neighbours[above].push_back(below);
-    neighbours[below].push_back(above);
+    neighbors[above].push_back(below);
+    neighbors[below].push_back(above);
   }
   std::vector<std::uint32_t> depth(regions.count(), none);
   std::queue<std::uint32_t> queue({0});
   depth[0] = 0;
   for (; !queue.empty(); queue.pop())
-    for (const std::uint32_t c : neighbours[queue.front()])
+    for (const std::uint32_t c : neighbors[queue.front()])
       if (depth[c] == none) {
         depth[c] = depth[queue.front()] + 1;
         queue.push(c);
@@ -193,6 +217,47 @@ void place_seeds(const InputPlc& input, const Surface& surface, const RayShooter
 
 }  // namespace
 
+RayShooter::RayShooter(const Surface& surface) : surface_(surface) {
+  rectangles_.reserve(surface.pieces());
+  high_z_ = -std::numeric_limits<double>::infinity();
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
+    const Point3& o = surface.origin(p);
+    Rectangle r{o.x, o.y, o.x, o.y, o.z};
+    for (const auto& [site, next] : surface.edges_of(p)) {
+      const Point3& v = surface.at(site);
+      r = {std::min(r.low_x, v.x), std::min(r.low_y, v.y), std::max(r.high_x, v.x), std::max(r.high_y, v.y),
+           std::max(r.high_z, v.z)};
+    }
+    high_z_ = std::max(high_z_, r.high_z);
+    rectangles_.push_back(r);
+  }
+}
+
+Point3 RayShooter::direction(int attempt) {
+  return {0.05 * scatter(2 * attempt), 0.05 * scatter(2 * attempt + 1), 1};
+}
+
+std::optional<std::vector<Hit>> RayShooter::shoot(const Point3& start, int attempt) const {
+  const Point3 end = start + length(start.z) * direction(attempt);
+  const double low_x = std::min(start.x, end.x), high_x = std::max(start.x, end.x);
+  const double low_y = std::min(start.y, end.y), high_y = std::max(start.y, end.y);
+  std::vector<Hit> hits;
+  for (std::uint32_t p = 0; p < surface_.pieces(); ++p) {
+    const Rectangle& r = rectangles_[p];
+    if (r.high_x < low_x || r.low_x > high_x || r.high_y < low_y || r.low_y > high_y || r.high_z < start.z) continue;
+    const Crossing crossing = cross_piece(surface_, p, start, end);
+    if (crossing == Crossing::no) continue;
+    const Point3& n = surface_.area_vector[p];
+    const double rise = dot(n, end - start);
+    if (crossing == Crossing::grazes || rise == 0) return std::nullopt;
+    hits.push_back({p, dot(n, surface_.origin(p) - start) / rise, crossing == Crossing::down});
+  }
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.along < b.along; });
+  for (std::size_t i = 1; i < hits.size(); ++i)
+    if (hits[i].along - hits[i - 1].along < 1e-12) return std::nullopt;
+  return hits;
+}
+
 Regions find_regions(const InputPlc& input, const Surface& surface) {
   const RayShooter rays(surface);
   UnionFind sides = glue_sides(surface);
@@ -227,8 +292,7 @@ std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& reg
       if (hit.along * rays.length(point.z - back) * slope > 2 * back) break;
       found.push_back(regions.of_side[2 * hit.piece + (hit.from_above ? 1 : 0)]);
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sort_and_unique(found);
     return found;
   }
   return {};

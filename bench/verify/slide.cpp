@@ -1,26 +1,19 @@
 #include "bench/verify/slide.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "bench/verify/covers.h"
-#include "bench/verify/piece_tree.h"
+#include "bench/verify/embed_lines.h"
+#include "bench/verify/patches.h"
 
 namespace ccdt::verification {
 
 namespace {
 
-using Edge = std::array<std::uint32_t, 2>;
-
 /// Of a patch that counts as flat, times the tolerance: what is left must do for its other vertices, which are compared
 /// with the plane of its corners.
 constexpr double greatest_thickness = 0.25;
-
-Edge ascending(const Edge& e) {
-  return {std::min(e[0], e[1]), std::max(e[0], e[1])};
-}
 
 /// Sites that a piece or a segment has.
 std::vector<bool> find_used(const Surface& surface) {
@@ -28,12 +21,6 @@ std::vector<bool> find_used(const Surface& surface) {
   for (const Edge& e : surface.directed) used[e[0]] = used[e[1]] = true;
   for (const Edge& e : surface.segments) used[e[0]] = used[e[1]] = true;
   return used;
-}
-
-Patches group(const Surface& surface, const std::vector<bool>& joined) {
-  Chains none_yet;
-  none_yet.begin.assign(surface.edges.size() + 1, 0);
-  return group_pieces(surface, none_yet, joined);
 }
 
 /// Finds what is flat in a patch that is not, such as a flat face that goes over into a round one without an edge: sets
@@ -53,7 +40,7 @@ class FlatParts {
 
   /// Are the pieces at an edge in different parts?
   bool parts(std::uint32_t edge) const {
-    const std::uint32_t* use = &surface_.uses[surface_.use_begin[edge]];
+    const auto use = surface_.uses.of(edge);
     return part_[surface_.piece_of[use[0]]] != part_[surface_.piece_of[use[1]]];
   }
 
@@ -66,8 +53,8 @@ class FlatParts {
     std::vector<std::uint32_t> members = {seed};
     part_[seed] = seed;
     for (std::size_t n = 0; n < members.size(); ++n) {
-      for (std::uint32_t i = surface_.piece_begin[members[n]]; i < surface_.piece_begin[members[n] + 1]; ++i) {
-        const std::uint32_t next = across(i);
+      for (const std::uint32_t use : surface_.uses_of(members[n])) {
+        const std::uint32_t next = across(use);
         if (next == none || part_[next] != none || !is_within(next, surface_.origin(seed), area)) continue;
         part_[next] = seed;
         members.push_back(next);
@@ -80,15 +67,15 @@ class FlatParts {
   std::uint32_t across(std::uint32_t use) const {
     const std::uint32_t e = surface_.edge_of[use];
     if (!joined_[e]) return none;
-    const std::uint32_t* uses = &surface_.uses[surface_.use_begin[e]];
+    const auto uses = surface_.uses.of(e);
     return surface_.piece_of[uses[0] == use ? uses[1] : uses[0]];
   }
 
   bool is_within(std::uint32_t piece, const Point3& origin, const Point3& area) const {
     const double bound = tolerance() * std::sqrt(squared_length(area));
-    for (std::uint32_t i = surface_.piece_begin[piece]; i < surface_.piece_begin[piece + 1]; ++i)
-      if (std::fabs(dot(area, surface_.at(surface_.directed[i][0]) - origin)) > bound) return false;
-    return true;
+    return std::ranges::none_of(surface_.edges_of(piece), [&](const Edge& e) {
+      return std::fabs(dot(area, surface_.at(e[0]) - origin)) > bound;
+    });
   }
 
   const Surface& surface_;
@@ -104,10 +91,10 @@ bool is_thin(const Surface& surface, const Patches& patches, std::uint32_t patch
 std::vector<bool> find_edges_to_merge(const Surface& surface) {
   std::vector<bool> joined = find_features(surface);
   joined.flip();
-  const Patches patches = group(surface, joined);
+  const Patches patches = group_pieces(surface, joined);
   FlatParts flat_parts(surface, joined);
   for (std::uint32_t n = 0; n < patches.count(); ++n)
-    if (!is_thin(surface, patches, n)) flat_parts.divide(patches.pieces_of(n));
+    if (!is_thin(surface, patches, n)) flat_parts.divide(patches.pieces.of(n));
   std::vector<bool> merged = joined;
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) merged[e] = joined[e] && !flat_parts.parts(e);
   return merged;
@@ -115,43 +102,29 @@ std::vector<bool> find_edges_to_merge(const Surface& surface) {
 
 void merge_flat_patches(Surface& surface, Regions& regions) {
   const std::vector<bool> joined = find_edges_to_merge(surface);
-  const Patches patches = group(surface, joined);
-  Surface merged;
-  merged.piece_begin.push_back(0);
+  const Patches patches = group_pieces(surface, joined);
+  Pieces merged;
   std::vector<std::uint32_t> of_side;
-  const auto finish_piece = [&](std::uint32_t like) {
-    merged.piece_begin.push_back(static_cast<std::uint32_t>(merged.directed.size()));
-    merged.marker.push_back(surface.marker[like]);
-    merged.number.push_back(surface.number[like]);
+  const auto add = [&](std::span<const Edge> edges, std::uint32_t like) {
+    merged.add(edges, surface.marker[like], surface.number[like]);
     of_side.insert(of_side.end(), {regions.of_side[2 * like], regions.of_side[2 * like + 1]});
   };
-  const auto add_edges = [&](std::uint32_t piece, bool turned, bool all) {
-    for (std::uint32_t i = surface.piece_begin[piece]; i < surface.piece_begin[piece + 1]; ++i) {
-      const auto& [a, b] = surface.directed[i];
-      if (all || !joined[surface.edge_of[i]]) merged.directed.push_back(turned ? Edge{b, a} : Edge{a, b});
-    }
-  };
   for (std::uint32_t n = 0; n < patches.count(); ++n) {
-    const auto pieces = patches.pieces_of(n);
-    const std::size_t before = merged.directed.size();
-    if (is_thin(surface, patches, n)) {
-      for (const std::uint32_t p : pieces) add_edges(p, patches.flipped[p] != patches.flipped[pieces[0]], false);
-      if (merged.directed.size() > before) {
-        finish_piece(pieces[0]);
-        continue;
+    const auto pieces = patches.pieces.of(n);
+    std::vector<Edge> outline;
+    for (const std::uint32_t p : pieces)
+      for (const std::uint32_t use : surface.uses_of(p)) {
+        const auto& [a, b] = surface.directed[use];
+        if (!joined[surface.edge_of[use]])
+          outline.push_back(patches.flipped[p] == patches.flipped[pieces[0]] ? Edge{a, b} : Edge{b, a});
       }
-    }
-    for (const std::uint32_t p : pieces) {
-      add_edges(p, false, true);
-      finish_piece(p);
-    }
+    if (is_thin(surface, patches, n) && !outline.empty())
+      add(outline, pieces[0]);
+    else
+      for (const std::uint32_t p : pieces) add(surface.edges_of(p), p);
   }
-  surface.directed = std::move(merged.directed);
-  surface.piece_begin = std::move(merged.piece_begin);
-  surface.marker = std::move(merged.marker);
-  surface.number = std::move(merged.number);
+  set_pieces(std::move(merged), surface);
   regions.of_side = std::move(of_side);
-  index_surface(surface);
 }
 
 /// Takes out the segments that are features of the facets: these are asked for anyway.
@@ -181,7 +154,7 @@ class StraightRuns {
 
   std::vector<Run> find() {
     std::vector<Run> runs;
-    for (const auto& [site, around] : neighbours_) {
+    for (const auto& [site, around] : neighbors_) {
       if (is_passed(site)) continue;
       for (const std::uint32_t next : around) {
         Run run = follow(site, next);
@@ -194,17 +167,17 @@ class StraightRuns {
 
  private:
   void join(const Edge& e) {
-    neighbours_[e[0]].insert(e[1]);
-    neighbours_[e[1]].insert(e[0]);
+    neighbors_[e[0]].insert(e[1]);
+    neighbors_[e[1]].insert(e[0]);
   }
 
-  /// Which of the two neighbours of a site?
-  std::size_t side(std::uint32_t site, std::uint32_t neighbour) const {
-    return *neighbours_.at(site).begin() == neighbour ? 0 : 1;
+  /// Which of the two neighbors of a site?
+  std::size_t side(std::uint32_t site, std::uint32_t neighbor) const {
+    return *neighbors_.at(site).begin() == neighbor ? 0 : 1;
   }
-  bool has_two(std::uint32_t site) const { return neighbours_.at(site).size() == 2; }
+  bool has_two(std::uint32_t site) const { return neighbors_.at(site).size() == 2; }
 
-  /// Sites at which a piece that comes from one neighbour does not go on to the other.
+  /// Sites at which a piece that comes from one neighbor does not go on to the other.
   void find_turning_back() {
     std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> balance;  // of a site and a piece
     for (std::uint32_t i = 0; i < surface_.directed.size(); ++i) {
@@ -218,7 +191,7 @@ class StraightRuns {
 
   bool is_passed(std::uint32_t site) const {
     if (!has_two(site) || turning_back_.count(site) > 0) return false;
-    const auto& around = neighbours_.at(site);
+    const auto& around = neighbors_.at(site);
     return is_between(*around.begin(), site, *around.rbegin());
   }
 
@@ -232,7 +205,7 @@ class StraightRuns {
   Run follow(std::uint32_t from, std::uint32_t next) const {
     Run run = {from, next};
     while (is_passed(run.back())) {
-      const auto& around = neighbours_.at(run.back());
+      const auto& around = neighbors_.at(run.back());
       run.push_back(*around.begin() == run[run.size() - 2] ? *around.rbegin() : *around.begin());
     }
     return run;
@@ -244,7 +217,7 @@ class StraightRuns {
   }
 
   const Surface& surface_;
-  std::map<std::uint32_t, std::set<std::uint32_t>> neighbours_;
+  std::map<std::uint32_t, std::set<std::uint32_t>> neighbors_;
   std::set<std::uint32_t> turning_back_;
 };
 
@@ -264,29 +237,26 @@ std::map<Edge, Edge> find_replacements(const std::vector<Run>& runs) {
 void merge_straight_chains(Surface& surface) {
   const std::map<Edge, Edge> become = find_replacements(StraightRuns(surface).find());
   if (become.empty()) return;
-  std::vector<Edge> directed;
-  std::vector<std::uint32_t> begin = {0};
   const auto add = [&](const Edge& e, std::vector<Edge>& edges) {
     const auto found = become.find(e);
     const Edge& replacement = found == become.end() ? e : found->second;
     if (replacement[0] != none) edges.push_back(replacement);
   };
+  Pieces merged;
+  std::vector<Edge> edges;
   for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    for (std::uint32_t i = surface.piece_begin[p]; i < surface.piece_begin[p + 1]; ++i)
-      add(surface.directed[i], directed);
-    begin.push_back(static_cast<std::uint32_t>(directed.size()));
+    edges.clear();
+    for (const Edge& e : surface.edges_of(p)) add(e, edges);
+    merged.add(edges, surface.marker[p], surface.number[p]);
   }
   std::vector<Edge> segments;
   for (const auto& [a, b] : surface.segments)
     for (const Edge& e : {Edge{a, b}, Edge{b, a}})
       if (e == Edge{a, b} || become.count(e) > 0) add(e, segments);
   for (Edge& e : segments) e = ascending(e);
-  std::sort(segments.begin(), segments.end());
-  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
-  surface.directed = std::move(directed);
-  surface.piece_begin = std::move(begin);
+  sort_and_unique(segments);
   surface.segments = std::move(segments);
-  index_surface(surface);
+  set_pieces(std::move(merged), surface);
 }
 
 /// Is a vertex that nothing has on a piece or a segment all the same?
@@ -299,8 +269,8 @@ class OnSomething {
     bool found = std::any_of(surface_.segments.begin(), surface_.segments.end(), [&](const Edge& segment) {
       return !select_within(surface_, segment, {&site, 1}).empty();
     });
-    tree_.for_each_near(p, p,
-                        [&](std::uint32_t piece) { found = found || place_of(surface_, piece, p) != Place::off; });
+    tree_.for_each_near(
+        p, p, [&](std::uint32_t piece) { found = found || locate_on_piece(surface_, piece, p) != PointOnPiece::off; });
     return found;
   }
 

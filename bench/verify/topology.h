@@ -1,41 +1,64 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/index_lists.h"
 #include "engine/mesh/tet_mesh.h"
 
 namespace ccdt::verification {
 
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-/// Corners of a tetrahedron's face opposite to each corner, counterclockwise seen from outside a positively oriented
-/// one.
-inline constexpr std::uint8_t outward_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+using Edge = std::array<std::uint32_t, 2>;
+using Face = std::array<std::uint32_t, 3>;
 
-/// Who shares what in a mesh. A *half-face* is 4 * tetrahedron + the corner opposite to it.
+/// The same vertices in ascending order.
+template <std::size_t n>
+std::array<std::uint32_t, n> ascending(std::array<std::uint32_t, n> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+/// Both ends of an edge in one number.
+inline std::uint64_t key(const Edge& e) {
+  return (std::uint64_t{e[0]} << 32) | e[1];
+}
+
+template <class T>
+void sort_and_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Which tetrahedra and faces of a mesh share what. A *half-face* is 4 * tetrahedron + the corner opposite to it.
 struct Topology {
-  std::vector<std::array<std::uint32_t, 3>> faces;  ///< vertices of each face, ascending; in lexicographic order
-  std::vector<std::array<std::uint32_t, 2>>
-      half_faces;                          ///< of each face, the first two half-faces; the second may be `none`
-  std::vector<std::uint32_t> face_of;      ///< of each half-face
-  std::vector<std::uint32_t> wrong_faces;  ///< shared by more than two tetrahedra, or by two on one side
-  std::vector<std::uint32_t> star_begin,
-      star;  ///< tetrahedra around each vertex: star[star_begin[v] .. star_begin[v+1])
+  std::vector<Face> faces;               ///< vertices of each face, ascending; in lexicographic order
+  std::vector<Edge> half_faces;          ///< of each face, the first two half-faces; the second may be `none`
+  std::vector<std::uint32_t> face_of;    ///< of each half-face
+  std::vector<std::uint32_t> bad_faces;  ///< shared by more than two tetrahedra, or by two on one side
+  IndexLists stars;                      ///< tetrahedra around each vertex
 
   bool on_boundary(std::uint32_t face) const { return half_faces[face][1] == none; }
-  bool used(std::uint32_t vertex) const { return star_begin[vertex] != star_begin[vertex + 1]; }
+  bool used(std::uint32_t vertex) const { return !stars.of(vertex).empty(); }
+
+  /// The tetrahedron on the other side of a face from `tet`.
+  std::uint32_t across(std::uint32_t face, std::uint32_t tet) const {
+    const auto [first, second] = half_faces[face];
+    return first / 4 == tet ? second / 4 : first / 4;
+  }
 };
 
 /// \pre all indices are in range
 Topology find_topology(const TetMesh& mesh);
 
-/// The vertices of a half-face, counterclockwise seen from outside its tetrahedron.
-std::array<std::uint32_t, 3> outward(const TetMesh& mesh, std::uint32_t half_face);
+/// The vertices of a half-face, counterclockwise seen from outside its tetrahedron if that is positively oriented.
+Face outward(const TetMesh& mesh, std::uint32_t half_face);
 
 /// The face with these vertices, in any order, or `none`.
-std::uint32_t find_face(const Topology& topology, std::array<std::uint32_t, 3> vertices);
+std::uint32_t find_face(const Topology& topology, const Face& vertices);
 
 bool has_edge(const TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b);
 

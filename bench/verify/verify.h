@@ -46,4 +46,8 @@ struct Verification {
 Verification verify(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 
+/// A verification as lines for a terminal: one a check with its name and how many things were checked and failed, below
+/// it the first failures; then the volumes and the verdict.
+std::vector<std::string> describe(const Verification& verification);
+
 }  // namespace ccdt
