@@ -108,8 +108,8 @@ void constrain(const Delaunay& delaunay, FacetMesh facets, const MeshOptions& op
   if (!options.face_protection) std::ranges::fill(codes, no_neighbor);  // none of them is told apart
 
   const FrontResult front = timed(s.front, [&] {
-    return advance_front(t.plc, facets, codes, options.face_protection, delaunay, {options.locator, options.grid_scale},
-                         progress);
+    return advance_front({t.plc, facets, codes, delaunay},
+                         {options.locator, options.grid_scale, options.face_protection}, progress);
   });
   if ((t.stuck = front.stuck)) return;
   t.counts.front_tetrahedra = front.tetrahedra.size();

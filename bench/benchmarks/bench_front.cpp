@@ -35,7 +35,8 @@ std::vector<std::uint32_t> codes_for(const Stages& s, bool check) {
 }
 
 FrontResult advance(const Stages& s, const Strategy& strategy, const std::vector<std::uint32_t>& codes) {
-  return advance_front(s.plc, s.facets, codes, strategy.check, s.delaunay, {strategy.locator});
+  return advance_front({s.plc, s.facets, codes, s.delaunay},
+                       {.locator = strategy.locator, .face_protection = strategy.check});
 }
 
 std::string find_fault(const Stages& s, const Strategy& strategy) {

@@ -77,7 +77,7 @@ Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOp
   s.codes = find_delaunay_faces(s.facets, s.delaunay);
   if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = find_delaunay_faces(s.facets, s.delaunay);
-  s.front = advance_front(s.plc, s.facets, s.codes, true, s.delaunay, {LocatorKind::grid});
+  s.front = advance_front({s.plc, s.facets, s.codes, s.delaunay});
   if (s.front.stuck) return s;
   const CellLabels labels = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   s.front.stuck = labels.stuck;

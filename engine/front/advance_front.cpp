@@ -98,21 +98,20 @@ class CavityFinder {
 enum Side : std::size_t { above = 0, below = 1 };
 
 /// What is above a side (2 * triangle + Side) of a face of the PLC.
-FrontFace state_of(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes, const Delaunay& d,
-                   std::size_t side) {
-  const Facet& facet = plc.facets[facets.facet[side / 2]];
-  const std::uint32_t code = codes[side / 2];
+FrontFace state_of(const FrontInput& in, std::size_t side) {
+  const Facet& facet = in.plc.facets[in.facets.facet[side / 2]];
+  const std::uint32_t code = in.codes[side / 2];
   if (side % 2 == above) return {facet.above, code};
-  return {facet.below, code == no_neighbor ? no_neighbor : d.cells[cell_of(code)].neighbors[face_of(code)]};
+  return {facet.below, code == no_neighbor ? no_neighbor : in.delaunay.cells[cell_of(code)].neighbors[face_of(code)]};
 }
 
 /// The sides of the PLC's faces that the domain is on.
-std::vector<std::uint8_t> sides_within(const Plc& plc, const FacetMesh& facets) {
-  std::vector<std::uint8_t> is_within(2 * facets.triangles.size());
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    const Facet& facet = plc.facets[facets.facet[i]];
-    is_within[2 * i + above] = plc.regions[facet.above].inside;
-    is_within[2 * i + below] = plc.regions[facet.below].inside;
+std::vector<std::uint8_t> sides_within(const FrontInput& in) {
+  std::vector<std::uint8_t> is_within(2 * in.facets.triangles.size());
+  for (std::size_t i = 0; i < in.facets.triangles.size(); ++i) {
+    const Facet& facet = in.plc.facets[in.facets.facet[i]];
+    is_within[2 * i + above] = in.plc.regions[facet.above].inside;
+    is_within[2 * i + below] = in.plc.regions[facet.below].inside;
   }
   return is_within;
 }
@@ -121,15 +120,8 @@ std::vector<std::uint8_t> sides_within(const Plc& plc, const FacetMesh& facets) 
 /// those that the front may meet and for the faces that it makes.
 class Front {
  public:
-  Front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool face_protection,
-        const Delaunay& delaunay, CellStar& star)
-      : plc_(plc),
-        facets_(facets),
-        codes_(codes),
-        face_protection_(face_protection),
-        d_(delaunay),
-        star_(star),
-        plc_open_(sides_within(plc, facets)) {}
+  Front(const FrontInput& input, bool face_protection, CellStar& star)
+      : in_(input), face_protection_(face_protection), star_(star), plc_open_(sides_within(input)) {}
 
   template <class Finder>
   void advance(Finder&& finder, const Progress& progress);
@@ -151,11 +143,8 @@ class Front {
   void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state);
   void pass(const OrientedFace& inner, const State& state);
 
-  const Plc& plc_;
-  const FacetMesh& facets_;
-  const std::vector<std::uint32_t>& codes_;
-  bool face_protection_;
-  const Delaunay& d_;
+  const FrontInput& in_;
+  const bool face_protection_;
   CellStar& star_;
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
@@ -167,8 +156,9 @@ class Front {
 void Front::fail(const OrientedFace& face, const char* what) {
   if (result_.stuck) return;
   Place place;
-  place.file = plc_.name;
-  for (const std::uint32_t v : face.corners) place.points.push_back(as_array(plc_.grid.to_world(d_.point(v))));
+  place.file = in_.plc.name;
+  for (const std::uint32_t v : face.corners)
+    place.points.push_back(as_array(in_.plc.grid.to_world(in_.delaunay.point(v))));
   result_.stuck.emplace(what, place,
                         "the facets near these points are almost but not quite flat: try another --flatness");
 }
@@ -178,13 +168,13 @@ void Front::add_plc_faces(const Finder& finder) {
   const std::vector<std::uint32_t> triangles = finder.triangles();
   faces_.reserve(2 * triangles.size());
   for (const std::uint32_t i : triangles) {
-    const auto& t = facets_.triangles[i];
+    const auto& t = in_.facets.triangles[i];
     const std::uint32_t cavity = finder.cavity_of_triangle(i);
     for (const Side side : {above, below}) {
       const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
       const auto number = static_cast<std::uint32_t>(2 * i + side);
-      faces_.insert(face, {state_of(plc_, facets_, codes_, d_, number), cavity, number});
-      if (plc_open_[number] && codes_[i] == no_neighbor) undelaunay_.push_back(face);
+      faces_.insert(face, {state_of(in_, number), cavity, number});
+      if (plc_open_[number] && in_.codes[i] == no_neighbor) undelaunay_.push_back(face);
     }
   }
   result_.undelaunay_faces = undelaunay_.size();
@@ -245,7 +235,7 @@ void Front::pass(const OrientedFace& inner, const State& state) {
 /// What is left of the front: faces of the PLC and of its own.
 FrontResult Front::finish() {
   for (std::size_t side = 0; side < plc_open_.size(); ++side)
-    if (plc_open_[side]) result_.open.push_back(state_of(plc_, facets_, codes_, d_, side));
+    if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
   faces_.for_each([&](const OrientedFace&, const State& state) {
     if (state.side == no_side) result_.open.push_back(state.face);
   });
@@ -253,38 +243,33 @@ FrontResult Front::finish() {
 }
 
 /// The front that need not advance: all faces of the PLC.
-FrontResult standing_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
-                           const Delaunay& d) {
+FrontResult standing_front(const FrontInput& in) {
   FrontResult result;
-  result.open.reserve(2 * codes.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const Facet& facet = plc.facets[facets.facet[i]];
-    if (plc.regions[facet.above].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + above));
-    if (plc.regions[facet.below].inside) result.open.push_back(state_of(plc, facets, codes, d, 2 * i + below));
-  }
+  result.open.reserve(2 * in.codes.size());
+  const std::vector<std::uint8_t> is_within = sides_within(in);
+  for (std::size_t side = 0; side < is_within.size(); ++side)
+    if (is_within[side]) result.open.push_back(state_of(in, side));
   return result;
 }
 
 }  // namespace
 
-FrontResult advance_front(const Plc& plc, const FacetMesh& facets, const std::vector<std::uint32_t>& codes,
-                          bool face_protection, const Delaunay& delaunay, const FrontLocator& locator,
-                          const Progress& progress) {
-  if (std::find(codes.begin(), codes.end(), no_neighbor) == codes.end())
-    return standing_front(plc, facets, codes, delaunay);
+FrontResult advance_front(const FrontInput& in, const FrontOptions& options, const Progress& progress) {
+  const auto& [plc, facets, codes, delaunay] = in;
+  if (std::ranges::find(codes, no_neighbor) == codes.end()) return standing_front(in);
   CellStar star(delaunay);
-  Front front(plc, facets, codes, face_protection, delaunay, star);
-  switch (locator.kind) {
+  Front front(in, options.face_protection, star);
+  switch (options.locator) {
     case LocatorKind::grid:
       front.advance(
-          WholeModelFinder(facets, delaunay, GridLocator(delaunay.vertices, facets.triangles, locator.grid_scale)),
+          WholeModelFinder(facets, delaunay, GridLocator(delaunay.vertices, facets.triangles, options.grid_scale)),
           progress);
       break;
     case LocatorKind::octree:
       front.advance(WholeModelFinder(facets, delaunay, OctreeLocator(delaunay.vertices, facets.triangles)), progress);
       break;
     case LocatorKind::cavity:
-      front.advance(CavityFinder(facets, codes, !face_protection, delaunay, star), progress);
+      front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star), progress);
       break;
   }
   return front.finish();

@@ -18,8 +18,8 @@ using namespace mesh_test;
 
 void expect_same_tetrahedra(const Stages& stages) {
   const FrontResult checked = stages.advance({LocatorKind::grid}), all = stages.advance_all({LocatorKind::grid});
-  for (const FrontLocator& locator : {FrontLocator{LocatorKind::grid, 0.5}, FrontLocator{LocatorKind::grid, 2},
-                                      FrontLocator{LocatorKind::octree}, FrontLocator{LocatorKind::cavity}}) {
+  for (const FrontOptions& locator : {FrontOptions{LocatorKind::grid, 0.5}, FrontOptions{LocatorKind::grid, 2},
+                                      FrontOptions{LocatorKind::octree}, FrontOptions{LocatorKind::cavity}}) {
     SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.kind)));
     const FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
     EXPECT_EQ(sorted(checked.tetrahedra), sorted(other.tetrahedra));

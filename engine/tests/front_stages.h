@@ -37,12 +37,13 @@ struct Stages {
   }
 
   std::size_t undelaunay() const { return std::count(codes.begin(), codes.end(), no_neighbor); }
-  FrontResult advance(const FrontLocator& locator = {}) const {
-    return advance_front(plc, facets, codes, true, delaunay, locator);
+  FrontResult advance(const FrontOptions& options = {}) const {
+    return advance_front({plc, facets, codes, delaunay}, options);
   }
   /// Every face goes through the front.
-  FrontResult advance_all(const FrontLocator& locator = {}) const {
-    return advance_front(plc, facets, std::vector<std::uint32_t>(codes.size(), no_neighbor), false, delaunay, locator);
+  FrontResult advance_all(FrontOptions options = {}) const {
+    options.face_protection = false;
+    return advance_front({plc, facets, std::vector<std::uint32_t>(codes.size(), no_neighbor), delaunay}, options);
   }
 };
 

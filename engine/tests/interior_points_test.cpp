@@ -90,7 +90,7 @@ struct Protected {
   }
   FrontResult advance() const {
     const FacetMesh facets = triangulate_facets(plc, chains, delaunay);
-    return advance_front(plc, facets, find_delaunay_faces(facets, delaunay), true, delaunay);
+    return advance_front({plc, facets, find_delaunay_faces(facets, delaunay), delaunay});
   }
 };
 
