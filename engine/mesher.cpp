@@ -26,19 +26,6 @@ auto timed(double& seconds, const Stage& stage) {
   return stage();
 }
 
-/// The Delaunay tetrahedralization and the segments, those that need protection as chains of its edges.
-struct ProtectedDelaunay {
-  Delaunay delaunay;
-  SegmentChains chains;
-  std::vector<bool> must_be_chain;  ///< by segment
-};
-
-ProtectedDelaunay protect(const Plc& plc, Delaunay delaunay, const MeshOptions& options, const Progress& progress) {
-  ProtectedDelaunay result{std::move(delaunay), bare_chains(plc), grazeable_segments(plc)};
-  protect_edges(plc, result.must_be_chain, options.protection, result.delaunay, result.chains, progress);
-  return result;
-}
-
 BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
   for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
   for (double& size : background.sizes) size /= grid.unit;
@@ -74,12 +61,8 @@ std::vector<Point3> place_points(const Plc& plc, const ProtectedDelaunay& surfac
 /// Adds those of the points that destroy no protected edge.
 Delaunay add_points(const std::vector<Point3>& points, ProtectedDelaunay surface, const MeshOptions& options,
                     const Progress& progress) {
-  auto& [delaunay, chains, must_be_chain] = surface;
-  if (options.delaunay == DelaunayMethod::insert)
-    insert_interior(points, must_be_chain, chains, delaunay, progress);
-  else
-    wrap_interior(points, must_be_chain, chains, options.grid_scale, delaunay, progress);
-  return std::move(delaunay);
+  if (options.delaunay == DelaunayMethod::insert) return insert_interior(points, std::move(surface), progress);
+  return wrap_interior(points, std::move(surface), options.grid_scale, progress);
 }
 
 /// The constrained Delaunay tetrahedralization of an input as a mesh, or why there is none.
@@ -132,7 +115,9 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   // whatever the method is. With another method it is there for the sake of protection alone.
   const bool stays = options.delaunay == DelaunayMethod::insert;
   Delaunay delaunay = timed(stays ? s.delaunay : s.protect, [&] { return build_delaunay(t.plc.vertices, progress); });
-  ProtectedDelaunay surface = timed(s.protect, [&] { return protect(t.plc, std::move(delaunay), options, progress); });
+  ProtectedDelaunay surface = timed(s.protect, [&] {
+    return protect_edges(t.plc, unprotected(t.plc, std::move(delaunay)), options.protection, progress);
+  });
   t.chains = surface.chains;
   t.first_interior = surface.delaunay.vertices.size();
   t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size();

@@ -22,23 +22,11 @@
 namespace ccdt::benchmarks {
 namespace {
 
-/// What the stage changes.
-struct Changed {
-  Delaunay delaunay;
-  SegmentChains chains;
-  explicit Changed(const Stages& s) : delaunay(s.input_delaunay), chains(bare_chains(s.plc)) {}
-};
-
-std::uint64_t protect(const Stages& s, Protection strategy, Changed& changed) {
-  return protect_edges(s.plc, s.must_be_chain, strategy, changed.delaunay, changed.chains);
-}
-
 std::string find_fault(const Stages& s, Protection strategy) {
-  Changed result(s);
-  protect(s, strategy, result);
+  const ProtectedDelaunay result = protect_edges(s.plc, unprotected(s.plc, s.input_delaunay), strategy);
   CellStar star(result.delaunay);
   for (std::size_t segment = 0; segment < result.chains.size(); ++segment) {
-    if (!s.must_be_chain[segment]) continue;
+    if (!result.must_be_chain[segment]) continue;
     const auto& chain = result.chains[segment];
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       if (!star.has_edge(chain[i].vertex, chain[i + 1].vertex))
@@ -48,17 +36,16 @@ std::string find_fault(const Stages& s, Protection strategy) {
 }
 
 void measure(benchmark::State& state, const Stages& s, Protection strategy) {
-  std::optional<Changed> changed;
-  std::uint64_t steiner = 0;
+  ProtectedDelaunay changed;
   for (auto _ : state) {
     state.PauseTiming();
-    changed.emplace(s);
+    changed = unprotected(s.plc, s.input_delaunay);
     state.ResumeTiming();
-    steiner = protect(s, strategy, *changed);
+    changed = protect_edges(s.plc, std::move(changed), strategy);
   }
-  set_counters(state, changed->delaunay.vertices.size(), finite_cells(changed->delaunay).size());
-  set_count(state, "segments", static_cast<std::size_t>(std::ranges::count(s.must_be_chain, true)));
-  set_count(state, "steiner", steiner);
+  set_counters(state, changed.delaunay.vertices.size(), finite_cells(changed.delaunay).size());
+  set_count(state, "segments", static_cast<std::size_t>(std::ranges::count(changed.must_be_chain, true)));
+  set_count(state, "steiner", changed.delaunay.vertices.size() - s.input_delaunay.vertices.size());
 }
 
 void add(const std::string& name, Protection strategy, const Files& files) {

@@ -64,16 +64,15 @@ LatticeInput lattice_input(const Stages& s, const Density& density) {
 Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOptions& options) {
   Stages s;
   s.plc = build_plc(input, options);
-  s.must_be_chain = grazeable_segments(s.plc);
   s.input_delaunay = build_delaunay(s.plc.vertices);
-  s.delaunay = s.input_delaunay;
-  s.chains = bare_chains(s.plc);
-  protect_edges(s.plc, s.must_be_chain, Protection::shell, s.delaunay, s.chains);
+  ProtectedDelaunay surface = protect_edges(s.plc, unprotected(s.plc, s.input_delaunay), Protection::shell);
+  s.chains = surface.chains;
+  s.delaunay = surface.delaunay;
   s.facets = triangulate_facets(s.plc, s.chains, s.delaunay);
   s.lattice = lattice_input(s, density);
   const auto points =
       place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options);
-  insert_interior(points, s.must_be_chain, s.chains, s.delaunay);
+  s.delaunay = insert_interior(points, std::move(surface));
   s.codes = find_delaunay_faces(s.facets, s.delaunay);
   if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = find_delaunay_faces(s.facets, s.delaunay);

@@ -40,9 +40,8 @@ using Tetrahedra = std::vector<std::array<std::uint32_t, 4>>;
 /// `mesh_plc`.
 struct Stages {
   Plc plc;
-  std::vector<bool> must_be_chain;  ///< by segment
-  Delaunay input_delaunay;          ///< of the vertices of the PLC, before protection
-  SegmentChains chains;             ///< after protection
+  Delaunay input_delaunay;  ///< of the vertices of the PLC, before protection
+  SegmentChains chains;     ///< after protection
   LatticeInput lattice;
   Delaunay delaunay;                 ///< of all vertices
   FacetMesh facets;                  ///< up to date with all vertices

@@ -172,28 +172,28 @@ double Protector::split_length(const Subsegment& piece, std::uint32_t encroachin
   return dot(p - first, d_.point(ends[1]) - first) / length;
 }
 
-/// The edges that must stay, and quick questions about them.
+/// The Delaunay edges that must stay.
+std::vector<std::array<VertexId, 2>> edges_that_stay(const ProtectedDelaunay& p) {
+  std::vector<std::array<VertexId, 2>> edges;
+  for (std::size_t s = 0; s < p.chains.size(); ++s)
+    for (std::size_t i = 0; p.must_be_chain[s] && i + 1 < p.chains[s].size(); ++i)
+      edges.push_back({p.chains[s][i].vertex, p.chains[s][i + 1].vertex});
+  return edges;
+}
+
+/// The edges that must stay, for fast queries.
 struct ProtectedEdges {
   std::vector<std::uint8_t> on_edge;  ///< by vertex, those before the interior ones
   EdgeMap edges;
 
+  explicit ProtectedEdges(const ProtectedDelaunay& p) : on_edge(p.delaunay.vertices.size(), 0) {
+    const auto list = edges_that_stay(p);
+    for (const auto& [a, b] : list) on_edge[a] = on_edge[b] = 1;
+    edges = EdgeMap(list, on_edge.size());
+  }
   bool may_have(std::uint32_t v) const { return v < on_edge.size() && on_edge[v] != 0; }
   bool has(std::uint32_t a, std::uint32_t b) const { return edges.find(a, b) != EdgeMap::none; }
 };
-
-ProtectedEdges collect(const std::vector<bool>& must_be_chain, const SegmentChains& chains, std::size_t vertices) {
-  std::vector<std::uint8_t> on_edge(vertices, 0);
-  std::vector<std::array<VertexId, 2>> edges;
-  for (std::size_t s = 0; s < chains.size(); ++s) {
-    if (!must_be_chain[s]) continue;
-    for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
-      const VertexId a = chains[s][i].vertex, b = chains[s][i + 1].vertex;
-      on_edge[a] = on_edge[b] = 1;
-      edges.push_back({a, b});
-    }
-  }
-  return {std::move(on_edge), EdgeMap(edges, vertices)};
-}
 
 /// Would filling this cavity destroy a protected edge, one that no face of the cavity has?
 bool destroys_edge(const Delaunay& d, const Insertion& insertion, const ProtectedEdges& edges,
@@ -225,14 +225,6 @@ bool destroys_edge(const Delaunay& d, const Insertion& insertion, const Protecte
   return on_faces < repeated.begin() - found.begin();
 }
 
-bool has_all_edges(const Delaunay& d, const std::vector<bool>& must_be_chain, const SegmentChains& chains) {
-  CellStar star(d);
-  for (std::size_t s = 0; s < chains.size(); ++s)
-    for (std::size_t i = 0; must_be_chain[s] && i + 1 < chains[s].size(); ++i)
-      if (!star.has_edge(chains[s][i].vertex, chains[s][i + 1].vertex)) return false;
-  return true;
-}
-
 /// The vertices with the points that are not among them, ranked as they would be inserted.
 std::vector<DelaunayVertex> with_points(std::vector<DelaunayVertex> vertices, std::span<const Point3> points) {
   const auto less = [](const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
@@ -248,28 +240,30 @@ std::vector<DelaunayVertex> with_points(std::vector<DelaunayVertex> vertices, st
 
 }  // namespace
 
-std::uint64_t protect_edges(const Plc& plc, const std::vector<bool>& must_be_chain, Protection strategy,
-                            Delaunay& delaunay, SegmentChains& chains, const Progress& progress) {
-  const std::size_t before = delaunay.vertices.size();
-  Protector protector(plc, strategy, delaunay, chains);
-  // A new vertex may knock out a segment that was done: go round until nothing changes.
+ProtectedDelaunay unprotected(const Plc& plc, Delaunay delaunay) {
+  ProtectedDelaunay result{std::move(delaunay), {}, {}};
+  for (const Segment& s : plc.segments) {
+    result.chains.push_back({{s.ends[0], 0}, {s.ends[1], whole}});
+    result.must_be_chain.push_back(s.grazeable);
+  }
+  return result;
+}
+
+ProtectedDelaunay protect_edges(const Plc& plc, ProtectedDelaunay start, Protection strategy,
+                                const Progress& progress) {
+  SegmentChains& chains = start.chains;
+  Protector protector(plc, strategy, start.delaunay, chains);
+  // A new vertex may destroy a segment that was done: repeat until nothing changes.
   for (bool changed = true; changed;) {
     changed = false;
     for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
       if ((s & 0xFFF) == 0) report(progress, "protect", s, plc.segments.size());
-      if (!must_be_chain[s] || protector.is_protected(chains[s])) continue;
+      if (!start.must_be_chain[s] || protector.is_protected(chains[s])) continue;
       protector.protect(s, chains[s]);
       changed = true;
     }
   }
-  return delaunay.vertices.size() - before;
-}
-
-SegmentChains bare_chains(const Plc& plc) {
-  SegmentChains chains(plc.segments.size());
-  for (std::size_t s = 0; s < chains.size(); ++s)
-    chains[s] = {{plc.segments[s].ends[0], 0}, {plc.segments[s].ends[1], whole}};
-  return chains;
+  return start;
 }
 
 std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
@@ -282,17 +276,10 @@ std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
   return splits;
 }
 
-std::vector<bool> grazeable_segments(const Plc& plc) {
-  std::vector<bool> grazeable(plc.segments.size());
-  for (std::size_t s = 0; s < grazeable.size(); ++s) grazeable[s] = plc.segments[s].grazeable;
-  return grazeable;
-}
-
-std::uint64_t insert_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
-                              const SegmentChains& chains, Delaunay& delaunay, const Progress& progress) {
-  const ProtectedEdges edges = collect(must_be_chain, chains, delaunay.vertices.size());
-  const std::size_t before = delaunay.vertices.size();
-  delaunay.vertices.reserve(before + points.size());
+Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress) {
+  const ProtectedEdges edges(start);
+  Delaunay& delaunay = start.delaunay;
+  delaunay.vertices.reserve(delaunay.vertices.size() + points.size());
   delaunay.cells.reserve(delaunay.cells.size() + 7 * points.size());
   Insertion insertion(delaunay);
   std::vector<std::uint64_t> found;
@@ -309,22 +296,17 @@ std::uint64_t insert_interior(std::span<const Point3> points, const std::vector<
       delaunay.vertices.pop_back();
     }
   }
-  return delaunay.vertices.size() - before;
+  return std::move(start.delaunay);
 }
 
-std::uint64_t wrap_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
-                            const SegmentChains& chains, double grid_scale, Delaunay& delaunay,
-                            const Progress& progress) {
-  const std::size_t before = delaunay.vertices.size();
-  Delaunay all = wrap_delaunay(with_points(delaunay.vertices, points), grid_scale, progress);
+Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,
+                       const Progress& progress) {
+  Delaunay all = wrap_delaunay(with_points(start.delaunay.vertices, points), grid_scale, progress);
   // Edges that are there with all points were there with any part of them: then insertion would drop none.
-  if (has_all_edges(all, must_be_chain, chains)) {
-    delaunay = std::move(all);
-  } else {
-    insert_interior(points, must_be_chain, chains, delaunay, progress);
-    delaunay = wrap_delaunay(std::move(delaunay.vertices), grid_scale, progress);
-  }
-  return delaunay.vertices.size() - before;
+  CellStar star(all);
+  if (std::ranges::all_of(edges_that_stay(start), [&](const auto& edge) { return star.has_edge(edge[0], edge[1]); }))
+    return all;
+  return wrap_delaunay(insert_interior(points, std::move(start), progress).vertices, grid_scale, progress);
 }
 
 }  // namespace ccdt

@@ -13,6 +13,18 @@
 
 namespace ccdt {
 
+/// A Delaunay tetrahedralization and the segments, those that need protection as chains of its edges.
+struct ProtectedDelaunay {
+  Delaunay delaunay;
+  SegmentChains chains;
+  std::vector<bool> must_be_chain;  ///< by segment: must its pieces be Delaunay edges?
+};
+
+/// The state before protection: segments without splits, of which the grazeable ones must become chains.
+///
+/// \param delaunay  of the vertices of `plc`
+ProtectedDelaunay unprotected(const Plc& plc, Delaunay delaunay);
+
 /// Splits every missing grazeable segment until each is a chain of Delaunay edges (paper, section 2), so that the
 /// constrained Delaunay tetrahedralization exists (Shewchuk 2002).
 ///
@@ -21,37 +33,27 @@ namespace ccdt {
 /// pieces of all segments there end on common spheres, and cannot split each other for ever (Ruppert 1995; Si and
 /// Gaertner 2005). Split points are dyadic fractions of the segment, j / 2^20, and lie on it exactly.
 ///
-/// \param must_be_chain  by segment: shall it become a chain of Delaunay edges?
-/// \param delaunay  the tetrahedralization of the vertices of `plc`; gains the Steiner vertices, whose ids follow the
-///                  existing ones
-/// \param chains    kept up to date; on entry the state of an earlier call, or the bare segments (`bare_chains`)
-/// \return          the number of Steiner vertices added
+/// \param start     `unprotected`, or the state of an earlier call, with more vertices
+/// \return          the same with the Steiner vertices, whose ids follow the existing ones
 /// \throw LimitError  a segment would need a split finer than 2^-20 of it; carries the place
-std::uint64_t protect_edges(const Plc& plc, const std::vector<bool>& must_be_chain, Protection strategy,
-                            Delaunay& delaunay, SegmentChains& chains, const Progress& progress = {});
-
-/// The segments before any split.
-SegmentChains bare_chains(const Plc& plc);
+ProtectedDelaunay protect_edges(const Plc& plc, ProtectedDelaunay start, Protection strategy,
+                                const Progress& progress = {});
 
 /// How many vertices were put on segments at each level, from level 1; for `midpoint` that is the depth of the
 /// bisection.
 std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains);
 
-/// Which segments need protection: the grazeable ones.
-std::vector<bool> grazeable_segments(const Plc& plc);
-
-/// Inserts interior points, in the order of a Hilbert curve, each unless it would knock a protected edge out of the
-/// tetrahedralization: then the point is dropped, rather than the edge split for its sake.
+/// Inserts interior points along a Hilbert curve, except those that would destroy a protected edge: such a point is
+/// dropped rather than the edge split.
 ///
-/// \param must_be_chain  by segment: are its pieces Delaunay edges that must stay?
-/// \return how many points were inserted; their ids follow the existing ones
-std::uint64_t insert_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
-                              const SegmentChains& chains, Delaunay& delaunay, const Progress& progress = {});
+/// \return  the tetrahedralization with the points, whose ids follow the existing ones
+Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress = {});
 
 /// The same with the same result, but all vertices are tetrahedralized anew by `wrap_delaunay`. Only if edges are
 /// missing then, the points to drop are found by insertion.
-std::uint64_t wrap_interior(std::span<const Point3> points, const std::vector<bool>& must_be_chain,
-                            const SegmentChains& chains, double grid_scale, Delaunay& delaunay,
-                            const Progress& progress = {});
+///
+/// \param grid_scale  of `wrap_delaunay`
+Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,
+                       const Progress& progress = {});
 
 }  // namespace ccdt

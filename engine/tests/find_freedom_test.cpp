@@ -40,12 +40,13 @@ struct Found {
 /// \param interior  how many vertices the mesh has beyond those of the PLC and the Steiner vertices
 Found find(const InputPlc& input, bool protect = false, std::size_t interior = 0) {
   Found found{build_plc(input), {}, {}, {}};
-  found.chains = bare_chains(found.plc);
-  Delaunay delaunay = build_delaunay(found.plc.vertices);
-  if (protect)
-    protect_edges(found.plc, std::vector<bool>(found.plc.segments.size(), true), Protection::midpoint, delaunay,
-                  found.chains);
-  for (const DelaunayVertex& v : delaunay.vertices) found.places.push_back(v.point);
+  ProtectedDelaunay surface = unprotected(found.plc, build_delaunay(found.plc.vertices));
+  if (protect) {
+    surface.must_be_chain.assign(found.plc.segments.size(), true);
+    surface = protect_edges(found.plc, std::move(surface), Protection::midpoint);
+  }
+  found.chains = surface.chains;
+  for (const DelaunayVertex& v : surface.delaunay.vertices) found.places.push_back(v.point);
   found.freedom = find_freedom(found.plc, found.chains, found.places.size() + interior);
   return found;
 }
@@ -156,7 +157,7 @@ TEST(FindFreedom, SteinerVerticesSlideAlongTheirSegments) {
 /// How many vertices at the middles of all segments may slide.
 int sliding_middles(const InputPlc& input) {
   const Plc plc = build_plc(input);
-  SegmentChains chains = bare_chains(plc);
+  SegmentChains chains = unprotected(plc, {}).chains;
   auto next = static_cast<std::uint32_t>(plc.vertices.size());
   for (auto& chain : chains) chain.insert(chain.begin() + 1, ChainVertex{VertexId(next++), whole_segment / 2, 1});
   const std::vector<Freedom> freedom = find_freedom(plc, chains, next);

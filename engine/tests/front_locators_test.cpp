@@ -20,7 +20,7 @@ void expect_same_tetrahedra(const Stages& stages) {
   const FrontResult checked = stages.advance({LocatorKind::grid}), all = stages.advance_all({LocatorKind::grid});
   for (const FrontOptions& locator : {FrontOptions{LocatorKind::grid, 0.5}, FrontOptions{LocatorKind::grid, 2},
                                       FrontOptions{LocatorKind::octree}, FrontOptions{LocatorKind::cavity}}) {
-    SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.kind)));
+    SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.locator)));
     const FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
     EXPECT_EQ(sorted(checked.tetrahedra), sorted(other.tetrahedra));
     EXPECT_EQ(sorted(all.tetrahedra), sorted(all_by_other.tetrahedra));

@@ -30,8 +30,9 @@ struct Stages {
   std::vector<std::uint32_t> codes;
 
   explicit Stages(const InputPlc& input) : plc(build_plc(input)), delaunay(build_delaunay(plc.vertices)) {
-    chains = bare_chains(plc);
-    protect_edges(plc, grazeable_segments(plc), Protection::shell, delaunay, chains);
+    ProtectedDelaunay surface = protect_edges(plc, unprotected(plc, std::move(delaunay)), Protection::shell);
+    delaunay = std::move(surface.delaunay);
+    chains = std::move(surface.chains);
     facets = triangulate_facets(plc, chains, delaunay);
     codes = find_delaunay_faces(facets, delaunay);
   }

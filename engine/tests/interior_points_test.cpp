@@ -69,27 +69,34 @@ InputPlc segment_in_large_cube() {
 /// An input with its edges protected, and an interior point that is yet to come.
 struct Protected {
   Plc plc;
-  Delaunay delaunay;
-  SegmentChains chains;
-  std::vector<bool> grazeable;
+  ProtectedDelaunay surface;
+  const Delaunay& delaunay = surface.delaunay;
   std::uint64_t splits;
   Point3 point;
 
   Protected(const InputPlc& input, const Point3& interior)
-      : plc(build_plc(input, {0})), delaunay(build_delaunay(plc.vertices)), chains(bare_chains(plc)) {
-    grazeable = grazeable_segments(plc);
-    splits = protect_edges(plc, grazeable, Protection::midpoint, delaunay, chains);
+      : plc(build_plc(input, {0})), surface(unprotected(plc, build_delaunay(plc.vertices))) {
+    splits = protect(Protection::midpoint);
     point = (1 / plc.grid.unit) * (interior - plc.grid.origin);
   }
 
   bool has_edge(std::uint32_t a, std::uint32_t b) { return CellStar(delaunay).has_edge(a, b); }
+  /// \return  how many Steiner vertices it takes
+  std::uint64_t protect(Protection strategy) {
+    const std::size_t before = delaunay.vertices.size();
+    surface = protect_edges(plc, std::move(surface), strategy);
+    return delaunay.vertices.size() - before;
+  }
   /// With regard to edges, or without.
   std::uint64_t insert(bool with_regard) {
-    const std::vector<bool> kept = with_regard ? grazeable : std::vector<bool>(grazeable.size(), false);
-    return insert_interior(std::vector{point}, kept, chains, delaunay);
+    ProtectedDelaunay start = surface;
+    if (!with_regard) start.must_be_chain.assign(start.must_be_chain.size(), false);
+    const std::size_t before = delaunay.vertices.size();
+    surface.delaunay = insert_interior(std::vector{point}, std::move(start));
+    return delaunay.vertices.size() - before;
   }
   FrontResult advance() const {
-    const FacetMesh facets = triangulate_facets(plc, chains, delaunay);
+    const FacetMesh facets = triangulate_facets(plc, surface.chains, delaunay);
     return advance_front({plc, facets, find_delaunay_faces(facets, delaunay), delaunay});
   }
 };
@@ -176,7 +183,7 @@ TEST(InteriorPoints, TheFrontFindsNoConstrainedDelaunayTetrahedraWhereExistenceH
 TEST(InteriorPoints, ThePaperSphereRuleDoesNotSaveTheEdge) {
   Protected p(segment_in_large_cube(), beside_segment);
   EXPECT_EQ(p.splits, 0u);
-  const FacetMesh facets = triangulate_facets(p.plc, p.chains, p.delaunay);
+  const FacetMesh facets = triangulate_facets(p.plc, p.surface.chains, p.delaunay);
   const auto& v = p.plc.vertices;
   for (const auto& [a, b, c] : facets.triangles)
     EXPECT_FALSE(is_in_ball(smallest_ball(TrianglePoints{v[a], v[b], v[c]}), p.point));
@@ -202,7 +209,7 @@ TEST(InteriorPoints, ProtectionAfterInsertionBringsExistenceBack) {
   for (const Protection strategy : {Protection::midpoint, Protection::shell}) {
     Protected p(dented_tetrahedron(), below_dent);
     p.insert(false);
-    EXPECT_GT(protect_edges(p.plc, p.grazeable, strategy, p.delaunay, p.chains), 0u);
+    EXPECT_GT(p.protect(strategy), 0u);
     EXPECT_TRUE(finds_constrained_delaunay(p));
   }
 }

@@ -101,11 +101,8 @@ TEST(Protection, EveryGrazeableSegmentBecomesAChainOfDelaunayEdgesThatLieOnIt) {
   for (const Protection strategy : {Protection::shell, Protection::midpoint})
     for (const InputPlc& input : inputs_with_reflex_edges()) {
       const Plc plc = build_plc(input);
-      Delaunay delaunay = build_delaunay(plc.vertices);
-      SegmentChains chains = bare_chains(plc);
-      const std::vector<bool> grazeable = grazeable_segments(plc);
-      const std::uint64_t added = protect_edges(plc, grazeable, strategy, delaunay, chains);
-      EXPECT_EQ(delaunay.vertices.size(), plc.vertices.size() + added);
+      const auto [delaunay, chains, grazeable] =
+          protect_edges(plc, unprotected(plc, build_delaunay(plc.vertices)), strategy);
       CellStar star(delaunay);
       for (std::size_t s = 0; s < chains.size(); ++s) {
         const Point3 &a = plc.vertices[plc.segments[s].ends[0]], &b = plc.vertices[plc.segments[s].ends[1]];
@@ -146,9 +143,9 @@ TEST(Protection, SplitsAreCountedByLevelWhichForMidpointsIsTheDepthOfTheBisectio
   for (const double angle : {0.1, 0.05}) inputs.push_back(cube_with_pages(5, angle));
   for (const InputPlc& input : inputs) {
     const Plc plc = build_plc(input);
-    Delaunay delaunay = build_delaunay(plc.vertices);
-    SegmentChains chains = bare_chains(plc);
-    const std::uint64_t added = protect_edges(plc, grazeable_segments(plc), Protection::midpoint, delaunay, chains);
+    const auto [delaunay, chains, grazeable] =
+        protect_edges(plc, unprotected(plc, build_delaunay(plc.vertices)), Protection::midpoint);
+    const std::size_t added = delaunay.vertices.size() - plc.vertices.size();
     const std::vector<std::uint64_t> splits = count_splits_by_level(chains);
     EXPECT_EQ(std::accumulate(splits.begin(), splits.end(), std::uint64_t{0}), added);
     deepest = std::max(deepest, splits.size());
