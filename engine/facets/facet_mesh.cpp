@@ -7,81 +7,69 @@
 
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/cell_star.h"
-#include "engine/facets/facet_plane.h"
+#include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
 namespace {
 
 using Triangle = std::array<VertexId, 3>;
 
-/// Works through the facets of one PLC; holds what they share.
-class FacetMesher {
+/// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `PlanarPredicates`).
+///
+/// In an exactly flat facet they are those of space with an apex above the plane. A facet that is flat only within the
+/// tolerance is *flattened*: its vertices are seen along the axis that its normal is nearest to, stretched to their
+/// true distances and rounded to the grid, which gives points that are exactly in one plane.
+class FacetPlane {
  public:
-  FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay);
+  FacetPlane(const std::vector<DelaunayVertex>& vertices, const Point3& apex) : vertices_(vertices), apex_(apex) {}
+  /// \param flattened  by vertex; only those of the facet are read
+  FacetPlane(const std::vector<DelaunayVertex>& vertices, const std::vector<Point3>& flattened)
+      : vertices_(vertices), flattened_(&flattened), apex_{0, 0, 0x1p50} {}
 
-  void triangulate(FacetId id, FacetMesh& result);
-  /// Are these triangles of a facet Delaunay faces that bound no flat cell towards the domain?
-  bool face_domain(const Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes);
+  int orient(VertexId a, VertexId b, VertexId c) const { return orient3d(at(a), at(b), at(c), apex_); }
+
+  int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    return incircle_perturbed(at(a), at(b), at(c), apex_, at(d),
+                              {vertices_[a].rank, vertices_[b].rank, vertices_[c].rank, vertices_[d].rank});
+  }
 
  private:
-  struct FacetSegment {
-    VertexId a, b;  ///< as its triangle has them
-    std::uint32_t segment;
-  };
+  const Point3& at(VertexId v) const { return flattened_ ? (*flattened_)[v] : vertices_[v].point; }
 
-  std::vector<FacetSegment> segments_of(const Facet& facet);
-  PlanarTriangulation split_triangulation(const Facet& facet, const FacetPlane& plane,
-                                          const std::vector<FacetSegment>& segments) const;
-  FacetPlane flatten(const Facet& facet, const std::vector<FacetSegment>& segments);
-  std::vector<VertexId> enter(const Facet& facet, std::span<const Triangle> triangles);
-  void take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t);
-  std::vector<PlanarEdge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices);
-  bool is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-  bool has_all_vertices_here(std::uint32_t cell) const;
-  bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const;
-  bool is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const;
-  std::uint32_t cell_on_domain_side(const Triangle& triangle);
-
-  const Plc& plc_;
-  const SegmentChains& chains_;
-  const Delaunay& d_;
-  CellStar star_;
-  EdgeMap segment_of_edge_;
-  std::vector<Point3> flattened_;        // by vertex, of the facet at hand
-  std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
-  std::uint32_t here_ = 0;
-  int domain_side_ = 1;  // of the facet at hand, +1: above
+  const std::vector<DelaunayVertex>& vertices_;
+  const std::vector<Point3>* flattened_ = nullptr;
+  Point3 apex_;
 };
 
-FacetMesher::FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
-    : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
-  std::vector<std::array<VertexId, 2>> edges;
-  edges.reserve(plc.segments.size());
-  for (const Segment& s : plc.segments) edges.push_back(s.ends);
-  segment_of_edge_ = EdgeMap(edges, plc.vertices.size());
-}
+/// The plane of a facet that is flat only within the tolerance, where the preferred diagonal is the one further from
+/// the domain, and the Delaunay one only between exactly coplanar vertices. Seen from the domain the edges that
+/// `planar_legalize` leaves are convex where they can be; and convex edges need no protection (Shewchuk 2002).
+class BentPlane {
+ public:
+  /// \param domain_side  +1: the domain is above the facet, -1: below
+  BentPlane(const FacetPlane& plane, const std::vector<DelaunayVertex>& vertices, int domain_side)
+      : plane_(plane), vertices_(vertices), domain_side_(domain_side) {}
 
-std::vector<FacetMesher::FacetSegment> FacetMesher::segments_of(const Facet& facet) {
-  std::vector<FacetSegment> segments;
-  for (const Triangle& t : facet.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const VertexId a = t[i], b = t[(i + 1) % 3];
-      if (const std::uint32_t found = segment_of_edge_.find(a, b); found != EdgeMap::none)
-        segments.push_back({a, b, found});
-    }
+  int orient(VertexId a, VertexId b, VertexId c) const { return plane_.orient(a, b, c); }
+
+  int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    const int above =
+        orient3d(vertices_[a].point, vertices_[b].point, vertices_[c].point, vertices_[d].point) * domain_side_;
+    return above != 0 ? -above : plane_.incircle(a, b, c, d);
   }
-  // A segment within the facet is met from both sides.
-  std::sort(segments.begin(), segments.end(), [](const auto& l, const auto& r) { return l.segment < r.segment; });
-  const auto same = [](const auto& l, const auto& r) { return l.segment == r.segment; };
-  segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
-  return segments;
-}
 
-/// The axis that the normal is nearest to, and the apex above the facet in that direction.
+ private:
+  const FacetPlane& plane_;
+  const std::vector<DelaunayVertex>& vertices_;
+  int domain_side_;
+};
+
+/// Where a facet faces.
 struct FacetFrame {
   Point3 normal;
-  int axis;
+  int axis;      ///< that the normal is nearest to
   double scale;  ///< extent of the facet
 };
 
@@ -95,189 +83,229 @@ FacetFrame frame_of(const Facet& facet, const std::vector<DelaunayVertex>& verti
     scale = std::max(scale, squared_length(vertices[t[0]].point - base));
   }
   normal = (1 / std::sqrt(squared_length(normal))) * normal;
-  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
-  return {normal, x >= y && x >= z ? 0 : y >= z ? 1 : 2, std::sqrt(scale)};
+  return {normal, dominant_axis(normal), std::sqrt(scale)};
 }
 
 FacetPlane exact_plane(const Facet& facet, const std::vector<DelaunayVertex>& vertices) {
   const FacetFrame frame = frame_of(facet, vertices);
   const double up = std::exp2(std::ceil(std::log2(frame.scale)));
   Point3 apex = vertices[facet.triangles[0][0]].point;
-  (frame.axis == 0   ? apex.x
-   : frame.axis == 1 ? apex.y
-                     : apex.z) += std::copysign(up, frame.axis == 0   ? frame.normal.x
-                                                    : frame.axis == 1 ? frame.normal.y
-                                                                      : frame.normal.z);
+  double& height = frame.axis == 0 ? apex.x : frame.axis == 1 ? apex.y : apex.z;
+  height += std::copysign(up, as_array(frame.normal)[frame.axis]);
   return FacetPlane(vertices, apex);
 }
 
-/// Sees the vertices along the frame's axis and stretches what is seen to true distances: with the other two
-/// coordinates (s, t) and the heights that the plane has there, the distances are those of a linear image of (s, t),
-/// which loses no orientation.
-FacetPlane FacetMesher::flatten(const Facet& facet, const std::vector<FacetSegment>& segments) {
-  const FacetFrame frame = frame_of(facet, d_.vertices);
-  flattened_.resize(d_.vertices.size());
-  const auto pick = [&](const Point3& p) {  // the axis last, turning the other two so that above stays above
-    if (frame.axis == 0) return Point3{p.y, p.z, p.x};
-    if (frame.axis == 1) return Point3{p.z, p.x, p.y};
-    return p;
-  };
-  const Point3 n = pick(frame.normal);
-  const Point3 base = pick(d_.point(facet.triangles[0][0]));
-  const double rise_s = -n.x / n.z, rise_t = -n.y / n.z, turn = n.z > 0 ? 1 : -1;
-  const double first = std::sqrt(1 + rise_s * rise_s);
-  const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
-  const auto flatten_vertex = [&](VertexId v) {
-    const Point3 p = pick(d_.point(v)) - base;
-    flattened_[v] = {round_to_unit(0.25 * (first * p.x + shear * p.y)), round_to_unit(0.25 * turn * second * p.y), 0};
-  };
-  for (const Triangle& t : facet.triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
-  for (const FacetSegment& s : segments)
-    for (const ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);
-  return FacetPlane(d_.vertices, flattened_);
-}
-
-PlanarTriangulation FacetMesher::split_triangulation(const Facet& facet, const FacetPlane& plane,
-                                                     const std::vector<FacetSegment>& segments) const {
-  std::vector<PlanarEdge> constrained;
-  constrained.reserve(segments.size());
-  for (const FacetSegment& s : segments) constrained.push_back({s.a, s.b});
-  PlanarTriangulation t = planar_from_triangles(facet.triangles, constrained);
-  planar_legalize(t, plane);
-  for (const FacetSegment& s : segments) {
-    const auto& chain = chains_[s.segment];
-    for (std::size_t i = 1; i + 1 < chain.size(); ++i)
-      planar_split_edge(t, chain[i - 1].vertex, chain.back().vertex, chain[i].vertex, plane);
+/// Works through the facets of one PLC; holds what they share.
+class FacetMesher {
+ public:
+  FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
+      : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
+    std::vector<std::array<VertexId, 2>> edges;
+    edges.reserve(plc.segments.size());
+    for (const Segment& s : plc.segments) edges.push_back(s.ends);
+    segment_of_edge_ = EdgeMap(edges, plc.vertices.size());
   }
-  return t;
-}
 
-/// Are the three vertices on one line, up to the tolerance? So are vertices along an edge of a rotated part.
-bool FacetMesher::is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const Point3 u = d_.point(b) - d_.point(a), v = d_.point(c) - d_.point(a), w = d_.point(c) - d_.point(b);
-  const double longest = std::max({squared_length(u), squared_length(v), squared_length(w)});
-  return squared_length(cross(u, v)) < 1e-12 * longest * longest;
-}
-
-/// Has the cell all vertices in the facet at hand?
-bool FacetMesher::has_all_vertices_here(std::uint32_t cell) const {
-  return std::ranges::all_of(d_.cells[cell].vertices,
-                             [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; });
-}
-
-/// Has the cell all vertices in the facet at hand, and may it be left out? Not if it is all that joins the middle one
-/// of three vertices along the border of the facet, which sticks out a little, to the domain.
-bool FacetMesher::is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
-  if (!has_all_vertices_here(cell)) return false;
-  const auto& v = d_.cells[cell].vertices;
-  for (const auto& corner : face_corners) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t middle = v[corner[i]], a = v[corner[(i + 1) % 3]], b = v[corner[(i + 2) % 3]];
-      if (!is_chain(a, middle, b) || dot(d_.point(a) - d_.point(middle), d_.point(b) - d_.point(middle)) > 0) continue;
-      const std::uint32_t apex = v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b ^ middle;
-      const int turn = plane.orient(VertexId(a), VertexId(middle), VertexId(apex));
-      return turn * domain_side_ * orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) <= 0;
+  void triangulate(FacetId id, FacetMesh& result) {
+    const Facet& facet = plc_.facets[id];
+    const std::vector<FacetSegment> segments = segments_of(facet);
+    const bool unsplit = std::all_of(segments.begin(), segments.end(),
+                                     [&](const FacetSegment& s) { return chains_[s.segment].size() == 2; });
+    if (facet.triangles.size() == 1 && unsplit) {
+      result.triangles.push_back(facet.triangles[0]);
+      result.facet.push_back(id);
+      return;
     }
+    const FacetPlane plane = facet.exactly_flat ? exact_plane(facet, d_.vertices) : flatten(facet, segments);
+    PlanarTriangulation t = split_triangulation(facet, plane, segments);
+    if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
+    result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
+    result.facet.resize(result.triangles.size(), id);
   }
-  return true;
-}
 
-/// Has the cell all vertices in the facet at hand, but may not be left out?
-bool FacetMesher::is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const {
-  return has_all_vertices_here(cell) && !is_flat_cell(cell, plane);
-}
+  /// Are these triangles of a facet Delaunay faces that bound no flat cell towards the domain?
+  bool face_domain(const Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes) {
+    if (std::ranges::find(codes, no_neighbor) != codes.end()) return false;
+    enter(facet, triangles);
+    std::optional<FacetPlane> plane;  // hardly ever needed
+    return std::ranges::none_of(codes, [&](std::uint32_t code) {
+      const std::uint32_t cell =
+          domain_side_ > 0 ? cell_of(code) : cell_of(d_.cells[cell_of(code)].neighbors[face_of(code)]);
+      if (!has_all_vertices_here(cell)) return false;
+      if (!plane) plane.emplace(flatten(facet, segments_of(facet)));
+      return is_flat_cell(cell, *plane);
+    });
+  }
 
-/// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
-std::uint32_t FacetMesher::cell_on_domain_side(const Triangle& triangle) {
-  const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
-  if (code == no_neighbor) return no_neighbor;
-  const std::uint32_t cell = cell_of(code);
-  return domain_side_ > 0 ? cell : cell_of(d_.cells[cell].neighbors[face_of(code)]);
-}
+ private:
+  struct FacetSegment {
+    VertexId a, b;  ///< as its triangle has them
+    std::uint32_t segment;
+  };
 
-/// The edges of the Delaunay faces of the facet that have no flat cell towards the domain.
-std::vector<PlanarEdge> FacetMesher::edges_towards_domain(const FacetPlane& plane,
-                                                          const std::vector<VertexId>& vertices) {
-  std::vector<PlanarEdge> edges;
-  for (const VertexId v : vertices) {
-    for (const std::uint32_t c : star_.around(v)) {
-      if (d_.is_ghost(c) || is_flat_cell(c, plane)) continue;
-      for (std::uint32_t f = 0; f < 4; ++f) {
-        const auto& corner = face_corners[f];
-        Triangle face;
-        for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
-        if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
-        if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
-        if (plane.orient(face[0], face[1], face[2]) != domain_side_ || is_chain(face[0], face[1], face[2])) continue;
-        if (is_kept_cell(cell_of(d_.cells[c].neighbors[f]), plane)) continue;
-        for (int i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
+  std::vector<FacetSegment> segments_of(const Facet& facet) {
+    std::vector<FacetSegment> segments;
+    for (const Triangle& t : facet.triangles) {
+      for (int i = 0; i < 3; ++i) {
+        const VertexId a = t[i], b = t[(i + 1) % 3];
+        if (const std::uint32_t found = segment_of_edge_.find(a, b); found != EdgeMap::none)
+          segments.push_back({a, b, found});
       }
     }
+    // A segment within the facet is met from both sides.
+    std::sort(segments.begin(), segments.end(), [](const auto& l, const auto& r) { return l.segment < r.segment; });
+    const auto same = [](const auto& l, const auto& r) { return l.segment == r.segment; };
+    segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
+    return segments;
   }
-  return edges;
-}
 
-/// Makes the facet the one at hand. \return its vertices
-std::vector<VertexId> FacetMesher::enter(const Facet& facet, std::span<const Triangle> triangles) {
-  ++here_;
-  domain_side_ = plc_.regions[facet.above].inside ? 1 : -1;
-  std::vector<VertexId> vertices;
-  for (const Triangle& triangle : triangles) {
-    for (const VertexId v : triangle) {
-      if (in_facet_[v] != here_) vertices.push_back(v);
-      in_facet_[v] = here_;
+  /// Sees the vertices along the frame's axis and stretches what is seen to true distances: with the other two
+  /// coordinates (s, t) and the heights that the plane has there, the distances are those of a linear image of (s, t),
+  /// which loses no orientation.
+  FacetPlane flatten(const Facet& facet, const std::vector<FacetSegment>& segments) {
+    const FacetFrame frame = frame_of(facet, d_.vertices);
+    flattened_.resize(d_.vertices.size());
+    const auto pick = [&](const Point3& p) {  // the axis last, turning the other two so that above stays above
+      if (frame.axis == 0) return Point3{p.y, p.z, p.x};
+      if (frame.axis == 1) return Point3{p.z, p.x, p.y};
+      return p;
+    };
+    const Point3 n = pick(frame.normal);
+    const Point3 base = pick(d_.point(facet.triangles[0][0]));
+    const double rise_s = -n.x / n.z, rise_t = -n.y / n.z, turn = n.z > 0 ? 1 : -1;
+    const double first = std::sqrt(1 + rise_s * rise_s);
+    const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
+    const auto flatten_vertex = [&](VertexId v) {
+      const Point3 p = pick(d_.point(v)) - base;
+      flattened_[v] = {round_to_unit(0.25 * (first * p.x + shear * p.y)), round_to_unit(0.25 * turn * second * p.y), 0};
+    };
+    for (const Triangle& t : facet.triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
+    for (const FacetSegment& s : segments)
+      for (const ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);
+    return FacetPlane(d_.vertices, flattened_);
+  }
+
+  PlanarTriangulation split_triangulation(const Facet& facet, const FacetPlane& plane,
+                                          const std::vector<FacetSegment>& segments) const {
+    std::vector<PlanarEdge> constrained;
+    constrained.reserve(segments.size());
+    for (const FacetSegment& s : segments) constrained.push_back({s.a, s.b});
+    PlanarTriangulation t = planar_from_triangles(facet.triangles, constrained);
+    planar_legalize(t, plane);
+    for (const FacetSegment& s : segments) {
+      const auto& chain = chains_[s.segment];
+      for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+        planar_split_edge(t, chain[i - 1].vertex, chain.back().vertex, chain[i].vertex, plane);
     }
+    return t;
   }
-  return vertices;
-}
 
-bool FacetMesher::face_domain(const Facet& facet, std::span<const Triangle> triangles,
-                              std::span<const std::uint32_t> codes) {
-  if (std::ranges::find(codes, no_neighbor) != codes.end()) return false;
-  enter(facet, triangles);
-  std::optional<FacetPlane> plane;  // hardly ever needed
-  return std::ranges::none_of(codes, [&](std::uint32_t code) {
-    const std::uint32_t cell =
-        domain_side_ > 0 ? cell_of(code) : cell_of(d_.cells[cell_of(code)].neighbors[face_of(code)]);
+  /// Are the three vertices on one line, up to the tolerance? So are vertices along an edge of a rotated part.
+  bool is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const Point3 u = d_.point(b) - d_.point(a), v = d_.point(c) - d_.point(a), w = d_.point(c) - d_.point(b);
+    const double longest = std::max({squared_length(u), squared_length(v), squared_length(w)});
+    return squared_length(cross(u, v)) < 1e-12 * longest * longest;
+  }
+
+  /// Has the cell all vertices in the facet at hand?
+  bool has_all_vertices_here(std::uint32_t cell) const {
+    return std::ranges::all_of(d_.cells[cell].vertices,
+                               [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; });
+  }
+
+  /// Has the cell all vertices in the facet at hand, and may it be left out? Not if it is all that joins the middle one
+  /// of three vertices along the border of the facet, which sticks out a little, to the domain.
+  bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
     if (!has_all_vertices_here(cell)) return false;
-    if (!plane) plane.emplace(flatten(facet, segments_of(facet)));
-    return is_flat_cell(cell, *plane);
-  });
-}
-
-/// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
-void FacetMesher::take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
-  const std::vector<VertexId> vertices = enter(facet, t.triangles);
-  const auto is_right = [&](const Triangle& triangle) {
-    const std::uint32_t cell = cell_on_domain_side(triangle);
-    return cell != no_neighbor && !is_flat_cell(cell, plane);
-  };
-  if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
-  for (const PlanarEdge& edge : edges_towards_domain(plane, vertices)) {
-    const auto side = planar_find_edge(t, edge[0], edge[1]);
-    if (!side || !t.constrained[side->triangle][side->corner]) planar_insert_constraint(t, edge[0], edge[1], plane);
+    const auto& v = d_.cells[cell].vertices;
+    for (const auto& corner : face_corners) {
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t middle = v[corner[i]], a = v[corner[(i + 1) % 3]], b = v[corner[(i + 2) % 3]];
+        if (!is_chain(a, middle, b) || dot(d_.point(a) - d_.point(middle), d_.point(b) - d_.point(middle)) > 0)
+          continue;
+        const std::uint32_t apex = v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b ^ middle;
+        const int turn = plane.orient(VertexId(a), VertexId(middle), VertexId(apex));
+        return turn * domain_side_ * orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) <= 0;
+      }
+    }
+    return true;
   }
-  // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
-  const bool on_both_sides = plc_.regions[facet.above].inside && plc_.regions[facet.below].inside;
-  if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side_));
-}
 
-void FacetMesher::triangulate(FacetId id, FacetMesh& result) {
-  const Facet& facet = plc_.facets[id];
-  const std::vector<FacetSegment> segments = segments_of(facet);
-  const bool unsplit = std::all_of(segments.begin(), segments.end(),
-                                   [&](const FacetSegment& s) { return chains_[s.segment].size() == 2; });
-  if (facet.triangles.size() == 1 && unsplit) {
-    result.triangles.push_back(facet.triangles[0]);
-    result.facet.push_back(id);
-    return;
+  /// Has the cell all vertices in the facet at hand, but may not be left out?
+  bool is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const {
+    return has_all_vertices_here(cell) && !is_flat_cell(cell, plane);
   }
-  const FacetPlane plane = facet.exactly_flat ? exact_plane(facet, d_.vertices) : flatten(facet, segments);
-  PlanarTriangulation t = split_triangulation(facet, plane, segments);
-  if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
-  result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
-  result.facet.resize(result.triangles.size(), id);
-}
+
+  /// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
+  std::uint32_t cell_on_domain_side(const Triangle& triangle) {
+    const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
+    if (code == no_neighbor) return no_neighbor;
+    const std::uint32_t cell = cell_of(code);
+    return domain_side_ > 0 ? cell : cell_of(d_.cells[cell].neighbors[face_of(code)]);
+  }
+
+  /// The edges of the Delaunay faces of the facet that have no flat cell towards the domain.
+  std::vector<PlanarEdge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices) {
+    std::vector<PlanarEdge> edges;
+    for (const VertexId v : vertices) {
+      for (const std::uint32_t c : star_.around(v)) {
+        if (d_.is_ghost(c) || is_flat_cell(c, plane)) continue;
+        for (std::uint32_t f = 0; f < 4; ++f) {
+          const auto& corner = face_corners[f];
+          Triangle face;
+          for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
+          if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
+          if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
+          if (plane.orient(face[0], face[1], face[2]) != domain_side_ || is_chain(face[0], face[1], face[2])) continue;
+          if (is_kept_cell(cell_of(d_.cells[c].neighbors[f]), plane)) continue;
+          for (int i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
+        }
+      }
+    }
+    return edges;
+  }
+
+  /// Makes the facet the one at hand. \return its vertices
+  std::vector<VertexId> enter(const Facet& facet, std::span<const Triangle> triangles) {
+    ++here_;
+    domain_side_ = plc_.regions[facet.above].inside ? 1 : -1;
+    std::vector<VertexId> vertices;
+    for (const Triangle& triangle : triangles) {
+      for (const VertexId v : triangle) {
+        if (in_facet_[v] != here_) vertices.push_back(v);
+        in_facet_[v] = here_;
+      }
+    }
+    return vertices;
+  }
+
+  /// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
+  void take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
+    const std::vector<VertexId> vertices = enter(facet, t.triangles);
+    const auto is_right = [&](const Triangle& triangle) {
+      const std::uint32_t cell = cell_on_domain_side(triangle);
+      return cell != no_neighbor && !is_flat_cell(cell, plane);
+    };
+    if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
+    for (const PlanarEdge& edge : edges_towards_domain(plane, vertices)) {
+      const auto side = planar_find_edge(t, edge[0], edge[1]);
+      if (!side || !t.constrained[side->triangle][side->corner]) planar_insert_constraint(t, edge[0], edge[1], plane);
+    }
+    // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
+    const bool on_both_sides = plc_.regions[facet.above].inside && plc_.regions[facet.below].inside;
+    if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side_));
+  }
+
+  const Plc& plc_;
+  const SegmentChains& chains_;
+  const Delaunay& d_;
+  CellStar star_;
+  EdgeMap segment_of_edge_;
+  std::vector<Point3> flattened_;        // by vertex, of the facet at hand
+  std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
+  std::uint32_t here_ = 0;
+  int domain_side_ = 1;  // of the facet at hand, +1: above
+};
 
 }  // namespace
 

@@ -16,15 +16,6 @@ namespace {
 
 constexpr std::size_t most_overlaps = 1000;
 
-// The input as triangles and segments, with what has been found about them.
-struct PlcParts {
-  TriangleSet triangles;
-  SegmentSet segments;
-  EdgeTable edges;
-  SegmentMatch match;
-  FacetPatches patches;
-};
-
 void check_facets_exist(const InputPlc& input) {
   if (input.facet_count() > 0 && !input.vertices.empty()) return;
   Place place;
@@ -55,8 +46,7 @@ bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const
 }
 
 // The edges that do not lie within one facet, and the segments of the input that are no edge.
-std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map,
-                                      const VerticalRays& rays) {
+std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map) {
   std::vector<Segment> segments;
   for (std::uint32_t e = 0; e < parts.edges.size(); ++e) {
     if (parts.patches.is_inner_edge[e]) continue;
@@ -64,10 +54,9 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
     const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
     segments.push_back({parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e)});
   }
-  for (const std::uint32_t s : parts.match.loose) {
-    const auto& ends = parts.segments.ends[s];
-    const RegionId region = region_at(map, rays, RayStart::middle_of(vertices[ends[0]], vertices[ends[1]]));
-    segments.push_back({ends, parts.segments.markers[s], map.regions[region].inside});
+  for (std::size_t i = 0; i < map.of_loose.size(); ++i) {
+    const std::uint32_t s = parts.match.loose[i];
+    segments.push_back({parts.segments.ends[s], parts.segments.markers[s], map.regions[map.of_loose[i]].inside});
   }
   return segments;
 }
@@ -128,10 +117,8 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
                  find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_overlaps));
 
   report(progress, "plc", 4, steps);
-  const VerticalRays rays(plc.vertices, triangles, tree);
-  RegionMap map = find_regions(triangles, plc.vertices, edges, patches, rays);
-  mark_inside(input, plc, triangles, edges, rays, map);
-  plc.segments = collect_segments(plc.vertices, parts, map, rays);
+  RegionMap map = find_regions(input, plc, parts, tree);
+  plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
   plc.regions = std::move(map.regions);
   report(progress, "plc", steps, steps);

@@ -21,8 +21,14 @@ IntegerPoint six_times(const Point3& p) {
   return {6 * q[0], 6 * q[1], 6 * q[2]};
 }
 
-IntegerPoint sum(const IntegerPoint& a, const IntegerPoint& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+IntegerPoint sixfold_middle(const Point3& a, const Point3& b) {
+  const IntegerPoint p = to_integers(a), q = to_integers(b);
+  return {3 * (p[0] + q[0]), 3 * (p[1] + q[1]), 3 * (p[2] + q[2])};
+}
+
+IntegerPoint sixfold_centroid(const std::array<Point3, 3>& t) {
+  const IntegerPoint p = to_integers(t[0]), q = to_integers(t[1]), r = to_integers(t[2]);
+  return {2 * (p[0] + q[0] + r[0]), 2 * (p[1] + q[1] + r[1]), 2 * (p[2] + q[2] + r[2])};
 }
 
 // On which side of the line pq, seen from above, is the point x after its infinitesimal move?
@@ -56,10 +62,10 @@ bool is_lower(const Crossing& a, const Crossing& b) {
   return sign < 0;
 }
 
-Box box_above(const RayStart& start, bool upwards) {
+Box box_above(const IntegerPoint& sixfold, bool upwards) {
   const double scale = DyadicGrid::quantum / 6, slack = DyadicGrid::quantum;  // more than the rounding of this box
-  const Point3 p = {scale * static_cast<double>(start.sixfold[0]), scale * static_cast<double>(start.sixfold[1]),
-                    scale * static_cast<double>(start.sixfold[2])};
+  const Point3 p = {scale * static_cast<double>(sixfold[0]), scale * static_cast<double>(sixfold[1]),
+                    scale * static_cast<double>(sixfold[2])};
   const Point3 margin = {slack, slack, slack};
   Box box = {p - margin, p + margin};
   if (upwards) box.high.z = std::numeric_limits<double>::infinity();
@@ -70,6 +76,71 @@ Box box_above(const RayStart& start, bool upwards) {
 Wide height_over(const IntegerPoint& a, const WideVector& normal, const IntegerPoint& q) {
   return normal[0] * (q[0] - a[0]) + normal[1] * (q[1] - a[1]) + normal[2] * (q[2] - a[2]);
 }
+
+// A triangle that a ray passes, and the side that it meets first.
+struct RayHit {
+  std::uint32_t triangle;
+  bool enters_above;  // the ray comes from the side that the triangle's normal points to
+};
+
+// Shoots rays straight up (+z) through a set of triangles that do not cross each other, exactly. A ray is moved aside
+// by an infinitesimal step in x and an infinitely smaller one in y, so that it passes no edge, no vertex and no upright
+// triangle. It starts from a point that is given as six times its quanta: a mean of up to three vertices.
+class VerticalRays {
+ public:
+  // \param tree  over the boxes of the triangles; all three must outlive this
+  VerticalRays(std::span<const Point3> vertices, const TriangleSet& triangles, const BoxTree& tree)
+      : vertices_(vertices), triangles_(triangles), tree_(tree) {}
+
+  // All triangles above the point from the lowest to the highest, except `own`.
+  std::vector<RayHit> shoot(const IntegerPoint& q, std::optional<std::uint32_t> own = std::nullopt) const {
+    std::vector<Crossing> crossings;
+    tree_.for_each_meeting(box_above(q, true), [&](std::uint32_t t) {
+      if (own && *own == t) return;
+      const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
+      const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
+      const int side = side_of_moved(a, b, q);
+      if (side_of_moved(b, c, q) != side || side_of_moved(c, a, q) != side) return;
+      WideVector n = exact_normal(points);
+      const bool turned = n[2] < 0;
+      if (turned) n = {-n[0], -n[1], -n[2]};
+      if (height_over(a, n, q) > 0) return;  // zero is for the caller to exclude: the start is on the triangle then
+      const Wide height = n[2] * a[2] - n[0] * (q[0] - a[0]) - n[1] * (q[1] - a[1]);
+      crossings.push_back({t, n, turned, VeryWide(height)});
+    });
+    std::sort(crossings.begin(), crossings.end(), is_lower);
+    std::vector<RayHit> hits;
+    for (const Crossing& c : crossings) hits.push_back({c.triangle, c.turned});
+    return hits;
+  }
+
+  // Is the start of a ray, once moved aside (or, where the triangle is not upright, raised), above this triangle that
+  // holds it?
+  bool leaves_above(std::uint32_t triangle) const {
+    const WideVector n = exact_normal(points_of(vertices_, triangles_.corners[triangle]));
+    if (n[2] != 0) return n[2] > 0;
+    return n[0] != 0 ? n[0] > 0 : n[1] > 0;
+  }
+
+  // A triangle that the point is on.
+  std::optional<std::uint32_t> triangle_at(const IntegerPoint& q) const {
+    std::optional<std::uint32_t> found;
+    tree_.for_each_meeting(box_above(q, false), [&](std::uint32_t t) {
+      const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
+      const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
+      if (height_over(a, exact_normal(points), q) != 0) return;
+      const int axis = dominant_axis(points);
+      const int u = orient_along(axis, a, b, q), v = orient_along(axis, b, c, q), w = orient_along(axis, c, a, q);
+      if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) found = found ? std::min(*found, t) : t;
+    });
+    return found;
+  }
+
+ private:
+  std::span<const Point3> vertices_;
+  const TriangleSet& triangles_;
+  const BoxTree& tree_;
+};
 
 std::uint32_t side(std::uint32_t triangle, bool above) {
   return 2 * triangle + (above ? 0 : 1);
@@ -101,94 +172,10 @@ UnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
   return components;
 }
 
-RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
-                        const Point3& seed, const std::string& name) {
-  const std::string remedy = "move the seed into the part of space that it is for, or remove it";
-  const std::string outside = name + " is outside of all that the facets enclose";
-  // Seeds beyond the box of the vertices may not fit the grid.
-  if (!contains(bounding_box(plc.world), box_of(seed))) throw_input_error(plc, outside, remedy, {seed});
-  const RayStart start = RayStart::at(plc.grid.snap(seed));
-  if (const auto t = rays.triangle_at(start))
-    throw_input_error(plc, name + " is on a facet", remedy, {seed}, {triangles.numbers[*t]});
-  const RegionId region = region_at(map, rays, start);
-  if (region == 0u) throw_input_error(plc, outside, remedy, {seed});
-  return region;
-}
-
-bool has_free_edge(const EdgeTable& edges) {
-  for (std::uint32_t e = 0; e < edges.size(); ++e)
-    if (edges.around(e).size() == 1) return true;
-  return false;
-}
-
-// Inside are the regions behind an odd number of connected surfaces, seen from infinity.
-void mark_by_nesting(RegionMap& map) {
-  for (std::uint32_t c = 1; c < map.regions.size(); ++c)
-    for (RegionId outer(c); outer != 0u; outer = map.around[outer]) map.regions[c].inside = !map.regions[c].inside;
-}
-
-}  // namespace
-
-RayStart RayStart::at(const Point3& p) {
-  return {six_times(p)};
-}
-
-RayStart RayStart::middle_of(const Point3& a, const Point3& b) {
-  const IntegerPoint s = sum(to_integers(a), to_integers(b));
-  return {{3 * s[0], 3 * s[1], 3 * s[2]}};
-}
-
-RayStart RayStart::centroid_of(const Point3& a, const Point3& b, const Point3& c) {
-  const IntegerPoint s = sum(sum(to_integers(a), to_integers(b)), to_integers(c));
-  return {{2 * s[0], 2 * s[1], 2 * s[2]}};
-}
-
-std::vector<RayHit> VerticalRays::shoot(const RayStart& start, std::optional<std::uint32_t> own) const {
-  const IntegerPoint& q = start.sixfold;
-  std::vector<Crossing> crossings;
-  tree_.for_each_meeting(box_above(start, true), [&](std::uint32_t t) {
-    if (own && *own == t) return;
-    const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
-    const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
-    const int side = side_of_moved(a, b, q);
-    if (side_of_moved(b, c, q) != side || side_of_moved(c, a, q) != side) return;
-    WideVector n = exact_normal(points);
-    const bool turned = n[2] < 0;
-    if (turned) n = {-n[0], -n[1], -n[2]};
-    if (height_over(a, n, q) > 0) return;  // zero is for the caller to exclude: the start is on the triangle then
-    const Wide height = n[2] * a[2] - n[0] * (q[0] - a[0]) - n[1] * (q[1] - a[1]);
-    crossings.push_back({t, n, turned, VeryWide(height)});
-  });
-  std::sort(crossings.begin(), crossings.end(), is_lower);
-  std::vector<RayHit> hits;
-  for (const Crossing& c : crossings) hits.push_back({c.triangle, c.turned});
-  return hits;
-}
-
-bool VerticalRays::leaves_above(std::uint32_t triangle) const {
-  const WideVector n = exact_normal(points_of(vertices_, triangles_.corners[triangle]));
-  if (n[2] != 0) return n[2] > 0;
-  return n[0] != 0 ? n[0] > 0 : n[1] > 0;
-}
-
-std::optional<std::uint32_t> VerticalRays::triangle_at(const RayStart& start) const {
-  const IntegerPoint& q = start.sixfold;
-  std::optional<std::uint32_t> found;
-  tree_.for_each_meeting(box_above(start, false), [&](std::uint32_t t) {
-    const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
-    const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
-    if (height_over(a, exact_normal(points), q) != 0) return;
-    const int axis = dominant_axis(points);
-    const int u = orient_along(axis, a, b, q), v = orient_along(axis, b, c, q), w = orient_along(axis, c, a, q);
-    if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) found = found ? std::min(*found, t) : t;
-  });
-  return found;
-}
-
 // That one ray a component suffices: the sides of one component that see the same connected part of space, seen alone,
 // are all joined already. So on the way from a component up to whatever encloses it, everything passed joins the
 // outermost side of what it passes.
-RegionMap find_regions(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
+RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
                        const FacetPatches& facets, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
   UnionFind sides(infinity + 1), components = components_of(triangles, edges);
@@ -197,10 +184,9 @@ RegionMap find_regions(const TriangleSet& triangles, std::span<const Point3> ver
   std::vector<std::uint32_t> outer_side(triangles.size());  // of the first triangle of each component
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (components.find(t) != t) continue;
-    const auto [a, b, c] = triangles.corners[t];
     std::uint32_t left = side(t, rays.leaves_above(t));
     outer_side[t] = left;
-    for (const RayHit& hit : rays.shoot(RayStart::centroid_of(vertices[a], vertices[b], vertices[c]), t)) {
+    for (const RayHit& hit : rays.shoot(sixfold_centroid(points_of(vertices, triangles.corners[t])), t)) {
       sides.join(left, side(hit.triangle, hit.enters_above));
       left = side(hit.triangle, !hit.enters_above);
       if (components.find(hit.triangle) == t) outer_side[t] = left;
@@ -229,11 +215,39 @@ RegionMap find_regions(const TriangleSet& triangles, std::span<const Point3> ver
   return map;
 }
 
-RegionId region_at(const RegionMap& map, const VerticalRays& rays, const RayStart& point) {
-  const std::vector<RayHit> hits = rays.shoot(point);
+// The region of a point that is on no triangle.
+RegionId region_at(const RegionMap& map, const VerticalRays& rays, const IntegerPoint& sixfold) {
+  const std::vector<RayHit> hits = rays.shoot(sixfold);
   return hits.empty() ? RegionId(0u) : map.of(hits.front().triangle, hits.front().enters_above);
 }
 
+RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
+                        const Point3& seed, const std::string& name) {
+  const std::string remedy = "move the seed into the part of space that it is for, or remove it";
+  const std::string outside = name + " is outside of all that the facets enclose";
+  // Seeds beyond the box of the vertices may not fit the grid.
+  if (!contains(bounding_box(plc.world), box_of(seed))) throw_input_error(plc, outside, remedy, {seed});
+  const IntegerPoint start = six_times(plc.grid.snap(seed));
+  if (const auto t = rays.triangle_at(start))
+    throw_input_error(plc, name + " is on a facet", remedy, {seed}, {triangles.numbers[*t]});
+  const RegionId region = region_at(map, rays, start);
+  if (region == 0u) throw_input_error(plc, outside, remedy, {seed});
+  return region;
+}
+
+bool has_free_edge(const EdgeTable& edges) {
+  for (std::uint32_t e = 0; e < edges.size(); ++e)
+    if (edges.around(e).size() == 1) return true;
+  return false;
+}
+
+// Inside are the regions behind an odd number of connected surfaces, seen from infinity.
+void mark_by_nesting(RegionMap& map) {
+  for (std::uint32_t c = 1; c < map.regions.size(); ++c)
+    for (RegionId outer(c); outer != 0u; outer = map.around[outer]) map.regions[c].inside = !map.regions[c].inside;
+}
+
+// \throw InputError  see `find_regions`
 void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& triangles, const EdgeTable& edges,
                  const VerticalRays& rays, RegionMap& map) {
   const bool is_surface = input.inside == InputPlc::Inside::even_odd;
@@ -256,6 +270,19 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
   }
   if (std::none_of(map.regions.begin(), map.regions.end(), [](const Region& c) { return c.inside; }))
     throw_input_error(plc, "the hole seeds leave nothing to mesh", "remove the hole seed of the part to be meshed");
+}
+
+}  // namespace
+
+RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, const BoxTree& tree) {
+  const VerticalRays rays(plc.vertices, parts.triangles, tree);
+  RegionMap map = divide_space(parts.triangles, plc.vertices, parts.edges, parts.patches, rays);
+  mark_inside(input, plc, parts.triangles, parts.edges, rays, map);
+  for (const std::uint32_t s : parts.match.loose) {
+    const auto [a, b] = parts.segments.ends[s];
+    map.of_loose.push_back(region_at(map, rays, sixfold_middle(plc.vertices[a], plc.vertices[b])));
+  }
+  return map;
 }
 
 }  // namespace ccdt
