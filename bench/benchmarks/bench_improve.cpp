@@ -64,13 +64,13 @@ ImproveCounts improve(const Stages& s, Improvement improvement, Unimproved& u) {
 }
 
 /// Of the worst cell; not positive if a cell is not.
-double least_worth(const Unimproved& u) {
+double least_quality(const Unimproved& u) {
   const QualityGoal goal = goal_of({});
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
     const auto& at = u.points;
     if (orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
-    least = std::min(least, worth(goal, at[a], at[b], at[c], at[d]));
+    least = std::min(least, cell_quality(goal, at[a], at[b], at[c], at[d]));
   }
   return least;
 }
@@ -88,9 +88,9 @@ std::string find_fault(const Stages& s, Improvement improvement) {
   const Unimproved& before = unimproved(s);
   Unimproved after = before;
   improve(s, improvement, after);
-  const double least = least_worth(after), volume = six_volumes(before);
+  const double least = least_quality(after), volume = six_volumes(before);
   if (!(least > 0)) return "a cell is not positive";
-  if (least < least_worth(before)) return "the worst cell is worse than before";
+  if (least < least_quality(before)) return "the worst cell is worse than before";
   if (std::fabs(six_volumes(after) - volume) > 1e-9 * volume) return "the volume has changed";
   return {};
 }

@@ -1,5 +1,8 @@
 #include "engine/improve/cell_complex.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "engine/numbers/predicates.h"
 
 namespace ccdt {
@@ -17,112 +20,234 @@ struct FaceBuckets {
   std::vector<FaceEntry> entries;
 };
 
-template <class Visit>
-void visit_faces(const CellComplex& x, const Visit& visit) {
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c) {
-    const auto& v = x.cells[c].vertices;
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const auto& corner = face_corners[f];
-      visit(face_key(v[corner[0]], v[corner[1]], v[corner[2]]), face_code(c, f));
-    }
-  }
-  for (const auto& face : x.faces) visit(face_key(face[0], face[1], face[2]), no_neighbor);
+FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
+  const auto [a, b, c] = corners_of_face(v, f);
+  return face_key(a, b, c);
 }
 
-FaceBuckets sort_faces(const CellComplex& x) {
+FaceBuckets sort_faces(const std::vector<Cell>& cells, const std::vector<std::array<std::uint32_t, 3>>& faces,
+                       std::size_t vertices) {
+  const auto visit_faces = [&](const auto& visit) {
+    for (std::uint32_t c = 0; c < cells.size(); ++c)
+      for (std::uint32_t f = 0; f < 4; ++f) visit(key_of_face(cells[c].vertices, f), face_code(c, f));
+    for (const auto& face : faces) visit(face_key(face[0], face[1], face[2]), no_neighbor);
+  };
   FaceBuckets buckets;
-  buckets.begin.assign(x.points.size() + 2, 0);
-  visit_faces(x, [&](const FaceKey& key, std::uint32_t) { ++buckets.begin[key[0] + 2]; });
+  buckets.begin.assign(vertices + 2, 0);
+  visit_faces([&](const FaceKey& key, std::uint32_t) { ++buckets.begin[key[0] + 2]; });
   for (std::size_t v = 2; v < buckets.begin.size(); ++v) buckets.begin[v] += buckets.begin[v - 1];
   buckets.entries.resize(buckets.begin.back());
-  visit_faces(x, [&](const FaceKey& key, std::uint32_t code) {
+  visit_faces([&](const FaceKey& key, std::uint32_t code) {
     buckets.entries[buckets.begin[key[0] + 1]++] = {std::uint64_t{key[1]} << 32 | key[2], code};
   });
   return buckets;
 }
 
-void set_wall(CellComplex& x, std::uint32_t code) {
-  x.walls[cell_of(code)] = static_cast<std::uint8_t>(x.walls[cell_of(code)] | 1u << face_of(code));
-}
-
-/// Joins the entries of one bucket that are the same face: two cells at most, and a face on a facet.
-void join(CellComplex& x, std::span<FaceEntry> entries) {
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    for (std::size_t j = i + 1; j < entries.size(); ++j) {
-      if (entries[i].rest != entries[j].rest) continue;
-      const std::uint32_t a = entries[i].code, b = entries[j].code;
-      if (a != no_neighbor && b != no_neighbor) {
-        x.cells[cell_of(a)].neighbors[face_of(a)] = b;
-        x.cells[cell_of(b)].neighbors[face_of(b)] = a;
-      } else if (a != no_neighbor || b != no_neighbor) {
-        set_wall(x, a != no_neighbor ? a : b);
-      }
-    }
-  }
-}
-
-void find_neighbors(CellComplex& x) {
-  FaceBuckets buckets = sort_faces(x);
-  for (std::size_t v = 0; v < x.points.size(); ++v)
-    join(x, std::span(buckets.entries).subspan(buckets.begin[v], buckets.begin[v + 1] - buckets.begin[v]));
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
-    for (std::uint32_t f = 0; f < 4; ++f)
-      if (x.cells[c].neighbors[f] == no_neighbor) set_wall(x, face_code(c, f));
+bool is_new_wall(const std::vector<FacetFlip>& flips, const FaceKey& key) {
+  return std::ranges::any_of(
+      flips, [&](const FacetFlip& f) { return key == face_key(f.a, f.c, f.d) || key == face_key(f.b, f.c, f.d); });
 }
 
 }  // namespace
 
-bool is_positive(const CellComplex& x, const std::array<std::uint32_t, 4>& v) {
-  return orient3d(x.points[v[0]], x.points[v[1]], x.points[v[2]], x.points[v[3]]) > 0;
+void Change::clear() {
+  old_cells.clear();
+  new_cells.clear();
+  flips.clear();
+  new_vertex.reset();
 }
 
-CellComplex make_complex(const TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
-                         std::uint32_t first_interior, const QualityGoal& goal) {
-  CellComplex x;
-  x.points = std::move(points);
-  x.first_interior = first_interior;
-  x.cell_of_vertex.assign(x.points.size(), no_neighbor);
-  x.changed_at.assign(x.points.size(), 0);
-  const std::size_t size = mesh.tetrahedra.size();
-  x.cells.resize(size);
-  x.worths.resize(size);
-  for (std::uint32_t c = 0; c < size; ++c) {
-    x.cells[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
-    x.worths[c] = x.worth_of(goal, mesh.tetrahedra[c]);
-    for (const std::uint32_t v : mesh.tetrahedra[c]) x.cell_of_vertex[v] = c;
+CellComplex::CellComplex(const TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
+                         std::uint32_t first_interior, const QualityGoal& goal)
+    : goal_(goal),
+      points_(std::move(points)),
+      first_interior_(first_interior),
+      cell_at_(points_.size(), no_neighbor),
+      changed_at_(points_.size(), 0),
+      cells_(mesh.tetrahedra.size()),
+      walls_(cells_.size(), 0),
+      regions_(mesh.regions),
+      qualities_(cells_.size()),
+      generations_(cells_.size(), 0),
+      faces_(mesh.faces),
+      facet_of_face_(std::move(facet_of_face)) {
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+    cells_[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
+    qualities_[c] = quality_of(mesh.tetrahedra[c]);
+    for (const std::uint32_t v : mesh.tetrahedra[c]) cell_at_[v] = c;
   }
-  x.walls.assign(size, 0);
-  x.regions = mesh.regions;
-  x.generations.assign(size, 0);
-  x.marks.assign(size, 0);
-  x.faces = mesh.faces;
-  x.facet_of_face = std::move(facet_of_face);
-  x.segments.reserve(mesh.edges.size());
-  for (const auto& edge : mesh.edges) x.segments.insert(edge_key(edge[0], edge[1]));
-  x.wall_faces.reserve(x.faces.size());
-  for (std::uint32_t f = 0; f < x.faces.size(); ++f)
-    x.wall_faces.insert(face_key(x.faces[f][0], x.faces[f][1], x.faces[f][2]), f);
-  find_neighbors(x);
-  return x;
+  segments_.reserve(mesh.edges.size());
+  for (const auto& edge : mesh.edges) segments_.insert(edge_key(edge[0], edge[1]));
+  face_table_.reserve(faces_.size());
+  for (std::uint32_t f = 0; f < faces_.size(); ++f)
+    face_table_.insert(face_key(faces_[f][0], faces_[f][1], faces_[f][2]), f);
+  find_neighbors();
 }
 
-std::vector<Point3> take_mesh(CellComplex&& x, TetMesh& mesh) {
-  std::vector<std::uint32_t> number(x.points.size());
+void CellComplex::set_wall(std::uint32_t code) {
+  walls_[cell_of(code)] = static_cast<std::uint8_t>(walls_[cell_of(code)] | 1u << face_of(code));
+}
+
+/// Joins the entries that are the same face: two cells at most, and a face on a facet.
+void CellComplex::find_neighbors() {
+  const FaceBuckets buckets = sort_faces(cells_, faces_, points_.size());
+  const auto& entries = buckets.entries;
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    for (std::size_t i = buckets.begin[v]; i < buckets.begin[v + 1]; ++i) {
+      for (std::size_t j = i + 1; j < buckets.begin[v + 1]; ++j) {
+        if (entries[i].rest != entries[j].rest) continue;
+        const std::uint32_t a = entries[i].code, b = entries[j].code;
+        if (a != no_neighbor && b != no_neighbor) {
+          cells_[cell_of(a)].neighbors[face_of(a)] = b;
+          cells_[cell_of(b)].neighbors[face_of(b)] = a;
+        } else if (a != no_neighbor || b != no_neighbor) {
+          set_wall(a != no_neighbor ? a : b);
+        }
+      }
+    }
+  }
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    for (std::uint32_t f = 0; f < 4; ++f)
+      if (cells_[c].neighbors[f] == no_neighbor) set_wall(face_code(c, f));
+}
+
+double CellComplex::worst_of(std::span<const std::uint32_t> cells) const {
+  double worst = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t c : cells) worst = std::min(worst, qualities_[c]);
+  return worst;
+}
+
+bool CellComplex::all_positive(const Change& change) const {
+  const auto at = [&](std::uint32_t v) -> const Point3& {
+    return v < points_.size() ? points_[v] : *change.new_vertex;
+  };
+  return std::ranges::all_of(change.new_cells, [&](const NewCell& cell) {
+    const auto& v = cell.vertices;
+    return orient3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0;
+  });
+}
+
+void CellComplex::open_hull(const Change& change, CellMarks& marks) {
+  open_.clear();
+  marks.clear(cells_.size());
+  for (const std::uint32_t c : change.old_cells) marks.mark(c);
+  for (const std::uint32_t c : change.old_cells) {
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t outside = cells_[c].neighbors[f];
+      if (outside != no_neighbor && marks.is_marked(cell_of(outside))) continue;
+      open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
+    }
+  }
+}
+
+void CellComplex::free_cells(const std::vector<std::uint32_t>& cells) {
+  for (const std::uint32_t c : cells) {
+    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = no_neighbor;
+    cells_[c].vertices[0] = ghost_vertex;
+    ++generations_[c];
+    free_.push_back(c);
+  }
+}
+
+std::uint32_t CellComplex::take_place() {
+  if (!free_.empty()) {
+    const std::uint32_t place = free_.back();
+    free_.pop_back();
+    return place;
+  }
+  const auto place = static_cast<std::uint32_t>(cells_.size());
+  cells_.emplace_back();
+  walls_.push_back(0);
+  regions_.push_back(0);
+  qualities_.push_back(0);
+  generations_.push_back(0);
+  return place;
+}
+
+/// Joins a face of a new cell to what waits for it, or lets it wait.
+void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flips) {
+  const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
+  const bool becomes_wall = !flips.empty() && is_new_wall(flips, key);
+  for (OpenFace& face : open_) {
+    if (face.key != key) continue;
+    cells_[cell_of(code)].neighbors[face_of(code)] = face.code;
+    if (face.code != no_neighbor) cells_[cell_of(face.code)].neighbors[face_of(face.code)] = code;
+    if (face.is_wall || becomes_wall) set_wall(code);
+    face = open_.back();
+    open_.pop_back();
+    return;
+  }
+  cells_[cell_of(code)].neighbors[face_of(code)] = no_neighbor;
+  if (becomes_wall) set_wall(code);
+  open_.push_back({key, code, becomes_wall});
+}
+
+void CellComplex::flip_walls(const FacetFlip& flip) {
+  const auto exchange = [&](std::uint32_t kept, std::uint32_t apex, std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t* const place = face_table_.find(face_key(kept, from, apex));
+    const std::uint32_t f = *place;
+    face_table_.erase(place);
+    std::ranges::replace(faces_[f], from, to);
+    return f;
+  };
+  const std::uint32_t first = exchange(flip.a, flip.c, flip.b, flip.d);
+  const std::uint32_t second = exchange(flip.b, flip.d, flip.a, flip.c);
+  face_table_.insert(face_key(flip.a, flip.c, flip.d), first);
+  face_table_.insert(face_key(flip.b, flip.c, flip.d), second);
+}
+
+void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made) {
+  if (change.new_vertex) {
+    points_.push_back(*change.new_vertex);
+    cell_at_.push_back(no_neighbor);
+    changed_at_.push_back(0);
+  }
+  open_hull(change, marks);
+  free_cells(change.old_cells);
+  made.clear();
+  for (const NewCell& cell : change.new_cells) {
+    const std::uint32_t c = take_place();
+    made.push_back(c);
+    cells_[c].vertices = cell.vertices;
+    walls_[c] = 0;
+    regions_[c] = cell.region;
+    qualities_[c] = cell.quality;
+    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.flips);
+    for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
+  }
+  // What a flip has left open on a boundary facet: its two old triangles are gone, the two new ones are walls already.
+  for (const FacetFlip& flip : change.flips) flip_walls(flip);
+  ++change_count_;
+  for (const NewCell& cell : change.new_cells)
+    for (const std::uint32_t v : cell.vertices) changed_at_[v] = change_count_;
+}
+
+void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star) {
+  points_[v] = place;
+  ++change_count_;
+  for (const std::uint32_t c : star) {
+    qualities_[c] = quality_of(cells_[c].vertices);
+    for (const std::uint32_t corner : cells_[c].vertices) changed_at_[corner] = change_count_;
+  }
+}
+
+std::vector<Point3> CellComplex::take_mesh(TetMesh& mesh) && {
+  std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
-  points.reserve(x.points.size());
-  for (std::uint32_t v = 0; v < x.points.size(); ++v) {
+  points.reserve(points_.size());
+  for (std::uint32_t v = 0; v < points_.size(); ++v) {
     number[v] = static_cast<std::uint32_t>(points.size());
-    if (!x.is_interior(v) || x.cell_of_vertex[v] != no_neighbor) points.push_back(x.points[v]);
+    if (!is_interior(v) || cell_at_[v] != no_neighbor) points.push_back(points_[v]);
   }
   mesh.tetrahedra.clear();
   mesh.regions.clear();
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c) {
-    if (x.is_dead(c)) continue;
-    const auto& v = x.cells[c].vertices;
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+    if (is_dead(c)) continue;
+    const auto& v = cells_[c].vertices;
     mesh.tetrahedra.push_back({number[v[0]], number[v[1]], number[v[2]], number[v[3]]});
-    mesh.regions.push_back(x.regions[c]);
+    mesh.regions.push_back(regions_[c]);
   }
-  mesh.faces = std::move(x.faces);
+  mesh.faces = std::move(faces_);
   return points;
 }
 

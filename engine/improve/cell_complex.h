@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,68 +11,169 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/improve/cell_quality.h"
 #include "engine/mesh/tet_mesh.h"
-#include "engine/plc/plc.h"
 
 namespace ccdt {
+
+/// A cell to be made.
+struct NewCell {
+  std::array<std::uint32_t, 4> vertices;  ///< positively oriented
+  int region;
+  double quality;
+};
+
+/// The diagonal ab of two triangles on a facet gives way to the other one, cd.
+struct FacetFlip {
+  std::uint32_t a, b, c, d;
+};
+
+/// A plan: cells, and those that are to fill the same space instead.
+struct Change {
+  std::vector<std::uint32_t> old_cells;
+  std::vector<NewCell> new_cells;
+  std::vector<FacetFlip> flips;      ///< one at most
+  std::optional<Point3> new_vertex;  ///< its id is the number of vertices before the change
+
+  void clear();
+};
+
+/// Which cells have been met, for searches through a complex one after the other.
+class CellMarks {
+ public:
+  /// Forgets all marks.
+  void clear(std::size_t cell_count) {
+    if (marks_.size() < cell_count) marks_.resize(cell_count, 0);
+    ++search_;
+  }
+  void mark(std::uint32_t cell) { marks_[cell] = search_; }
+  bool is_marked(std::uint32_t cell) const { return marks_[cell] == search_; }
+
+ private:
+  std::vector<std::uint32_t> marks_;  // the number of the last search that met the cell
+  std::uint32_t search_ = 0;
+};
 
 /// A tetrahedral mesh that can be changed: cells know their neighbors, and which of their faces and edges must stay.
 ///
 /// As in the Delaunay tetrahedralization, but without ghosts: the code of a neighbor is `no_neighbor` where there is
-/// none. A *wall* is a face on a facet, of the boundary or inside. Vertices below `first_interior` are of the PLC or
-/// Steiner vertices on its segments and facets; the others are ours alone and may go anywhere, or away.
-struct CellComplex {
-  std::vector<Point3> points;  ///< grid units
-  std::uint32_t first_interior = 0;
-  std::vector<std::uint32_t> cell_of_vertex;  ///< some cell that has it; `no_neighbor`: none, it is gone
-  std::vector<std::uint64_t> changed_at;      ///< by vertex: the number of the last change around it
+/// none. A *wall* is a face on a facet, of the boundary or inside. Vertices below the first interior one are of the PLC
+/// or Steiner vertices on its segments and facets; *interior* vertices may go anywhere, or away.
+class CellComplex {
+ public:
+  /// \param mesh            tetrahedra, regions, faces and edges; its coordinates are not used
+  /// \param points          its vertices in grid units
+  /// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
+  /// \param first_interior  the least interior vertex
+  CellComplex(const TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
+              std::uint32_t first_interior, const QualityGoal& goal);
 
-  std::vector<Cell> cells;
-  std::vector<std::uint8_t> walls;         ///< by cell: bit f is set if face f is a wall
-  std::vector<int> regions;                ///< by cell
-  std::vector<double> worths;              ///< by cell
-  std::vector<std::uint32_t> generations;  ///< by cell: how often its place was given to another
-  std::vector<std::uint32_t> marks;        ///< by cell: the number of the last question that met it
-  std::vector<std::uint32_t> free_cells;
+  const QualityGoal& goal() const { return goal_; }
+  std::uint64_t change_count() const { return change_count_; }
 
-  HashSet<std::uint64_t> segments;                  ///< edges that lie on segments
-  HashTable<FaceKey, std::uint32_t> wall_faces;     ///< the walls: their places in `faces`
-  std::vector<std::array<std::uint32_t, 3>> faces;  ///< of the mesh, on facets
-  std::vector<std::uint32_t> facet_of_face;
+  std::size_t vertex_count() const { return points_.size(); }
+  const Point3& point(std::uint32_t v) const { return points_[v]; }
+  bool is_interior(std::uint32_t v) const { return v >= first_interior_; }
+  /// Some cell that has the vertex; `no_neighbor` if it is gone.
+  std::uint32_t cell_at(std::uint32_t v) const { return cell_at_[v]; }
+  /// The number of the last change around the vertex.
+  std::uint64_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
 
-  std::uint64_t changes = 0;    ///< so far
-  std::uint32_t questions = 0;  ///< so far
-
-  bool is_dead(std::uint32_t cell) const { return cells[cell].vertices[0] == ghost_vertex; }
-  bool is_interior(std::uint32_t v) const { return v >= first_interior; }
-  bool is_wall(std::uint32_t code) const { return (walls[cell_of(code)] >> face_of(code) & 1) != 0; }
-  bool is_segment(std::uint32_t a, std::uint32_t b) const {
-    return !is_interior(a) && !is_interior(b) && segments.contains(edge_key(a, b));
-  }
-  double worth_of(const QualityGoal& goal, const std::array<std::uint32_t, 4>& v) const {
-    return worth(goal, points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
-  }
+  /// With the dead ones, whose places wait to be used again.
+  std::size_t cell_count() const { return cells_.size(); }
+  std::size_t dead_count() const { return free_.size(); }
+  const Cell& cell(std::uint32_t c) const { return cells_[c]; }
+  bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
+  int region(std::uint32_t c) const { return regions_[c]; }
+  double quality(std::uint32_t c) const { return qualities_[c]; }
+  /// How often the place of the cell was given to another one.
+  std::uint32_t generation(std::uint32_t c) const { return generations_[c]; }
   /// The place of a vertex in a cell that has it.
-  std::uint32_t place(std::uint32_t cell, std::uint32_t v) const {
-    const auto& all = cells[cell].vertices;
+  std::uint32_t place(std::uint32_t c, std::uint32_t v) const {
+    const auto& all = cells_[c].vertices;
     return all[0] == v ? 0 : all[1] == v ? 1 : all[2] == v ? 2 : 3;
   }
+  bool is_wall(std::uint32_t code) const { return (walls_[cell_of(code)] >> face_of(code) & 1) != 0; }
+
+  /// The faces on facets, and the facet of each.
+  const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
+  const std::vector<std::uint32_t>& facet_of_face() const { return facet_of_face_; }
+  /// The number of the face with these corners; nothing if it is on no facet.
+  std::optional<std::uint32_t> find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const std::uint32_t* const face = face_table_.find(face_key(a, b, c));
+    return face == nullptr ? std::nullopt : std::optional(*face);
+  }
+  /// The edges that lie on segments, by `edge_key`.
+  const HashSet<std::uint64_t>& segments() const { return segments_; }
+  /// Is the edge on a segment?
+  bool is_segment(std::uint32_t a, std::uint32_t b) const {
+    return !is_interior(a) && !is_interior(b) && segments_.find(edge_key(a, b)) != nullptr;
+  }
+
+  /// The quality that a cell of these vertices would have.
+  double quality_of(const std::array<std::uint32_t, 4>& v) const {
+    return cell_quality(goal_, points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
+  }
+  /// The quality of the worst of some cells.
+  double worst_of(std::span<const std::uint32_t> cells) const;
+  /// Exactly: are all new cells positive? With the same hull as the old ones they then fill the same space, once.
+  bool all_positive(const Change& change) const;
+
+  /// Makes a change that is all positive. Interior vertices that no new cell has are gone.
+  /// \param marks  working memory
+  /// \param made   the new cells
+  void apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made);
+  /// Moves a vertex to where all cells around it, `star`, are positive.
+  void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
+
+  /// Puts what became of the mesh back: tetrahedra, regions and faces. Interior vertices that are gone leave no gaps.
+  /// \return the vertices of the mesh, in grid units
+  std::vector<Point3> take_mesh(TetMesh& mesh) &&;
+
+ private:
+  /// A face that waits for the cell on its other side.
+  struct OpenFace {
+    FaceKey key;
+    std::uint32_t code;  ///< of the cell that is there; `no_neighbor`: none, the face is on the boundary
+    bool is_wall;
+  };
+
+  void find_neighbors();
+  void open_hull(const Change& change, CellMarks& marks);
+  void free_cells(const std::vector<std::uint32_t>& cells);
+  std::uint32_t take_place();
+  void set_wall(std::uint32_t code);
+  void connect(std::uint32_t code, const std::vector<FacetFlip>& flips);
+  void flip_walls(const FacetFlip& flip);
+
+  QualityGoal goal_;
+  std::uint64_t change_count_ = 0;
+
+  // By vertex.
+  std::vector<Point3> points_;  // grid units
+  std::uint32_t first_interior_ = 0;
+  std::vector<std::uint32_t> cell_at_;
+  std::vector<std::uint64_t> changed_at_;
+
+  // By cell.
+  std::vector<Cell> cells_;
+  std::vector<std::uint8_t> walls_;  // bit f is set if face f is a wall
+  std::vector<int> regions_;
+  std::vector<double> qualities_;
+  std::vector<std::uint32_t> generations_;
+  std::vector<std::uint32_t> free_;  // the dead ones
+
+  // The surface.
+  HashSet<std::uint64_t> segments_;               // edges that lie on segments
+  HashTable<FaceKey, std::uint32_t> face_table_;  // places in `faces_`
+  std::vector<std::array<std::uint32_t, 3>> faces_;
+  std::vector<std::uint32_t> facet_of_face_;
+
+  std::vector<OpenFace> open_;  // working memory of `apply`
 };
 
-/// Exactly: is the tetrahedron positive?
-bool is_positive(const CellComplex& complex, const std::array<std::uint32_t, 4>& vertices);
-
-/// Makes a mesh ready to be changed.
-///
-/// \param mesh            tetrahedra, regions, faces and edges; its coordinates are not looked at
-/// \param points          its vertices in grid units
-/// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
-/// \param first_interior  see `CellComplex`
-CellComplex make_complex(const TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
-                         std::uint32_t first_interior, const QualityGoal& goal);
-
-/// Puts what became of the mesh back: tetrahedra, regions and faces. Interior vertices that are gone leave no gaps.
-///
-/// \return the vertices of the mesh, in grid units
-std::vector<Point3> take_mesh(CellComplex&& complex, TetMesh& mesh);
+/// The corners of face f of a cell with these vertices.
+inline std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
+  const auto& corner = face_corners[f];
+  return {v[corner[0]], v[corner[1]], v[corner[2]]};
+}
 
 }  // namespace ccdt

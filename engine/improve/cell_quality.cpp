@@ -31,13 +31,13 @@ double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point
   return det * std::sqrt(least);
 }
 
-double worth(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   if (goal.objective == Objective::dihedral) return least_sine(a, b, c, d);
   const double shape = inverse_r(a, b, c, d);
   return shape < goal.inverse_r ? shape : 1 + least_sine(a, b, c, d);
 }
 
-double worth_of_goal(const QualityGoal& goal) {
+double goal_quality(const QualityGoal& goal) {
   return goal.objective == Objective::dihedral ? goal.sine : 1 + goal.sine;
 }
 

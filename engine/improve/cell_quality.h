@@ -7,13 +7,7 @@
 
 namespace ccdt {
 
-/// What improvement knows of a tetrahedron's shape. Both are 1 or less, and not positive if it is flat or inverted.
-struct Shape {
-  double inverse_r = 0;   ///< 1 / r of the paper (section 5), with the sign of the volume; 1: regular
-  double least_sine = 0;  ///< of the six dihedral angles, with the sign of the volume
-};
-
-/// What is good enough, as numbers that can be compared with a `Shape`.
+/// What is good enough, as numbers that can be compared with 1 / r and the least sine.
 struct QualityGoal {
   Objective objective = Objective::r;
   double inverse_r = 0.5;
@@ -30,14 +24,14 @@ double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3
 /// is 3 V l / (2 A B).
 double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
-/// The worth of a tetrahedron to the objective: greater is better, and 0 or less is flat or inverted. A set of
-/// tetrahedra is worth as much as its worst.
+/// The quality of a tetrahedron by the objective: greater is better, and 0 or less is flat or inverted. That of a set
+/// of tetrahedra is that of its worst.
 ///
-/// For `Objective::r` it is 1 / r up to the goal. Tetrahedra beyond that are all worth 1 and the least sine of their
-/// dihedral angles: r comes first, angles decide where r is good.
-double worth(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+/// For `Objective::r` it is 1 / r up to the goal; from there on, it is 1 plus the least sine of the dihedral angles: r
+/// comes first, angles decide where r is good.
+double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
-/// The worth from which a tetrahedron is good enough.
-double worth_of_goal(const QualityGoal& goal);
+/// The quality from which a tetrahedron is good enough.
+double goal_quality(const QualityGoal& goal);
 
 }  // namespace ccdt

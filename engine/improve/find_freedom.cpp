@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
+#include "engine/base/hash_table.h"
+#include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt {
@@ -47,7 +48,7 @@ Freedom in_plane(const Point3& a, const Point3& b, const Point3& c) {
 }
 
 /// What is around a vertex of the PLC.
-struct Surroundings {
+struct VertexSurroundings {
   std::uint32_t facet = none, triangle = none;  ///< the first
   bool several_facets = false;
   bool flat = true;      ///< all facets are exactly so
@@ -77,9 +78,6 @@ class FreedomFinder {
  private:
   static constexpr Freedom fixed{0, {}, {}};
 
-  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
-    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
-  }
   const Point3& point(std::uint32_t v) const { return plc_.vertices[v]; }
   const Point3& end(std::uint32_t segment, int i) const { return point(plc_.segments[segment].ends[i]); }
   std::uint32_t other_end(std::uint32_t segment, std::uint32_t v) const {
@@ -90,9 +88,9 @@ class FreedomFinder {
   void look_at_segments() {
     segment_of_edge_.reserve(plc_.segments.size());
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
-      segment_of_edge_[key(plc_.segments[s].ends[0], plc_.segments[s].ends[1])] = s;
+      segment_of_edge_.set(edge_key(plc_.segments[s].ends[0], plc_.segments[s].ends[1]), s);
       for (const VertexId v : plc_.segments[s].ends) {
-        Surroundings& around = around_[v];
+        VertexSurroundings& around = around_[v];
         if (around.segment_count < 2) around.segments[around.segment_count] = s;
         ++around.segment_count;
       }
@@ -107,15 +105,15 @@ class FreedomFinder {
       if (facet.exactly_flat) continue;
       for (const auto& triangle : facet.triangles) {
         for (int i = 0; i < 3; ++i) {
-          const auto found = segment_of_edge_.find(key(triangle[i], triangle[(i + 1) % 3]));
-          if (found != segment_of_edge_.end()) flat_segment_[found->second] = false;
+          const auto* const segment = segment_of_edge_.find(edge_key(triangle[i], triangle[(i + 1) % 3]));
+          if (segment != nullptr) flat_segment_[*segment] = false;
         }
       }
     }
   }
 
   void look_at(std::uint32_t facet, std::uint32_t triangle, std::uint32_t v) {
-    Surroundings& around = around_[v];
+    VertexSurroundings& around = around_[v];
     around.flat = around.flat && plc_.facets[facet].exactly_flat;
     if (around.facet == none) {
       around.facet = facet;
@@ -130,7 +128,7 @@ class FreedomFinder {
   }
 
   Freedom of_vertex(std::uint32_t v) const {
-    const Surroundings& around = around_[v];
+    const VertexSurroundings& around = around_[v];
     if (!around.flat) return fixed;
     if (around.segment_count == 2) return of_junction(v, around);
     if (around.segment_count > 0 || around.facet == none || around.several_facets) return fixed;
@@ -139,7 +137,7 @@ class FreedomFinder {
   }
 
   /// Two segments that meet in one line and do not overlap are the two sides of their vertex.
-  Freedom of_junction(std::uint32_t v, const Surroundings& around) const {
+  Freedom of_junction(std::uint32_t v, const VertexSurroundings& around) const {
     const auto [s, t] = around.segments;
     if (around.crossed || plc_.segments[s].marker != plc_.segments[t].marker) return fixed;
     const std::uint32_t before = other_end(s, v), after = other_end(t, v);
@@ -148,9 +146,9 @@ class FreedomFinder {
 
   const Plc& plc_;
   const SegmentChains& chains_;
-  std::vector<Surroundings> around_;
+  std::vector<VertexSurroundings> around_;
   std::vector<char> flat_segment_;  // are all facets at the segment exactly flat?
-  std::unordered_map<std::uint64_t, std::uint32_t> segment_of_edge_;
+  HashTable<std::uint64_t, std::uint32_t> segment_of_edge_;
 };
 
 }  // namespace

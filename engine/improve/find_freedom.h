@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/improve/move_apex.h"
+#include "engine/improve/smoothing.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 

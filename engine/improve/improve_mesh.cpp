@@ -1,11 +1,278 @@
 #include "engine/improve/improve_mesh.h"
 
-#include "engine/improve/cell_complex.h"
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <tuple>
+
 #include "engine/improve/find_freedom.h"
-#include "engine/improve/improve_cells.h"
-#include "engine/improve/sort_cells.h"
+#include "engine/improve/topological_changes.h"
 
 namespace ccdt {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A cell that is not good enough.
+struct BadCell {
+  double quality;
+  std::uint32_t cell;
+  std::uint32_t generation;    ///< of the cell: another one there is a new cell
+  std::uint64_t tried_at = 0;  ///< the number of the last change when it was tried in vain
+  int tries = 0;               ///< how often that was
+};
+
+/// So often a cell is tried in vain before it is given up. More would cost half as much time again for the last one in
+/// a hundred of the bad cells.
+constexpr int most_tries = 3;
+
+/// How much is tried for a cell.
+enum class Effort { usual, greatest };
+
+class Improver {
+ public:
+  Improver(CellComplex& x, const std::vector<Freedom>& freedom, const ImproveOptions& options)
+      : x_(x),
+        freedom_(freedom),
+        options_(options),
+        improvement_(options.improvement.value_or(Improvement::all)),
+        begin_(Clock::now()) {}
+
+  ImproveCounts run(const Progress& progress);
+
+ private:
+  bool is_bad(std::uint32_t cell) const { return !(x_.quality(cell) >= goal_quality(x_.goal())); }
+  bool is_stale(const BadCell& bad) const {
+    return x_.generation(bad.cell) != bad.generation || x_.is_dead(bad.cell) || !is_bad(bad.cell);
+  }
+  bool should_be_tried(const BadCell& bad) const {
+    const auto has_changed = [&](std::uint32_t v) { return x_.changed_at(v) >= bad.tried_at; };
+    return bad.tries < most_tries && std::ranges::any_of(x_.cell(bad.cell).vertices, has_changed);
+  }
+  bool time_is_up() const {
+    return options_.time > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= options_.time;
+  }
+
+  void tidy(std::vector<BadCell>& bad) const;
+  bool pass(Effort effort, const Progress& progress);
+  bool improve(std::uint32_t cell, Effort effort);
+  bool swap(std::uint32_t cell);
+  bool smooth(std::uint32_t cell, Effort effort);
+  bool move(std::uint32_t vertex, Effort effort);
+  bool insert_or_collapse(std::uint32_t cell);
+  void apply(const Change& change);
+  void add_bad(std::uint32_t cell) {
+    if (is_bad(cell)) found_.push_back({x_.quality(cell), cell, x_.generation(cell)});
+  }
+
+  CellComplex& x_;
+  const std::vector<Freedom>& freedom_;
+  const ImproveOptions& options_;
+  const Improvement improvement_;
+  const Clock::time_point begin_;
+  ImproveCounts counts_;
+  std::vector<BadCell> queue_, found_;  ///< of this pass, worst first; for the next one
+
+  // Working memory.
+  Change plan_, best_;
+  PlanScratch scratch_;
+  VertexStar star_;
+  std::vector<std::uint32_t> new_cells_, good_cells_;
+};
+
+ImproveCounts Improver::run(const Progress& progress) {
+  for (std::uint32_t c = 0; c < x_.cell_count(); ++c) add_bad(c);
+  counts_.bad_cells = found_.size();
+  Effort effort = Effort::usual;
+  while (!found_.empty() && !time_is_up()) {
+    const bool changed = pass(effort, progress);
+    if (changed) continue;
+    if (effort == Effort::greatest || improvement_ == Improvement::swap) break;
+    effort = Effort::greatest;
+    for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
+  }
+  tidy(found_);
+  counts_.bad_cells_left = found_.size();
+  counts_.stop = found_.empty() ? ImproveStop::target : time_is_up() ? ImproveStop::time : ImproveStop::stuck;
+  return counts_;
+}
+
+/// Leaves one entry for each cell that is still bad, the least tried, and the worst first. A cell that a moved vertex
+/// has made good and another one bad again has two.
+void Improver::tidy(std::vector<BadCell>& bad) const {
+  std::erase_if(bad, [&](const BadCell& b) { return is_stale(b); });
+  for (BadCell& b : bad) b.quality = x_.quality(b.cell);
+  std::ranges::sort(bad, [](const BadCell& a, const BadCell& b) {
+    return std::tie(a.quality, a.cell, a.tries, a.tried_at) < std::tie(b.quality, b.cell, b.tries, b.tried_at);
+  });
+  const auto rest = std::ranges::unique(bad, {}, &BadCell::cell);
+  bad.erase(rest.begin(), rest.end());
+}
+
+/// Tries each bad cell once, unless nothing around it has changed since it was tried in vain.
+/// \return has anything been improved?
+bool Improver::pass(Effort effort, const Progress& progress) {
+  queue_.swap(found_);
+  found_.clear();
+  tidy(queue_);
+  const std::uint64_t changes = x_.change_count();
+  std::uint64_t done = 0;
+  for (BadCell& bad : queue_) {
+    if (done++ % 256 == 0) {
+      report(progress, "improve", done, queue_.size());
+      if (time_is_up()) {
+        found_.insert(found_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(done) - 1, queue_.end());
+        break;
+      }
+    }
+    if (is_stale(bad)) continue;
+    if (should_be_tried(bad)) {
+      if (improve(bad.cell, effort) && is_stale(bad)) continue;
+      bad.tried_at = x_.change_count() + 1;
+      ++bad.tries;
+    }
+    found_.push_back(bad);
+  }
+  return x_.change_count() != changes;
+}
+
+bool Improver::improve(std::uint32_t cell, Effort effort) {
+  const bool swaps = improvement_ != Improvement::smooth;
+  const bool smooths = improvement_ != Improvement::swap;
+  if (swaps && swap(cell)) return true;
+  bool improved = false;
+  if (smooths && smooth(cell, effort)) {
+    improved = true;
+    if (!is_bad(cell)) return true;
+  }
+  const bool everything = effort == Effort::greatest && improvement_ == Improvement::all;
+  return (everything && insert_or_collapse(cell)) || improved;
+}
+
+/// The best of all swaps that a cell has part in.
+bool Improver::swap(std::uint32_t cell) {
+  double least = x_.quality(cell);
+  std::uint64_t* count = nullptr;  // of what the best plan removes
+  const auto consider = [&](bool is_better, std::uint64_t& removed) {
+    if (!is_better) return;
+    least = worst_of(plan_.new_cells);
+    count = &removed;
+    std::swap(plan_, best_);
+  };
+  for (std::uint32_t edge = 0; edge < 6; ++edge)
+    consider(plan_edge_removal(x_, cell, edge, least, plan_), counts_.removed_edges);
+  for (std::uint32_t face = 0; face < 4; ++face)
+    consider(plan_face_removal(x_, cell, face, least, plan_), counts_.removed_faces);
+  if (count == nullptr || !x_.all_positive(best_)) return false;
+  ++*count;
+  counts_.facet_flips += best_.flips.size();
+  apply(best_);
+  return true;
+}
+
+void Improver::apply(const Change& change) {
+  x_.apply(change, scratch_.marks, new_cells_);
+  for (const std::uint32_t c : new_cells_) add_bad(c);
+}
+
+bool Improver::smooth(std::uint32_t cell, Effort effort) {
+  bool moved = false;
+  const auto corners = x_.cell(cell).vertices;
+  for (const std::uint32_t v : corners) {
+    if (!move(v, effort)) continue;
+    moved = true;
+    if (!is_bad(cell)) break;
+  }
+  return moved;
+}
+
+/// Interior vertices first: those on the boundary slide only where that was not enough.
+bool Improver::move(std::uint32_t vertex, Effort effort) {
+  Freedom freedom;
+  if (!x_.is_interior(vertex)) {
+    if (effort == Effort::usual || freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
+    freedom = freedom_[vertex];
+  }
+  gather_star(x_, vertex, scratch_.marks, star_);
+  const double worst = x_.worst_of(star_.cells);
+  Point3 apex = x_.point(vertex);
+  if (!(move_apex(star_.faces, x_.goal(), freedom, worst, scratch_.move, apex) > worst)) return false;
+  good_cells_.clear();
+  std::ranges::copy_if(star_.cells, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
+  x_.move_vertex(vertex, apex, star_.cells);
+  ++counts_.moved_vertices;
+  for (const std::uint32_t c : good_cells_) add_bad(c);
+  return true;
+}
+
+bool Improver::insert_or_collapse(std::uint32_t cell) {
+  const double least = x_.quality(cell);
+  if (plan_collapse(x_, cell, least, scratch_, plan_) && x_.all_positive(plan_)) {
+    ++counts_.collapsed_edges;
+    apply(plan_);
+    return true;
+  }
+  if (!plan_insertion(x_, cell, least, scratch_, plan_)) return false;
+  ++counts_.inserted_vertices;
+  apply(plan_);
+  return true;
+}
+
+using Tetrahedron = std::array<std::uint32_t, 4>;
+
+struct LabeledCell {
+  Tetrahedron vertices;
+  int region;
+};
+
+/// The even permutation with the least vertex first and the least of the others second.
+Tetrahedron in_order(Tetrahedron t) {
+  const auto least = std::min_element(t.begin(), t.end()) - t.begin();
+  if (least != 0) {
+    // Two exchanges keep the orientation.
+    std::swap(t[0], t[static_cast<std::size_t>(least)]);
+    std::swap(least == 1 ? t[2] : t[1], t[3 == least ? 2 : 3]);
+  }
+  std::rotate(t.begin() + 1, std::min_element(t.begin() + 1, t.end()), t.end());
+  return t;
+}
+
+/// Brings the tetrahedra, with their regions, and the corners of each into an order that depends on nothing but the set
+/// of tetrahedra: what is done cell by cell has the same result whatever strategy made the mesh. Neighbors in space
+/// are mostly near to each other in it, as interior vertices are numbered along a space-filling curve.
+void sort_cells(TetMesh& mesh);
+void sort_cells(TetMesh& mesh) {
+  // A counting sort by the first vertex leaves a few cells a bucket.
+  std::vector<std::uint32_t> begin;
+  for (Tetrahedron& t : mesh.tetrahedra) {
+    t = in_order(t);
+    if (t[0] + 2 > begin.size()) begin.resize(t[0] + 2, 0);
+    ++begin[t[0] + 1];
+  }
+  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  std::vector<LabeledCell> sorted(mesh.tetrahedra.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    sorted[begin[mesh.tetrahedra[i][0]]++] = {mesh.tetrahedra[i], mesh.regions[i]};
+  // By now each entry of `begin` is where the bucket of its vertex ends.
+  std::uint32_t first = 0;
+  for (const std::uint32_t last : begin) {
+    std::sort(sorted.begin() + first, sorted.begin() + last,
+              [](const LabeledCell& a, const LabeledCell& b) { return a.vertices < b.vertices; });
+    first = last;
+  }
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    mesh.tetrahedra[i] = sorted[i].vertices;
+    mesh.regions[i] = sorted[i].region;
+  }
+}
+
+}  // namespace
+
+ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& freedom, const ImproveOptions& options,
+                            const Progress& progress) {
+  if (options.improvement == Improvement::none) return {};
+  return Improver(complex, freedom, options).run(progress);
+}
 
 ImproveCounts improve_mesh(const Plc& plc, const SegmentChains& chains, std::vector<std::uint32_t> facet_of_face,
                            std::size_t first_interior, const ImproveOptions& options, std::vector<Point3>& points,
@@ -13,11 +280,11 @@ ImproveCounts improve_mesh(const Plc& plc, const SegmentChains& chains, std::vec
   std::vector<Freedom> freedom;
   if (options.boundary == BoundaryRule::slide) freedom = find_freedom(plc, chains, points.size());
   sort_cells(mesh);
-  CellComplex complex = make_complex(mesh, std::move(points), std::move(facet_of_face),
-                                     static_cast<std::uint32_t>(first_interior), goal_of(options));
+  CellComplex complex(mesh, std::move(points), std::move(facet_of_face), static_cast<std::uint32_t>(first_interior),
+                      goal_of(options));
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
-  if (complex.changes > 0) mesh.constrained_delaunay = false;
-  points = take_mesh(std::move(complex), mesh);
+  if (complex.change_count() > 0) mesh.constrained_delaunay = false;
+  points = std::move(complex).take_mesh(mesh);
   return counts;
 }
 

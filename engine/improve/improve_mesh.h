@@ -5,13 +5,24 @@
 
 #include "engine/base/progress.h"
 #include "engine/facets/facet_mesh.h"
+#include "engine/improve/cell_complex.h"
 #include "engine/improve/counts.h"
 #include "engine/improve/options.h"
+#include "engine/improve/smoothing.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
 namespace ccdt {
+
+/// Improves the cells that are not good enough, the worst first: by swaps, by moving vertices, and where both are stuck
+/// by inserting and removing interior vertices. What a change makes is always better than what it replaces, the
+/// worst against the worst, and exactly positive. Cells whose surroundings have changed are tried again, until all are
+/// good enough, nothing helps any more, or the time is up.
+///
+/// \param freedom  of the vertices that are not interior; empty: they stay
+ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& freedom, const ImproveOptions& options,
+                            const Progress& progress = {});
 
 /// Improves a whole mesh (paper, section 5: edge-face swaps and smoothing). Its boundary, segments and facets stay what
 /// they are, with the vertices of the input where they are; `BoundaryRule::slide` says what may move on them.

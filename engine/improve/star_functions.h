@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "engine/improve/cell_quality.h"
-#include "engine/improve/move_apex.h"
 
 namespace ccdt {
+
+/// A face that the apex of a star sees: the tetrahedron a b c apex is positive.
+struct StarFace {
+  Point3 a, b, c;
+};
 
 /// Coordinates in one array for each axis.
 struct Coordinates {
@@ -47,17 +51,30 @@ struct LinearModels {
 /// \param faces  in grid units, at least one
 void load_star(std::span<const StarFace> faces, const Point3& apex, ScaledStar& star);
 
-/// The worth of the worst tetrahedron with the apex at `x`; see `worth`. Leaves `inverse_r` and `sine` for `x` in the
-/// star, as far as they have a say.
-double least_worth(const QualityGoal& goal, const Point3& x, ScaledStar& star);
+/// The quality of the worst tetrahedron with the apex at `x`; see `cell_quality`. Leaves `inverse_r` and `sine` for `x`
+/// in the star, as far as they matter.
+double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star);
 
-/// Models the functions whose least value is the worth of the star: each tetrahedron's 1 / r as long as one of them is
-/// below the goal, else the sines of all dihedral angles. Where angles decide, a 1 / r that has reached its goal must
-/// not fall back: its surplus, on top of the star's worth, is one more function.
+/// Models the functions whose least value is the quality of the star: each tetrahedron's 1 / r as long as one of them
+/// is below the goal, else the sines of all dihedral angles. Where angles decide, a 1 / r that has reached its goal
+/// must not fall back: its surplus, on top of the star's quality, is one more function.
 ///
-/// \param least   `least_worth` at `x`, which must have been the last call for this star
-/// \param models  of those functions that are less than the star's worth + `reach`, in undefined order
+/// \param least   `least_quality` at `x`, which must have been the last call for this star
+/// \param models  of those functions that are less than the star's quality + `reach`, in undefined order
 void model_star(const QualityGoal& goal, const Point3& x, double least, double reach, const ScaledStar& star,
                 LinearModels& models);
+
+/// A step and what it promises.
+struct ProximalStep {
+  Point3 step = {};
+  double least = 0;  ///< of the models, after the step
+};
+
+/// The step s that makes the least of the models as great as possible, less s^2 / (2 `length`): a proximal point. The
+/// step is `length` times a convex combination of gradients, found by its dual: where only models of one value matter,
+/// their combination of least norm, the direction of steepest ascent.
+///
+/// \param models  at least one
+ProximalStep proximal_step(const LinearModels& models, double length);
 
 }  // namespace ccdt

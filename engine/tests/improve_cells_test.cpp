@@ -1,12 +1,9 @@
-#include "engine/improve/improve_cells.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "engine/improve/remove_edge.h"
-#include "engine/improve/remove_faces.h"
+#include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"
 
 namespace ccdt {
@@ -130,17 +127,17 @@ void visit_cases(const Visit& visit) {
   }
 }
 
-double worst_worth(const CellComplex& x) {
+double worst_quality(const CellComplex& x) {
   double worst = 2;
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
-    if (!x.is_dead(c)) worst = std::min(worst, x.worths[c]);
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+    if (!x.is_dead(c)) worst = std::min(worst, x.quality(c));
   return worst;
 }
 
 std::vector<std::uint32_t> bad_cells(const CellComplex& x, const QualityGoal& goal) {
   std::vector<std::uint32_t> bad;
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
-    if (!x.is_dead(c) && x.worths[c] < worth_of_goal(goal)) bad.push_back(c);
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+    if (!x.is_dead(c) && x.quality(c) < goal_quality(goal)) bad.push_back(c);
   return bad;
 }
 
@@ -150,16 +147,16 @@ TEST(Improving, FillsTheSameSpaceExactlyAndIsNeverWorse) {
     const QualityGoal goal = goal_of(c.options);
     CellComplex x = complex_of(c.cube.model, goal);
     Invariants before = invariants_of(x);
-    const double worst = worst_worth(x);
+    const double worst = worst_quality(x);
     EXPECT_GT(improve_cells(x, c.freedom(), c.options).bad_cells, 0u);
-    expect_consistent(x, goal);
+    expect_consistent(x);
     Invariants after = invariants_of(x);
     if (c.options.boundary == BoundaryRule::slide && c.options.improvement != Improvement::swap) {
       slid += before.places != after.places;
       before.places = after.places = {};
     }
     EXPECT_TRUE(after == before);
-    EXPECT_GE(worst_worth(x), worst);
+    EXPECT_GE(worst_quality(x), worst);
   });
   EXPECT_GT(slid, 0);
 }
@@ -168,14 +165,14 @@ TEST(Improving, CountsWhatItDid) {
   visit_cases([](const Case& c) {
     const QualityGoal goal = goal_of(c.options);
     CellComplex x = complex_of(c.cube.model, goal);
-    const std::size_t bad_before = bad_cells(x, goal).size(), vertices = x.points.size();
-    const std::vector<Point3> points = x.points;
+    const std::size_t bad_before = bad_cells(x, goal).size(), vertices = x.vertex_count();
+    const std::vector<Point3> points = points_of(x);
     const std::set<Tetrahedron> cells = cells_of(x);
     const ImproveCounts counts = improve_cells(x, c.freedom(), c.options);
     EXPECT_EQ(counts.bad_cells, bad_before);
     EXPECT_EQ(counts.bad_cells_left, bad_cells(x, goal).size());
     EXPECT_EQ(counts.stop, counts.bad_cells_left == 0 ? ImproveStop::target : ImproveStop::stuck);
-    EXPECT_EQ(counts.moved_vertices == 0, std::equal(points.begin(), points.end(), x.points.begin()));
+    EXPECT_EQ(counts.moved_vertices == 0, points == points_of(x));
     EXPECT_LE(counts.facet_flips, counts.removed_edges);
     EXPECT_TRUE(c.options.improvement != Improvement::swap || counts.moved_vertices == 0);
     if (c.options.improvement == Improvement::smooth) {
@@ -184,7 +181,7 @@ TEST(Improving, CountsWhatItDid) {
     }
     if (c.options.improvement == Improvement::all) return;
     EXPECT_EQ(counts.inserted_vertices + counts.collapsed_edges, 0u);
-    EXPECT_EQ(x.points.size(), vertices);
+    EXPECT_EQ(x.vertex_count(), vertices);
   });
 }
 
@@ -194,7 +191,7 @@ TEST(Improving, HasTheSameResultAgain) {
     CellComplex x = complex_of(c.cube.model, goal), y = x;
     improve_cells(x, c.freedom(), c.options);
     improve_cells(y, c.freedom(), c.options);
-    EXPECT_TRUE(x.points == y.points);
+    EXPECT_TRUE(points_of(x) == points_of(y));
     EXPECT_TRUE(cells_of(x) == cells_of(y));
   });
 }
@@ -206,15 +203,15 @@ TEST(Improving, ThatFindsNoMoreSwapsLeavesNone) {
     CellComplex x = complex_of(c.cube.model, goal);
     std::uint64_t changes = 0;
     do {  // it gives cells up that were tried several times; another run tries them all
-      changes = x.changes;
+      changes = x.change_count();
       improve_cells(x, c.freedom(), c.options);
-    } while (x.changes != changes);
+    } while (x.change_count() != changes);
     Change change;
     for (const std::uint32_t cell : bad_cells(x, goal)) {
       for (std::uint32_t edge = 0; edge < 6; ++edge)
-        EXPECT_FALSE(plan_edge_removal(x, goal, cell, edge, x.worths[cell], change) && all_positive(x, change));
+        EXPECT_FALSE(plan_edge_removal(x, cell, edge, x.quality(cell), change) && x.all_positive(change));
       for (std::uint32_t face = 0; face < 4; ++face)
-        EXPECT_FALSE(plan_face_removal(x, goal, cell, face, x.worths[cell], change) && all_positive(x, change));
+        EXPECT_FALSE(plan_face_removal(x, cell, face, x.quality(cell), change) && x.all_positive(change));
     }
   });
 }
@@ -225,7 +222,7 @@ TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
     for (const Objective objective : {Objective::r, Objective::dihedral}) {
       const QualityGoal goal{objective, 1, 1};
       const CellComplex x = complex_of(cube_of(3, jitter, 7).model, goal);
-      const PlanCounts counts = expect_every_plan_is_sound(x, goal);
+      const PlanCounts counts = expect_every_plan_is_sound(x);
       all.edge_removals += counts.edge_removals, all.face_removals += counts.face_removals;
       all.facet_flips += counts.facet_flips, all.collapses += counts.collapses, all.insertions += counts.insertions;
     }
@@ -244,7 +241,7 @@ TEST(Improving, NoneChangesNothing) {
   const CellComplex before = x;
   EXPECT_EQ(improve_cells(x, {}, options).stop, ImproveStop::none);
   EXPECT_TRUE(cells_of(x) == cells_of(before));
-  EXPECT_TRUE(x.points == before.points);
+  EXPECT_TRUE(points_of(x) == points_of(before));
 }
 
 TEST(Improving, ReachesATargetThatIsLow) {
@@ -252,9 +249,9 @@ TEST(Improving, ReachesATargetThatIsLow) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const QualityGoal goal = goal_of(options);
     CellComplex x = complex_of(cube_of(4, 0.4, seed).model, goal);
-    EXPECT_LT(worst_worth(x), goal.sine);
+    EXPECT_LT(worst_quality(x), goal.sine);
     EXPECT_EQ(improve_cells(x, {}, options).stop, ImproveStop::target);
-    EXPECT_GE(worst_worth(x), goal.sine);
+    EXPECT_GE(worst_quality(x), goal.sine);
   }
 }
 
@@ -268,7 +265,7 @@ TEST(Improving, StopsWhenTheTimeIsUpWithAMeshThatIsWhole) {
     const ImproveCounts counts = improve_cells(x, {}, options);
     EXPECT_EQ(counts.stop, ImproveStop::time);
     EXPECT_EQ(counts.bad_cells_left, bad_cells(x, goal).size());
-    expect_consistent(x, goal);
+    expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
   }
 }

@@ -4,11 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/improve/insert_vertex.h"
-#include "engine/improve/remove_edge.h"
-#include "engine/improve/remove_faces.h"
-#include "engine/improve/remove_vertex.h"
-
 namespace ccdt::improve_test {
 namespace {
 
@@ -28,25 +23,25 @@ IntegerPoint cross_product(const IntegerPoint& a, const IntegerPoint& b) {
 }
 
 /// Twice the area of a triangle, as a vector.
-IntegerPoint area_vector(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const IntegerPoint origin = exact(x.points[a]);
-  return cross_product(difference(exact(x.points[b]), origin), difference(exact(x.points[c]), origin));
+IntegerPoint area_vector(const std::vector<Point3>& points, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const IntegerPoint origin = exact(points[a]);
+  return cross_product(difference(exact(points[b]), origin), difference(exact(points[c]), origin));
 }
 
-Integer sixfold_volume(const CellComplex& x, const Tetrahedron& t) {
-  const IntegerPoint n = area_vector(x, t[0], t[1], t[2]);
-  const IntegerPoint d = difference(exact(x.points[t[3]]), exact(x.points[t[0]]));
+Integer sixfold_volume(const std::vector<Point3>& points, const Tetrahedron& t) {
+  const IntegerPoint n = area_vector(points, t[0], t[1], t[2]);
+  const IntegerPoint d = difference(exact(points[t[3]]), exact(points[t[0]]));
   return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
 }
 
 template <class Visit>
 void visit_cells(const CellComplex& x, const Visit& visit) {
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c)
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
     if (!x.is_dead(c)) visit(c);
 }
 
 FaceKey key_of(const CellComplex& x, std::uint32_t code) {
-  const auto& v = x.cells[cell_of(code)].vertices;
+  const auto& v = x.cell(cell_of(code)).vertices;
   const auto& corner = face_corners[face_of(code)];
   return face_key(v[corner[0]], v[corner[1]], v[corner[2]]);
 }
@@ -60,9 +55,7 @@ std::map<FaceKey, int> count_faces(const std::vector<Tetrahedron>& cells) {
 }
 
 void orient(const std::vector<Point3>& points, Tetrahedron& t) {
-  CellComplex x;
-  x.points = points;
-  if (sixfold_volume(x, t) < 0) std::swap(t[0], t[1]);
+  if (sixfold_volume(points, t) < 0) std::swap(t[0], t[1]);
 }
 
 /// Faces of the boundary that are on no facet get one each, the face seen from outside counterclockwise.
@@ -82,30 +75,29 @@ void add_boundary(Model& model) {
 }
 
 void expect_neighbors_fit(const CellComplex& x, std::uint32_t code) {
-  const std::uint32_t c = cell_of(code), beyond = x.cells[c].neighbors[face_of(code)];
-  const bool on_facet = x.wall_faces.find(key_of(x, code)) != nullptr;
+  const std::uint32_t c = cell_of(code), beyond = x.cell(c).neighbors[face_of(code)];
+  const FaceKey key = key_of(x, code);
+  const bool on_facet = x.find_face(key[0], key[1], key[2]).has_value();
   EXPECT_EQ(x.is_wall(code), on_facet || beyond == no_neighbor) << "face " << face_of(code) << " of cell " << c;
   if (beyond == no_neighbor) return;
-  ASSERT_LT(cell_of(beyond), x.cells.size());
+  ASSERT_LT(cell_of(beyond), x.cell_count());
   EXPECT_FALSE(x.is_dead(cell_of(beyond)));
-  EXPECT_EQ(x.cells[cell_of(beyond)].neighbors[face_of(beyond)], code);
+  EXPECT_EQ(x.cell(cell_of(beyond)).neighbors[face_of(beyond)], code);
   EXPECT_EQ(key_of(x, beyond), key_of(x, code));
-  EXPECT_TRUE(x.is_wall(code) || x.regions[cell_of(beyond)] == x.regions[c]) << "cell " << c;
+  EXPECT_TRUE(x.is_wall(code) || x.region(cell_of(beyond)) == x.region(c)) << "cell " << c;
 }
 
 void expect_vertices_know_cells(const CellComplex& x) {
-  std::vector<bool> in_use(x.points.size(), false);
+  std::vector<bool> in_use(x.vertex_count(), false);
   visit_cells(x, [&](std::uint32_t c) {
-    for (const std::uint32_t v : x.cells[c].vertices) in_use[v] = true;
+    for (const std::uint32_t v : x.cell(c).vertices) in_use[v] = true;
   });
-  ASSERT_EQ(x.cell_of_vertex.size(), x.points.size());
-  ASSERT_EQ(x.changed_at.size(), x.points.size());
-  for (std::uint32_t v = 0; v < x.points.size(); ++v) {
-    const std::uint32_t c = x.cell_of_vertex[v];
+  for (std::uint32_t v = 0; v < x.vertex_count(); ++v) {
+    const std::uint32_t c = x.cell_at(v);
     EXPECT_EQ(c != no_neighbor, in_use[v]) << "vertex " << v;
     if (c == no_neighbor) continue;
     ASSERT_FALSE(x.is_dead(c)) << "vertex " << v;
-    EXPECT_EQ(std::ranges::count(x.cells[c].vertices, v), 1) << "vertex " << v;
+    EXPECT_EQ(std::ranges::count(x.cell(c).vertices, v), 1) << "vertex " << v;
   }
 }
 
@@ -113,41 +105,50 @@ void expect_faces_and_segments_there(const CellComplex& x) {
   std::set<FaceKey> faces;
   std::set<std::uint64_t> edges;
   visit_cells(x, [&](std::uint32_t c) {
-    const auto& v = x.cells[c].vertices;
+    const auto& v = x.cell(c).vertices;
     for (std::uint32_t f = 0; f < 4; ++f) faces.insert(key_of(x, face_code(c, f)));
     for (std::uint32_t i = 0; i < 4; ++i)
       for (std::uint32_t j = 0; j < i; ++j) edges.insert(edge_key(v[i], v[j]));
   });
-  EXPECT_EQ(x.wall_faces.size(), x.faces.size());
-  for (std::uint32_t f = 0; f < x.faces.size(); ++f) {
-    const FaceKey key = face_key(x.faces[f][0], x.faces[f][1], x.faces[f][2]);
+  for (std::uint32_t f = 0; f < x.faces().size(); ++f) {
+    const FaceKey key = face_key(x.faces()[f][0], x.faces()[f][1], x.faces()[f][2]);
     EXPECT_TRUE(faces.contains(key)) << "face " << f;
-    const std::uint32_t* const place = x.wall_faces.find(key);
-    ASSERT_NE(place, nullptr);
-    EXPECT_EQ(*place, f);
+    EXPECT_EQ(x.find_face(key[0], key[1], key[2]), f);
   }
-  x.segments.for_each([&](std::uint64_t key, NoValue) {
+  x.segments().for_each([&](std::uint64_t key, NoValue) {
     EXPECT_TRUE(edges.contains(key)) << "segment " << (key >> 32) << " " << (key & 0xFFFFFFFFu);
   });
 }
 
 /// Makes a planned change in a copy.
-void expect_sound(CellComplex x, const QualityGoal& goal, const Invariants& before, double least, const Change& change,
-                  PlanCounts& counts) {
+void expect_sound(CellComplex x, const Invariants& before, double least, const Change& change, PlanCounts& counts) {
   EXPECT_GT(worst_of(change.new_cells), least);
-  for (const NewCell& made : change.new_cells) EXPECT_EQ(made.worth, x.worth_of(goal, made.vertices));
-  if (!all_positive(x, change)) return;  // such a plan is given up
-  const std::uint64_t changes = x.changes;
+  if (!x.all_positive(change)) return;  // such a plan is given up
+  const std::uint64_t changes = x.change_count();
   const auto places = apply_change(x, change);
-  EXPECT_GT(x.changes, changes);
+  EXPECT_GT(x.change_count(), changes);
   EXPECT_EQ(places.size(), change.new_cells.size());
-  expect_consistent(x, goal);
+  for (const NewCell& made : change.new_cells) EXPECT_EQ(made.quality, x.quality_of(made.vertices));
+  expect_consistent(x);
   EXPECT_TRUE(invariants_of(x) == before);
-  for (std::uint32_t v = 0; v < x.points.size(); ++v)
-    if (x.cell_of_vertex[v] == no_neighbor) counts.vertices_gone.insert(v);
+  for (std::uint32_t v = 0; v < x.vertex_count(); ++v)
+    if (x.cell_at(v) == no_neighbor) counts.vertices_gone.insert(v);
 }
 
 }  // namespace
+
+std::vector<Point3> points_of(const CellComplex& x) {
+  std::vector<Point3> points;
+  for (std::uint32_t v = 0; v < x.vertex_count(); ++v) points.push_back(x.point(v));
+  return points;
+}
+
+std::vector<std::uint32_t> apply_change(CellComplex& x, const Change& change) {
+  CellMarks marks;
+  std::vector<std::uint32_t> made;
+  x.apply(change, marks, made);
+  return made;
+}
 
 CellComplex complex_of(Model model, const QualityGoal& goal) {
   for (Tetrahedron& t : model.cells) orient(model.points, t);
@@ -158,65 +159,66 @@ CellComplex complex_of(Model model, const QualityGoal& goal) {
   mesh.faces = model.faces;
   mesh.edges = model.segments;
   const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
-  return make_complex(mesh, model.points, model.facet_of_face, first_interior, goal);
+  return CellComplex(mesh, model.points, model.facet_of_face, first_interior, goal);
 }
 
 Invariants invariants_of(const CellComplex& x) {
   Invariants result;
+  const std::vector<Point3> points = points_of(x);
   visit_cells(x, [&](std::uint32_t c) {
-    result.sixfold_volumes[x.regions[c]] += sixfold_volume(x, x.cells[c].vertices);
-    for (const std::uint32_t v : x.cells[c].vertices) {
+    result.sixfold_volumes[x.region(c)] += sixfold_volume(points, x.cell(c).vertices);
+    for (const std::uint32_t v : x.cell(c).vertices) {
       if (x.is_interior(v)) continue;
       result.kept_vertices.insert(v);
-      result.places[v] = as_array(x.points[v]);
+      result.places[v] = as_array(x.point(v));
     }
   });
-  for (std::size_t f = 0; f < x.faces.size(); ++f) {
-    const IntegerPoint area = area_vector(x, x.faces[f][0], x.faces[f][1], x.faces[f][2]);
-    auto& sum = result.twofold_area_vectors[x.facet_of_face[f]];
+  for (std::size_t f = 0; f < x.faces().size(); ++f) {
+    const IntegerPoint area = area_vector(points, x.faces()[f][0], x.faces()[f][1], x.faces()[f][2]);
+    auto& sum = result.twofold_area_vectors[x.facet_of_face()[f]];
     for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
-    ++result.face_counts[x.facet_of_face[f]];
+    ++result.face_counts[x.facet_of_face()[f]];
   }
   return result;
 }
 
-void expect_consistent(const CellComplex& x, const QualityGoal& goal) {
+void expect_consistent(const CellComplex& x) {
   std::size_t dead = 0;
-  for (std::uint32_t c = 0; c < x.cells.size(); ++c) {
+  const std::vector<Point3> points = points_of(x);
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c) {
     dead += x.is_dead(c);
     if (x.is_dead(c)) continue;
-    EXPECT_GT(sixfold_volume(x, x.cells[c].vertices), 0) << "cell " << c;
-    EXPECT_EQ(x.worths[c], x.worth_of(goal, x.cells[c].vertices)) << "cell " << c;
+    EXPECT_GT(sixfold_volume(points, x.cell(c).vertices), 0) << "cell " << c;
+    EXPECT_EQ(x.quality(c), x.quality_of(x.cell(c).vertices)) << "cell " << c;
     for (std::uint32_t f = 0; f < 4; ++f) expect_neighbors_fit(x, face_code(c, f));
   }
-  EXPECT_EQ(dead, x.free_cells.size());
-  for (const std::uint32_t c : x.free_cells) EXPECT_TRUE(x.is_dead(c));
+  EXPECT_EQ(dead, x.dead_count());
   expect_vertices_know_cells(x);
   expect_faces_and_segments_there(x);
 }
 
-PlanCounts expect_every_plan_is_sound(const CellComplex& complex, const QualityGoal& goal) {
+PlanCounts expect_every_plan_is_sound(const CellComplex& complex) {
   PlanCounts counts;
   const Invariants before = invariants_of(complex);
-  CellComplex x = complex;
+  const CellComplex& x = complex;
   Change change;
+  PlanScratch scratch;
   const auto make = [&](int& count, std::uint32_t cell) {
     ++count;
-    expect_sound(x, goal, before, x.worths[cell], change, counts);
+    expect_sound(x, before, x.quality(cell), change, counts);
   };
   visit_cells(complex, [&](std::uint32_t c) {
     SCOPED_TRACE("cell " + std::to_string(c));
-    const double least = complex.worths[c];
+    const double least = complex.quality(c);
     for (std::uint32_t edge = 0; edge < 6; ++edge) {
-      if (!plan_edge_removal(x, goal, c, edge, least, change)) continue;
+      if (!plan_edge_removal(x, c, edge, least, change)) continue;
       counts.facet_flips += static_cast<int>(change.flips.size());
       make(counts.edge_removals, c);
     }
     for (std::uint32_t face = 0; face < 4; ++face)
-      if (plan_face_removal(x, goal, c, face, least, change)) make(counts.face_removals, c);
-    if (plan_collapse(x, goal, c, least, change)) make(counts.collapses, c);
-    if (plan_insertion(x, goal, c, least, change)) make(counts.insertions, c);
-    x = complex;  // without the vertex that an insertion has left
+      if (plan_face_removal(x, c, face, least, change)) make(counts.face_removals, c);
+    if (plan_collapse(x, c, least, scratch, change)) make(counts.collapses, c);
+    if (plan_insertion(x, c, least, scratch, change)) make(counts.insertions, c);
   });
   return counts;
 }
@@ -224,7 +226,7 @@ PlanCounts expect_every_plan_is_sound(const CellComplex& complex, const QualityG
 std::set<Tetrahedron> cells_of(const CellComplex& x) {
   std::set<Tetrahedron> cells;
   visit_cells(x, [&](std::uint32_t c) {
-    Tetrahedron t = x.cells[c].vertices;
+    Tetrahedron t = x.cell(c).vertices;
     std::ranges::sort(t);
     cells.insert(t);
   });

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/improve/change_cells.h"
+#include "engine/improve/topological_changes.h"
 
 /// What every change of a mesh has to leave as it is, found without the means of the engine.
 namespace ccdt::improve_test {
@@ -26,6 +26,11 @@ struct Model {
   std::uint32_t first_interior = 0xFFFFFFFFu;  ///< none is interior
 };
 
+std::vector<Point3> points_of(const CellComplex& complex);
+
+/// \return the new cells
+std::vector<std::uint32_t> apply_change(CellComplex& complex, const Change& change);
+
 CellComplex complex_of(Model model, const QualityGoal& goal);
 
 /// Exact sums, which stay the same as long as the same space is filled once and the facets keep their orientation.
@@ -42,9 +47,9 @@ struct Invariants {
 Invariants invariants_of(const CellComplex& complex);
 
 /// All that the complex says of itself is right: neighbors are mutual and share three vertices, walls are exactly at
-/// the faces on facets and at the boundary, cells are exactly positive and worth what they say, regions end at walls,
-/// each vertex knows one of its cells, and segments are edges of cells.
-void expect_consistent(const CellComplex& complex, const QualityGoal& goal);
+/// the faces on facets and at the boundary, cells are exactly positive and of the quality that they say, regions end at
+/// walls, each vertex knows one of its cells, and segments are edges of cells.
+void expect_consistent(const CellComplex& complex);
 
 /// How many changes are possible, by kind.
 struct PlanCounts {
@@ -56,7 +61,7 @@ struct PlanCounts {
 
 /// Makes each change that any cell can have part in, in a copy of the complex, and expects that it is for the better,
 /// that all is consistent, and that the invariants hold.
-PlanCounts expect_every_plan_is_sound(const CellComplex& complex, const QualityGoal& goal);
+PlanCounts expect_every_plan_is_sound(const CellComplex& complex);
 
 /// The tetrahedra that live, with sorted vertices.
 std::set<Tetrahedron> cells_of(const CellComplex& complex);

@@ -46,8 +46,12 @@ Rational sixfold_volume(const TetMesh& mesh) {
 }
 
 /// The least value over all tetrahedra of 1 / r and of the sine of a dihedral angle.
-Shape worst_shape(const TetMesh& mesh) {
-  Shape worst{1, 1};
+struct WorstShape {
+  double inverse_r = 1, least_sine = 1;
+};
+
+WorstShape worst_shape(const TetMesh& mesh) {
+  WorstShape worst;
   for (const auto& t : mesh.tetrahedra) {
     const auto& at = mesh.vertices;
     worst.inverse_r = std::min(worst.inverse_r, inverse_r(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
@@ -58,7 +62,7 @@ Shape worst_shape(const TetMesh& mesh) {
 
 void expect_not_worse(const TetMesh& before, const TetMesh& after, const ImproveOptions& options) {
   constexpr double rounding = 1e-9;
-  const Shape old_worst = worst_shape(before), new_worst = worst_shape(after);
+  const WorstShape old_worst = worst_shape(before), new_worst = worst_shape(after);
   const QualityGoal goal = goal_of(options);
   if (options.objective == Objective::r) {
     EXPECT_GE(new_worst.inverse_r, std::min(old_worst.inverse_r, goal.inverse_r) - rounding);

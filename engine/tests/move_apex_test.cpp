@@ -1,11 +1,9 @@
-#include "engine/improve/move_apex.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <numbers>
 
-#include "engine/improve/proximal_step.h"
+#include "engine/improve/smoothing.h"
 #include "engine/improve/star_functions.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/star_samples.h"
@@ -29,12 +27,13 @@ bool all_positive(const Star& star) {
                      [&](const StarFace& f) { return orient3d(f.a, f.b, f.c, star.apex) > 0; });
 }
 
-/// Moves the apex and checks all that holds of every move; gives the worth before and after.
+/// Moves the apex and checks all that holds of every move; gives the quality before and after.
 std::array<double, 2> move_checked(const QualityGoal& goal, const Freedom& freedom, Star& star) {
   EXPECT_TRUE(all_positive(star));
   const Point3 from = star.apex;
   const double before = worst_of_star(star.faces, goal, from);
-  const double after = move_apex(star.faces, goal, freedom, before, star.apex);
+  MoveScratch scratch;
+  const double after = move_apex(star.faces, goal, freedom, before, scratch, star.apex);
   if (star.apex == from)
     EXPECT_EQ(after, before);
   else
@@ -54,7 +53,7 @@ double radius(const Star& star) {
 /// The best of ever finer grids around the best so far. `directions` spans where the apex may go.
 double best_of_grids(const Star& star, const QualityGoal& goal, std::span<const Point3> directions) {
   Point3 best = star.apex;
-  double worth = worst_of_star(star.faces, goal, best);
+  double quality = worst_of_star(star.faces, goal, best);
   const int dimensions = static_cast<int>(directions.size());
   double step = radius(star) / 6;
   for (int level = 0; level < 8; ++level, step *= 0.4) {
@@ -66,12 +65,12 @@ double best_of_grids(const Star& star, const QualityGoal& goal, std::span<const 
           Point3 there = centre + (step * i) * directions[0];
           if (dimensions > 1) there = there + (step * j) * directions[1];
           if (dimensions > 2) there = there + (step * k) * directions[2];
-          if (const double w = worst_of_star(star.faces, goal, there); w > worth) worth = w, best = there;
+          if (const double w = worst_of_star(star.faces, goal, there); w > quality) quality = w, best = there;
         }
       }
     }
   }
-  return worth;
+  return quality;
 }
 
 constexpr std::array<Point3, 3> all_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -110,7 +109,7 @@ TEST(StarFunctions, AgreeWithTheWorthOfSingleTetrahedra) {
   for (const Star& star : jittered_stars(0.3, 1)) {
     load_star(star.faces, star.apex, scaled);
     for (const QualityGoal& goal : {best_r, best_sine, usual})
-      EXPECT_NEAR(least_worth(goal, {}, scaled), worst_of_star(star.faces, goal, star.apex), 1e-12);
+      EXPECT_NEAR(least_quality(goal, {}, scaled), worst_of_star(star.faces, goal, star.apex), 1e-12);
   }
 }
 
@@ -124,13 +123,13 @@ TEST(StarFunctions, HaveTheGradientsOfFiniteDifferences) {
     load_star(star.faces, star.apex, scaled);
     const Point3 x{0.05, -0.03, 0.02};
     for (const QualityGoal& goal : {best_r, best_sine, QualityGoal{Objective::r, 0.0, 1.1}}) {
-      const double least = least_worth(goal, x, scaled);
+      const double least = least_quality(goal, x, scaled);
       model_star(goal, x, least, everything, scaled, models);
       for (const Point3& axis : all_axes) {
         // The surplus of 1 / r is on top of what `least` is said to be.
-        least_worth(goal, x + step * axis, scaled);
+        least_quality(goal, x + step * axis, scaled);
         model_star(goal, x + step * axis, least, everything, scaled, ahead);
-        least_worth(goal, x - step * axis, scaled);
+        least_quality(goal, x - step * axis, scaled);
         model_star(goal, x - step * axis, least, everything, scaled, behind);
         ASSERT_EQ(models.size(), ahead.size());
         ASSERT_EQ(models.size(), behind.size());
@@ -149,7 +148,7 @@ TEST(StarFunctions, LeaveOutWhatIsOutOfReach) {
   for (const Star& star : jittered_stars(0.3, 2)) {
     load_star(star.faces, star.apex, scaled);
     for (const QualityGoal& goal : {best_r, best_sine}) {
-      const double least = least_worth(goal, {}, scaled);
+      const double least = least_quality(goal, {}, scaled);
       model_star(goal, {}, least, 0.1, scaled, models);
       ASSERT_GT(models.size(), 0u);
       const auto [low, high] = std::minmax_element(models.value.begin(), models.value.end());
@@ -262,7 +261,7 @@ TEST(MoveApex, NeverMakesAStarWorse) {
 TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
   const auto bad = [](const Star& star) {
     return std::count_if(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
-      return worth(usual, f.a, f.b, f.c, star.apex) < worth_of_goal(usual);
+      return cell_quality(usual, f.a, f.b, f.c, star.apex) < goal_quality(usual);
     });
   };
   int small_gains = 0, great_gains = 0;
@@ -284,7 +283,7 @@ TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
 TEST(MoveApex, LeavesAStarAloneThatIsGoodEnough) {
   Star star{octahedron(0x1p40), {0x1p36, 0, 0}};
   const auto [before, after] = move_checked(usual, {}, star);
-  EXPECT_GE(before, worth_of_goal(usual));
+  EXPECT_GE(before, goal_quality(usual));
   EXPECT_EQ(after, before);
   EXPECT_EQ(star.apex, (Point3{0x1p36, 0, 0}));
 }
@@ -391,10 +390,10 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
 TEST(MoveApex, ReachesAGoalWhereASearchDoes) {
   int within_reach = 0, reached = 0;
   for (Star& star : jittered_stars(0.2, 9)) {
-    if (worst_of_star(star.faces, usual, star.apex) >= worth_of_goal(usual)) continue;
-    if (best_of_grids(star, usual, all_axes) < worth_of_goal(usual)) continue;
+    if (worst_of_star(star.faces, usual, star.apex) >= goal_quality(usual)) continue;
+    if (best_of_grids(star, usual, all_axes) < goal_quality(usual)) continue;
     ++within_reach;
-    if (move_checked(usual, {}, star)[1] >= worth_of_goal(usual)) ++reached;
+    if (move_checked(usual, {}, star)[1] >= goal_quality(usual)) ++reached;
   }
   EXPECT_GE(within_reach, 2);
   EXPECT_EQ(reached, within_reach);

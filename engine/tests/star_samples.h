@@ -7,7 +7,7 @@
 
 #include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/improve/move_apex.h"
+#include "engine/improve/smoothing.h"
 
 /// Stars of vertices, for tests of what moves or removes these.
 namespace ccdt::test {

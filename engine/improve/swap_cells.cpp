@@ -1,8 +1,8 @@
-#include "engine/improve/remove_edge.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>
+
+#include "engine/improve/topological_changes.h"
 
 namespace ccdt {
 namespace {
@@ -33,13 +33,13 @@ std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b
   while (true) {
     const std::uint32_t leaving = face_code(cell, x.place(cell, from));
     if (x.is_wall(leaving)) return leaving;
-    const auto& here = x.cells[cell].vertices;
+    const auto& here = x.cell(cell).vertices;
     std::uint32_t shared = 0;
     for (const std::uint32_t v : here)
       if (v != a && v != b && v != from) shared = v;
-    const std::uint32_t entered = x.cells[cell].neighbors[face_of(leaving)];
+    const std::uint32_t entered = x.cell(cell).neighbors[face_of(leaving)];
     cell = cell_of(entered);
-    if (!visit(cell, x.cells[cell].vertices[face_of(entered)])) return no_neighbor;
+    if (!visit(cell, x.cell(cell).vertices[face_of(entered)])) return no_neighbor;
     from = shared;
   }
 }
@@ -81,11 +81,10 @@ bool find_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint
 /// The best triangulation of the polygon 0 to n - 1 of ring vertices, by dynamic programming over its chords.
 class RingTriangulation {
  public:
-  RingTriangulation(const CellComplex& x, const QualityGoal& goal, std::uint32_t a, std::uint32_t b, const Ring& ring,
-                    double least)
-      : x_(x), goal_(goal), a_(a), b_(b), ring_(ring), least_(least) {}
+  RingTriangulation(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least)
+      : x_(x), a_(a), b_(b), ring_(ring), least_(least) {}
 
-  /// \return the worth of the worst cell, or less than `least` where there is nothing better
+  /// \return the quality of the worst cell, or less than `least` where there is nothing better
   double find() {
     const std::uint32_t n = ring_.vertex_count();
     for (std::uint32_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = infinity;
@@ -102,7 +101,7 @@ class RingTriangulation {
     for (std::uint32_t k = i + 1; k < j; ++k) {
       const double sides = std::min(best_[i][k], best_[k][j]);
       if (sides <= least_ || sides <= best_[i][j]) continue;
-      const double all = std::min(sides, worth_of_triangle(i, k, j));
+      const double all = std::min(sides, quality_of_triangle(i, k, j));
       if (all <= best_[i][j]) continue;
       best_[i][j] = all;
       apex_[i][j] = static_cast<std::uint8_t>(k);
@@ -116,22 +115,21 @@ class RingTriangulation {
     return {ring_.vertices[i], ring_.vertices[j], ring_.vertices[k], a_};
   }
 
-  double worth_of_triangle(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
-    const double above = x_.worth_of(goal_, upper(i, k, j));
-    return above <= least_ ? above : std::min(above, x_.worth_of(goal_, lower(i, k, j)));
+  double quality_of_triangle(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
+    const double above = x_.quality_of(upper(i, k, j));
+    return above <= least_ ? above : std::min(above, x_.quality_of(lower(i, k, j)));
   }
 
   void add_cells(std::uint32_t i, std::uint32_t j, int region, Change& change) const {
     if (j == i + 1) return;
     const std::uint32_t k = apex_[i][j];
     for (const auto& vertices : {upper(i, k, j), lower(i, k, j)})
-      change.new_cells.push_back({vertices, region, x_.worth_of(goal_, vertices)});
+      change.new_cells.push_back({vertices, region, x_.quality_of(vertices)});
     add_cells(i, k, region, change);
     add_cells(k, j, region, change);
   }
 
   const CellComplex& x_;
-  const QualityGoal& goal_;
   std::uint32_t a_, b_;
   const Ring& ring_;
   double least_;
@@ -139,61 +137,133 @@ class RingTriangulation {
   std::array<std::array<std::uint8_t, longest_ring + 1>, longest_ring + 1> apex_;
 };
 
-/// Adds the best that can replace the cells of a ring, if it is worth more than `least`.
-bool add_ring(const CellComplex& x, const QualityGoal& goal, std::uint32_t a, std::uint32_t b, const Ring& ring,
-              double least, Change& change) {
+/// Adds the best that can replace the cells of a ring, if its quality is greater than `least`.
+bool add_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least, Change& change) {
   if (ring.vertex_count() < 3) return false;
-  RingTriangulation triangulation(x, goal, a, b, ring, least);
+  RingTriangulation triangulation(x, a, b, ring, least);
   if (!(triangulation.find() > least)) return false;
-  triangulation.add_cells(x.regions[ring.cells[0]], change);
+  triangulation.add_cells(x.region(ring.cells[0]), change);
   change.old_cells.insert(change.old_cells.end(), ring.cells.begin(), ring.cells.begin() + ring.size);
   return true;
 }
 
 std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::uint32_t* const face = x.wall_faces.find(face_key(a, b, c));
-  return face == nullptr ? no_neighbor : x.facet_of_face[*face];
+  const auto face = x.find_face(a, b, c);
+  return face ? x.facet_of_face()[*face] : no_neighbor;
 }
 
 /// The cells on the other side of the facet that the ring ends at, from its last wall to its first.
 /// \return false: what is there forbids to exchange the diagonal
 bool find_other_side(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, Ring& other) {
   other.size = 0;
-  const std::uint32_t behind_begin = x.cells[cell_of(ring.begin_wall)].neighbors[face_of(ring.begin_wall)];
-  const std::uint32_t behind_end = x.cells[cell_of(ring.end_wall)].neighbors[face_of(ring.end_wall)];
+  const std::uint32_t behind_begin = x.cell(cell_of(ring.begin_wall)).neighbors[face_of(ring.begin_wall)];
+  const std::uint32_t behind_end = x.cell(cell_of(ring.end_wall)).neighbors[face_of(ring.end_wall)];
   if (behind_begin == no_neighbor || behind_end == no_neighbor) return behind_begin == behind_end;
   const std::uint32_t first = ring.vertices[ring.size], cell = cell_of(behind_end);
-  const std::uint32_t second = x.cells[cell].vertices[face_of(behind_end)];
+  const std::uint32_t second = x.cell(cell).vertices[face_of(behind_end)];
   return find_ring(x, a, b, cell, first, second, other) && !other.is_closed && other.vertices[0] == first &&
          other.vertices[other.size] == ring.vertices[0];
 }
 
 /// An edge on a facet, between walls: both sides of it change, and the facet has the other diagonal.
-bool plan_flip(const CellComplex& x, const QualityGoal& goal, std::uint32_t a, std::uint32_t b, const Ring& ring,
-               double least, Change& change) {
+bool plan_flip(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least, Change& change) {
   const std::uint32_t first = ring.vertices[0], last = ring.vertices[ring.size];
   const std::uint32_t facet = facet_at(x, a, b, first);
   if (facet == no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
   Ring other;
   if (!find_other_side(x, a, b, ring, other)) return false;
-  if (!add_ring(x, goal, a, b, ring, least, change)) return false;
-  if (other.size > 0 && !add_ring(x, goal, a, b, other, least, change)) return false;
+  if (!add_ring(x, a, b, ring, least, change)) return false;
+  if (other.size > 0 && !add_ring(x, a, b, other, least, change)) return false;
   change.flips.push_back({a, b, first, last});
   return true;
 }
 
+/// The most cells on one side of the faces that go.
+constexpr std::uint32_t most_faces = 6;
+
+/// The faces between two vertices, grown from one of them across its edges, and their edges at the rim.
+class SandwichedFaces {
+ public:
+  SandwichedFaces(const CellComplex& x, std::uint32_t above, std::uint32_t below, Change& change)
+      : x_(x), above_(above), below_(below), change_(change) {}
+
+  /// Adds a face by the cells on its two sides. Its edges are at the rim, or further faces go as well.
+  /// \return the quality of the worst new cell
+  double add_face(std::uint32_t upper, std::uint32_t lower, const std::array<std::uint32_t, 3>& corners, int edges) {
+    change_.old_cells.push_back(upper);
+    change_.old_cells.push_back(lower);
+    double worst = add_edge(upper, lower, corners[0], corners[1], corners[2]);
+    worst = std::min(worst, add_edge(upper, lower, corners[1], corners[2], corners[0]));
+    if (edges == 3) worst = std::min(worst, add_edge(upper, lower, corners[2], corners[0], corners[1]));
+    return worst;
+  }
+
+ private:
+  /// The edge uv of a face whose third corner is w: at the rim, or crossed where that is better.
+  double add_edge(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
+    const std::array<std::uint32_t, 4> rim = {below_, above_, u, v};
+    const double at_rim = x_.quality_of(rim);
+    const std::size_t olds = change_.old_cells.size(), news = change_.new_cells.size();
+    if (at_rim < goal_quality(x_.goal()) && !x_.is_segment(u, v)) {
+      const double crossed = cross(upper, lower, u, v, w);
+      if (crossed > at_rim) return crossed;
+    }
+    change_.old_cells.resize(olds);
+    change_.new_cells.resize(news);
+    change_.new_cells.push_back({rim, x_.region(upper), at_rim});
+    return at_rim;
+  }
+
+  /// \return the quality that crossing the edge gives; nothing if the next face is not between the same vertices
+  double cross(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
+    if (change_.old_cells.size() >= std::size_t{2} * most_faces) return -1;
+    const std::uint32_t up = face_code(upper, x_.place(upper, w)), down = face_code(lower, x_.place(lower, w));
+    if (x_.is_wall(up) || x_.is_wall(down)) return -1;
+    const std::uint32_t up_code = x_.cell(upper).neighbors[face_of(up)];
+    const std::uint32_t down_code = x_.cell(lower).neighbors[face_of(down)];
+    const std::uint32_t next_upper = cell_of(up_code), next_lower = cell_of(down_code);
+    const std::uint32_t next = x_.cell(next_upper).vertices[face_of(up_code)];
+    if (next == below_ || next != x_.cell(next_lower).vertices[face_of(down_code)]) return -1;
+    if (x_.is_wall(face_code(next_upper, x_.place(next_upper, above_)))) return -1;
+    if (std::ranges::find(change_.old_cells, next_upper) != change_.old_cells.end()) return -1;
+    // The corner across the edge comes first: its two edges are those that are not the one we came by.
+    return add_face(next_upper, next_lower, {u, next, v}, 2);
+  }
+
+  const CellComplex& x_;
+  std::uint32_t above_, below_;
+  Change& change_;
+};
+
 }  // namespace
 
-bool plan_edge_removal(const CellComplex& x, const QualityGoal& goal, std::uint32_t cell, std::uint32_t edge,
-                       double least, Change& change) {
+double worst_of(const std::vector<NewCell>& cells) {
+  double worst = infinity;
+  for (const NewCell& cell : cells) worst = std::min(worst, cell.quality);
+  return worst;
+}
+
+bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t edge, double least, Change& change) {
   change.clear();
   const auto& corner = edge_corners[edge];
-  const auto& v = x.cells[cell].vertices;
+  const auto& v = x.cell(cell).vertices;
   const std::uint32_t a = v[corner[0]], b = v[corner[1]];
   Ring ring;
   if (!find_ring(x, a, b, cell, v[corner[2]], v[corner[3]], ring)) return false;
-  if (!ring.is_closed) return plan_flip(x, goal, a, b, ring, least, change);
-  return !x.is_segment(a, b) && add_ring(x, goal, a, b, ring, least, change);
+  if (!ring.is_closed) return plan_flip(x, a, b, ring, least, change);
+  return !x.is_segment(a, b) && add_ring(x, a, b, ring, least, change);
+}
+
+bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t face, double least, Change& change) {
+  change.clear();
+  const std::uint32_t code = face_code(cell, face);
+  if (x.is_wall(code)) return false;
+  const std::uint32_t other_side = x.cell(cell).neighbors[face];
+  const auto& v = x.cell(cell).vertices;
+  const std::uint32_t above = v[face], below = x.cell(cell_of(other_side)).vertices[face_of(other_side)];
+  SandwichedFaces faces(x, above, below, change);
+  const auto& corner = face_corners[face];
+  return faces.add_face(cell, cell_of(other_side), {v[corner[0]], v[corner[1]], v[corner[2]]}, 3) > least;
 }
 
 }  // namespace ccdt

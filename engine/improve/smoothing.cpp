@@ -1,11 +1,9 @@
-#include "engine/improve/move_apex.h"
+#include "engine/improve/smoothing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "engine/improve/proximal_step.h"
-#include "engine/improve/star_functions.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt {
@@ -69,31 +67,31 @@ bool all_positive(std::span<const StarFace> faces, const Point3& apex) {
 
 std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
   return static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), [&](const StarFace& f) {
-    return worth(goal, f.a, f.b, f.c, apex) < worth_of_goal(goal);
+    return cell_quality(goal, f.a, f.b, f.c, apex) < goal_quality(goal);
   }));
 }
 
 /// Where the search begins: the apex or the mean of the corners of the star.
 Point3 find_start(const QualityGoal& goal, const Projection& project, ScaledStar& star, double& least) {
   const Point3 mean = project(star.mean);
-  least = least_worth(goal, mean, star);
-  if (least >= worth_of_goal(goal)) return mean;
-  const double at_apex = least_worth(goal, {}, star);
+  least = least_quality(goal, mean, star);
+  if (least >= goal_quality(goal)) return mean;
+  const double at_apex = least_quality(goal, {}, star);
   if (at_apex >= least) {
     least = at_apex;
     return {};
   }
-  least = least_worth(goal, mean, star);
+  least = least_quality(goal, mean, star);
   return mean;
 }
 
-/// Proximal steps from `x`, each towards where the models of the functions around promise the greatest least worth; a
+/// Proximal steps from `x`, each towards where the models of the functions around promise the greatest least quality; a
 /// model is trusted as far as its last promise was kept.
-Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, double least, ScaledStar& star) {
-  static thread_local LinearModels models;
+Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, double least, MoveScratch& scratch) {
+  auto& [star, models] = scratch;
   double length = first_length;
   bool moved = true;
-  for (int i = 0; i < most_steps && least < worth_of_goal(goal); ++i) {
+  for (int i = 0; i < most_steps && least < goal_quality(goal); ++i) {
     if (moved) {
       model_star(goal, x, least, reach, star, models);
       project.apply(models);
@@ -105,7 +103,7 @@ Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, doubl
       const double shrink = longest_step / std::sqrt(squared);
       next.step = shrink * next.step, promised *= shrink, length *= shrink;
     }
-    const double there = least_worth(goal, x + next.step, star);
+    const double there = least_quality(goal, x + next.step, star);
     const double gain = there - least;
     moved = gain > 0;
     if (moved) x = x + next.step, least = there;
@@ -115,6 +113,32 @@ Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, doubl
 }
 
 }  // namespace
+
+void gather_cells(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, std::vector<std::uint32_t>& cells) {
+  cells.clear();
+  marks.clear(x.cell_count());
+  const std::uint32_t first = x.cell_at(vertex);
+  marks.mark(first);
+  cells.push_back(first);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell& cell = x.cell(cells[i]);
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t next = cell.neighbors[f];
+      if (cell.vertices[f] == vertex || next == no_neighbor || marks.is_marked(cell_of(next))) continue;
+      marks.mark(cell_of(next));
+      cells.push_back(cell_of(next));
+    }
+  }
+}
+
+void gather_star(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, VertexStar& star) {
+  gather_cells(x, vertex, marks, star.cells);
+  star.faces.clear();
+  for (const std::uint32_t c : star.cells) {
+    const auto [a, b, d] = corners_of_face(x.cell(c).vertices, x.place(c, vertex));
+    star.faces.push_back({x.point(a), x.point(b), x.point(d)});
+  }
+}
 
 double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
   double least = 1;
@@ -128,14 +152,14 @@ double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, c
 }
 
 double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const Freedom& freedom, double worst,
-                 Point3& apex) {
-  if (freedom.dimensions == 0 || faces.empty() || worst >= worth_of_goal(goal)) return worst;
-  static thread_local ScaledStar star;
+                 MoveScratch& scratch, Point3& apex) {
+  if (freedom.dimensions == 0 || faces.empty() || worst >= goal_quality(goal)) return worst;
+  ScaledStar& star = scratch.star;
   load_star(faces, apex, star);
   const Projection project(freedom);
   double least = 0;
   const Point3 start = find_start(goal, project, star, least);
-  const Point3 found = climb(goal, project, start, least, star);
+  const Point3 found = climb(goal, project, start, least, scratch);
   const std::optional<Point3> move = round_move(freedom, star.scale * found);
   if (!move || *move == Point3{}) return worst;
   const Point3 place = apex + *move;
