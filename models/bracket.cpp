@@ -11,7 +11,7 @@
 namespace ccdt {
 namespace {
 
-// Millimetres. The foot runs along x and the wall along z, both as wide as y goes.
+// Millimeters. The foot runs along x and the wall along z, both as wide as y goes.
 constexpr double thickness = 8;
 constexpr double length = 80;  // of both legs
 constexpr double width = 60;
@@ -36,7 +36,7 @@ constexpr double narrow =
 
 /// The surface, and how finely its curves are cut.
 struct Bracket {
-  Surface surface;
+  ModelSurface surface;
   double edge_length;
   double spacing;
 
@@ -145,7 +145,8 @@ void add_leg_rim(Bracket& b, const Leg& leg, const LegCurves& c) {
   for (std::size_t i = 0; i < pieces; ++i) {
     const std::vector<Chain> around{c.around[0][i], c.through[i + 1], reversed(c.around[1][i]), reversed(c.through[i])};
     const auto corner_chart = [&](double across, double middle) {
-      return cylinder_chart(leg.up_axis(), leg.at(straight, across, 0), rounding, leg.angle(middle), Facing::outward);
+      return cylinder_chart(leg.up_axis(), leg.at(straight, across, 0), rounding, leg.angle(middle),
+                            OuterSide::away_from_axis);
     };
     if (i == 0)
       b.add(plane_chart({}, -1 * y_axis), around, sides);
@@ -173,16 +174,18 @@ void add_bend(Bracket& b, const LegCurves& on_foot, const LegCurves& on_wall, co
   constexpr double inside = bend - thickness;
   const std::array outer{bend_arc(b, 0, bend), bend_arc(b, width, bend)};
   const std::array inner{bend_arc(b, 0, inside), bend_arc(b, width, inside)};
-  const auto chart = [](double radius, Facing facing) {
-    return cylinder_chart(Axis::y, {bend, 0, bend}, radius, 225, facing);
+  const auto chart = [](double radius, OuterSide outer_side) {
+    return cylinder_chart(Axis::y, {bend, 0, bend}, radius, 225, outer_side);
   };
   const auto add_strip = [&](const Chart& where, const Chain& low_arc, const Chain& high_arc, const Chain& foot_line,
                              const Chain& wall_line) {
     b.add(where, {foot_line, high_arc, reversed(wall_line), reversed(low_arc)}, bent);
   };
-  add_strip(chart(bend, Facing::outward), outer[0], outer[1], on_foot.outer_bend, on_wall.outer_bend);
-  add_strip(chart(inside, Facing::inward), inner[0], gusset_arcs[0], on_foot.inner_bend[0], on_wall.inner_bend[0]);
-  add_strip(chart(inside, Facing::inward), gusset_arcs[1], inner[1], on_foot.inner_bend[1], on_wall.inner_bend[1]);
+  add_strip(chart(bend, OuterSide::away_from_axis), outer[0], outer[1], on_foot.outer_bend, on_wall.outer_bend);
+  add_strip(chart(inside, OuterSide::towards_axis), inner[0], gusset_arcs[0], on_foot.inner_bend[0],
+            on_wall.inner_bend[0]);
+  add_strip(chart(inside, OuterSide::towards_axis), gusset_arcs[1], inner[1], on_foot.inner_bend[1],
+            on_wall.inner_bend[1]);
   for (std::size_t side = 0; side < 2; ++side) {
     const Chain& foot_line = side == 0 ? on_foot.through.front() : reversed(on_foot.through.back());
     const Chain& wall_line = side == 0 ? on_wall.through.front() : reversed(on_wall.through.back());

@@ -60,8 +60,8 @@ double sine(double degrees) {
   return sign * std::sin(turn * std::numbers::pi / 180);
 }
 
-Point3 on_circle(Axis axis, const Point3& centre, double radius, double degrees) {
-  const Point3 local = to_local(axis, centre);
+Point3 on_circle(Axis axis, const Point3& center, double radius, double degrees) {
+  const Point3 local = to_local(axis, center);
   return to_model(axis, {local.x + radius * cosine(degrees), local.y + radius * sine(degrees), local.z});
 }
 
@@ -69,7 +69,7 @@ double spacing_beside(double edge_length, double width) {
   return std::min(edge_length, 1.75 * width);
 }
 
-Chain line(Surface& surface, const Point3& from, const Point3& to, double spacing) {
+Chain line(ModelSurface& surface, const Point3& from, const Point3& to, double spacing) {
   const int parts = parts_of(distance(from, to), spacing);
   Chain chain{corner(surface, from)};
   for (int i = 1; i < parts; ++i) chain.push_back(add_vertex(surface, mix(from, to, static_cast<double>(i) / parts)));
@@ -77,7 +77,7 @@ Chain line(Surface& surface, const Point3& from, const Point3& to, double spacin
   return chain;
 }
 
-Chain curve(Surface& surface, const Point3& from, const Point3& to, const std::function<Point3(double)>& position,
+Chain curve(ModelSurface& surface, const Point3& from, const Point3& to, const std::function<Point3(double)>& position,
             double spacing, int least_parts) {
   const int rough = parts_of(distance(from, to), spacing);
   const int samples = 64 * std::max(rough, least_parts);
@@ -95,15 +95,16 @@ Chain curve(Surface& surface, const Point3& from, const Point3& to, const std::f
   return chain;
 }
 
-Chain arc(Surface& surface, Axis axis, const Point3& centre, double radius, double from, double to, double spacing) {
+Chain arc(ModelSurface& surface, Axis axis, const Point3& center, double radius, double from, double to,
+          double spacing) {
   const double turn = std::fabs(to - from);
   const int least = static_cast<int>(std::ceil(turn * least_edges_of_circle / 360 - 1e-9));
   const int parts = std::max(least, parts_of(radius * turn * std::numbers::pi / 180, spacing));
-  Chain chain{corner(surface, on_circle(axis, centre, radius, from))};
+  Chain chain{corner(surface, on_circle(axis, center, radius, from))};
   for (int i = 1; i < parts; ++i) {
-    chain.push_back(add_vertex(surface, on_circle(axis, centre, radius, from + (to - from) * i / parts)));
+    chain.push_back(add_vertex(surface, on_circle(axis, center, radius, from + (to - from) * i / parts)));
   }
-  chain.push_back(corner(surface, on_circle(axis, centre, radius, to)));
+  chain.push_back(corner(surface, on_circle(axis, center, radius, to)));
   return chain;
 }
 
@@ -112,8 +113,8 @@ double Ring::spacing() const {
   return 2 * radius * std::sin(std::numbers::pi / static_cast<double>(chain.size()));
 }
 
-Ring ring(Surface& surface, Axis axis, const Point3& centre, double radius, double height, double spacing) {
-  const Point3 local = to_local(axis, centre);
+Ring ring(ModelSurface& surface, Axis axis, const Point3& center, double radius, double height, double spacing) {
+  const Point3 local = to_local(axis, center);
   const Point3 middle = to_model(axis, {local.x, local.y, height});
   if (radius == 0) return {{corner(surface, middle)}, 0, height};
   const int quarter = std::max(least_edges_of_circle / 4, parts_of(radius * std::numbers::pi / 2, spacing));

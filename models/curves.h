@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "models/surface.h"
+#include "models/model_surface.h"
 
 namespace ccdt {
 
@@ -21,7 +21,7 @@ double cosine(double degrees);
 double sine(double degrees);
 
 /// The point of a circle around an axis, at an angle in degrees from the first local axis.
-Point3 on_circle(Axis axis, const Point3& centre, double radius, double degrees);
+Point3 on_circle(Axis axis, const Point3& center, double radius, double degrees);
 
 /// A circle is never cut into fewer edges than this.
 inline constexpr int least_edges_of_circle = 12;
@@ -31,17 +31,18 @@ inline constexpr int least_edges_of_circle = 12;
 double spacing_beside(double edge_length, double width);
 
 /// Cuts the straight line between two corners into equal parts of about `spacing`.
-Chain line(Surface& surface, const Point3& from, const Point3& to, double spacing);
+Chain line(ModelSurface& surface, const Point3& from, const Point3& to, double spacing);
 
 /// Cuts a curve between two corners into parts of equal arc length of about `spacing`.
 ///
 /// \param position     the curve for a parameter from 0 to 1; its ends are the corners
 /// \param least_parts  at least so many parts
-Chain curve(Surface& surface, const Point3& from, const Point3& to, const std::function<Point3(double)>& position,
+Chain curve(ModelSurface& surface, const Point3& from, const Point3& to, const std::function<Point3(double)>& position,
             double spacing, int least_parts);
 
 /// Cuts an arc between two angles (degrees, either direction) into equal parts of about `spacing`.
-Chain arc(Surface& surface, Axis axis, const Point3& centre, double radius, double from, double to, double spacing);
+Chain arc(ModelSurface& surface, Axis axis, const Point3& center, double radius, double from, double to,
+          double spacing);
 
 /// A circle around an axis, counterclockwise seen from the end of the axis. A radius of 0 is a pole with one vertex.
 struct Ring {
@@ -52,9 +53,9 @@ struct Ring {
   double spacing() const;
 };
 
-/// Cuts a circle into a multiple of four equal parts of about `spacing`, with a vertex at angle 0. `centre` is any
+/// Cuts a circle into a multiple of four equal parts of about `spacing`, with a vertex at angle 0. `center` is any
 /// point of the axis.
-Ring ring(Surface& surface, Axis axis, const Point3& centre, double radius, double height, double spacing);
+Ring ring(ModelSurface& surface, Axis axis, const Point3& center, double radius, double height, double spacing);
 
 /// The open part of a ring between two quarter turns (0 to 4, counterclockwise, may go past 4).
 Chain part_of(const Ring& ring, int from_quarter, int to_quarter);

@@ -14,7 +14,7 @@ constexpr int halvings = 8;
 
 /// A face of the cube that is laid out in whole steps: the smallest edges are one step long.
 struct Face {
-  Surface& surface;
+  ModelSurface& surface;
   Axis axis;
   std::int64_t height;  ///< along the axis: 0 or `size`
   std::int64_t size;    ///< steps along an edge of the cube
@@ -35,15 +35,15 @@ void triangle(const Face& face, std::uint32_t a, std::uint32_t b, std::uint32_t 
 }
 
 /// Which side of a square meets smaller ones, and so has a vertex in its middle.
-enum class Halved { none, left, bottom };
+enum class SplitSide { none, left, bottom };
 
-void add_square(const Face& face, std::int64_t u, std::int64_t v, std::int64_t side, Halved halved) {
+void add_square(const Face& face, std::int64_t u, std::int64_t v, std::int64_t side, SplitSide split) {
   const std::uint32_t a = vertex(face, u, v), b = vertex(face, u + side, v);
   const std::uint32_t c = vertex(face, u + side, v + side), d = vertex(face, u, v + side);
-  if (halved == Halved::none) {
+  if (split == SplitSide::none) {
     triangle(face, a, b, c);
     triangle(face, a, c, d);
-  } else if (halved == Halved::left) {
+  } else if (split == SplitSide::left) {
     const std::uint32_t middle = vertex(face, u, v + side / 2);
     triangle(face, a, b, middle);
     triangle(face, middle, b, c);
@@ -56,19 +56,19 @@ void add_square(const Face& face, std::int64_t u, std::int64_t v, std::int64_t s
   }
 }
 
-/// Squares of one size, `count` by `count`; those of the first column or row may be halved at their outer side.
-void add_block(const Face& face, std::int64_t u, std::int64_t v, std::int64_t side, int count, Halved border) {
+/// Squares of one size, `count` by `count`; those of the first column or row may be split at their outer side.
+void add_block(const Face& face, std::int64_t u, std::int64_t v, std::int64_t side, int count, SplitSide border) {
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < count; ++j) {
-      const bool at_border = (border == Halved::left && i == 0) || (border == Halved::bottom && j == 0);
-      add_square(face, u + i * side, v + j * side, side, at_border ? border : Halved::none);
+      const bool at_border = (border == SplitSide::left && i == 0) || (border == SplitSide::bottom && j == 0);
+      add_square(face, u + i * side, v + j * side, side, at_border ? border : SplitSide::none);
     }
   }
 }
 
 /// The face that far from the origin in equal squares.
 void add_even_face(const Face& face, int count) {
-  add_block(face, 0, 0, face.size / (2 * count), 2 * count, Halved::none);
+  add_block(face, 0, 0, face.size / (2 * count), 2 * count, SplitSide::none);
 }
 
 /// A face at the origin:
@@ -84,10 +84,10 @@ void add_graded_face(const Face& face, int count) {
   for (int level = 1; level <= halvings; ++level) {
     const std::int64_t quarter = face.size >> level, side = quarter / count;
     const bool is_last = level == halvings;  // what is left has squares of the same size
-    add_block(face, quarter, 0, side, count, is_last ? Halved::none : Halved::left);
-    add_block(face, quarter, quarter, side, count, Halved::none);
-    add_block(face, 0, quarter, side, count, is_last ? Halved::none : Halved::bottom);
-    if (is_last) add_block(face, 0, 0, side, count, Halved::none);
+    add_block(face, quarter, 0, side, count, is_last ? SplitSide::none : SplitSide::left);
+    add_block(face, quarter, quarter, side, count, SplitSide::none);
+    add_block(face, 0, quarter, side, count, is_last ? SplitSide::none : SplitSide::bottom);
+    if (is_last) add_block(face, 0, 0, side, count, SplitSide::none);
   }
 }
 
@@ -96,7 +96,7 @@ void add_graded_face(const Face& face, int count) {
 InputPlc make_graded_cube(double edge_length) {
   const int count = std::max(1, static_cast<int>(std::lround(0.5 / edge_length)));
   const std::int64_t size = static_cast<std::int64_t>(count) << halvings;
-  Surface surface;
+  ModelSurface surface;
   int marker = 0;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     add_graded_face({surface, axis, 0, size, ++marker}, count);

@@ -9,7 +9,7 @@
 namespace ccdt {
 namespace {
 
-// Millimetres; the axis is z, the pin's axis is parallel to x.
+// Millimeters; the axis is z, the pin's axis is parallel to x.
 constexpr double radius = 40;         // of the outside
 constexpr double height = 70;         // of the crown above the rim of the skirt
 constexpr double groove_radius = 36;  // of the grooves' floors
@@ -35,7 +35,7 @@ struct PinTube {
   Chain seam_plus_y, seam_minus_y;  // from the circle to the cylinder
 };
 
-PinTube pin_tube(Surface& surface, double side, double tube_radius, double cylinder_radius, double spacing) {
+PinTube pin_tube(ModelSurface& surface, double side, double tube_radius, double cylinder_radius, double spacing) {
   const auto on_cylinder = [=](double degrees) {
     const double y = tube_radius * cosine(degrees);
     return Point3{side * std::sqrt(cylinder_radius * cylinder_radius - y * y), y,
@@ -61,21 +61,21 @@ Chain hole_of(const PinTube& tube) {
   return closed_loop(tube.on_cylinder);
 }
 
-void add_tube_wall(Surface& surface, const PinTube& tube, double tube_radius, Facing facing, double edge_length,
-                   Marker marker) {
+void add_tube_wall(ModelSurface& surface, const PinTube& tube, double tube_radius, OuterSide outer_side,
+                   double edge_length, Marker marker) {
   for (int half = 0; half < 2; ++half) {
     const Chain& start = half == 0 ? tube.seam_plus_y : tube.seam_minus_y;
     const Chain& end = half == 0 ? tube.seam_minus_y : tube.seam_plus_y;
     const std::array loop{part_of(tube.circle, 2 * half, 2 * half + 2), end,
                           reversed(tube.on_cylinder[static_cast<std::size_t>(half)]), reversed(start)};
-    const Chart chart = cylinder_chart(Axis::x, {0, 0, pin_height}, tube_radius, 90 + 180 * half, facing);
+    const Chart chart = cylinder_chart(Axis::x, {0, 0, pin_height}, tube_radius, 90 + 180 * half, outer_side);
     add_patch(surface, {chart, {closed_loop(loop)}, {}, edge_length, marker});
   }
 }
 
 /// A cylinder around the piston's axis between two rings, each half (towards +x and -x) with a hole of the pin's.
-void add_pierced_cylinder(Surface& surface, const Ring& lower, const Ring& upper, const std::array<Chain, 2>& holes,
-                          Facing facing, double edge_length, Marker marker) {
+void add_pierced_cylinder(ModelSurface& surface, const Ring& lower, const Ring& upper,
+                          const std::array<Chain, 2>& holes, OuterSide outer_side, double edge_length, Marker marker) {
   const Point3 plus{0, lower.radius, 0}, minus{0, -lower.radius, 0};
   const auto seam = [&](const Point3& side) {
     return line(surface, {side.x, side.y, lower.height}, {side.x, side.y, upper.height}, edge_length);
@@ -87,13 +87,13 @@ void add_pierced_cylinder(Surface& surface, const Ring& lower, const Ring& upper
     const Chain& end = half == 0 ? plus_y : minus_y;
     const std::array loop{part_of(lower, quarter, quarter + 2), end, reversed(part_of(upper, quarter, quarter + 2)),
                           reversed(start)};
-    const Chart chart = cylinder_chart(Axis::z, {}, lower.radius, 180 * half, facing);
+    const Chart chart = cylinder_chart(Axis::z, {}, lower.radius, 180 * half, outer_side);
     add_patch(surface, {chart, {closed_loop(loop), holes[static_cast<std::size_t>(half)]}, {}, edge_length, marker});
   }
 }
 
 /// The lands and grooves from the top of the skirt to the edge of the crown. \return the ring of that edge
-Ring add_ring_belt(Surface& surface, const Ring& top_of_skirt, double edge_length) {
+Ring add_ring_belt(ModelSurface& surface, const Ring& top_of_skirt, double edge_length) {
   const double fine = spacing_beside(edge_length, groove_width);
   const std::array<ProfilePoint, 12> profile{{{groove_radius, 43},
                                               {groove_radius, 47},
@@ -117,7 +117,7 @@ Ring add_ring_belt(Surface& surface, const Ring& top_of_skirt, double edge_lengt
   return before;
 }
 
-void add_crown(Surface& surface, const Ring& edge, double edge_length) {
+void add_crown(ModelSurface& surface, const Ring& edge, double edge_length) {
   const double sphere = (bowl_radius * bowl_radius + bowl_depth * bowl_depth) / (2 * bowl_depth);
   const double rim_angle = std::asin(bowl_radius / sphere) * 180 / std::numbers::pi;
   const Ring bowl_rim = ring(surface, Axis::z, {}, bowl_radius, height, edge_length);
@@ -128,7 +128,7 @@ void add_crown(Surface& surface, const Ring& edge, double edge_length) {
 }
 
 /// The ceiling of the hollow and its fillet. \return the ring where the wall begins
-Ring add_ceiling(Surface& surface, double edge_length) {
+Ring add_ceiling(ModelSurface& surface, double edge_length) {
   const double fine = spacing_beside(edge_length, cavity_fillet * std::numbers::pi / 2);
   const double flat = cavity_radius - cavity_fillet;
   const Ring pole = ring(surface, Axis::z, {}, 0, cavity_top, fine);
@@ -143,7 +143,7 @@ Ring add_ceiling(Surface& surface, double edge_length) {
 }  // namespace
 
 InputPlc make_piston(double edge_length) {
-  Surface surface;
+  ModelSurface surface;
   const double rim_spacing = spacing_beside(edge_length, radius - cavity_radius);
   const double boss_spacing = spacing_beside(edge_length, boss_radius - pin_radius);
   const Ring outer_rim = ring(surface, Axis::z, {}, radius, 0, rim_spacing);
@@ -155,8 +155,8 @@ InputPlc make_piston(double edge_length) {
     const double side = i == 0 ? 1 : -1;
     const PinTube bore = pin_tube(surface, side, pin_radius, radius, boss_spacing);
     const PinTube outside = pin_tube(surface, side, boss_radius, cavity_radius, boss_spacing);
-    add_tube_wall(surface, bore, pin_radius, Facing::inward, edge_length, pin_bore);
-    add_tube_wall(surface, outside, boss_radius, Facing::outward, edge_length, boss);
+    add_tube_wall(surface, bore, pin_radius, OuterSide::towards_axis, edge_length, pin_bore);
+    add_tube_wall(surface, outside, boss_radius, OuterSide::away_from_axis, edge_length, boss);
     const Revolution face{Axis::x, {0, 0, pin_height}, edge_length, boss};
     if (side > 0) add_cone(surface, bore.circle, outside.circle, face);
     if (side < 0) add_cone(surface, outside.circle, bore.circle, face);
@@ -165,10 +165,10 @@ InputPlc make_piston(double edge_length) {
   }
 
   const Ring top_of_skirt = ring(surface, Axis::z, {}, radius, skirt_top, spacing_beside(edge_length, groove_width));
-  add_pierced_cylinder(surface, outer_rim, top_of_skirt, outer_holes, Facing::outward, edge_length, skirt);
+  add_pierced_cylinder(surface, outer_rim, top_of_skirt, outer_holes, OuterSide::away_from_axis, edge_length, skirt);
   add_crown(surface, add_ring_belt(surface, top_of_skirt, edge_length), edge_length);
-  add_pierced_cylinder(surface, inner_rim, add_ceiling(surface, edge_length), inner_holes, Facing::inward, edge_length,
-                       cavity);
+  add_pierced_cylinder(surface, inner_rim, add_ceiling(surface, edge_length), inner_holes, OuterSide::towards_axis,
+                       edge_length, cavity);
   return to_input(std::move(surface), InputPlc::Inside::even_odd);
 }
 

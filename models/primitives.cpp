@@ -58,7 +58,7 @@ Point3 inside_triangle(const Point3& a, const Point3& b, const Point3& c, int i,
 
 InputPlc make_cube(double edge_length) {
   const int n = parts_of(1, edge_length);
-  Surface surface;
+  ModelSurface surface;
   const auto at = [&](Axis axis, int i, int j, int k) {
     const auto coordinate = [n](int step) { return static_cast<double>(step) / n; };
     return corner(surface, to_model(axis, {coordinate(i), coordinate(j), coordinate(k)}));
@@ -86,7 +86,7 @@ InputPlc make_sphere(double edge_length) {
   // Of 20 n^2 equilateral triangles with that edge length over n and the area of the sphere.
   const double rough_edge = 4 * std::sqrt(std::numbers::pi / (20 * std::numbers::sqrt3));
   const int n = parts_of(rough_edge, edge_length);
-  Surface surface;
+  ModelSurface surface;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Chain> edges;
   for (const Point3& p : ico.vertices) add_vertex(surface, p);
   const auto edge = [&](std::uint32_t from, std::uint32_t to) {
@@ -125,7 +125,7 @@ InputPlc make_sphere(double edge_length) {
 InputPlc make_torus(double edge_length) {
   constexpr double major = 1, minor = 0.4;
   const int rows = std::max(8, static_cast<int>(std::lround(2 * std::numbers::pi * minor / edge_length / 0.866)));
-  Surface surface;
+  ModelSurface surface;
   const Revolution revolution{Axis::z, {}, edge_length, 1};
   std::vector<Ring> rings;
   for (int i = 0; i < rows; ++i) {

@@ -39,7 +39,7 @@ std::vector<double> row_places(const Ring& from, const Ring& to, double length, 
 
 /// Joins two rings by one row of triangles, always along the shorter diagonal, beginning at the nearest pair of
 /// vertices.
-void join_rings(Surface& surface, const Ring& lower, const Ring& upper, int marker) {
+void join_rings(ModelSurface& surface, const Ring& lower, const Ring& upper, int marker) {
   const auto& a = lower.chain;
   const auto& b = upper.chain;
   const auto gap = [&](std::size_t i, std::size_t j) {
@@ -76,16 +76,16 @@ Profile straight_profile(ProfilePoint from, ProfilePoint to) {
       }};
 }
 
-Profile round_profile(ProfilePoint centre, double radius, double from, double to) {
+Profile round_profile(ProfilePoint center, double radius, double from, double to) {
   const double length = radius * std::fabs(to - from) * std::numbers::pi / 180;
   return {length, [=](double s) {
             const double angle = from + (to - from) * s / length;
-            return ProfilePoint{centre.radius + radius * cosine(angle), centre.height + radius * sine(angle)};
+            return ProfilePoint{center.radius + radius * cosine(angle), center.height + radius * sine(angle)};
           }};
 }
 
-Ring inner_ring(Surface& surface, const Revolution& revolution, ProfilePoint at, double spacing, double phase) {
-  const Point3 local = to_local(revolution.axis, revolution.centre);
+Ring inner_ring(ModelSurface& surface, const Revolution& revolution, ProfilePoint at, double spacing, double phase) {
+  const Point3 local = to_local(revolution.axis, revolution.center);
   const Point3 middle = to_model(revolution.axis, {local.x, local.y, at.height});
   const int count = std::max(3, static_cast<int>(std::lround(2 * std::numbers::pi * at.radius / spacing)));
   Ring result{{}, at.radius, at.height};
@@ -96,7 +96,7 @@ Ring inner_ring(Surface& surface, const Revolution& revolution, ProfilePoint at,
   return result;
 }
 
-void add_revolution(Surface& surface, const Ring& from, const Ring& to, const Profile& profile,
+void add_revolution(ModelSurface& surface, const Ring& from, const Ring& to, const Profile& profile,
                     const Revolution& revolution) {
   Ring before = from;
   double phase = 0;
@@ -110,11 +110,11 @@ void add_revolution(Surface& surface, const Ring& from, const Ring& to, const Pr
   join_rings(surface, before, to, revolution.marker);
 }
 
-void add_cone(Surface& surface, const Ring& from, const Ring& to, const Revolution& revolution) {
+void add_cone(ModelSurface& surface, const Ring& from, const Ring& to, const Revolution& revolution) {
   add_revolution(surface, from, to, straight_profile({from.radius, from.height}, {to.radius, to.height}), revolution);
 }
 
-void add_closed_rows(Surface& surface, std::span<const Ring> rings, const Revolution& revolution) {
+void add_closed_rows(ModelSurface& surface, std::span<const Ring> rings, const Revolution& revolution) {
   for (std::size_t i = 0; i < rings.size(); ++i) {
     join_rings(surface, rings[i], rings[(i + 1) % rings.size()], revolution.marker);
   }

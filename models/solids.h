@@ -16,7 +16,7 @@ struct Solid {
   InputPlc (*make)(double edge_length);  ///< does not check the edge length; `make_solid` does
 };
 
-/// piston, bracket, stepping-pole (the paper's, in millimetres), cube, graded-cube, sphere, rough-sphere, torus (of
+/// piston, bracket, stepping-pole (the paper's, in millimeters), cube, graded-cube, sphere, rough-sphere, torus (of
 /// size one), schoenhardt (always the same).
 ///
 /// Each group of faces has its own marker, counted from 1 (models/parts.h lists them). All are closed surfaces but the

@@ -11,7 +11,7 @@
 namespace ccdt {
 namespace {
 
-// Millimetres; the axis is z, from the stub at the bottom to the cap at the top.
+// Millimeters; the axis is z, from the stub at the bottom to the cap at the top.
 constexpr double stub_end = -30;
 constexpr double thread_radius = 7;  // of the thread's crests
 constexpr double thread_depth = 1.5;
@@ -50,26 +50,26 @@ struct Outline {
 };
 
 /// The teeth are 30 degrees apart: 10 degrees of tip, 5 of flank, 10 of root, 5 of flank, the first tip about angle 0.
-Outline tooth_outline(Surface& surface, double height, double edge_length) {
+Outline tooth_outline(ModelSurface& surface, double height, double edge_length) {
   const double spacing = spacing_beside(edge_length, narrow_arc());
-  const Point3 centre{0, 0, height};
+  const Point3 center{0, 0, height};
   Outline outline;
   for (int i = 0; i < teeth; ++i) {
     const double middle = 360.0 * i / teeth;
-    const auto tip = on_circle(Axis::z, centre, tooth_radius, middle + 5);
-    const auto foot = on_circle(Axis::z, centre, root_radius, middle + 10);
-    const auto next_foot = on_circle(Axis::z, centre, root_radius, middle + 20);
+    const auto tip = on_circle(Axis::z, center, tooth_radius, middle + 5);
+    const auto foot = on_circle(Axis::z, center, root_radius, middle + 10);
+    const auto next_foot = on_circle(Axis::z, center, root_radius, middle + 20);
     const double next = 360.0 * ((i + 1) % teeth) / teeth;
-    const auto next_tip = on_circle(Axis::z, centre, tooth_radius, next - 5);
-    outline.pieces.push_back(arc(surface, Axis::z, centre, tooth_radius, middle - 5, middle + 5, spacing));
+    const auto next_tip = on_circle(Axis::z, center, tooth_radius, next - 5);
+    outline.pieces.push_back(arc(surface, Axis::z, center, tooth_radius, middle - 5, middle + 5, spacing));
     outline.pieces.push_back(line(surface, tip, foot, spacing));
-    outline.pieces.push_back(arc(surface, Axis::z, centre, root_radius, middle + 10, middle + 20, spacing));
+    outline.pieces.push_back(arc(surface, Axis::z, center, root_radius, middle + 10, middle + 20, spacing));
     outline.pieces.push_back(line(surface, next_foot, next_tip, spacing));
   }
   return outline;
 }
 
-Outline hexagon_outline(Surface& surface, double height, double spacing) {
+Outline hexagon_outline(ModelSurface& surface, double height, double spacing) {
   Outline outline;
   for (int i = 0; i < 6; ++i) {
     outline.pieces.push_back(line(surface, on_circle(Axis::z, {0, 0, height}, hexagon_radius, 60 * i),
@@ -87,7 +87,7 @@ Chart side_plane(const Point3& from, const Point3& to) {
 
 /// The side faces of a prism between equal outlines. `chart_and_marker(i)` tells how piece i is laid out and marked.
 template <class ChartAndMarker>
-void add_sides(Surface& surface, const Outline& lower, const Outline& upper, double spacing, double edge_length,
+void add_sides(ModelSurface& surface, const Outline& lower, const Outline& upper, double spacing, double edge_length,
                const ChartAndMarker& chart_and_marker) {
   const auto count = lower.pieces.size();
   std::vector<Chain> lines;
@@ -103,19 +103,19 @@ void add_sides(Surface& surface, const Outline& lower, const Outline& upper, dou
   }
 }
 
-void add_grip(Surface& surface, const Outline& lower, const Outline& upper, double edge_length) {
+void add_grip(ModelSurface& surface, const Outline& lower, const Outline& upper, double edge_length) {
   const auto chart_and_marker = [&](std::size_t i) -> std::pair<Chart, Marker> {
     const std::size_t tooth_number = i / 4;
     const double middle = 360.0 / teeth * static_cast<double>(tooth_number);
-    if (i % 4 == 0) return {cylinder_chart(Axis::z, {}, tooth_radius, middle, Facing::outward), tooth};
-    if (i % 4 == 2) return {cylinder_chart(Axis::z, {}, root_radius, middle + 15, Facing::outward), root};
+    if (i % 4 == 0) return {cylinder_chart(Axis::z, {}, tooth_radius, middle, OuterSide::away_from_axis), tooth};
+    if (i % 4 == 2) return {cylinder_chart(Axis::z, {}, root_radius, middle + 15, OuterSide::away_from_axis), root};
     const Chain& piece = lower.pieces[i];
     return {side_plane(surface.vertices[piece.front()], surface.vertices[piece.back()]), flank};
   };
   add_sides(surface, lower, upper, spacing_beside(edge_length, narrow_arc()), edge_length, chart_and_marker);
 }
 
-void add_hexagon(Surface& surface, const Outline& lower, const Outline& upper, double edge_length) {
+void add_hexagon(ModelSurface& surface, const Outline& lower, const Outline& upper, double edge_length) {
   const auto chart_and_marker = [&](std::size_t i) -> std::pair<Chart, Marker> {
     const Chain& piece = lower.pieces[i];
     return {side_plane(surface.vertices[piece.front()], surface.vertices[piece.back()]), hexagon};
@@ -124,14 +124,14 @@ void add_hexagon(Surface& surface, const Outline& lower, const Outline& upper, d
 }
 
 /// A plane face between two closed curves, which faces up the axis (`outward`) or down.
-void add_face(Surface& surface, const Chain& outer, const Chain& inner, double height, Facing up, double edge_length,
-              Marker marker) {
-  const Chart chart = plane_chart({0, 0, height}, {0, 0, up == Facing::outward ? 1.0 : -1.0});
+void add_face(ModelSurface& surface, const Chain& outer, const Chain& inner, double height, OuterSide up,
+              double edge_length, Marker marker) {
+  const Chart chart = plane_chart({0, 0, height}, {0, 0, up == OuterSide::away_from_axis ? 1.0 : -1.0});
   add_patch(surface, {chart, {outer, inner}, {}, edge_length, marker});
 }
 
 /// From the pole at the end of the stub to the ring where the stub meets the hexagon.
-Ring add_stub(Surface& surface, double edge_length) {
+Ring add_stub(ModelSurface& surface, double edge_length) {
   const double flank_length = std::hypot(thread_depth, thread_pitch / 2);
   const double spacing = spacing_beside(edge_length, flank_length);
   const Revolution revolution = around_axis(edge_length, thread);
@@ -152,7 +152,7 @@ Ring add_stub(Surface& surface, double edge_length) {
 }
 
 /// From the edge of the cap above the grip to the tip of the bore.
-void add_cap(Surface& surface, const Ring& edge, double edge_length) {
+void add_cap(ModelSurface& surface, const Ring& edge, double edge_length) {
   const double fine = spacing_beside(edge_length, cap_top - cap_fillet - cap_bottom);
   const double chamfer = bore_mouth - bore_radius;
   const double mouth_spacing = spacing_beside(edge_length, chamfer * std::numbers::sqrt2);
@@ -176,7 +176,7 @@ void add_cap(Surface& surface, const Ring& edge, double edge_length) {
 }  // namespace
 
 InputPlc make_stepping_pole(double edge_length) {
-  Surface surface;
+  ModelSurface surface;
   const double collar_spacing = spacing_beside(edge_length, collar_radius - tooth_radius);
   const auto collar_ring = [&](double height) {
     return ring(surface, Axis::z, {}, collar_radius, height, collar_spacing);
@@ -187,17 +187,18 @@ InputPlc make_stepping_pole(double edge_length) {
   const Outline hexagon_lower = hexagon_outline(surface, 0, hexagon_spacing);
   const Outline hexagon_upper = hexagon_outline(surface, hexagon_top, hexagon_spacing);
   const Ring collar_lower = collar_ring(hexagon_top), collar_upper = collar_ring(collar_top);
-  add_face(surface, hexagon_lower.loop(), neck.chain, 0, Facing::inward, edge_length, hexagon);
+  add_face(surface, hexagon_lower.loop(), neck.chain, 0, OuterSide::towards_axis, edge_length, hexagon);
   add_hexagon(surface, hexagon_lower, hexagon_upper, edge_length);
-  add_face(surface, collar_lower.chain, hexagon_upper.loop(), hexagon_top, Facing::inward, edge_length, collar);
+  add_face(surface, collar_lower.chain, hexagon_upper.loop(), hexagon_top, OuterSide::towards_axis, edge_length,
+           collar);
   add_cone(surface, collar_lower, collar_upper, around_axis(edge_length, collar));
 
   const Outline grip_lower = tooth_outline(surface, collar_top, edge_length);
   const Outline grip_upper = tooth_outline(surface, cap_bottom, edge_length);
   const Ring cap_edge = collar_ring(cap_bottom);
-  add_face(surface, collar_upper.chain, grip_lower.loop(), collar_top, Facing::outward, edge_length, collar);
+  add_face(surface, collar_upper.chain, grip_lower.loop(), collar_top, OuterSide::away_from_axis, edge_length, collar);
   add_grip(surface, grip_lower, grip_upper, edge_length);
-  add_face(surface, cap_edge.chain, grip_upper.loop(), cap_bottom, Facing::inward, edge_length, cap);
+  add_face(surface, cap_edge.chain, grip_upper.loop(), cap_bottom, OuterSide::towards_axis, edge_length, cap);
   add_cap(surface, cap_edge, edge_length);
   return to_input(std::move(surface), InputPlc::Inside::even_odd);
 }

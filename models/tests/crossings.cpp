@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "engine/base/box_tree.h"
 
 namespace ccdt::testing {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-using Cell = std::array<int, 3>;
 
-/// Six times the volume of a tetrahedron, 0 when it is flat but for rounding: neighbours in a tilted plane do not
+/// Six times the volume of a tetrahedron, 0 when it is flat but for rounding: neighbors in a tilted plane do not
 /// cross.
 double volume(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
@@ -47,49 +47,18 @@ bool cross_or_fold(std::span<const Point3> p, const Triangle& s, const Triangle&
   return false;
 }
 
-/// The largest extent of a triangle, so that each covers few cells.
-double cell_size(std::span<const Point3> p, std::span<const Triangle> triangles) {
-  double size = 0;
-  for (const Triangle& t : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) size = std::max(size, squared_length(p[t[(k + 1) % 3]] - p[t[k]]));
-  }
-  return std::sqrt(size);
-}
-
 }  // namespace
 
 std::vector<std::pair<std::size_t, std::size_t>> crossings(std::span<const Point3> vertices,
                                                            std::span<const Triangle> triangles) {
-  const double size = cell_size(vertices, triangles);
-  std::map<Cell, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    Cell low{}, high{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto cell = [&](std::uint32_t v) {
-        return static_cast<int>(std::floor(as_array(vertices[v])[axis] / size));
-      };
-      const auto [least, most] = std::minmax({cell(triangles[i][0]), cell(triangles[i][1]), cell(triangles[i][2])});
-      low[axis] = least;
-      high[axis] = most;
-    }
-    for (int x = low[0]; x <= high[0]; ++x) {
-      for (int y = low[1]; y <= high[1]; ++y) {
-        for (int z = low[2]; z <= high[2]; ++z) cells[{x, y, z}].push_back(i);
-      }
-    }
-  }
+  std::vector<Box> boxes;
+  for (const auto& [a, b, c] : triangles)
+    boxes.push_back(bounding_box(std::array{vertices[a], vertices[b], vertices[c]}));
   std::vector<std::pair<std::size_t, std::size_t>> found;
-  for (const auto& [cell, members] : cells) {
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      for (std::size_t j = i + 1; j < members.size(); ++j) {
-        if (cross_or_fold(vertices, triangles[members[i]], triangles[members[j]])) {
-          found.emplace_back(members[i], members[j]);
-        }
-      }
-    }
-  }
+  BoxTree(std::move(boxes)).for_each_pair([&](std::size_t i, std::size_t j) {
+    if (cross_or_fold(vertices, triangles[i], triangles[j])) found.push_back(std::minmax(i, j));
+  });
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

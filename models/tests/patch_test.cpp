@@ -13,14 +13,14 @@
 namespace ccdt::testing {
 namespace {
 
-Chain rectangle(Surface& surface, double width, double height, double spacing) {
+Chain rectangle(ModelSurface& surface, double width, double height, double spacing) {
   const std::array<Point3, 4> p{{{0, 0, 0}, {width, 0, 0}, {width, height, 0}, {0, height, 0}}};
   std::array<Chain, 4> sides;
   for (std::size_t i = 0; i < 4; ++i) sides[i] = line(surface, p[i], p[(i + 1) % 4], spacing);
   return closed_loop(sides);
 }
 
-double area(const Surface& surface) {
+double area(const ModelSurface& surface) {
   double sum = 0;
   for (const auto& [a, b, c] : surface.triangles) {
     const Point3 normal = cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]);
@@ -30,14 +30,14 @@ double area(const Surface& surface) {
 }
 
 TEST(Curves, EndInTheSameVertexWhereTheyMeet) {
-  Surface surface;
+  ModelSurface surface;
   const Chain round = arc(surface, Axis::z, {10, 0, 0}, 2, 0, 90, 0.5);
   const Chain straight = line(surface, {10, 2, 0}, {0, 2, 0}, 0.5);
   EXPECT_EQ(round.back(), straight.front());
 }
 
 TEST(Curves, AreCutIntoEqualParts) {
-  Surface surface;
+  ModelSurface surface;
   const auto ellipse = [](double t) { return Point3{10 * cosine(180 * t), 4 * sine(180 * t), 0}; };
   const Chain chain = curve(surface, ellipse(0), ellipse(1), ellipse, 0.2, 1);
   double shortest = 1e9, longest = 0;
@@ -51,20 +51,20 @@ TEST(Curves, AreCutIntoEqualParts) {
 }
 
 TEST(Curves, ThatDoNotMeetMakeNoLoop) {
-  Surface surface;
+  ModelSurface surface;
   const std::array chains{line(surface, {0, 0, 0}, {1, 0, 0}, 1), line(surface, {1, 1, 0}, {0, 0, 0}, 1)};
   EXPECT_THROW(closed_loop(chains), std::logic_error);
 }
 
 TEST(Charts, LiftIsTheInverseOfFlatten) {
-  const Chart chart = cylinder_chart(Axis::x, {1, 2, 3}, 4, 120, Facing::inward);
+  const Chart chart = cylinder_chart(Axis::x, {1, 2, 3}, 4, 120, OuterSide::towards_axis);
   const Point3 p = on_circle(Axis::x, {7, 2, 3}, 4, 75);
   const Point3 q = chart.lift(chart.flatten(p));
   EXPECT_NEAR(distance(p, q), 0, 1e-13);
 }
 
-TEST(Patch, CoversARectangleWithAHoleAndKeepsItsEdges) {
-  Surface surface;
+TEST(SurfacePatch, CoversARectangleWithAHoleAndKeepsItsEdges) {
+  ModelSurface surface;
   const Chain outer = rectangle(surface, 20, 12, 1);
   const Ring hole = ring(surface, Axis::z, {8, 6, 0}, 3, 0, 1);
   const std::size_t border_vertices = surface.vertices.size();
@@ -78,8 +78,8 @@ TEST(Patch, CoversARectangleWithAHoleAndKeepsItsEdges) {
   for (const int marker : surface.markers) EXPECT_EQ(marker, 7);
 }
 
-TEST(Patch, HasTheEdgesOfACutInside) {
-  Surface surface;
+TEST(SurfacePatch, HasTheEdgesOfACutInside) {
+  ModelSurface surface;
   const std::array<Point3, 5> p{{{0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {10, 10, 0}, {0, 10, 0}}};
   std::array<Chain, 5> sides;
   for (std::size_t i = 0; i < 5; ++i) sides[i] = line(surface, p[i], p[(i + 1) % 5], 1);
@@ -94,8 +94,8 @@ TEST(Patch, HasTheEdgesOfACutInside) {
   EXPECT_NEAR(area(surface), 100, 1e-9);
 }
 
-TEST(Patch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
-  Surface surface;
+TEST(SurfacePatch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
+  ModelSurface surface;
   const Chain outer = rectangle(surface, 40, 40, 4);
   const Ring hole = ring(surface, Axis::z, {20, 20, 0}, 1, 0, 4);
   add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 4, 1});
@@ -105,9 +105,9 @@ TEST(Patch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
   EXPECT_GT(quantile(smallest_angles(input), 0), 25);
 }
 
-TEST(Patch, WhoseCurvesCrossIsRefused) {
+TEST(SurfacePatch, WhoseCurvesCrossIsRefused) {
   for (const double x : {10.0, 9.5}) {  // in vertices of one and within edges of the other, and in no vertex
-    Surface surface;
+    ModelSurface surface;
     const Chain outer = rectangle(surface, 10, 10, 1);
     const Ring hole = ring(surface, Axis::z, {x, 5.3, 0}, 2, 0, 1);
     EXPECT_THROW(add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 1}), std::logic_error);
@@ -115,7 +115,7 @@ TEST(Patch, WhoseCurvesCrossIsRefused) {
 }
 
 TEST(Revolution, JoinsRingsOfDifferentCountsWithoutAGap) {
-  Surface surface;
+  ModelSurface surface;
   const Ring coarse = ring(surface, Axis::z, {}, 10, 0, 2), fine = ring(surface, Axis::z, {}, 10, 8, 0.7);
   add_cone(surface, coarse, fine, {Axis::z, {}, 2, 1});
   std::size_t border = 0;

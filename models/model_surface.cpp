@@ -1,4 +1,4 @@
-#include "models/surface.h"
+#include "models/model_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 
 namespace ccdt {
 
-std::uint32_t add_vertex(Surface& surface, const Point3& point) {
+std::uint32_t add_vertex(ModelSurface& surface, const Point3& point) {
   surface.vertices.push_back(point);
   return static_cast<std::uint32_t>(surface.vertices.size() - 1);
 }
 
-std::uint32_t corner(Surface& surface, const Point3& point) {
+std::uint32_t corner(ModelSurface& surface, const Point3& point) {
   const auto found = surface.corners.find(as_array(point));
   if (found != surface.corners.end()) return found->second;
   const std::uint32_t id = add_vertex(surface, point);
@@ -20,7 +20,7 @@ std::uint32_t corner(Surface& surface, const Point3& point) {
   return id;
 }
 
-void add_triangle(Surface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, int marker) {
+void add_triangle(ModelSurface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, int marker) {
   surface.triangles.push_back({a, b, c});
   surface.markers.push_back(marker);
 }
@@ -43,7 +43,7 @@ Chain closed_loop(std::span<const Chain> chains) {
   return loop;
 }
 
-InputPlc to_input(Surface&& surface, InputPlc::Inside inside) {
+InputPlc to_input(ModelSurface&& surface, InputPlc::Inside inside) {
   InputPlc input;
   input.inside = inside;
   input.vertices = std::move(surface.vertices);

@@ -14,7 +14,7 @@ namespace ccdt {
 /// A triangulated surface while it is put together from patches.
 ///
 /// Patches that meet share the vertices of their common curve by index, because each curve is cut into edges once.
-struct Surface {
+struct ModelSurface {
   std::vector<Point3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<int> markers;                                ///< one a triangle
@@ -25,12 +25,12 @@ struct Surface {
 using Chain = std::vector<std::uint32_t>;
 
 /// Adds a vertex without asking whether there is one.
-std::uint32_t add_vertex(Surface& surface, const Point3& point);
+std::uint32_t add_vertex(ModelSurface& surface, const Point3& point);
 
 /// The corner at exactly these coordinates; added when it is new.
-std::uint32_t corner(Surface& surface, const Point3& point);
+std::uint32_t corner(ModelSurface& surface, const Point3& point);
 
-void add_triangle(Surface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, int marker);
+void add_triangle(ModelSurface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, int marker);
 
 double distance(const Point3& a, const Point3& b);
 
@@ -41,6 +41,6 @@ Chain reversed(const Chain& chain);
 Chain closed_loop(std::span<const Chain> chains);
 
 /// Moves the surface into an input with triangles and markers only.
-InputPlc to_input(Surface&& surface, InputPlc::Inside inside);
+InputPlc to_input(ModelSurface&& surface, InputPlc::Inside inside);
 
 }  // namespace ccdt
