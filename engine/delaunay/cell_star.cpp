@@ -17,20 +17,20 @@ std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
 }  // namespace
 
 std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
-  seen_.resize(d_.cells.size(), question_);
-  if (++question_ == 0) {
+  seen_.resize(d_.cells.size(), search_);
+  if (++search_ == 0) {
     std::fill(seen_.begin(), seen_.end(), 0);
-    question_ = 1;
+    search_ = 1;
   }
   cells_.assign(1, d_.vertices[vertex].cell);
-  seen_[cells_[0]] = question_;
+  seen_[cells_[0]] = search_;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = d_.cells[cells_[i]];
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (cell.vertices[f] == vertex) continue;
       const std::uint32_t next = cell_of(cell.neighbors[f]);
-      if (seen_[next] == question_) continue;
-      seen_[next] = question_;
+      if (seen_[next] == search_) continue;
+      seen_[next] = search_;
       cells_.push_back(next);
     }
   }

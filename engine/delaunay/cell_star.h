@@ -8,7 +8,7 @@
 
 namespace ccdt {
 
-/// Walks the cells around vertices; owns the marks that this takes, so it is made once and asked often.
+/// Walks the cells around vertices; owns the marks that this takes, so it is made once and used often.
 class CellStar {
  public:
   explicit CellStar(const Delaunay& delaunay) : d_(delaunay) {}
@@ -24,8 +24,8 @@ class CellStar {
 
  private:
   const Delaunay& d_;
-  std::vector<std::uint32_t> seen_;  // the number of the last question that reached the cell
-  std::uint32_t question_ = 0;
+  std::vector<std::uint32_t> seen_;  // the number of the last search that reached the cell
+  std::uint32_t search_ = 0;
   std::vector<std::uint32_t> cells_;
 };
 

@@ -1,10 +1,8 @@
 #include "engine/delaunay/delaunay.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "engine/base/errors.h"
-#include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/numbers/predicates.h"
 

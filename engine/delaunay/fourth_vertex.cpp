@@ -4,13 +4,36 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/box.h"
+
 namespace ccdt {
 namespace {
+
+void add_block(VertexGrid& g, const UniformGrid::CellIndex& from) {
+  GridBlock block;
+  block.from = from;
+  for (int i = 0; i < 3; ++i) block.to[i] = std::min(from[i] + GridBlock::side, g.grid.cells[i]) - 1;
+  auto [low, high] = empty_box;
+  for (int z = block.from[2]; z <= block.to[2]; ++z) {
+    for (int y = block.from[1]; y <= block.to[1]; ++y) {
+      const std::size_t row = g.grid.number({0, y, z});
+      for (std::uint32_t v = g.first[row + block.from[0]]; v < g.first[row + block.to[0] + 1]; ++v) {
+        const Point3& p = g.vertices[v].point;
+        low = componentwise_min(low, p), high = componentwise_max(high, p);
+      }
+    }
+  }
+  if (low.x > high.x) return;
+  const double margin = 1e-15 * std::max({g.extent.x, g.extent.y, g.extent.z});
+  block.center = 0.5 * (low + high);
+  block.half = 0.5 * (high - low) + Point3{margin, margin, margin};
+  g.blocks.push_back(block);
+}
 
 using Face = std::array<std::uint32_t, 3>;
 using CellIndex = UniformGrid::CellIndex;
 
-constexpr double huge = 100;  // in cells: the spheres of faces at the hull, and of those over a hair's breadth
+constexpr double huge = 100;  // in cells: the spheres of faces at the hull, and of those over narrow gaps
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double sum_of_magnitudes(const Point3& p) {
@@ -35,9 +58,9 @@ CellBox meet(const CellBox& a, const CellBox& b) {
 }
 
 /// The search above one face.
-class Search {
+class ApexSearch {
  public:
-  Search(const VertexGrid& grid, BlockTops& tops, VertexBatch& batch, const Face& face)
+  ApexSearch(const VertexGrid& grid, BlockTops& tops, VertexBatch& batch, const Face& face)
       : g_(grid),
         tops_(tops),
         batch_(batch),
@@ -106,7 +129,7 @@ class Search {
   CellBox box_of_cap() const {
     const double r = cap_.radius + 1e-6 * cell_size_;
     const Point3 reach{r, r, r};
-    return {cell_at(cap_.centre - reach), cell_at(cap_.centre + reach)};
+    return {cell_at(cap_.center - reach), cell_at(cap_.center + reach)};
   }
 
   /// Considers all vertices of the first window together.
@@ -119,7 +142,7 @@ class Search {
         const std::size_t row = g_.grid.number({0, y, z});
         const std::uint32_t end = g_.first[row + window.to[0] + 1];
         std::uint32_t v = g_.first[row + window.from[0]];
-        if (batch_.size + (end - v) > VertexBatch::room) return visit(window);
+        if (batch_.size + (end - v) > VertexBatch::capacity) return visit(window);
         for (; v < end; ++v) {
           const Point3 e = g_.vertices[v].point - origin;
           batch_.x[batch_.size] = e.x, batch_.y[batch_.size] = e.y, batch_.z[batch_.size] = e.z;
@@ -167,12 +190,12 @@ class Search {
     const double row_y = g_.grid.low.y + (y + 0.5) * cell_size_, row_z = g_.grid.low.z + (z + 0.5) * cell_size_;
     double low = -infinity, high = infinity;
     if (cap_.radius < infinity) {
-      const double dy = std::max(0.0, std::fabs(cap_.centre.y - row_y) - half_);
-      const double dz = std::max(0.0, std::fabs(cap_.centre.z - row_z) - half_);
+      const double dy = std::max(0.0, std::fabs(cap_.center.y - row_y) - half_);
+      const double dz = std::max(0.0, std::fabs(cap_.center.z - row_z) - half_);
       const double square = cap_.radius * cap_.radius - dy * dy - dz * dz;
       if (square < 0) return false;
       const double reach = std::sqrt(square) + 1e-6 * cell_size_;
-      low = cap_.centre.x - reach, high = cap_.centre.x + reach;
+      low = cap_.center.x - reach, high = cap_.center.x + reach;
     }
     // The highest that the row's cross-section reaches above the plane of the face, at x = origin.x.
     const Point3& origin = pencil_.origin();
@@ -197,7 +220,7 @@ class Search {
     double turn = 0;  // from its normal to ours
     for (std::size_t i = 0; i < g_.blocks.size(); ++i) {
       const GridBlock& block = g_.blocks[i];
-      const Point3 to_block = block.centre - pencil_.origin();
+      const Point3 to_block = block.center - pencil_.origin();
       const double farthest = sum_of_magnitudes(to_block) + sum_of_magnitudes(block.half);
       const double slack = tilt * farthest;
       double top = dot(up, to_block) + std::fabs(up.x) * block.half.x + std::fabs(up.y) * block.half.y +
@@ -216,13 +239,13 @@ class Search {
     }
   }
 
-  /// Is all of the block up to a height above the face outside the sphere? With c the centre of the circle of the face
+  /// Is all of the block up to a height above the face outside the sphere? With c the center of the circle of the face
   /// and r its radius, e is inside when |e - c|^2 < r^2 + 2 lift * (height of e): in a narrow cap even if lift is
   /// large.
   bool is_outside(const GridBlock& block, double top, double farthest) const {
     const SpherePencil::Circle& circle = pencil_.circle();
     if (circle.radius == infinity || cap_.lift == infinity) return false;
-    const Point3 from_c = block.centre - circle.centre;
+    const Point3 from_c = block.center - circle.center;
     const double dx = std::max(0.0, std::fabs(from_c.x) - block.half.x),
                  dy = std::max(0.0, std::fabs(from_c.y) - block.half.y),
                  dz = std::max(0.0, std::fabs(from_c.z) - block.half.z);
@@ -244,8 +267,58 @@ class Search {
 
 }  // namespace
 
+VertexGrid make_vertex_grid(std::span<const DelaunayVertex> vertices, double scale) {
+  VertexGrid g;
+  if (vertices.empty()) return g;
+  Point3 low = vertices[0].point, high = low;
+  for (const DelaunayVertex& v : vertices) {
+    low = componentwise_min(low, v.point), high = componentwise_max(high, v.point);
+  }
+  g.extent = high - low;
+  g.grid = make_uniform_grid({{}, g.extent}, vertices.size(), scale);
+  IndexLists lists = make_index_lists(g.grid.size(), [&](const auto& emit) {
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(g.grid.number(g.grid.cell_at(vertices[v].point - low)), v);
+  });
+  g.first = std::move(lists.first);
+  g.vertices.reserve(vertices.size());
+  for (const std::uint32_t v : lists.items) g.vertices.push_back({vertices[v].point - low, vertices[v].rank, v});
+  for (int z = 0; z < g.grid.cells[2]; z += GridBlock::side)
+    for (int y = 0; y < g.grid.cells[1]; y += GridBlock::side)
+      for (int x = 0; x < g.grid.cells[0]; x += GridBlock::side) add_block(g, {x, y, z});
+  return g;
+}
+
+BlockTops::Direction& BlockTops::direction(const Point3& normal) {
+  // Directions that differ by more than a millionth have different keys.
+  const auto part = [](double x) { return static_cast<std::uint64_t>(std::llround(x * 0x1p19) + 0x100000); };
+  const std::uint64_t key = (part(normal.x) << 42 | part(normal.y) << 21 | part(normal.z)) + 1;
+  Direction& slot = slots_[(key * 0x9E3779B97F4A7C15u >> 32) % slot_count];
+  if (slot.key != key) {
+    slot.key = key;
+    slot.normal = normal;
+    slot.tops.assign(grid_.blocks.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return slot;
+}
+
+double BlockTops::top(Direction& direction, std::size_t block) const {
+  double& top = direction.tops[block];
+  if (!std::isnan(top)) return top;
+  const GridBlock& b = grid_.blocks[block];
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int z = b.from[2]; z <= b.to[2]; ++z) {
+    for (int y = b.from[1]; y <= b.to[1]; ++y) {
+      const std::size_t row = grid_.grid.number({0, y, z});
+      for (std::uint32_t v = grid_.first[row + b.from[0]]; v < grid_.first[row + b.to[0] + 1]; ++v)
+        highest = std::max(highest, dot(direction.normal, grid_.vertices[v].point));
+    }
+  }
+  top = highest + 1e-15 * (grid_.extent.x + grid_.extent.y + grid_.extent.z);
+  return top;
+}
+
 std::uint32_t FourthVertexSearch::find(const Face& face, std::uint32_t candidate, Reach reach) {
-  return Search(grid_, tops_, batch_, face).run(candidate, reach);
+  return ApexSearch(grid_, tops_, batch_, face).run(candidate, reach);
 }
 
 }  // namespace ccdt

@@ -2,12 +2,60 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
-#include "engine/delaunay/block_tops.h"
+#include "engine/base/index_lists.h"
+#include "engine/base/uniform_grid.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/sphere_pencil.h"
-#include "engine/delaunay/vertex_grid.h"
 
 namespace ccdt {
+
+/// A cube of cells that has vertices.
+struct GridBlock {
+  static constexpr int side = 8;
+
+  UniformGrid::CellIndex from{}, to{};  ///< its cells, both ends included
+  Point3 center, half;                  ///< of the box of its vertices; slightly larger
+};
+
+/// Vertices in the order of the cells of a uniform grid (paper, section 4), so that those of a row of cells lie side by
+/// side: those of cell c are first[c] .. first[c + 1]. In what follows a vertex is named by its place in this order.
+struct VertexGrid {
+  UniformGrid grid;
+  Point3 extent;  ///< of the points
+  std::vector<std::uint32_t> first;
+  std::vector<GridVertex> vertices;
+  std::vector<GridBlock> blocks;
+};
+
+/// \param scale  factor of the paper's cell size
+VertexGrid make_vertex_grid(std::span<const DelaunayVertex> vertices, double scale);
+
+/// How far the vertices of the blocks of a grid reach in a direction: remembered, as many faces of a flat side of a
+/// part ask in nearly the same direction. A box around vertices on a slanted side reaches far above it, and the spheres
+/// there are all but half-spaces: their rounded vertices are slightly off a plane.
+class BlockTops {
+ public:
+  explicit BlockTops(const VertexGrid& grid) : grid_(grid), slots_(slot_count) {}
+
+  struct Direction {
+    Point3 normal;             ///< of unit length, near the one asked for
+    std::vector<double> tops;  ///< of blocks, along the normal; NaN: not known yet
+    std::uint64_t key = 0;
+  };
+  /// What is remembered for about this direction. \param normal  of unit length
+  Direction& direction(const Point3& normal);
+  /// At least the largest normal . p of all vertices p of the block, by not more than roundings.
+  double top(Direction& direction, std::size_t block) const;
+
+ private:
+  static constexpr std::size_t slot_count = 1024;
+
+  const VertexGrid& grid_;
+  std::vector<Direction> slots_;
+};
 
 /// How much to search.
 enum class Reach {

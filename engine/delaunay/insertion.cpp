@@ -1,7 +1,11 @@
 #include "engine/delaunay/insertion.h"
 
 #include <algorithm>
+#include <array>
+#include <boost/sort/spreadsort/integer_sort.hpp>
 
+#include "engine/base/box.h"
+#include "engine/base/morton.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
@@ -9,9 +13,73 @@
 namespace ccdt {
 namespace {
 
+constexpr int bits_per_axis = 20;
+constexpr int round_shift = 3 * bits_per_axis;  // rounds above the 60 bits of the curve
+
+/// Distance along the Hilbert curve of a point of the cube [0, 2^bits)^3 (Skilling 2004: transpose form, then
+/// interleaved).
+std::uint64_t hilbert_distance(std::array<std::uint32_t, 3> x) {
+  for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1) {
+    const std::uint32_t p = q - 1;
+    for (int i = 0; i < 3; ++i) {
+      if (x[i] & q) {
+        x[0] ^= p;
+      } else {
+        const std::uint32_t t = (x[0] ^ x[i]) & p;
+        x[0] ^= t;
+        x[i] ^= t;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t t = 0;
+  for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1)
+    if (x[2] & q) t ^= q - 1;
+  return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
+}
+
+/// A well-mixed hash of an index: the random bits of the rounds, the same on every machine.
+std::uint64_t random_bits(std::uint64_t i) {
+  i += 0x9E3779B97F4A7C15u;
+  i = (i ^ (i >> 30)) * 0xBF58476D1CE4E5B9u;
+  i = (i ^ (i >> 27)) * 0x94D049BB133111EBu;
+  return i ^ (i >> 31);
+}
+
+struct KeyedPoint {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
 constexpr std::uint8_t no_local = 0xFF;
 
 }  // namespace
+
+std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
+  const auto [low, high] = bounding_box(points);
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1.0});
+  const double scale = ((1u << bits_per_axis) - 1) / extent;
+
+  // A round has eight times the points of the one before; small sets need none.
+  int rounds = 0;
+  for (std::size_t n = points.size(); n > 2000 && rounds < 6; n /= 8) ++rounds;
+  std::vector<KeyedPoint> keyed(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point3& p = points[i];
+    const auto cell = [&](double c, double l) { return static_cast<std::uint32_t>((c - l) * scale); };
+    std::uint64_t round = static_cast<std::uint64_t>(rounds);
+    for (std::uint64_t bits = random_bits(i); round > 0 && (bits & 7) == 0; bits >>= 3) --round;
+    keyed[i] = {round << round_shift | hilbert_distance({cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)}),
+                static_cast<std::uint32_t>(i)};
+  }
+  boost::sort::spreadsort::integer_sort(
+      keyed.begin(), keyed.end(), [](const KeyedPoint& k, unsigned offset) { return k.key >> offset; },
+      [](const KeyedPoint& a, const KeyedPoint& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  std::vector<std::uint32_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
+  return order;
+}
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
 
@@ -38,8 +106,8 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
   cavity_.add(first);
   mark[first] = Mark::conflict;
   for (std::size_t i = 0; i < cavity_.size; ++i) {
-    cavity_.make_room(4), outside_.make_room(4), border_.make_room(4);
-    const Cell cell = cells[cavity_.room[i]];
+    cavity_.reserve_more(4), outside_.reserve_more(4), border_.reserve_more(4);
+    const Cell cell = cells[cavity_.slots[i]];
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
       if (mark[next] == Mark::conflict) continue;
@@ -48,7 +116,7 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
           mark[next] = Mark::conflict;
           cavity_.add(next);
           // By the time that its turn comes, they are there.
-          for (const std::uint32_t beyond : cells[next].neighbors) __builtin_prefetch(cells + cell_of(beyond));
+          for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
           continue;
         }
         mark[next] = Mark::outside;
@@ -79,15 +147,15 @@ std::uint32_t Insertion::fill() {
   for (const std::uint32_t u : border_vertices_) local_[u + 1] = no_local;
   border_vertices_.clear();
   for (std::size_t i = border_.size; i < cavity_.size; ++i) {
-    d_.cells[cavity_.room[i]].neighbors[0] = no_neighbor;
-    d_.free_cells.push_back(cavity_.room[i]);
+    d_.cells[cavity_.slots[i]].neighbors[0] = no_neighbor;
+    d_.free_cells.push_back(cavity_.slots[i]);
   }
   abandon();
   return some;
 }
 
 /// The visibility walk; ends in the cell that holds p, or in a ghost whose hull face p is above. The face that is tried
-/// first changes from step to step, so that the walk does not favour a side.
+/// first changes from step to step, so that the walk does not favor a side.
 std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   std::uint32_t from = no_neighbor;
@@ -152,7 +220,7 @@ void Insertion::choose_places() {
 void Insertion::number_border_vertices() {
   std::uint8_t* const local = local_.data();
   for (std::size_t i = 0; i < border_.size; ++i) {
-    for (const std::uint32_t u : border_.room[i].vertices) {
+    for (const std::uint32_t u : border_.slots[i].vertices) {
       const std::uint32_t slot = u + 1;
       if (local[slot] != no_local) continue;
       if (border_vertices_.size() < no_local) local[slot] = static_cast<std::uint8_t>(border_vertices_.size());
@@ -201,7 +269,7 @@ void Insertion::connect_by_table() {
   std::uint64_t* const table = table_.data();
   const std::uint64_t stamp = insertions_ << 32;
   for (std::size_t i = 0; i < border_.size; ++i) {
-    const CavityFace& face = border_.room[i];
+    const CavityFace& face = border_.slots[i];
     const std::uint32_t place = places_[i];
     const auto& opposite_faces = opposite[make_cell(face, place)];
     const std::uint32_t local[3] = {local_[face.vertices[0] + 1], local_[face.vertices[1] + 1],
@@ -230,7 +298,7 @@ void Insertion::connect_by_search() {
   std::vector<Edge> edges;
   edges.reserve(3 * border_.size);
   for (std::size_t i = 0; i < border_.size; ++i) {
-    const CavityFace& face = border_.room[i];
+    const CavityFace& face = border_.slots[i];
     const auto& opposite_faces = opposite[make_cell(face, places_[i])];
     for (int k = 0; k < 3; ++k) {
       edges.push_back(

@@ -8,6 +8,12 @@
 
 namespace ccdt {
 
+/// The order in which points are inserted: a few rounds of growing size (a biased randomized insertion order, Amenta,
+/// Choi and Rote 2003), each along a Hilbert curve, so that a point is near the one before it.
+///
+/// \return  the indices of the points, each once; depends on the points alone
+std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points);
+
 /// A face between a cell that a new vertex destroys and one that it leaves.
 struct CavityFace {
   std::array<std::uint32_t, 3> vertices;  ///< the new vertex is above them
@@ -40,17 +46,17 @@ class Insertion {
  private:
   enum class Mark : std::uint8_t { unknown, conflict, outside };
 
-  /// A list whose room is looked after in steps, not at every addition.
+  /// A list that is checked for space before several additions, not at each of them.
   template <class T>
   struct List {
-    std::vector<T> room = std::vector<T>(256);
+    std::vector<T> slots = std::vector<T>(256);
     std::size_t size = 0;
 
-    void make_room(std::size_t more) {
-      if (size + more > room.size()) room.resize(2 * (size + more));
+    void reserve_more(std::size_t more) {
+      if (size + more > slots.size()) slots.resize(2 * (size + more));
     }
-    void add(const T& item) { room[size++] = item; }
-    std::span<const T> items() const { return {room.data(), size}; }
+    void add(const T& item) { slots[size++] = item; }
+    std::span<const T> items() const { return {slots.data(), size}; }
   };
 
   std::uint32_t walk(const Point3& p, std::uint32_t start);

@@ -23,14 +23,14 @@ Point3 cross_magnitudes(const Point3& p, const Point3& q) {
 }
 
 /// Heights that are positive for vertices certainly above the face, and for these values that grow with how far the
-/// sphere's centre is above the face. (No choice is made here: it would be a branch, and the lanes would be lost.)
-CCDT_WIDE_LANES void find_lifts(VertexBatch& batch, Point3 normal, double normal_error, Point3 twice_to_centre) {
+/// sphere's center is above the face. (No choice is made here: it would be a branch, and the lanes would be lost.)
+CCDT_WIDE_LANES void find_lifts(VertexBatch& batch, Point3 normal, double normal_error, Point3 twice_to_center) {
   const std::size_t size = batch.size;
   for (std::size_t i = 0; i < size; ++i) {
     const double x = batch.x[i], y = batch.y[i], z = batch.z[i];
     const double height = normal.x * x + normal.y * y + normal.z * z;
     batch.height[i] = height - normal_error * (std::fabs(x) + std::fabs(y) + std::fabs(z));
-    batch.value[i] = (x * (x - twice_to_centre.x) + y * (y - twice_to_centre.y) + z * (z - twice_to_centre.z)) / height;
+    batch.value[i] = (x * (x - twice_to_center.x) + y * (y - twice_to_center.y) + z * (z - twice_to_center.z)) / height;
   }
 }
 
@@ -68,10 +68,10 @@ void SpherePencil::find_circle() {
   if (!(normal_length_ > 64 * normal_error_)) return;
   const double relative_error = normal_error_ / normal_length_;
   const double half = 0.5 / (normal_length_ * normal_length_);
-  const Point3 to_centre = half * (bb_ * cross(c_, normal_) + cc_ * cross(normal_, b_));
-  const double radius = std::sqrt(squared_length(to_centre));
+  const Point3 to_center = half * (bb_ * cross(c_, normal_) + cc_ * cross(normal_, b_));
+  const double radius = std::sqrt(squared_length(to_center));
   const double terms = half * normal_length_ * (bb_ * std::sqrt(cc_) + cc_ * std::sqrt(bb_));
-  circle_ = {origin_ + to_centre, radius, 4 * (relative_error + 16 * unit) * (terms + radius)};
+  circle_ = {origin_ + to_center, radius, 4 * (relative_error + 16 * unit) * (terms + radius)};
 }
 
 void SpherePencil::accept(std::uint32_t v) {
@@ -87,7 +87,7 @@ void SpherePencil::accept(std::uint32_t v) {
 }
 
 void SpherePencil::consider_first(VertexBatch& batch) {
-  find_lifts(batch, normal_, normal_error_, 2.0 * (circle_.centre - origin_));
+  find_lifts(batch, normal_, normal_error_, 2.0 * (circle_.center - origin_));
   std::size_t best = batch.size;
   double lowest = infinity;
   for (std::size_t i = 0; i < batch.size; ++i)
@@ -98,7 +98,7 @@ void SpherePencil::consider_first(VertexBatch& batch) {
   } else {
     batch.value.fill(0);
   }
-  // What has passed the others may still be a hair better.
+  // What has passed the others may still be slightly better.
   for (std::size_t i = 0; i < batch.size; ++i)
     if (batch.value[i] >= 0) consider(batch.vertices[i]);
 }
@@ -115,18 +115,18 @@ bool SpherePencil::is_better(std::uint32_t v) const {
 SpherePencil::Cap SpherePencil::cap() const {
   if (!(volume_ > 64 * volume_error_)) return {};
   const double half = 0.5 / volume_;
-  const Point3 to_centre = half * weight_;
+  const Point3 to_center = half * weight_;
   const double error = 1.1 * half * (weight_error_ + largest(magnitudes(weight_)) * volume_error_ / volume_);
-  const double radius = std::sqrt(squared_length(to_centre));
+  const double radius = std::sqrt(squared_length(to_center));
   double lift = infinity;
   if (circle_.radius < lift) {
     const double lift_error = 2 * error + (16 * unit + 2 * normal_error_ / normal_length_) * radius;
-    lift = std::max(0.0, dot(normal_, to_centre) / normal_length_ + lift_error);
-    // Of a sphere whose centre is below the face, all that is above is in the ball of the circle.
-    if (lift == 0) return {circle_.centre, circle_.radius * (1 + 1e-12) + 2 * circle_.error, lift};
+    lift = std::max(0.0, dot(normal_, to_center) / normal_length_ + lift_error);
+    // Of a sphere whose center is below the face, all that is above is in the ball of the circle.
+    if (lift == 0) return {circle_.center, circle_.radius * (1 + 1e-12) + 2 * circle_.error, lift};
   }
-  // The error of the centre, in each of three axes, acts on where the ball is and on its radius.
-  return {origin_ + to_centre, radius * (1 + 1e-12) + 4 * error, lift};
+  // The error of the center, in each of three axes, acts on where the ball is and on its radius.
+  return {origin_ + to_center, radius * (1 + 1e-12) + 4 * error, lift};
 }
 
 }  // namespace ccdt

@@ -7,18 +7,25 @@
 #include <limits>
 #include <span>
 
-#include "engine/delaunay/vertex_grid.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/numbers/filters.h"
 
 namespace ccdt {
 
+/// A vertex as the searches in the grid see it.
+struct GridVertex {
+  Point3 point;  ///< relative to the low corner of all points, exactly
+  std::uint32_t rank = 0;
+  std::uint32_t id = 0;
+};
+
 /// Vertices that are looked at together, in lanes: relative to the first corner of the face.
 struct VertexBatch {
-  static constexpr std::size_t room = 256;
+  static constexpr std::size_t capacity = 256;
 
   std::size_t size = 0;
-  std::array<double, room> x, y, z, height, value;
-  std::array<std::uint32_t, room> vertices;
+  std::array<double, capacity> x, y, z, height, value;
+  std::array<std::uint32_t, capacity> vertices;
 };
 
 /// The spheres through the corners of a face, of which the candidate for the fourth vertex picks one; with
@@ -60,17 +67,17 @@ class SpherePencil {
 
   /// The circle through the corners, in their plane.
   struct Circle {
-    Point3 centre;
+    Point3 center;
     double radius = std::numeric_limits<double>::infinity();  ///< infinite: not known
-    double error = 0;                                         ///< at most, of centre and radius
+    double error = 0;                                         ///< at most, of center and radius
   };
   const Circle& circle() const { return circle_; }
 
   /// The part of the sphere that is above the face.
   struct Cap {
-    Point3 centre;  ///< of a ball that holds it
+    Point3 center;  ///< of a ball that holds it
     double radius = std::numeric_limits<double>::infinity();
-    /// How far the centre of the sphere is above the face at the most, not less than zero.
+    /// How far the center of the sphere is above the face at the most, not less than zero.
     double lift = std::numeric_limits<double>::infinity();
   };
   Cap cap() const;

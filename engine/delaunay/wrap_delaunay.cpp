@@ -1,15 +1,265 @@
 #include "engine/delaunay/wrap_delaunay.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
 
-#include "engine/delaunay/first_face.h"
+#include "engine/base/hash_table.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/fourth_vertex.h"
-#include "engine/delaunay/open_faces.h"
-#include "engine/delaunay/open_hull.h"
-#include "engine/delaunay/vertex_grid.h"
+#include "engine/numbers/predicates.h"
 
 namespace ccdt {
 namespace {
+
+using FaceCorners = std::array<std::uint32_t, 3>;
+
+// ---- The first face
+
+constexpr std::uint32_t none = VertexId::none_value;
+// Straight up, about as far as points can be apart, so that the filters of the predicates work as for any points.
+constexpr Point3 upwards = {0, 0, 0x1p51};
+
+/// Wraps the hull; every function passes over all vertices once and is exact.
+class HullWrapping {
+ public:
+  explicit HullWrapping(std::span<const GridVertex> vertices) : v_(vertices) {}
+
+  std::optional<FaceCorners> face() const {
+    if (v_.size() < 4) return {};
+    const std::uint32_t a = lowest();
+    const std::uint32_t b = beside(a);
+    if (b == none) return {};
+    std::uint32_t c = on_upright_plane(a, b);
+    if (c == none) c = around(a, b);
+    if (c == none) return {};
+    const std::uint32_t inner = off_plane(a, b, c);
+    if (inner == none) return {};
+    std::vector<std::uint32_t> plane;
+    for (std::uint32_t e = 0; e < v_.size(); ++e)
+      if (orient3d(at(a), at(b), at(c), at(e)) == 0) plane.push_back(e);
+    const std::uint32_t q = along_boundary(plane, a, inner);
+    return std::array{a, q, above_edge(plane, a, q, inner)};
+  }
+
+ private:
+  const Point3& at(std::uint32_t v) const { return v_[v].point; }
+
+  /// Of the smallest x, of these the smallest y, of these the smallest z: a vertex of the hull.
+  std::uint32_t lowest() const {
+    const auto lower = [](const GridVertex& p, const GridVertex& q) { return as_array(p.point) < as_array(q.point); };
+    return static_cast<std::uint32_t>(std::min_element(v_.begin(), v_.end(), lower) - v_.begin());
+  }
+
+  /// The upright plane through a and the result, which is not straight above a, has no vertices on its outer side.
+  std::uint32_t beside(std::uint32_t a) const {
+    const Point3 up = at(a) + upwards;
+    std::uint32_t b = none;
+    for (std::uint32_t e = 0; e < v_.size(); ++e) {
+      if (at(e).x == at(a).x && at(e).y == at(a).y) continue;
+      if (b == none || orient3d(at(a), up, at(b), at(e)) > 0) b = e;
+    }
+    return b;
+  }
+
+  /// A vertex of the upright plane through a and b that is not on the line of a and b.
+  std::uint32_t on_upright_plane(std::uint32_t a, std::uint32_t b) const {
+    const Point3 up = at(a) + upwards;
+    for (std::uint32_t e = 0; e < v_.size(); ++e)
+      if (orient3d(at(a), up, at(b), at(e)) == 0 && !collinear(at(a), at(b), at(e))) return e;
+    return none;
+  }
+
+  /// The plane that turns around the line of a and b meets this vertex first.
+  std::uint32_t around(std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t c = none;
+    for (std::uint32_t e = 0; e < v_.size(); ++e)
+      if (c == none ? !collinear(at(a), at(b), at(e)) : orient3d(at(a), at(b), at(c), at(e)) > 0) c = e;
+    return c;
+  }
+
+  std::uint32_t off_plane(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    for (std::uint32_t e = 0; e < v_.size(); ++e)
+      if (orient3d(at(a), at(b), at(c), at(e)) != 0) return e;
+    return none;
+  }
+
+  /// Next to a on the boundary of the vertices of a hull plane, counterclockwise as seen from outside.
+  std::uint32_t along_boundary(std::span<const std::uint32_t> plane, std::uint32_t a, std::uint32_t inner) const {
+    std::uint32_t q = none;
+    for (const std::uint32_t e : plane) {
+      if (e == a) continue;
+      if (q == none || orient3d(at(a), at(q), at(e), at(inner)) > 0 ||
+          (collinear(at(a), at(q), at(e)) && is_nearer(at(e) - at(a), at(q) - at(a))))
+        q = e;
+    }
+    return q;
+  }
+
+  /// Of two multiples of one vector.
+  static bool is_nearer(const Point3& p, const Point3& q) {
+    return std::array{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)} <
+           std::array{std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)};
+  }
+
+  /// The vertex that makes a Delaunay triangle of the edge from a to q, in their plane.
+  std::uint32_t above_edge(std::span<const std::uint32_t> plane, std::uint32_t a, std::uint32_t q,
+                           std::uint32_t inner) const {
+    std::uint32_t r = none;
+    for (const std::uint32_t e : plane) {
+      if (orient3d(at(q), at(a), at(e), at(inner)) <= 0) continue;
+      if (r == none || incircle_perturbed(at(q), at(a), at(r), at(inner), at(e),
+                                          {v_[q].rank, v_[a].rank, v_[r].rank, v_[e].rank}) > 0)
+        r = e;
+    }
+    return r;
+  }
+
+  std::span<const GridVertex> v_;
+};
+
+/// A face of the Delaunay tetrahedralization from which it can be built face by face: one of the convex hull, found by
+/// wrapping a plane around the points: a vertex, an edge, the plane of a hull face, a Delaunay triangle in that plane.
+/// Each step is one pass over the vertices.
+///
+/// \return  its corners, the outside of the hull above them; nothing if all vertices are in one plane
+std::optional<FaceCorners> find_first_face(std::span<const GridVertex> vertices) {
+  return HullWrapping(vertices).face();
+}
+
+// ---- The open faces
+
+/// The faces that have a cell on one side only, by their corners: the front of a construction face by face.
+class OpenFaces {
+ public:
+  /// Closes the face with the open one that has the same corners, and makes them neighbors; if there is none, the face
+  /// stays open. \return was it closed?
+  bool close_or_open(std::vector<Cell>& cells, std::uint32_t code) {
+    const auto& v = cells[cell_of(code)].vertices;
+    const auto& corner = face_corners[face_of(code)];
+    const auto [open, is_new] = faces_.insert(face_key(v[corner[0]], v[corner[1]], v[corner[2]]), code);
+    if (is_new) return false;
+    const std::uint32_t other = *open;
+    cells[cell_of(code)].neighbors[face_of(code)] = other;
+    cells[cell_of(other)].neighbors[face_of(other)] = code;
+    faces_.erase(open);
+    return true;
+  }
+
+ private:
+  HashTable<FaceKey, std::uint32_t> faces_;
+};
+
+/// The corners of a face, such that the vertex opposite to it is below them.
+FaceCorners outward_corners(const std::vector<Cell>& cells, std::uint32_t code) {
+  const auto& v = cells[cell_of(code)].vertices;
+  const auto& corner = face_corners[face_of(code)];
+  return {v[corner[0]], v[corner[2]], v[corner[1]]};
+}
+
+// ---- The hull
+
+/// An open face, and a vertex strictly above it as seen from outside (`ghost_vertex`: one is to be searched for).
+struct UnfinishedFace {
+  std::uint32_t face;
+  std::uint32_t candidate;
+};
+
+/// An edge of an open face.
+struct Side {
+  std::uint64_t edge;
+  std::uint32_t face;      ///< its place among the open faces
+  std::uint32_t opposite;  ///< place among its outward corners of the one that is not on the edge
+};
+
+/// The sides of all faces, those of one edge next to each other.
+std::vector<Side> sides_by_edge(const std::vector<FaceCorners>& corners) {
+  std::vector<Side> sides;
+  sides.reserve(3 * corners.size());
+  for (std::uint32_t f = 0; f < corners.size(); ++f)
+    for (std::uint32_t k = 0; k < 3; ++k)
+      sides.push_back({edge_key(corners[f][(k + 1) % 3], corners[f][(k + 2) % 3]), f, k});
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+  return sides;
+}
+
+std::vector<FaceCorners> corners_of(const std::vector<Cell>& cells, std::span<const std::uint32_t> faces) {
+  std::vector<FaceCorners> corners(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) corners[f] = outward_corners(cells, faces[f]);
+  return corners;
+}
+
+/// Is the vertex in front of one of the faces from outside?
+bool sees(std::span<const GridVertex> v, const FaceCorners& face, std::uint32_t vertex) {
+  return orient3d(v[face[0]].point, v[face[1]].point, v[face[2]].point, v[vertex].point) > 0;
+}
+
+void add_faces_seen_by_lone_vertices(const std::vector<Cell>& cells, std::span<const GridVertex> vertices,
+                                     std::span<const std::uint32_t> faces, const std::vector<FaceCorners>& corners,
+                                     std::vector<UnfinishedFace>& result) {
+  std::vector<bool> has_cell(vertices.size(), false);
+  for (const Cell& cell : cells)
+    for (const std::uint32_t v : cell.vertices) has_cell[v] = true;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    if (has_cell[v]) continue;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (sees(vertices, corners[f], v)) result.push_back({faces[f], v});
+    if (!result.empty()) return;
+  }
+}
+
+/// Are the open faces the convex hull? They are the border of a body of Delaunay cells connected by faces. It
+/// is the hull when it is convex, and it is convex when it is so at each of its edges; and then, when it has all
+/// vertices. So not all that is above a face of the hull has to be searched to know that there is nothing.
+///
+/// \param faces  codes of the open faces
+/// \return  faces that are not of the hull: at edges that are not convex; if there are none, those that see a vertex
+///          that no cell has
+std::vector<UnfinishedFace> find_unfinished(const std::vector<Cell>& cells, std::span<const GridVertex> vertices,
+                                            std::span<const std::uint32_t> faces) {
+  const auto corners = corners_of(cells, faces);
+  const auto sides = sides_by_edge(corners);
+  std::vector<UnfinishedFace> result;
+  for (std::size_t i = 0, next; i < sides.size(); i = next) {
+    for (next = i + 1; next < sides.size() && sides[next].edge == sides[i].edge;) ++next;
+    // Where the body touches itself at an edge, that edge is inside the hull.
+    if (next - i != 2) {
+      for (std::size_t k = i; k < next; ++k) result.push_back({faces[sides[k].face], ghost_vertex});
+      continue;
+    }
+    const Side &s = sides[i], &t = sides[i + 1];
+    const std::uint32_t over_s = corners[t.face][t.opposite], over_t = corners[s.face][s.opposite];
+    if (!sees(vertices, corners[s.face], over_s)) continue;
+    result.push_back({faces[s.face], over_s});
+    result.push_back({faces[t.face], over_t});
+  }
+  if (result.empty()) add_faces_seen_by_lone_vertices(cells, vertices, faces, corners, result);
+  return result;
+}
+
+/// Adds a ghost for each of the open faces, which are those of the hull, and makes them neighbors.
+void add_ghosts(std::vector<Cell>& cells, std::span<const std::uint32_t> faces) {
+  const auto corners = corners_of(cells, faces);
+  const auto first = static_cast<std::uint32_t>(cells.size());
+  cells.resize(cells.size() + faces.size());
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    Cell& ghost = cells[first + f];
+    ghost.vertices = {corners[f][0], corners[f][1], corners[f][2], ghost_vertex};
+    ghost.neighbors[3] = faces[f];
+    cells[cell_of(faces[f])].neighbors[face_of(faces[f])] = face_code(first + f, 3);
+  }
+  const auto sides = sides_by_edge(corners);
+  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+    const std::uint32_t s = face_code(first + sides[i].face, sides[i].opposite);
+    const std::uint32_t t = face_code(first + sides[i + 1].face, sides[i + 1].opposite);
+    cells[cell_of(s)].neighbors[face_of(s)] = t;
+    cells[cell_of(t)].neighbors[face_of(t)] = s;
+  }
+}
+
+// ---- The construction
 
 /// The construction. Until it is done, cells name vertices by their places in the grid's order, and the open faces of a
 /// cell have no neighbor.
@@ -20,12 +270,12 @@ class Wrap {
   }
 
   /// \param hull_face  the outside above it
-  std::vector<Cell> run(const std::array<std::uint32_t, 3>& hull_face) {
-    const std::array<std::uint32_t, 3> inward = {hull_face[0], hull_face[2], hull_face[1]};
+  std::vector<Cell> run(const FaceCorners& hull_face) {
+    const FaceCorners inward = {hull_face[0], hull_face[2], hull_face[1]};
     add_cell(inward, search_.find(inward, ghost_vertex, Reach::everywhere));
     advance();
     for (auto rest = unfinished(); !rest.empty(); rest = unfinished()) {
-      for (const Unfinished& u : rest)
+      for (const UnfinishedFace& u : rest)
         if (is_open(u.face)) add_cell_at(u.face, u.candidate, Reach::everywhere);
       advance();
     }
@@ -47,7 +297,7 @@ class Wrap {
     }
   }
 
-  std::vector<Unfinished> unfinished() {
+  std::vector<UnfinishedFace> unfinished() {
     std::erase_if(postponed_, [&](std::uint32_t code) { return !is_open(code); });
     return find_unfinished(cells_, grid_.vertices, postponed_);
   }
@@ -61,7 +311,7 @@ class Wrap {
   }
 
   /// Adds the cell with the apex above the face.
-  void add_cell(const std::array<std::uint32_t, 3>& face, std::uint32_t apex) {
+  void add_cell(const FaceCorners& face, std::uint32_t apex) {
     const auto cell = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back({{face[0], face[1], face[2], apex}, {no_neighbor, no_neighbor, no_neighbor, no_neighbor}});
     for (std::uint32_t f = 4; f-- > 0;)

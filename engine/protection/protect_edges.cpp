@@ -10,7 +10,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/cell_star.h"
-#include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/delaunay/wrap_delaunay.h"
 

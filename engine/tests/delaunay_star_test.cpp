@@ -5,7 +5,6 @@
 #include <set>
 
 #include "engine/delaunay/cell_star.h"
-#include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/delaunay_checks.h"
