@@ -34,7 +34,7 @@ std::vector<std::uint32_t> all_triangles(const FacetMesh& facets) {
   return all;
 }
 
-/// What the front asks: which vertex makes the tetrahedron above a face. Here with a locator of the whole model, so
+/// Finds the vertex that makes the tetrahedron above a face. Here with a locator of the whole model, so
 /// that there is but one cavity.
 template <class Locator>
 class WholeModelFinder {

@@ -89,8 +89,8 @@ class ApexSearch {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
     Cap cap(a, b, c);
     LocatedVertex best{{}, 0, ghost_vertex};
-    // What is above the face and in a later, smaller sphere is in the earlier one too: one spiral is enough.
-    locator_.spiral(approximate_centroid(a, b, c), cap, [&](const LocatedVertex& v) {
+    // What is above the face and in a later, smaller sphere is in the earlier one too: one search is enough.
+    locator_.visit_nearest_first(approximate_centroid(a, b, c), cap, [&](const LocatedVertex& v) {
       if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2]) return;
       if (!is_above(v.point) || (best.id != ghost_vertex && !is_in_sphere(best, v)) || !satisfies(v)) return;
       best = v;

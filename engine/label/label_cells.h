@@ -11,16 +11,16 @@
 
 namespace ccdt {
 
-/// What belongs to the domain.
+/// Which cells belong to the domain.
 struct CellLabels {
   std::vector<RegionId> regions;  ///< by cell; none for cells outside and for those that the front has replaced
-  /// Parts of different regions hang together: front and tetrahedralization do not fit. There are no regions then.
+  /// Parts of different regions are connected: front and tetrahedralization do not fit. There are no regions then.
   std::optional<MeshError> stuck = {};
 };
 
-/// Labels the Delaunay cells that belong to the domain with their region (paper, section 5.2, step 5): whatever hangs
-/// together above the open faces of the front, without crossing a face of the front or of the PLC. Holes, regions and
-/// slits need no more care: the regions of the facets' sides tell them.
+/// Labels the Delaunay cells of the domain with their region (paper, section 5.2, step 5): all that are connected to the
+/// open faces of the front, on the upper side, without crossing a face of the front or of the PLC. Holes, regions and
+/// slits need no more care: they follow from the regions of the facets' sides.
 ///
 /// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are skipped
 CellLabels label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,

@@ -77,7 +77,7 @@ struct Range {
   std::array<std::uint32_t, 3> low, high;
 };
 
-/// What wants room around it: a triangle, or a subsegment or a vertex as a degenerate one.
+/// What lattice points must stay away from: a triangle, or a subsegment or a vertex as a degenerate one.
 struct Obstacle {
   std::array<VertexId, 3> vertices;
   bool needs_clearance = true;
@@ -87,7 +87,7 @@ struct Obstacle {
   double squared_ball_radius = -1;
 };
 
-/// Tells quickly how near a point is to a triangle.
+/// A fast test whether a point is near a triangle.
 class TriangleDistance {
  public:
   explicit TriangleDistance(const TrianglePoints& triangle)
@@ -210,8 +210,8 @@ class Clearing {
     here = {begin, begin, node.level};
     if (node.is_leaf()) {
       const std::uint64_t side = tree_.side(node);
-      const Site beyond = site_at(node.corner) + side * side * side;
-      while (here.end < sites_.size() && sites_[here.end] < beyond) ++here.end;
+      const Site end = site_at(node.corner) + side * side * side;
+      while (here.end < sites_.size() && sites_[here.end] < end) ++here.end;
       return here.end;
     }
     here.coarsest = static_cast<std::uint8_t>(tree_.depth);

@@ -7,7 +7,7 @@
 
 namespace ccdt {
 
-/// A ball that a surface triangle or a subsegment wants empty.
+/// A ball that must hold no lattice point.
 struct Ball {
   Point3 center;
   double radius;

@@ -39,47 +39,46 @@ Polygon clip(const Polygon& polygon, int axis, double bound, double sign) {
   return part;
 }
 
-/// The part of the line of sight that is in the box: all triangles that it hits are known.
-struct Sight {
-  Point3 eye, end;
+/// The part of a ray that is in the box: all triangles that it hits are known.
+struct Ray {
+  Point3 start, end;
 };
 
-/// Where a sight hits a triangle, as a fraction of the sight, and how far that number may be off.
+/// Where a ray hits a triangle, as a fraction of the ray, and how far that number may be off.
 struct Hit {
   double fraction = 0, error = 0;
-  bool inside = false;  ///< the flag of the side that the eye sees
+  bool inside = false;  ///< the flag of the side that faces the start
 };
 
-enum class Meeting { none, hit, eye_on_triangle, unclear };
+enum class RayMeetsTriangle { none, hit, start_on_triangle, unclear };
 
 double clamp_round(double x, double low, double high) {
   return std::clamp(std::round(x), low, high);
 }
 
 /// Twice as far as the target, or to the border of the box.
-Sight sight_through(const Point3& eye, const Point3& target, const Box& box) {
-  const Point3 d = target - eye;
+Ray ray_through(const Point3& start, const Point3& target, const Box& box) {
+  const Point3 d = target - start;
   double t = 2;
   const auto limit = [&t](double from, double step, double low, double high) {
     if (step > 0) t = std::min(t, (high - from) / step);
     if (step < 0) t = std::min(t, (low - from) / step);
   };
-  limit(eye.x, d.x, box.low.x, box.high.x);
-  limit(eye.y, d.y, box.low.y, box.high.y);
-  limit(eye.z, d.z, box.low.z, box.high.z);
-  const Point3 end = eye + t * d;
-  return {eye,
+  limit(start.x, d.x, box.low.x, box.high.x);
+  limit(start.y, d.y, box.low.y, box.high.y);
+  limit(start.z, d.z, box.low.z, box.high.z);
+  const Point3 end = start + t * d;
+  return {start,
           {clamp_round(end.x, box.low.x, box.high.x), clamp_round(end.y, box.low.y, box.high.y),
            clamp_round(end.z, box.low.z, box.high.z)}};
 }
 
-bool boxes_apart(const Box& sight, const TrianglePoints& t) {
+bool boxes_apart(const Box& ray, const TrianglePoints& t) {
   const auto apart = [](double low, double high, double a, double b, double c) {
     return (a < low && b < low && c < low) || (a > high && b > high && c > high);
   };
-  return apart(sight.low.x, sight.high.x, t[0].x, t[1].x, t[2].x) ||
-         apart(sight.low.y, sight.high.y, t[0].y, t[1].y, t[2].y) ||
-         apart(sight.low.z, sight.high.z, t[0].z, t[1].z, t[2].z);
+  return apart(ray.low.x, ray.high.x, t[0].x, t[1].x, t[2].x) || apart(ray.low.y, ray.high.y, t[0].y, t[1].y, t[2].y) ||
+         apart(ray.low.z, ray.high.z, t[0].z, t[1].z, t[2].z);
 }
 
 /// Six times the volume of a, b, c, p in doubles and a bound of its error.
@@ -95,48 +94,48 @@ RoundedVolume rounded_volume(const TrianglePoints& t, const Point3& p) {
   return {dot(cross(u, v), w), 1e-15 * (size.x + size.y + size.z)};
 }
 
-Hit locate_hit(const Sight& sight, const TrianglePoints& corners, const SurfaceTriangle& triangle, int eye_side) {
-  const RoundedVolume at_eye = rounded_volume(corners, sight.eye), at_end = rounded_volume(corners, sight.end);
-  const double span = std::abs(at_eye.value - at_end.value), error = at_eye.error + at_end.error;
+Hit locate_hit(const Ray& ray, const TrianglePoints& corners, const SurfaceTriangle& triangle, int start_side) {
+  const RoundedVolume at_start = rounded_volume(corners, ray.start), at_end = rounded_volume(corners, ray.end);
+  const double span = std::abs(at_start.value - at_end.value), error = at_start.error + at_end.error;
   Hit hit;
-  hit.inside = eye_side > 0 ? triangle.inside_above : triangle.inside_below;
-  hit.fraction = span > 0 ? std::abs(at_eye.value) / span : 0;
+  hit.inside = start_side > 0 ? triangle.inside_above : triangle.inside_below;
+  hit.fraction = span > 0 ? std::abs(at_start.value) / span : 0;
   hit.error = span > 2 * error ? 4 * error / span : 1;
   return hit;
 }
 
-Meeting meet(const Sight& sight, const TrianglePoints& corners, const SurfaceTriangle& triangle, Hit& hit) {
+RayMeetsTriangle meet(const Ray& ray, const TrianglePoints& corners, const SurfaceTriangle& triangle, Hit& hit) {
   const auto& [a, b, c] = corners;
-  const int eye_side = orient3d(a, b, c, sight.eye), end_side = orient3d(a, b, c, sight.end);
-  if (eye_side == 0 && end_side == 0) return Meeting::unclear;
-  if (eye_side == end_side) return Meeting::none;
-  const int turns[] = {orient3d(sight.eye, sight.end, a, b), orient3d(sight.eye, sight.end, b, c),
-                       orient3d(sight.eye, sight.end, c, a)};
+  const int start_side = orient3d(a, b, c, ray.start), end_side = orient3d(a, b, c, ray.end);
+  if (start_side == 0 && end_side == 0) return RayMeetsTriangle::unclear;
+  if (start_side == end_side) return RayMeetsTriangle::none;
+  const int turns[] = {orient3d(ray.start, ray.end, a, b), orient3d(ray.start, ray.end, b, c),
+                       orient3d(ray.start, ray.end, c, a)};
   const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
-  if (least < 0 && most > 0) return Meeting::none;
-  if (eye_side == 0) return Meeting::eye_on_triangle;
-  if (least * most == 0) return Meeting::unclear;
-  hit = locate_hit(sight, corners, triangle, eye_side);
-  return Meeting::hit;
+  if (least < 0 && most > 0) return RayMeetsTriangle::none;
+  if (start_side == 0) return RayMeetsTriangle::start_on_triangle;
+  if (least * most == 0) return RayMeetsTriangle::unclear;
+  hit = locate_hit(ray, corners, triangle, start_side);
+  return RayMeetsTriangle::hit;
 }
 
-/// What one sight tells; nothing if it is unclear or hits nothing.
-std::optional<bool> look(const Sight& sight, const DomainSurface& surface, std::span<const std::uint32_t> nearby,
+/// The answer of one ray; nothing if it is unclear or hits nothing.
+std::optional<bool> cast(const Ray& ray, const DomainSurface& surface, std::span<const std::uint32_t> nearby,
                          std::vector<Hit>& hits) {
-  const Box around = bounding_box(std::array{sight.eye, sight.end});
+  const Box around = bounding_box(std::array{ray.start, ray.end});
   hits.clear();
   for (std::uint32_t t : nearby) {
     const TrianglePoints corners = surface.corners(t);
     if (boxes_apart(around, corners)) continue;
     Hit hit;
-    switch (meet(sight, corners, surface.triangles[t], hit)) {
-      case Meeting::none:
+    switch (meet(ray, corners, surface.triangles[t], hit)) {
+      case RayMeetsTriangle::none:
         break;
-      case Meeting::eye_on_triangle:
+      case RayMeetsTriangle::start_on_triangle:
         return false;
-      case Meeting::unclear:
+      case RayMeetsTriangle::unclear:
         return std::nullopt;
-      case Meeting::hit:
+      case RayMeetsTriangle::hit:
         hits.push_back(hit);
         break;
     }
@@ -167,8 +166,8 @@ bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point)
   return true;
 }
 
-std::optional<bool> sees_inside(const Point3& p, const Box& box, const DomainSurface& surface,
-                                std::span<const std::uint32_t> nearby) {
+std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const DomainSurface& surface,
+                                      std::span<const std::uint32_t> nearby) {
   // A second round looks a little aside of each target.
   constexpr double aside[] = {0, 0.11, 0.23};
   constexpr std::size_t most_targets = 40;
@@ -181,9 +180,9 @@ std::optional<bool> sees_inside(const Point3& p, const Box& box, const DomainSur
       if (!common_point(box, corners, target)) continue;
       if (shift > 0 && !common_point(box, {corners[0], corners[1], target + shift * (corners[2] - target)}, target))
         continue;
-      const Sight sight = sight_through(p, target, box);
-      if (sight.end == p) continue;
-      if (const auto answer = look(sight, surface, nearby, hits)) return answer;
+      const Ray ray = ray_through(p, target, box);
+      if (ray.end == p) continue;
+      if (const auto answer = cast(ray, surface, nearby, hits)) return answer;
     }
   }
   return std::nullopt;

@@ -19,8 +19,8 @@ namespace ccdt {
 /// \param box    integer coordinates
 /// \param nearby at least all triangles that meet the box, and at least one that does
 /// \return       nothing if no ray decides; never true if p is on the surface
-std::optional<bool> sees_inside(const Point3& p, const Box& box, const DomainSurface& surface,
-                                std::span<const std::uint32_t> nearby);
+std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const DomainSurface& surface,
+                                      std::span<const std::uint32_t> nearby);
 
 /// A point within the part of the triangle that lies in the box, up to rounding; false if there is no such part.
 bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point);

@@ -51,15 +51,15 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
   return {};
 }
 
-/// Where boxes of one size may touch a triangle: separating axes, with a margin for rounding.
-class TouchingPlaces {
+/// Tests whether boxes of one size may touch a triangle: separating axes, with a margin for rounding.
+class TouchTest {
  public:
   /// \param half  of the sides of the boxes
   /// \param reach no coordinate of a corner is farther than this from the center of any box that is asked for
-  TouchingPlaces(const TrianglePoints& triangle, const Point3& half, double reach);
+  TouchTest(const TrianglePoints& triangle, const Point3& half, double reach);
 
   /// False only if the triangle and the box with this center are certainly apart though their bounding boxes overlap.
-  bool hold(const Point3& center) const {
+  bool may_touch(const Point3& center) const {
     const Point3 from_corner = center - corner_;
     for (const Slab& slab : slabs_) {
       const double along = dot(slab.axis, from_corner);
@@ -77,8 +77,7 @@ class TouchingPlaces {
   std::array<Slab, 10> slabs_;
 };
 
-TouchingPlaces::TouchingPlaces(const TrianglePoints& triangle, const Point3& half, double reach)
-    : corner_(triangle[0]) {
+TouchTest::TouchTest(const TrianglePoints& triangle, const Point3& half, double reach) : corner_(triangle[0]) {
   const Point3 ab = triangle[1] - triangle[0], bc = triangle[2] - triangle[1], ca = triangle[0] - triangle[2];
   double longest = 0;
   for (const Point3& edge : {ab, bc, ca})
@@ -223,18 +222,18 @@ class Builder {
   void hand_down(std::uint32_t t, const std::array<Box, 8>& boxes) {
     const Box& around = around_[t];
     unsigned children = children_overlapping(boxes, around);
-    std::optional<TouchingPlaces> places;
+    std::optional<TouchTest> touch;
     for (; children != 0; children &= children - 1) {
       const auto c = static_cast<std::uint32_t>(std::countr_zero(children));
       if (!contains(boxes[c], around)) {
-        if (!places) {
+        if (!touch) {
           const Point3 center = boxes[0].high, side = boxes[0].high - boxes[0].low;
           double reach = 0;
           for (const Point3& corner : {around.low - center, around.high - center})
             for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
-          places.emplace(surface_.corners(t), 0.5 * side, reach + 0.5 * side.x);
+          touch.emplace(surface_.corners(t), 0.5 * side, reach + 0.5 * side.x);
         }
-        if (!places->hold(boxes[c].center())) continue;
+        if (!touch->may_touch(boxes[c].center())) continue;
       }
       lists_[c].push_back(t);
     }
@@ -311,7 +310,7 @@ const OctreeNode& Octree::leaf_at(const std::array<std::uint32_t, 3>& c) const {
 
 bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node) {
   const auto answer_in = [&](const OctreeNode& n) {
-    return sees_inside(p, intersection(tree.box(n), tree.bounds), surface, tree.triangles_of(n));
+    return is_inside_by_rays(p, intersection(tree.box(n), tree.bounds), surface, tree.triangles_of(n));
   };
   if (const auto answer = answer_in(node)) return *answer;
   // Triangles are handed down with a margin, so none may be in the box itself. The boxes around it have more.

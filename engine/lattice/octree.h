@@ -85,7 +85,7 @@ struct Octree {
 /// \throw LimitError  more leaves than a program can index
 Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice kind);
 
-/// Is a point of a node on the surface strictly inside the domain? Exact; should no sight in the whole tree decide, the
+/// Is a point of a node on the surface strictly inside the domain? Exact; if no ray in the whole tree decides, the
 /// answer is no: a point may be missing then, but none is wrong.
 bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node);
 

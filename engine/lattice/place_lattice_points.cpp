@@ -18,7 +18,7 @@ constexpr double most_vertices = 4294967295.0;  ///< ids of 32 bits, of which on
                    "ask for a greater edge length, or greater sizes; they are in the units of the input");
 }
 
-/// By the divergence theorem, as if each triangle told of the sides that are inside.
+/// By the divergence theorem.
 double volume_inside(const DomainSurface& surface) {
   if (surface.triangles.empty()) return 0;
   const Point3 origin = surface.vertices[surface.triangles[0].vertices[0]];

@@ -16,8 +16,8 @@ struct LocatedVertex {
   std::uint32_t rank, id;
 };
 
-/// What a search for the apex of a face still wants: points above the plane of the face and in a ball that shrinks with
-/// every better vertex. In floating point, a little too large, never too small.
+/// Where the search for the apex of a face still looks: points above the plane of the face and in a ball that shrinks
+/// with every better vertex. In floating point, a little too large, never too small.
 class Cap {
  public:
   /// Everything above the triangle abc.

@@ -71,9 +71,9 @@ class TriangleCellTest {
   int above_ = 0, on_ = 0, below_ = 0;
 };
 
-class Piercing {
+class PiercedCellSearch {
  public:
-  Piercing(const FacetMesh& facets, std::span<const std::uint32_t> missing, const Delaunay& d, CellStar& star)
+  PiercedCellSearch(const FacetMesh& facets, std::span<const std::uint32_t> missing, const Delaunay& d, CellStar& star)
       : facets_(facets), missing_(missing), d_(d), star_(star), parts_(missing.size()) {}
 
   PiercedCells find() {
@@ -156,7 +156,7 @@ class Piercing {
 /// \param missing  numbers of triangles of `facets` that are no Delaunay faces
 PiercedCells find_pierced_cells(const FacetMesh& facets, std::span<const std::uint32_t> missing,
                                 const Delaunay& delaunay, CellStar& star) {
-  return Piercing(facets, missing, delaunay, star).find();
+  return PiercedCellSearch(facets, missing, delaunay, star).find();
 }
 
 std::vector<std::uint32_t> vertices_of(const Delaunay& d, const std::vector<std::uint32_t>& cells) {

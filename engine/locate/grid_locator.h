@@ -25,7 +25,7 @@ class GridLocator {
   /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, in growing distance from
   /// `start`, ring of cells by ring. The cap may shrink meanwhile.
   template <class Visit>
-  void spiral(const Point3& start, const Cap& cap, const Visit& visit) const;
+  void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const;
 
   /// Calls visit(face) for every face that the straight edge from p to q may meet, some more than once, until it
   /// returns true. \return did some call?
@@ -45,7 +45,7 @@ class GridLocator {
 };
 
 template <class Visit>
-void GridLocator::spiral(const Point3& start, const Cap& cap, const Visit& visit) const {
+void GridLocator::visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const {
   const UniformGrid::CellIndex middle = grid_.cell_at(start);
   int rings = 0;
   for (int i = 0; i < 3; ++i) rings = std::max({rings, middle[i], grid_.cells[i] - 1 - middle[i]});

@@ -133,7 +133,7 @@ class OctreeLocator {
   /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, roughly in growing distance
   /// from `start`. The cap may shrink meanwhile.
   template <class Visit>
-  void spiral(const Point3& start, const Cap& cap, const Visit& visit) const {
+  void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const {
     vertex_tree_.visit_nearest_first(
         start, [&](const Box& box) { return cap.misses(box); },
         [&](std::uint32_t first, std::uint32_t last) {

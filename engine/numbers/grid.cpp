@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/box.h"
+
 namespace ccdt {
 
 double round_to_unit(double grid) {
@@ -21,12 +23,7 @@ Point3 DyadicGrid::to_world(const Point3& grid) const {
 }
 
 DyadicGrid make_grid(std::span<const Point3> world) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Point3 low{inf, inf, inf}, high{-inf, -inf, -inf};
-  for (const Point3& p : world) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const auto [low, high] = bounding_box(world);
   // Halves before subtracting: the extent of finite coordinates may overflow.
   const double half =
       world.empty() ? 0 : std::max({high.x / 2 - low.x / 2, high.y / 2 - low.y / 2, high.z / 2 - low.z / 2});
@@ -35,14 +32,14 @@ DyadicGrid make_grid(std::span<const Point3> world) {
     const double mantissa = std::frexp(half, &exponent);  // half = mantissa * 2^exponent, mantissa in [0.5, 1)
     exponent += mantissa == 0.5 ? 0 : 1;                  // 2^exponent is the smallest power not below the extent
   }
-  // Below this the quantum could not be told from zero; such input is a point for all purposes.
+  // Below this the quantum could not be distinguished from zero; such input is a point for all purposes.
   exponent = std::max(exponent, std::numeric_limits<double>::min_exponent + 64);
   DyadicGrid grid;
   grid.unit = std::ldexp(1.0, exponent - 52);
   if (!world.empty()) {
     const double q = grid.unit * DyadicGrid::quantum;
-    const auto centre = [&](double l, double h) { return std::nearbyint((l / 2 + h / 2) / q) * q; };
-    grid.origin = {centre(low.x, high.x), centre(low.y, high.y), centre(low.z, high.z)};
+    const auto center = [&](double l, double h) { return std::nearbyint((l / 2 + h / 2) / q) * q; };
+    grid.origin = {center(low.x, high.x), center(low.y, high.y), center(low.z, high.z)};
   }
   return grid;
 }

@@ -10,11 +10,11 @@ namespace ccdt {
 ///
 /// With `2^e` the smallest power of two that is not less than the largest extent of the input's bounding box, the
 /// quantum is `q = 2^(e-32)` and the grid unit is `q * 2^-20 = 2^(e-52)`. Input vertices are rounded to multiples of
-/// the quantum, constructed points to multiples of the grid unit. Seen from the centre of the box and measured in
+/// the quantum, constructed points to multiples of the grid unit. Seen from the center of the box and measured in
 /// grid units, every coordinate is an integer of at most 2^51 + 2^20 in magnitude: it fits a double, and so does the
 /// **difference of any two coordinates, exactly**.
 struct DyadicGrid {
-  Point3 origin;    ///< units of the input; a multiple of the quantum near the centre of the bounding box
+  Point3 origin;    ///< units of the input; a multiple of the quantum near the center of the bounding box
   double unit = 1;  ///< one grid unit in units of the input; a power of two
 
   static constexpr double quantum = 1048576.0;  ///< the quantum in grid units, 2^20

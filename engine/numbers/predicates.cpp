@@ -136,7 +136,7 @@ WideInt<256> signed_volume(const Point3& p, const Point3& q, const Point3& r, co
   return determinant3<WideInt<256>, WideInt<256>>({row(q), row(r), row(x)});
 }
 
-/// Asks `coefficient(i)` for the sign with which the height of point i acts, in descending order of the ranks, until
+/// Calls `coefficient(i)`, the sign with which the height of point i acts, in descending order of the ranks, until
 /// one is not zero.
 template <std::size_t n, class Coefficient>
 int first_nonzero(const std::array<std::uint32_t, n>& ranks, const Coefficient& coefficient) {

@@ -45,7 +45,7 @@ std::size_t most_steiner_vertices(const Plc& plc) {
       "look for features at its ends that are smaller than 1e-6 of it, and remove them or split the segment");
 }
 
-/// The vertices and segments at hand, and the working memory of the stage.
+/// The current vertices and segments, and the working memory of the stage.
 class Protector {
  public:
   Protector(const Plc& plc, Protection strategy, Delaunay& delaunay, const SegmentChains& chains);
@@ -157,7 +157,7 @@ double Protector::split_length(const Subsegment& piece, std::uint32_t encroachin
   const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
   const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
   if (encroaching >= plc_.vertices.size()) {
-    // On a segment that meets this one: on its shell, lest the two split each other for ever.
+    // On a segment that meets this one: on its shell, so that the two do not split each other forever.
     const auto& others = plc_.segments[segment_of_steiner_[encroaching - plc_.vertices.size()]].ends;
     for (int i = 0; i < 2; ++i) {
       if (ends[i] != others[0] && ends[i] != others[1]) continue;

@@ -30,7 +30,7 @@ ProtectedDelaunay unprotected(const Plc& plc, Delaunay delaunay);
 ///
 /// `midpoint` bisects. `shell` splits at the foot of the vertex that encroaches most, so that one split is enough for
 /// one vertex; but if that vertex is on a segment that meets this one, at the same distance from where they meet: the
-/// pieces of all segments there end on common spheres, and cannot split each other for ever (Ruppert 1995; Si and
+/// pieces of all segments there end on common spheres, and cannot split each other forever (Ruppert 1995; Si and
 /// Gaertner 2005). Split points are dyadic fractions of the segment, j / 2^20, and lie on it exactly.
 ///
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices

@@ -128,7 +128,7 @@ TEST(LatticeOctree, IsUniformWithoutGrading) {
   }
 }
 
-TEST(SeesInside, TellsTheSideAndDeclinesPointsOfTheSurface) {
+TEST(InsideByRays, TellsTheSideAndDeclinesPointsOfTheSurface) {
   const double u = 1024;
   const std::vector<Point3> vertices = {{0, 0, 0}, {u, 0, 0}, {0, u, 0}, {u, u, 0}};
   const std::vector<SurfaceTriangle> triangles = {{{VertexId(0), VertexId(1), VertexId(2)}, true, false},
@@ -136,15 +136,15 @@ TEST(SeesInside, TellsTheSideAndDeclinesPointsOfTheSurface) {
   const DomainSurface surface{vertices, triangles, {}};
   const Box box{{-u, -u, -u}, {2 * u, 2 * u, u}};
   const std::uint32_t both[] = {0, 1};
-  EXPECT_EQ(sees_inside({100, 100, 50}, box, surface, both), std::optional(true));
-  EXPECT_EQ(sees_inside({100, 100, -50}, box, surface, both), std::optional(false));
-  EXPECT_FALSE(sees_inside({512, 512, 0}, box, surface, both).value_or(false));  // on the common edge
-  EXPECT_FALSE(sees_inside({100, 100, 0}, box, surface, both).value_or(false));  // within a triangle
-  EXPECT_FALSE(sees_inside({0, 0, 0}, box, surface, both).value_or(false));      // on a vertex
-  EXPECT_EQ(sees_inside({100, 100, 50}, box, surface, {}), std::nullopt);
+  EXPECT_EQ(is_inside_by_rays({100, 100, 50}, box, surface, both), std::optional(true));
+  EXPECT_EQ(is_inside_by_rays({100, 100, -50}, box, surface, both), std::optional(false));
+  EXPECT_FALSE(is_inside_by_rays({512, 512, 0}, box, surface, both).value_or(false));  // on the common edge
+  EXPECT_FALSE(is_inside_by_rays({100, 100, 0}, box, surface, both).value_or(false));  // within a triangle
+  EXPECT_FALSE(is_inside_by_rays({0, 0, 0}, box, surface, both).value_or(false));      // on a vertex
+  EXPECT_EQ(is_inside_by_rays({100, 100, 50}, box, surface, {}), std::nullopt);
 }
 
-TEST(SeesInside, TakesTheNearestOfSeveralSheets) {
+TEST(InsideByRays, TakesTheNearestOfSeveralSheets) {
   const double u = 1024;
   std::vector<Point3> vertices;
   std::vector<SurfaceTriangle> triangles;
@@ -160,7 +160,7 @@ TEST(SeesInside, TakesTheNearestOfSeveralSheets) {
   const Box box{{-u, -u, -u}, {u, u, u}};
   const double heights[] = {-50, 50, 150, 250, 350};
   for (int i = 0; i < 5; ++i)
-    EXPECT_EQ(sees_inside({3, 5, heights[i]}, box, surface, all), std::optional(i % 2 == 1)) << heights[i];
+    EXPECT_EQ(is_inside_by_rays({3, 5, heights[i]}, box, surface, all), std::optional(i % 2 == 1)) << heights[i];
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void expect_vertices_of_caps(const Scene& scene, const Locator& locator, unsigne
     const unsigned visits_before = random() % 3 == 0 ? 1000000 : random() % 20;
     std::vector<int> visits(scene.vertices.size(), 0);
     unsigned count = 0;
-    locator.spiral(a, cap, [&](const LocatedVertex& v) {
+    locator.visit_nearest_first(a, cap, [&](const LocatedVertex& v) {
       EXPECT_TRUE(v.point == scene.vertices[v.id].point);
       ++visits[v.id];
       if (count++ == visits_before) cap.shrink_to(centre, radius);
@@ -135,7 +135,7 @@ TEST(OctreeLocator, OfSomeFindsTheseAlone) {
   for (std::uint32_t f = 0; f < scene.triangles.size(); f += 5) some_faces.push_back(f);
   const OctreeLocator locator(scene.vertices, some_vertices, scene.triangles, some_faces);
   const Cap cap(scene.corner(0, 0), scene.corner(0, 1), scene.corner(0, 2));
-  locator.spiral({}, cap, [](const LocatedVertex& v) { EXPECT_EQ(v.id % 7, 0u); });
+  locator.visit_nearest_first({}, cap, [](const LocatedVertex& v) { EXPECT_EQ(v.id % 7, 0u); });
   int faces = 0;
   locator.any_near_edge({-side, -side, -side}, {side, side, side}, [&](std::uint32_t f) {
     EXPECT_EQ(f % 5, 0u);
@@ -153,7 +153,7 @@ TEST(OctreeLocator, HoldsManyVerticesInOnePlace) {
 
 TEST(OctreeLocator, OfNothingFindsNothing) {
   const OctreeLocator locator({}, {});
-  locator.spiral({}, Cap({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), [](const LocatedVertex&) { ADD_FAILURE(); });
+  locator.visit_nearest_first({}, Cap({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), [](const LocatedVertex&) { ADD_FAILURE(); });
   EXPECT_FALSE(locator.any_near_edge({0, 0, 0}, {1, 1, 1}, [](std::uint32_t) { return true; }));
 }
 
@@ -165,7 +165,7 @@ TEST(Locators, VisitFewVerticesWhereTheCapIsSmall) {
     for (std::size_t t = 0; t < 100; ++t) {
       Cap cap(scene.corner(t, 0), scene.corner(t, 1), scene.corner(t, 2));
       cap.shrink_to(scene.corner(t, 0), side / 16);
-      locator.spiral(scene.corner(t, 0), cap, [&](const LocatedVertex&) { ++visits; });
+      locator.visit_nearest_first(scene.corner(t, 0), cap, [&](const LocatedVertex&) { ++visits; });
     }
     return visits / 100;
   };
