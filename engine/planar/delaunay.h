@@ -55,13 +55,13 @@ template <PlanarPredicates P>
 VertexId find_pole(std::span<const VertexId> vertices, const std::array<VertexId, 3>& triangle, const P& predicates) {
   const auto [a, b, c] = triangle;
   std::vector<VertexId> left, right;  // the line itself counts as right
-  bool beyond = false;
+  bool has_right = false;
   for (VertexId v : vertices) {
     const int side = predicates.orient(a, b, v);
     (side > 0 ? left : right).push_back(v);
-    beyond |= side < 0;
+    has_right |= side < 0;
   }
-  if (left.empty() || !beyond) return last_on_line(vertices, a, b, c, predicates);
+  if (left.empty() || !has_right) return last_on_line(vertices, a, b, c, predicates);
   VertexId left_end = left.front(), right_end = a;
   for (bool raised = true; raised;) {
     raised = false;

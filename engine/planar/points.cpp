@@ -8,7 +8,7 @@
 namespace ccdt {
 namespace {
 
-__extension__ typedef __int128 Wide;  // no name of ISO C++, so a pedantic compiler must be told
+__extension__ typedef __int128 Wide;  // no name of ISO C++: __extension__ silences pedantic compilers
 
 int sign(Wide value) {
   return (value > 0) - (value < 0);

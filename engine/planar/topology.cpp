@@ -105,7 +105,7 @@ std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
   t.triangles[o.triangle] = {d, b, c};
   t.triangle_of_vertex.set(a, s.triangle);
   t.triangle_of_vertex.set(b, o.triangle);
-  // The triangles may be neighbours of each other across a second edge only if a vertex lies on that edge's line:
+  // The triangles may be neighbors of each other across a second edge only if a vertex lies on that edge's line:
   // never.
   attach(t, {s.triangle, 2}, ca);
   attach(t, {s.triangle, 0}, ad);

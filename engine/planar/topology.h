@@ -76,7 +76,7 @@ void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, Ver
 ///
 ///        c                  c
 ///      /   \              / | \       the triangle of `s` is abc with the edge ab,
-///     a --- b    ->      a  |  b      afterwards it is cad, its neighbour dbc
+///     a --- b    ->      a  |  b      afterwards it is cad, its neighbor dbc
 ///      \   /              \ | /
 ///        d                  d
 std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s);

@@ -63,7 +63,7 @@ struct PlanarTriangulation {
 class PlanarDefect : public InputError {
  public:
   PlanarDefect(const std::string& what, PlanarEdge edge)
-      : InputError(what, {}, "repair the facet's triangles: neighbors must share whole edges, two at most each"),
+      : InputError(what, {}, "repair the facet's triangles: neighbours must share whole edges, two at most each"),
         edge_(edge) {}
   PlanarEdge edge() const { return edge_; }
 

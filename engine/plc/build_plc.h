@@ -14,8 +14,7 @@ struct PlcOptions {
 /// form a piecewise linear complex.
 ///
 /// \throw InputError  non-finite coordinates, degenerate or duplicate facets, facets that cross or cover each other, an
-/// open
-///                    surface, no facets, seeds outside; with the place in the units of the input and a remedy
+///                    open surface, no facets, seeds outside; with the place in the units of the input and a remedy
 Plc build_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt

@@ -131,8 +131,7 @@ bool share_end(const std::array<VertexId, 2>& a, const std::array<VertexId, 2>& 
 std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles.corners)
-    boxes.push_back(hull(hull(box_of(vertices[a]), box_of(vertices[b])), box_of(vertices[c])));
+  for (const VertexTriple& t : triangles.corners) boxes.push_back(bounding_box(points_of(vertices, t)));
   return boxes;
 }
 

@@ -81,7 +81,7 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
         std::max(plc.largest_rounding, largest_difference(plc.grid.to_world(snapped[i]), input.vertices[i]));
   }
 
-  // Equal points become neighbours in sorted order; the first of them in the input stands for all.
+  // Equal points become neighbors in sorted order; the first of them in the input stands for all.
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {

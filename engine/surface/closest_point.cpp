@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/base/point.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
-
-double coordinate(const Point3& p, int axis) {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
-Box box_of_triangle(const std::array<Point3, 3>& t) {
-  return hull(hull(box_of(t[0]), box_of(t[1])), box_of(t[2]));
-}
 
 // a + v ab + w ac; where a coordinate is the same for all three, it stays so.
 Foot make_foot(const Point3& p, const std::array<Point3, 3>& t, double v, double w) {
@@ -63,15 +55,14 @@ ClosestPoint::ClosestPoint(const OriginalSurface& surface) : surface_(surface), 
 }
 
 void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box box = box_of_triangle(corners(items_[begin]));
-  for (std::uint32_t i = begin + 1; i < end; ++i) box = hull(box, box_of_triangle(corners(items_[i])));
+  Box box = empty_box;
+  for (std::uint32_t i = begin; i < end; ++i) box = hull(box, bounding_box(corners(items_[i])));
   nodes_[node] = {box, begin, end - begin};
   if (end - begin <= leaf_size) return;
-  const Point3 size = box.high - box.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = dominant_axis(box.high - box.low);
   const auto key = [&](std::uint32_t t) {
     const std::array<Point3, 3> c = corners(t);
-    return coordinate(c[0], axis) + coordinate(c[1], axis) + coordinate(c[2], axis);
+    return as_array(c[0])[axis] + as_array(c[1])[axis] + as_array(c[2])[axis];
   };
   const std::uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,

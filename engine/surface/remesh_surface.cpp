@@ -122,13 +122,12 @@ std::vector<Point3> thinned(const std::vector<Point3>& places, double distance) 
 void freeze(const OriginalSurface& original, const std::vector<Point3>& places, double radius,
             std::vector<char>& frozen) {
   std::vector<Box> boxes;
-  for (const Point3& p : places)
-    boxes.push_back({p - Point3{radius, radius, radius}, p + Point3{radius, radius, radius}});
+  for (const Point3& p : places) boxes.push_back(expanded(box_of(p), radius));
   const BoxTree tree(std::move(boxes));
   for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
-    Box box = box_of(original.points[original.triangles[t][0]]);
-    for (const std::uint32_t p : original.triangles[t]) box = hull(box, box_of(original.points[p]));
-    tree.for_each_meeting(box, [&](std::uint32_t) { frozen[t] = 1; });
+    const auto [a, b, c] = original.triangles[t];
+    const std::array<Point3, 3> corners = {original.points[a], original.points[b], original.points[c]};
+    tree.for_each_meeting(bounding_box(corners), [&](std::uint32_t) { frozen[t] = 1; });
   }
 }
 

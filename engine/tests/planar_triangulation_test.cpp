@@ -29,7 +29,7 @@ std::vector<IntegerPoint> square(std::int64_t low, std::int64_t high) {
 
 // ---- From triangles -------------------------------------------------------------------------------------------------
 
-TEST(PlanarFromTriangles, FindsNeighboursBordersAndConstraints) {
+TEST(PlanarFromTriangles, FindsNeighborsBordersAndConstraints) {
   const PlanarTriangulation t =
       planar_from_triangles(Triangles{triangle(70, 10, 20), triangle(70, 20, 30)}, Edges{edge(30, 20)});
   EXPECT_EQ(t.neighbors[0], (std::array{PlanarTriangulation::none, 1u, PlanarTriangulation::none}));
@@ -62,7 +62,7 @@ TEST(PlanarFromTriangles, ReportsAnEdgeWithThreeTriangles) {
   expect_defect({triangle(0, 1, 2), triangle(1, 0, 3), triangle(0, 1, 4)}, {}, {VertexId(0u), VertexId(1u)});
 }
 
-TEST(PlanarFromTriangles, ReportsNeighboursOfOppositeOrientation) {
+TEST(PlanarFromTriangles, ReportsNeighborsOfOppositeOrientation) {
   expect_defect({triangle(0, 1, 2), triangle(0, 1, 3)}, {}, {VertexId(0u), VertexId(1u)});
 }
 
@@ -277,7 +277,7 @@ TEST(PlanarTriangulate, TellsWhichEdgesCross) {
   EXPECT_TRUE(result.triangulation.triangles.empty());
 }
 
-TEST(PlanarTriangulate, RefusesAnEdgeWithAnUnknownEnd) {
+TEST(PlanarTriangulate, RejectsAnEdgeWithAnUnknownEnd) {
   const IntegerPlane plane{{{0, 0}, {8, 0}, {8, 8}, {4, 4}}};
   const auto three = std::vector{VertexId(0u), VertexId(1u), VertexId(2u)};
   EXPECT_THROW(planar_triangulate<IntegerPlane>(three, Edges{edge(0, 3)}, plane), std::invalid_argument);

@@ -120,7 +120,7 @@ TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutThe
 
 TEST(PlcIntersections, TheQuickTestInAPlaneIsNeverWrongAndMostlyAnswers) {
   std::mt19937 random(6);
-  int disjoint = 0, told = 0;
+  int disjoint = 0, separated = 0;
   for (int i = 0; i < 40000; ++i) {
     const int axis = i % 3;
     Triangle s, t;
@@ -137,9 +137,9 @@ TEST(PlcIntersections, TheQuickTestInAPlaneIsNeverWrongAndMostlyAnswers) {
     const bool apart = are_apart_in_plane(axis, s, t, i % 2);
     ASSERT_FALSE(apart && meet) << "round " << i;
     disjoint += !meet;
-    told += apart;
+    separated += apart;
   }
-  EXPECT_GT(told, disjoint * 9 / 10);
+  EXPECT_GT(separated, disjoint * 9 / 10);
 }
 
 TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {

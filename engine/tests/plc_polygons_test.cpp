@@ -57,7 +57,7 @@ InputPlc turned(const Matrix& m, const InputPlc& plc) {
   return result;
 }
 
-std::string refusal_of(const InputPlc& input) {
+std::string fault_of(const InputPlc& input) {
   try {
     build_plc(input);
   } catch (const InputError& error) {
@@ -68,7 +68,7 @@ std::string refusal_of(const InputPlc& input) {
 }
 
 void expect_told(const InputPlc& input, const std::string& text) {
-  const std::string what = refusal_of(input);
+  const std::string what = fault_of(input);
   EXPECT_NE(what.find(text), std::string::npos) << what;
 }
 
@@ -148,7 +148,7 @@ TEST(PlcPolygons, AGivenSegmentAcrossAFacetBecomesAnEdgeOfIt) {
   }
 }
 
-TEST(PlcPolygons, AVertexOnAnEdgeOfNeighboursThatDoNotNameIt) {
+TEST(PlcPolygons, AVertexOnAnEdgeOfNeighborsThatDoNotNameIt) {
   InputPlc plc = polygon_cube(4);
   plc.vertices.push_back({2, 0, 4});
   plc.polygon_facets[1].polygons[0] = {4, 8, 5, 7, 6};  // the side facet has the whole edge
@@ -167,7 +167,7 @@ TEST(PlcPolygons, AFacetOfTwoVerticesIsADanglingSegment) {
   EXPECT_EQ(segment_ends(built, true), (std::set<std::array<std::uint32_t, 2>>{{8, 9}}));
 }
 
-TEST(PlcPolygons, BadFacetsAreRefused) {
+TEST(PlcPolygons, BadFacetsAreRejected) {
   InputPlc plc = polygon_cube();
   plc.vertices[7].z = 1.001;
   expect_told(plc, "not planar: its vertices are up to 0.0005 away");

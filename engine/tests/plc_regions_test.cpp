@@ -206,7 +206,7 @@ TEST(PlcRegions, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
   }
 }
 
-TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRefused) {
+TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRejected) {
   for (const Point3& seed : {Point3{5, 0.5, 0.5}, Point3{0.5, 0.5, -1e300}, Point3{0.5, 0.25, 1}, Point3{0, 0.5, 0.5},
                              Point3{0, 0, 0}, Point3{0.5, 0, 0}}) {
     InputPlc input = unit_cube();

@@ -88,7 +88,7 @@ struct Segments {
   std::size_t with_270 = 0;  // grazeable, and by more than 180 degrees
 };
 
-/// Around an edge are four voxels. It is a segment if any two neighbours differ, except where just two opposite facets
+/// Around an edge are four voxels. It is a segment if any two neighbors differ, except where just two opposite facets
 /// meet: those are one facet.
 Segments expected_segments(const Voxels& voxels, const std::vector<bool>& is_inside) {
   const Voxels inside{voxels.n, {is_inside.begin(), is_inside.end()}};
@@ -144,7 +144,7 @@ TEST(PlcVoxels, RegionsAndSegmentsAreThoseThatTheLabelsGive) {
     if (!turn) {
       EXPECT_EQ(grazeable_count(plc), segments.grazeable) << "round " << round;
     }
-    // Turned, 180 degrees become a hair more or less, and both is right.
+    // Turned, 180 degrees become a little more or less, and both is right.
     EXPECT_GE(grazeable_count(plc), segments.with_270) << "round " << round;
     EXPECT_LE(grazeable_count(plc), segments.grazeable) << "round " << round;
   }

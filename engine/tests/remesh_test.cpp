@@ -210,7 +210,7 @@ TEST(Remeshing, IsDeterministic) {
   EXPECT_EQ(a.triangles, b.triangles);
 }
 
-TEST(Remeshing, RefusesOptionsOutOfRange) {
+TEST(Remeshing, RejectsOptionsOutOfRange) {
   EXPECT_THROW(remeshed(unit_cube(), 0), InputError);
   EXPECT_THROW(remeshed(unit_cube(), -1), InputError);
   EXPECT_THROW(remeshed(unit_cube(), std::nan("")), InputError);

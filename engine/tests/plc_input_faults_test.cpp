@@ -14,13 +14,13 @@ using namespace plc_test;
 
 const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
 
-struct Refusal {
+struct InputFault {
   std::string what;
   Place place;
 };
 
-/// The error that the input is refused with; none if it is accepted.
-Refusal refusal_of(const InputPlc& input) {
+/// The error that the input is rejected with; none if it is accepted.
+InputFault fault_of(const InputPlc& input) {
   try {
     build_plc(input);
   } catch (const InputError& error) {
@@ -31,82 +31,82 @@ Refusal refusal_of(const InputPlc& input) {
   return {};
 }
 
-bool tells(const Refusal& refusal, const std::string& text) {
-  return refusal.what.find(text) != std::string::npos;
+bool says(const InputFault& fault, const std::string& text) {
+  return fault.what.find(text) != std::string::npos;
 }
 
 std::vector<long long> numbers(std::initializer_list<long long> n) {
   return n;
 }
 
-TEST(PlcRefusals, NoFacets) {
+TEST(PlcInputFaults, NoFacets) {
   InputPlc input;
   input.vertices = {{0, 0, 0}, {1, 0, 0}};
-  EXPECT_TRUE(tells(refusal_of(input), "no facets"));
-  EXPECT_TRUE(tells(refusal_of(InputPlc{}), "no facets"));
+  EXPECT_TRUE(says(fault_of(input), "no facets"));
+  EXPECT_TRUE(says(fault_of(InputPlc{}), "no facets"));
 }
 
-TEST(PlcRefusals, CoordinatesThatAreNotFinite) {
+TEST(PlcInputFaults, CoordinatesThatAreNotFinite) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     InputPlc input = unit_cube();
     input.vertices[5].y = bad;
-    EXPECT_TRUE(tells(refusal_of(input), "vertex 5"));
+    EXPECT_TRUE(says(fault_of(input), "vertex 5"));
   }
 }
 
-TEST(PlcRefusals, ADegenerateFacetByItsNumber) {
+TEST(PlcInputFaults, ADegenerateFacetByItsNumber) {
   InputPlc input = unit_cube();
   input.triangles.push_back({0, 1, 1});
   input.triangle_numbers.assign(13, 0);
   input.triangle_numbers[12] = 99;
-  Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "same point"));
-  EXPECT_EQ(refusal.place.facets, numbers({99}));
+  InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "same point"));
+  EXPECT_EQ(fault.place.facets, numbers({99}));
 
   input.vertices.push_back({0.5, 0, 0});
   input.triangles.back() = {0, 1, 8};
-  refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "on one line"));
-  EXPECT_EQ(refusal.place.facets, numbers({99}));
-  EXPECT_EQ(refusal.place.points.size(), 3u);
+  fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "on one line"));
+  EXPECT_EQ(fault.place.facets, numbers({99}));
+  EXPECT_EQ(fault.place.points.size(), 3u);
 }
 
-TEST(PlcRefusals, ADuplicateFacetByBothNumbers) {
+TEST(PlcInputFaults, ADuplicateFacetByBothNumbers) {
   InputPlc input = unit_cube();
   const auto [a, b, c] = input.triangles[4];
   input.triangles.push_back({b, a, c});
-  const Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "same corners"));
-  EXPECT_EQ(refusal.place.facets, numbers({4, 12}));
+  const InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "same corners"));
+  EXPECT_EQ(fault.place.facets, numbers({4, 12}));
 }
 
-TEST(PlcRefusals, AnOpenSurfaceByItsLoops) {
+TEST(PlcInputFaults, AnOpenSurfaceByItsLoops) {
   InputPlc input = gridded_cube(4);
   input.triangles.erase(input.triangles.begin() + 130);  // on another face
   input.triangles.erase(input.triangles.begin() + 10, input.triangles.begin() + 12);
-  const Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "2 boundary loops, of 3, 4 edges")) << refusal.what;
-  EXPECT_EQ(refusal.place.points.size(), 2u);
+  const InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "2 boundary loops, of 3, 4 edges")) << fault.what;
+  EXPECT_EQ(fault.place.points.size(), 2u);
 }
 
-TEST(PlcRefusals, APlcThatEnclosesNothing) {
+TEST(PlcInputFaults, APlcThatEnclosesNothing) {
   InputPlc input = unit_cube();
   input.inside = InputPlc::Inside::seeds;
   input.triangles.pop_back();
-  EXPECT_TRUE(tells(refusal_of(input), "1 boundary loop, of 3 edges"));
+  EXPECT_TRUE(says(fault_of(input), "1 boundary loop, of 3 edges"));
 }
 
-TEST(PlcRefusals, CrossingBoxesByTheirFacetsAndAPoint) {
+TEST(PlcInputFaults, CrossingBoxesByTheirFacetsAndAPoint) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
     InputPlc input = box({0, 0, 0}, {4, 4, 4});
     append(input, box({3, 1, 1}, {5, 2, 2}));
-    const Refusal refusal = refusal_of(rotated(m, input));
-    EXPECT_TRUE(tells(refusal, "cross each other; there are ")) << refusal.what;
-    ASSERT_EQ(refusal.place.facets.size(), 2u);
-    EXPECT_LT(refusal.place.facets[0], 12);
-    EXPECT_GE(refusal.place.facets[1], 12);
-    ASSERT_EQ(refusal.place.points.size(), 1u);
-    const auto [x, y, z] = refusal.place.points[0];
+    const InputFault fault = fault_of(rotated(m, input));
+    EXPECT_TRUE(says(fault, "cross each other; there are ")) << fault.what;
+    ASSERT_EQ(fault.place.facets.size(), 2u);
+    EXPECT_LT(fault.place.facets[0], 12);
+    EXPECT_GE(fault.place.facets[1], 12);
+    ASSERT_EQ(fault.place.points.size(), 1u);
+    const auto [x, y, z] = fault.place.points[0];
     const Point3 back = rotated(
         {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}}, Point3{x, y, z});
     EXPECT_NEAR(back.x, 4, 1e-6);
@@ -114,72 +114,72 @@ TEST(PlcRefusals, CrossingBoxesByTheirFacetsAndAPoint) {
   }
 }
 
-TEST(PlcRefusals, ACornerThatPiercesAFacet) {
+TEST(PlcInputFaults, ACornerThatPiercesAFacet) {
   InputPlc input = unit_cube();
   append(input, schoenhardt());
   for (std::size_t v = 8; v < 14; ++v) input.vertices[v] = input.vertices[v] + Point3{0.5, 0.6, 0.7};
-  EXPECT_TRUE(tells(refusal_of(input), "cross each other"));
+  EXPECT_TRUE(says(fault_of(input), "cross each other"));
 }
 
-TEST(PlcRefusals, TrianglesThatShareACornerAndCross) {
+TEST(PlcInputFaults, TrianglesThatShareACornerAndCross) {
   InputPlc input;
   input.inside = InputPlc::Inside::seeds;
   input.vertices = {{0, 0, 0}, {4, -1, 0}, {4, 1, 0}, {3, 0, -1}, {3, 0, 1}};
   input.triangles = {{0, 1, 2}, {0, 3, 4}};
-  const Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "cross each other"));
-  EXPECT_EQ(refusal.place.facets, numbers({0, 1}));
-  ASSERT_EQ(refusal.place.points.size(), 1u);
-  EXPECT_NEAR(refusal.place.points[0][0], 3, 1e-6);
+  const InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "cross each other"));
+  EXPECT_EQ(fault.place.facets, numbers({0, 1}));
+  ASSERT_EQ(fault.place.points.size(), 1u);
+  EXPECT_NEAR(fault.place.points[0][0], 3, 1e-6);
 }
 
 // Two squares over the same four corners, with different diagonals.
-TEST(PlcRefusals, FacetsThatCoverEachOther) {
+TEST(PlcInputFaults, FacetsThatCoverEachOther) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary, rotation(3, 1, -2, 5)}) {
     InputPlc input = unit_cube();
     const auto [a, b, c] = input.triangles[0];
     const VertexId d(input.triangles[1][2]);
     input.triangles.push_back({a, b, d});
     input.triangles.push_back({b, c, d});
-    const Refusal refusal = refusal_of(rotated(m, input));
-    EXPECT_TRUE(tells(refusal, "cover each other")) << refusal.what;
-    ASSERT_EQ(refusal.place.facets.size(), 2u);
-    EXPECT_LT(refusal.place.facets[0], 2);
-    EXPECT_GE(refusal.place.facets[1], 12);
-    EXPECT_EQ(refusal.place.points.size(), 1u);
+    const InputFault fault = fault_of(rotated(m, input));
+    EXPECT_TRUE(says(fault, "cover each other")) << fault.what;
+    ASSERT_EQ(fault.place.facets.size(), 2u);
+    EXPECT_LT(fault.place.facets[0], 2);
+    EXPECT_GE(fault.place.facets[1], 12);
+    EXPECT_EQ(fault.place.points.size(), 1u);
   }
 }
 
-TEST(PlcRefusals, FacetsThatCoverEachOtherInPart) {
+TEST(PlcInputFaults, FacetsThatCoverEachOtherInPart) {
   InputPlc input = box({0, 0, 0}, {4, 4, 4});
   append(input, box({4, 1, 1}, {6, 2, 2}));  // stands on the first one's side without being cut out of it
-  const Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "cover each other")) << refusal.what;
-  ASSERT_EQ(refusal.place.points.size(), 1u);
-  EXPECT_NEAR(refusal.place.points[0][0], 4, 1e-9);
+  const InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "cover each other")) << fault.what;
+  ASSERT_EQ(fault.place.points.size(), 1u);
+  EXPECT_NEAR(fault.place.points[0][0], 4, 1e-9);
 }
 
-TEST(PlcRefusals, ASegmentThatCrossesAFacet) {
+TEST(PlcInputFaults, ASegmentThatCrossesAFacet) {
   InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.5, 0.25, 0.5}, {0.5, 0.25, 2}});
   input.segments = {{8, 9}};
-  const Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "a segment crosses a facet"));
-  ASSERT_EQ(refusal.place.points.size(), 3u);
-  EXPECT_NEAR(refusal.place.points[0][2], 1, 1e-9);
+  const InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "a segment crosses a facet"));
+  ASSERT_EQ(fault.place.points.size(), 3u);
+  EXPECT_NEAR(fault.place.points[0][2], 1, 1e-9);
 }
 
-TEST(PlcRefusals, SegmentsThatCross) {
+TEST(PlcInputFaults, SegmentsThatCross) {
   InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.2, 0.2, 0.5}, {0.8, 0.8, 0.5}, {0.8, 0.2, 0.5}, {0.2, 0.8, 0.5}});
   input.segments = {{8, 9}, {10, 11}};
-  const Refusal refusal = refusal_of(input);
-  EXPECT_TRUE(tells(refusal, "two segments cross"));
-  ASSERT_EQ(refusal.place.points.size(), 5u);
-  EXPECT_NEAR(refusal.place.points[0][0], 0.5, 1e-9);
+  const InputFault fault = fault_of(input);
+  EXPECT_TRUE(says(fault, "two segments cross"));
+  ASSERT_EQ(fault.place.points.size(), 5u);
+  EXPECT_NEAR(fault.place.points[0][0], 0.5, 1e-9);
 }
 
-TEST(PlcRefusals, FacetsThatAreNearButApartAreAccepted) {
+TEST(PlcInputFaults, FacetsThatAreNearButApartAreAccepted) {
   InputPlc input = box({0, 0, 0}, {4, 4, 4});
   append(input, box({4.000001, 1, 1}, {6, 2, 2}));
   const Plc plc = build_plc(input);
