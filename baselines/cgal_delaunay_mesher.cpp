@@ -8,7 +8,7 @@
 #include "baselines/known_meshers.h"
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
-#include "engine/base/errors.h"
+#include "engine/io/file_bytes.h"
 
 namespace ccdt {
 namespace {
@@ -46,11 +46,9 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions& options, c
     mesh.tetrahedra.push_back(
         {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
   mesh.regions.assign(mesh.tetrahedra.size(), 0);
-  if (mesh.tetrahedra.empty()) {
-    Place place;
-    place.file = input.name;
-    throw MeshError("the vertices are all in one plane and have no tetrahedra", place, "give a solid");
-  }
+  if (mesh.tetrahedra.empty())
+    throw MeshError("the vertices are all in one plane and have no tetrahedra", io::place_in(input.name),
+                    "give a solid");
   run.result.counts = count_elements(merged, mesh);
   return run;
 }

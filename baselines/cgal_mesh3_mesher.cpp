@@ -17,7 +17,8 @@
 #include "baselines/known_meshers.h"
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
-#include "engine/base/errors.h"
+#include "engine/base/digits.h"
+#include "engine/io/file_bytes.h"
 #include "engine/plc/build_plc.h"
 
 namespace ccdt {
@@ -43,7 +44,7 @@ struct Sizes {
 
 /// The triangles between one pair of regions, all with the first below (where their normals come from) and the second
 /// above.
-struct Patch {
+struct Interface {
   std::vector<Kernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> triangles;
   std::unordered_map<std::uint32_t, std::size_t> index;
@@ -56,33 +57,33 @@ struct Patch {
   }
 };
 
-using Sides = std::pair<int, int>;  ///< subdomains below and above; 0 is outside
+using SubdomainPair = std::pair<int, int>;  ///< subdomains below and above; 0 is outside
 
-std::map<Sides, Patch> patches_of(const Plc& plc) {
+std::map<SubdomainPair, Interface> interfaces_of(const Plc& plc) {
   const auto subdomain = [&](RegionId c) { return plc.regions[c].inside ? static_cast<int>(c.value) + 1 : 0; };
-  std::map<Sides, Patch> patches;
+  std::map<SubdomainPair, Interface> interfaces;
   for (const Facet& facet : plc.facets) {
-    Sides sides{subdomain(facet.below), subdomain(facet.above)};
+    SubdomainPair sides{subdomain(facet.below), subdomain(facet.above)};
     if (sides.first == 0 && sides.second == 0) continue;  // in a hole
     const bool flip = sides.first < sides.second;
     if (flip) std::swap(sides.first, sides.second);
-    Patch& patch = patches[sides];
+    Interface& interface = interfaces[sides];
     for (const auto& triangle : facet.triangles) {
       std::array<std::size_t, 3> corners{};
-      for (std::size_t i = 0; i < 3; ++i) corners[i] = patch.add(plc, triangle[i]);
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = interface.add(plc, triangle[i]);
       if (flip) std::swap(corners[0], corners[1]);
-      patch.triangles.push_back(corners);
+      interface.triangles.push_back(corners);
     }
   }
-  return patches;
+  return interfaces;
 }
 
-Polyhedron polyhedron_of(Patch& patch) {
+Polyhedron polyhedron_of(Interface& interface) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  // Splits vertices and edges at which the patch is not a manifold.
-  pmp::orient_polygon_soup(patch.points, patch.triangles);
+  // Splits vertices and edges at which the interface is not a manifold.
+  pmp::orient_polygon_soup(interface.points, interface.triangles);
   Polyhedron polyhedron;
-  pmp::polygon_soup_to_polygon_mesh(patch.points, patch.triangles, polyhedron);
+  pmp::polygon_soup_to_polygon_mesh(interface.points, interface.triangles, polyhedron);
   return polyhedron;
 }
 
@@ -149,11 +150,11 @@ MesherSettings settings_of_mesh3(const InputPlc& input, const MeshOptions& optio
           {"exude", improved}};
 }
 
-Complex refine(const std::map<Sides, Patch>& patches, const Sizes& sizes, bool improve) {
+Complex refine(const std::map<SubdomainPair, Interface>& interfaces, const Sizes& sizes, bool improve) {
   std::vector<Polyhedron> polyhedra;
-  std::vector<Sides> sides;
-  for (auto [key, patch] : patches) {
-    polyhedra.push_back(polyhedron_of(patch));
+  std::vector<SubdomainPair> sides;
+  for (auto [key, interface] : interfaces) {
+    polyhedra.push_back(polyhedron_of(interface));
     sides.push_back(key);
   }
   Domain domain(polyhedra.begin(), polyhedra.end(), sides.begin(), sides.end());
@@ -169,7 +170,7 @@ Complex refine(const std::map<Sides, Patch>& patches, const Sizes& sizes, bool i
 
 MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const Plc plc = build_plc(input, {.flatness = options.flatness});
-  const auto patches = patches_of(plc);
+  const auto interfaces = interfaces_of(plc);
   const Sizes sizes(target_edge_length(input, options));
   MesherRun run;
   run.settings = settings_of_mesh3(input, options);
@@ -177,15 +178,13 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
   report(progress, "mesh_3", 0, 0);
   CGAL::get_default_random() = CGAL::Random(random_seed);  // else its seed is the time, and each mesh another
   const auto begin = std::chrono::steady_clock::now();
-  const Complex complex = refine(patches, sizes, is_improved(options));
+  const Complex complex = refine(interfaces, sizes, is_improved(options));
   run.result.seconds.mesh = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   run.result.mesh = read_back(complex, plc);
-  if (run.result.mesh.tetrahedra.empty()) {
-    Place place;
-    place.file = input.name;
-    throw MeshError("Mesh_3 made no tetrahedra at this edge length", place, "ask for a smaller --edge-length");
-  }
+  if (run.result.mesh.tetrahedra.empty())
+    throw MeshError("Mesh_3 made no tetrahedra at this edge length", io::place_in(input.name),
+                    "ask for a smaller --edge-length");
   run.result.counts = count_elements(input, run.result.mesh);
   return run;
 }

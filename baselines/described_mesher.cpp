@@ -7,7 +7,8 @@
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
 #include "baselines/process.h"
-#include "engine/base/errors.h"
+#include "engine/base/digits.h"
+#include "engine/io/file_bytes.h"
 #include "engine/io/output_file.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
@@ -19,12 +20,6 @@ namespace {
 constexpr const char* input_stem = "input";
 
 using Description = MesherDescription;
-
-Place place_of(const std::string& file) {
-  Place place;
-  place.file = file;
-  return place;
-}
 
 bool holds(ChoiceCondition condition, const InputPlc& input, const MeshOptions& options) {
   switch (condition) {
@@ -114,7 +109,7 @@ void write_input(const Description& description, const InputPlc& input, const st
     write_plc(input, folder / input_name(description));
   } catch (const OutputError& error) {
     throw MeshError(description.name + " reads ." + description.input_format + ": " + error.what(),
-                    place_of(input.name), "leave that out, or choose a mesher that reads .poly");
+                    io::place_in(input.name), "leave that out, or choose a mesher that reads .poly");
   }
 }
 
@@ -129,12 +124,12 @@ void write_files(const Description& description, const std::vector<Placeholder>&
 
 /// Runs the program in the folder.
 /// \return  wall-clock seconds of the call
-double call(const Description& description, const InputPlc& input, const std::vector<Placeholder>& values,
-            const std::filesystem::path& folder, const std::filesystem::path& log) {
+double call_program(const Description& description, const InputPlc& input, const std::vector<Placeholder>& values,
+                    const std::filesystem::path& folder, const std::filesystem::path& log) {
   std::vector<std::string> command = fill_all(description.command, values);
   const auto program = program_of(description, command[0]);
   if (!program)
-    throw InputError("/command/0: there is no program '" + command[0] + "' here", place_of(description.file.string()),
+    throw InputError("/command/0: there is no program '" + command[0] + "'", io::place_in(description.file.string()),
                      description.install.empty() ? "install it, or give its path" : description.install);
   command[0] = program->string();
   ProgramOptions options{.folder = folder, .log = log};
@@ -146,7 +141,7 @@ double call(const Description& description, const InputPlc& input, const std::ve
     throw MeshError(description.name + " ended with code " + std::to_string(code) +
                         (code > 128 && code < 192 ? ", by signal " + std::to_string(code - 128) : "") +
                         "; its last words: " + last_lines(log),
-                    place_of(input.name), "try another mesher, or check the surface there");
+                    io::place_in(input.name), "try another mesher, or check the surface there");
   return ended.seconds;
 }
 
@@ -154,23 +149,23 @@ TetMesh read_output(const Description& description, const InputPlc& input, const
                     const std::filesystem::path& folder, const std::filesystem::path& log) {
   if (!std::filesystem::exists(folder / name))
     throw MeshError(description.name + " wrote no file " + name + "; its last words: " + last_lines(log),
-                    place_of(input.name), "try another mesher, or correct /output in " + description.file.string());
+                    io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
   try {
     return read_tet_mesh(folder / name);
   } catch (const InputError& error) {
     const long long line = error.place().line;
     throw MeshError("what " + description.name + " wrote cannot be read: " + name +
                         (line > 0 ? ", line " + std::to_string(line) : "") + ": " + error.what(),
-                    place_of(input.name), "try another mesher, or correct /output in " + description.file.string());
+                    io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
   }
 }
 
-/// Makes of what a program wrote what our own meshers return.
-void tidy(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& notes) {
+/// Gives what a program wrote the form that meshers return.
+void clean_up(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& notes) {
   orient_positively(mesh);
   if (const std::size_t restored = restore_coordinates(input.vertices, mesh); restored > 0)
     notes.push_back(std::to_string(restored) +
-                    " vertices of the input got their coordinates back, which were rounded on their way");
+                    " vertices of the input got their coordinates back, which had been rounded in files");
   if (mesh.faces.empty()) add_boundary_faces(mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
   mesh.constrained_delaunay = false;
@@ -189,15 +184,16 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
 
   MesherRun run;
   run.settings = settings_of_described(description, input, options);
-  const double wall_seconds = call(description, input, values, folder, log);
+  const double wall_seconds = call_program(description, input, values, folder, log);
   const auto said = description.seconds_pattern.empty() ? std::nullopt : sum_in_log(log, description.seconds_pattern);
   run.result.seconds.mesh = said.value_or(wall_seconds);
-  if (!said) run.notes.emplace_back("the seconds are those of the whole call, with its start, reading and writing");
+  if (!said)
+    run.notes.emplace_back("the seconds are those of the whole call, including its start, reading and writing");
   run.result.mesh = read_output(description, input, fill_placeholders(description.output, values), folder, log);
-  tidy(given, run.result.mesh, run.notes);
+  clean_up(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
     throw MeshError(description.name + " made no tetrahedra inside; its last words: " + last_lines(log),
-                    place_of(input.name), "try another mesher, or check whether the surface is closed");
+                    io::place_in(input.name), "try another mesher, or check whether the surface is closed");
   run.result.counts = count_elements(given, run.result.mesh);
   return run;
 }

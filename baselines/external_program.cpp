@@ -63,16 +63,7 @@ std::string version_of_program(const std::vector<std::string>& command, const st
   const TemporaryFolder folder;
   const auto log = folder.path() / "log";
   run_program(command, {.log = log});  // some programs print their version and end with an error
-  const std::regex expression(pattern.empty() ? "^.*$" : pattern);
-  std::string version = unknown_version;
-  std::ifstream lines(log);
-  visit_lines(lines, [&](const std::string& line) {
-    std::smatch match;
-    if (!std::regex_search(line, match, expression)) return false;
-    version = matched(match);
-    return true;
-  });
-  return version;
+  return first_in_log(log, pattern.empty() ? "^.*$" : pattern).value_or(unknown_version);
 }
 
 std::string last_lines(std::istream& log) {
@@ -90,6 +81,18 @@ std::string last_lines(std::istream& log) {
 std::string last_lines(const std::filesystem::path& log) {
   std::ifstream lines(log);
   return last_lines(lines);
+}
+
+std::optional<std::string> first_in_log(const std::filesystem::path& log, const std::string& pattern) {
+  const std::regex expression(pattern);
+  std::optional<std::string> first;
+  std::ifstream lines(log);
+  visit_lines(lines, [&](const std::string& line) {
+    std::smatch match;
+    if (std::regex_search(line, match, expression)) first = matched(match);
+    return first.has_value();
+  });
+  return first;
 }
 
 std::optional<double> sum_in_log(const std::filesystem::path& log, const std::string& pattern) {

@@ -27,6 +27,10 @@ std::string version_of_program(const std::vector<std::string>& command, const st
 std::string last_lines(std::istream& log);
 std::string last_lines(const std::filesystem::path& log);
 
+/// What the first group of a regular expression (ECMAScript), or where there is none all of it, matches in the first
+/// line of a log that matches. None if no line matches.
+std::optional<std::string> first_in_log(const std::filesystem::path& log, const std::string& pattern);
+
 /// The sum of the numbers that the first group of a regular expression (ECMAScript) matches, over the lines of a log.
 /// None if no line matches.
 std::optional<double> sum_in_log(const std::filesystem::path& log, const std::string& pattern);

@@ -1,18 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
 #include "baselines/process.h"
-#include "engine/base/errors.h"
+#include "engine/base/digits.h"
+#include "engine/io/file_bytes.h"
 #include "engine/io/output_file.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/plc/build_plc.h"
@@ -23,31 +19,29 @@ namespace {
 constexpr const char* program_name = "gmsh";
 constexpr const char* program_variable = "CCDT_GMSH";
 
-/// Gmsh's own value for a size that nobody has asked for.
+/// Gmsh's own value for a size that is not given.
 constexpr double no_size = 1e22;
 
 /// Facets with the same regions at their sides and the same marker: one of Gmsh's discrete surfaces.
-struct Patch {
+struct DiscreteSurface {
   RegionId below, above;
   int marker = 0;
-  auto operator<=>(const Patch&) const = default;
+  auto operator<=>(const DiscreteSurface&) const = default;
 };
 
 /// The domain as Gmsh takes it: triangles, each of a discrete surface, and volumes between such surfaces.
 struct DiscreteModel {
-  TetMesh triangles;              ///< `face_markers`: numbers of patches, from 1 in the order of their first triangles
-  std::vector<Patch> patches;     ///< by number less one
-  std::vector<RegionId> volumes;  ///< by number less one: the regions inside
+  TetMesh triangles;  ///< `face_markers`: numbers of surfaces, from 1 in the order of their first triangles
+  std::vector<DiscreteSurface> surfaces;  ///< by number less one
+  std::vector<RegionId> volumes;          ///< by number less one: the regions inside
 };
 
 [[noreturn]] void fail(const std::string& what, const std::string& file, const std::string& remedy) {
-  Place place;
-  place.file = file;
-  throw MeshError(what, place, remedy);
+  throw MeshError(what, io::place_in(file), remedy);
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& file) {
-  fail("Gmsh's HXT keeps no " + what + " inside a volume", file, "leave them out, or choose another mesher");
+  fail("Gmsh's HXT cannot keep " + what + " inside a volume", file, "leave them out, or choose another mesher");
 }
 
 /// Every segment has to be an edge of a facet.
@@ -61,16 +55,16 @@ void check_segments(const Plc& plc, std::vector<std::array<VertexId, 2>> facet_e
 
 DiscreteModel discrete_model(const Plc& plc) {
   DiscreteModel model;
-  std::map<Patch, int> numbers;
+  std::map<DiscreteSurface, int> numbers;
   std::vector<std::array<VertexId, 2>> edges;
   std::vector<char> is_used(plc.vertices.size(), 0);
   for (const Facet& facet : plc.facets) {
     const bool inside_below = plc.regions[facet.below].inside, inside_above = plc.regions[facet.above].inside;
     if (facet.below == facet.above && inside_below) refuse("facets", plc.name);
-    const Patch patch{facet.below, facet.above, facet.marker};
+    const DiscreteSurface surface{facet.below, facet.above, facet.marker};
     const bool bounds = inside_below || inside_above;
-    if (bounds && numbers.try_emplace(patch, static_cast<int>(numbers.size()) + 1).second)
-      model.patches.push_back(patch);
+    if (bounds && numbers.try_emplace(surface, static_cast<int>(numbers.size()) + 1).second)
+      model.surfaces.push_back(surface);
     for (const auto& triangle : facet.triangles) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto [low, high] = std::minmax(triangle[i], triangle[(i + 1) % 3]);
@@ -79,7 +73,7 @@ DiscreteModel discrete_model(const Plc& plc) {
       }
       if (!bounds) continue;
       model.triangles.faces.push_back({triangle[0].value, triangle[1].value, triangle[2].value});
-      model.triangles.face_markers.push_back(numbers[patch]);
+      model.triangles.face_markers.push_back(numbers[surface]);
     }
   }
   if (std::ranges::count(is_used, 0) > 0) refuse("vertices", plc.name);
@@ -113,8 +107,8 @@ void write_script(const DiscreteModel& model, const std::string& surface, const 
   script << "Merge \"" << surface << "\";\n";
   for (std::size_t v = 0; v < model.volumes.size(); ++v) {
     std::string surfaces;
-    for (std::size_t p = 0; p < model.patches.size(); ++p)
-      if (model.patches[p].below == model.volumes[v] || model.patches[p].above == model.volumes[v])
+    for (std::size_t p = 0; p < model.surfaces.size(); ++p)
+      if (model.surfaces[p].below == model.volumes[v] || model.surfaces[p].above == model.volumes[v])
         surfaces += (surfaces.empty() ? "" : ", ") + std::to_string(p + 1);
     const std::string number = std::to_string(v + 1);
     script << "Surface Loop(" << number << ") = {" << surfaces << "};\nVolume(" << number << ") = {" << number
@@ -125,38 +119,11 @@ void write_script(const DiscreteModel& model, const std::string& surface, const 
   script.commit();
 }
 
-/// What Gmsh says of its work.
-struct Log {
-  double mesh_seconds = 0;      ///< "Done meshing 3D (Wall 1.5s, ...": all of HXT, and what Gmsh does around it
-  double optimize_seconds = 0;  ///< "tOptimize = 1.2": the part of that which is improvement
-  std::string error;            ///< the first
-};
-
-/// The number behind a word in a line of the log, or 0.
-double number_behind(const std::string& line, const std::string& word) {
-  const auto at = line.find(word);
-  if (at == std::string::npos) return 0;
-  const auto digit = line.find_first_of("0123456789", at + word.size());
-  return digit == std::string::npos ? 0 : std::strtod(line.c_str() + digit, nullptr);
-}
-
-Log read_log(const std::filesystem::path& file) {
-  Log log;
-  std::ifstream lines(file);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("Error") && log.error.empty()) log.error = line.substr(line.find_first_not_of(" :", 5));
-    for (const char* work : {"Done meshing 3D (Wall", "Done optimizing mesh (Wall"})
-      log.mesh_seconds += number_behind(line, work);
-    log.optimize_seconds += number_behind(line, "tOptimize");
-  }
-  return log;
-}
-
 TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const Plc& plc) {
   TetMesh mesh = read_tet_mesh(file);
   for (int& region : mesh.regions)
     region = plc.regions[model.volumes.at(static_cast<std::size_t>(region) - 1)].attribute;
-  for (int& marker : mesh.face_markers) marker = model.patches.at(static_cast<std::size_t>(marker) - 1).marker;
+  for (int& marker : mesh.face_markers) marker = model.surfaces.at(static_cast<std::size_t>(marker) - 1).marker;
   orient_positively(mesh);
   restore_coordinates(plc.world, mesh);
   return mesh;
@@ -164,7 +131,7 @@ TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model,
 
 MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const auto program = find_program(program_name, program_variable);
-  if (!program) fail("Gmsh is no longer there", input.name, "install it, or say by CCDT_GMSH where it is");
+  if (!program) fail("the program gmsh is no longer there", input.name, "install it, or set CCDT_GMSH to its path");
   const Plc plc = build_plc(input, {.flatness = options.flatness});
   const DiscreteModel model = discrete_model(plc);
 
@@ -179,13 +146,15 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
                                 file("volume.msh").string()},
                                {.log = file("log")})
                        .shell_code();
-  const Log log = read_log(file("log"));
-  if (code != 0 || !log.error.empty() || !std::filesystem::exists(file("volume.msh")))
-    fail("Gmsh ended with code " + std::to_string(code) + (log.error.empty() ? "" : ": " + log.error), input.name,
+  const auto error = first_in_log(file("log"), "^Error[ :]*(.*)");
+  if (code != 0 || error || !std::filesystem::exists(file("volume.msh")))
+    fail("Gmsh ended with code " + std::to_string(code) + (error ? ": " + *error : ""), input.name,
          "try another mesher, or check the surface there");
 
-  run.result.seconds.improve = log.optimize_seconds;
-  run.result.seconds.mesh = log.mesh_seconds;
+  // "tOptimize = 1.2" is a part of "Done meshing 3D (Wall 1.5s, ...", which is all of HXT and what Gmsh does around it.
+  run.result.seconds.improve = sum_in_log(file("log"), "tOptimize[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
+  run.result.seconds.mesh =
+      sum_in_log(file("log"), "Done (?:meshing 3D|optimizing mesh) [(]Wall[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
   run.result.mesh = read_back(file("volume.msh"), model, plc);
   if (run.result.mesh.tetrahedra.empty()) fail("Gmsh made no tetrahedra", input.name, "try another mesher");
   run.result.counts = count_elements(input, run.result.mesh);

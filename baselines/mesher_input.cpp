@@ -1,8 +1,6 @@
 #include "baselines/mesher_input.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "engine/io/merge_vertices.h"
@@ -80,12 +78,6 @@ double regular_tetrahedron_volume(double edge_length) {
 double largest_tetrahedron_volume(double edge_length) {
   constexpr double largest_to_average = 2;
   return largest_to_average * regular_tetrahedron_volume(edge_length);
-}
-
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
 }
 
 }  // namespace ccdt

@@ -24,7 +24,4 @@ double regular_tetrahedron_volume(double edge_length);
 /// average.
 double largest_tetrahedron_volume(double edge_length);
 
-/// The shortest digits that read back bit for bit.
-std::string digits(double value);
-
 }  // namespace ccdt

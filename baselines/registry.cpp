@@ -3,7 +3,7 @@
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesher.h"
-#include "engine/base/errors.h"
+#include "engine/io/file_bytes.h"
 #include "engine/version.h"
 
 namespace ccdt {
@@ -34,18 +34,15 @@ std::string names_of_all() {
   return names;
 }
 
-/// One that was read before, else the one that the file describes.
+/// The mesher that a file describes, which is read once.
 const Mesher& mesher_of_file(const std::string& file) {
   static std::map<std::string, Mesher> known;
   if (const auto found = known.find(file); found != known.end()) return found->second;
   Mesher described = described_mesher(read_mesher_description(file));
   const auto all = meshers();
-  if (std::ranges::find(all, described.name, &Mesher::name) != all.end()) {
-    Place place;
-    place.file = file;
-    throw InputError("/name: '" + described.name + "' is a mesher of this build", place,
+  if (std::ranges::find(all, described.name, &Mesher::name) != all.end())
+    throw InputError("/name: '" + described.name + "' is a mesher of this build", io::place_in(file),
                      "give the description another name, or reports could not tell them apart");
-  }
   return known.emplace(file, std::move(described)).first->second;
 }
 

@@ -12,7 +12,8 @@
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
 #include "baselines/process.h"
-#include "engine/base/errors.h"
+#include "engine/base/digits.h"
+#include "engine/io/file_bytes.h"
 
 namespace ccdt {
 namespace {
@@ -140,10 +141,10 @@ TetMesh read_back(const tetgenio& io) {
 }
 
 /// Arrays one after the other as bytes, each behind its length: how a mesh comes back from the process that made it.
-class Bytes {
+class PackedArrays {
  public:
-  Bytes() = default;
-  explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
+  PackedArrays() = default;
+  explicit PackedArrays(std::string bytes) : bytes_(std::move(bytes)) {}
 
   template <class T>
   void put(const std::vector<T>& array) {
@@ -168,9 +169,9 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
-/// What happens in the process of TetGen's own.
-struct Outcome {
-  std::vector<int> code;        ///< none: it went well
+/// What comes back from the process that TetGen runs in.
+struct TetgenOutput {
+  std::vector<int> code;        ///< of an error; else empty
   std::vector<double> seconds;  ///< one
   TetMesh mesh;
 
@@ -188,25 +189,25 @@ std::string tetrahedralize_to_bytes(const InputPlc& input, std::string switches)
   fill_facets(input, in);
   fill_segments(input, in);
   fill_seeds(input, in);
-  Outcome outcome;
+  TetgenOutput output;
   const auto begin = std::chrono::steady_clock::now();
   try {
     tetrahedralize(switches.data(), &in, &out);
-    outcome.seconds = {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
-    outcome.mesh = read_back(out);
+    output.seconds = {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+    output.mesh = read_back(out);
   } catch (int code) {
-    outcome.code = {code};
+    output.code = {code};
   }
-  Bytes bytes;
-  outcome.each_array([&](auto& array) { bytes.put(array); });
-  return bytes.release();
+  PackedArrays packed;
+  output.each_array([&](auto& array) { packed.put(array); });
+  return packed.release();
 }
 
 /// What TetGen's exit codes mean, from its manual.
-std::string words_of(int code) {
+std::string meaning_of(int code) {
   switch (code) {
     case 2:
-      return "TetGen reports an internal error of its own";
+      return "TetGen reports an internal error";
     case 3:
       return "TetGen found that the input intersects itself";
     case 4:
@@ -214,7 +215,7 @@ std::string words_of(int code) {
     case 5:
       return "TetGen found two facets that are too close to each other";
     case 10:
-      return "TetGen refused the input";
+      return "TetGen rejected the input";
     default:
       return "TetGen stopped with code " + std::to_string(code);
   }
@@ -223,24 +224,22 @@ std::string words_of(int code) {
 [[noreturn]] void fail(std::string what, const InputPlc& input, const std::string& printed = "") {
   std::istringstream lines(printed);
   if (!printed.empty()) what += "; it printed: " + last_lines(lines);
-  Place place;
-  place.file = input.name;
-  throw MeshError(what, place, "try another mesher, or check the surface there");
+  throw MeshError(what, io::place_in(input.name), "try another mesher, or check the surface there");
 }
 
 /// Calls TetGen in a process of its own: when it gives up, release 1.5 frees its memory twice and crashes, more often
 /// than not.
-Outcome call_tetgen(const InputPlc& input, const std::string& switches) {
+TetgenOutput call_tetgen(const InputPlc& input, const std::string& switches) {
   const ProcessResult call = run_function([&] { return tetrahedralize_to_bytes(input, switches); });
   if (!call.value)
     fail(call.signal == 0 ? "TetGen ended its process" : "TetGen ended with signal " + std::to_string(call.signal),
          input, call.printed);
-  Outcome outcome;
-  Bytes bytes(*call.value);
-  outcome.each_array([&](auto& array) { bytes.take(array); });
-  if (!outcome.code.empty() && outcome.code[0] == 1) throw std::bad_alloc();
-  if (!outcome.code.empty()) fail(words_of(outcome.code[0]), input, call.printed);
-  return outcome;
+  TetgenOutput output;
+  PackedArrays packed(*call.value);
+  output.each_array([&](auto& array) { packed.take(array); });
+  if (!output.code.empty() && output.code[0] == 1) throw std::bad_alloc();
+  if (!output.code.empty()) fail(meaning_of(output.code[0]), input, call.printed);
+  return output;
 }
 
 MesherSettings settings_of_tetgen(const InputPlc& input, const MeshOptions& options) {
@@ -252,13 +251,13 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
   if (merged.vertices.size() < 4) fail("there are fewer than four vertices", input);
   const std::string switches = switches_for(merged, options);
   report(progress, "tetgen", 0, 0);
-  Outcome outcome = call_tetgen(merged, switches);
+  TetgenOutput output = call_tetgen(merged, switches);
 
   MesherRun run;
   run.settings = settings_of_tetgen(input, options);
-  run.result.seconds.mesh = outcome.seconds[0];
+  run.result.seconds.mesh = output.seconds[0];
   TetMesh& mesh = run.result.mesh;
-  mesh = std::move(outcome.mesh);
+  mesh = std::move(output.mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
   if (mesh.tetrahedra.empty()) fail("no tetrahedra are inside: the surface is open", input);
   run.result.counts = count_elements(merged, mesh);

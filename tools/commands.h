@@ -1,6 +1,8 @@
 #pragma once
 
-#include "tools/exit_codes.h"
+#include <filesystem>
+
+#include "tools/error_words.h"
 
 namespace CLI {
 class App;
@@ -9,11 +11,18 @@ class App;
 namespace ccdt {
 
 /// Each adds a verb with its options to the program. When the verb is on the command line, parsing it runs it and sets
-/// the exit code; errors leave as exceptions.
+/// the exit code; errors are thrown.
 void add_model_command(CLI::App& app, ExitCode& exit_code);
 void add_mesh_command(CLI::App& app, ExitCode& exit_code);
 void add_verify_command(CLI::App& app, ExitCode& exit_code);
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code);
 void add_report_command(CLI::App& app, ExitCode& exit_code);
+
+/// The file of the running program.
+std::filesystem::path own_program();
+
+/// Makes the report of a folder from its JSON, and prints its verdicts and where it is.
+/// \throw InputError, OutputError  as `read_report` and `write_report`
+void make_report(const std::filesystem::path& folder);
 
 }  // namespace ccdt

@@ -1,27 +1,20 @@
 #include "tools/error_words.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <new>
 
+#include "engine/base/digits.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
 namespace {
 
-constexpr std::size_t most_shown = 10;  ///< facets or points; the rest is told by its number
+constexpr std::size_t most_shown = 10;  ///< facets or points; the rest is counted
 
 template <class Type>
 bool is(const std::exception& error) {
   return dynamic_cast<const Type*>(&error) != nullptr;
-}
-
-/// The shortest digits that read back as the same number: up to 17.
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 std::string head(const Place& place) {
@@ -62,10 +55,10 @@ std::string in_words(const std::exception& error) {
     return text;
   }
   if (is<std::bad_alloc>(error))
-    return "ccdt: the memory does not suffice\n  ask for a greater --edge-length, or give the machine more";
+    return "ccdt: out of memory\n  use a larger --edge-length, or a machine with more memory";
   if (is<std::filesystem::filesystem_error>(error)) return "ccdt: " + std::string(error.what());
   return "ccdt: internal error: " + std::string(error.what()) +
-         "\n  this is a fault of ccdt: please report it with the input";
+         "\n  this is a bug in ccdt: please report it with the input";
 }
 
 ExitCode exit_code_of(const std::exception& error) {

@@ -3,12 +3,13 @@
 #include <exception>
 #include <string>
 
-#include "tools/exit_codes.h"
-
 namespace ccdt {
 
-/// An error in words, the way that every error of the program is told: "ccdt: FILE:LINE: what", then the facets and
-/// points of the place, then what to do, a line each.
+/// What the program's exit code means; part of its interface.
+enum ExitCode : int { done = 0, failed_a_check = 1, wrong_usage = 2, bad_input = 3, limit_reached = 4 };
+
+/// The message for an error, as every verb prints it: "ccdt: FILE:LINE: what", then the facets and points of the place,
+/// then what to do, a line each.
 std::string in_words(const std::exception& error);
 
 /// The program's exit code for an error.

@@ -5,8 +5,8 @@
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
 #include "bench/sha256.h"
-#include "engine/base/errors.h"
 #include "engine/base/stopwatch.h"
+#include "engine/io/file_bytes.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
@@ -31,17 +31,15 @@ struct MeshCommand {
 
 void check_surface_options(const MeshCommand& command) {
   if (command.remesh && command.options.edge_length == 0)
-    throw CLI::ValidationError("--surface remesh", "how fine? Give the length of its edges by --edge-length");
+    throw CLI::ValidationError("--surface remesh", "give the length of its edges by --edge-length");
   if (!command.remesh && !command.surface_output.empty())
-    throw CLI::ValidationError("--surface-output", "there is a new surface only with --surface remesh");
+    throw CLI::ValidationError("--surface-output", "a new surface is made only with --surface remesh");
 }
 
 void check_files(const MeshCommand& command) {
-  if (!is_tet_mesh_file(command.output)) {
-    Place place;
-    place.file = command.output;
-    throw OutputError("no mesh format has this ending", place, "use one of .mesh .vtu .msh .node .ele .face");
-  }
+  if (!is_tet_mesh_file(command.output))
+    throw OutputError("no mesh format has this ending", io::place_in(command.output),
+                      "use one of .mesh .vtu .msh .node .ele .face");
   check_can_be_written(command.output);
   check_are_different(command.input, command.output);
   check_are_different(command.options.background.name, command.output);
@@ -81,7 +79,7 @@ InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progr
   return surface;
 }
 
-/// A mesher that ends its process, or is ended by a limit, leaves this behind: what was asked of whom.
+/// What remains where the mesher ends its process, or a limit does: which mesher was asked for what.
 void leave_provisional_record(const MeshCommand& command, const RunRecord& record) {
   if (command.report.empty()) return;
   RunRecord unfinished = record;
@@ -90,7 +88,7 @@ void leave_provisional_record(const MeshCommand& command, const RunRecord& recor
   write_run_record(unfinished, command.report);
 }
 
-/// Reads, meshes, measures and writes; what is known of the run so far is in the record at every moment.
+/// Reads, meshes, measures and writes; at every moment, the record has what is known of the run.
 void mesh_file(const MeshCommand& command, RunRecord& record) {
   ProgressBar bar;
   const Progress progress = bar.progress();
@@ -124,7 +122,7 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
   record.mesher_settings = std::move(run.settings);
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
   if (!options.background.empty() && chosen.name != "ccdt")
-    record.notes.push_back("only ccdt knows size functions: " + options.background.name + " was not used");
+    record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = measure_quality(run.result.mesh);
 
   report(progress, "write", 0, 0);
@@ -140,7 +138,7 @@ void record_failure(const MeshCommand& command, RunRecord& record, const std::ex
   }
   const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   record.status = memory ? RunStatus::out_of_memory : RunStatus::failed;
-  record.reason = memory ? "the memory does not suffice" : error.what();
+  record.reason = memory ? "out of memory" : error.what();
 }
 
 void run(const MeshCommand& command) {
@@ -160,12 +158,9 @@ void run(const MeshCommand& command) {
 
 std::string footer() {
   std::string text = "Meshers of this build:\n";
-  for (const Mesher& m : meshers()) {
-    std::string name = m.name;
-    name.resize(15, ' ');
-    text += "  " + name + m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.license + ")\n";
-  }
-  return text + "  FILE.json      any other, as the file describes it; baselines/described has examples\n" +
+  for (const Mesher& m : meshers())
+    text += list_line(m.name, m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.license + ")");
+  return text + list_line("FILE.json", "any other, as the file describes it; baselines/described has examples") +
          "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"
          "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
          "Example: edges inside as the size function part.sol says, which belongs to the mesh part.mesh\n"
@@ -184,76 +179,49 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "write a report of the run there (JSON, schema ccdt.run/1), also of a failure");
 }
 
-/// An option whose values are names. The transformer alone would take the numbers behind them as well.
-template <class Value, class Target>
-void add_choice(CLI::App& verb, const char* name, Target& target,
-                const std::vector<std::pair<std::string, Value>>& values, const char* what, const char* standard) {
-  std::vector<std::string> names;
-  for (const auto& value : values) names.push_back(value.first);
-  verb.add_option(name, target, what)
-      ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
-      ->transform(CLI::IsMember(names, CLI::ignore_case).description(""))  // comes first
-      ->default_str(standard);
-}
-
 void add_strategies(CLI::App& verb, MeshCommand& command) {
-  verb.add_option("--mesher", command.mesher, "who meshes: one of those below, or a file .json that describes another")
+  verb.add_option("--mesher", command.mesher,
+                  "which mesher: one of those below, or a file .json that describes another")
       ->check(known_mesher())
       ->capture_default_str();
 
-  add_choice<bool>(verb, "--face-protection", command.options.face_protection, {{"on", true}, {"off", false}},
-                   "on, off: check first which faces are Delaunay, or send all through the front", "on");
-  add_choice<Lattice>(verb, "--lattice", command.options.lattice,
-                      {{"fcc", Lattice::fcc}, {"bcc", Lattice::bcc}, {"sc", Lattice::sc}, {"none", Lattice::none}},
-                      "fcc, bcc, sc, none: the crystal whose points fill the inside", "fcc");
-  add_choice<Protection>(verb, "--protection", command.options.protection,
-                         {{"shell", Protection::shell}, {"midpoint", Protection::midpoint}},
-                         "shell, midpoint: where a segment is split", "shell");
-
-  add_choice<LocatorKind>(
-      verb, "--locator", command.options.locator,
-      {{"grid", LocatorKind::grid}, {"octree", LocatorKind::octree}, {"cavity", LocatorKind::cavity}},
-      "cavity, octree, grid: who finds the vertices near a face and the faces near an edge", "cavity");
-  add_choice<DelaunayMethod>(
-      verb, "--delaunay", command.options.delaunay,
-      {{"insert", DelaunayMethod::insert}, {"wrap", DelaunayMethod::wrap}},
-      "insert, wrap: vertex by vertex along a space-filling curve, or the paper's: face by face in a grid", "insert");
-
-  add_choice<bool>(verb, "--surface", command.remesh, {{"keep", false}, {"remesh", true}},
-                   "keep, remesh: take the surface's triangles as they are, or make new ones of --edge-length", "keep");
+  constexpr auto protected_faces = std::to_array<NamedValue<bool>>(
+      {{true, "on", "those that are not Delaunay, which a check finds first"}, {false, "off", "all"}});
+  add_choice(verb, "--face-protection", command.options.face_protection, protected_faces,
+             "which faces go through the front");
+  add_choice(verb, "--lattice", command.options.lattice, "the crystal whose points fill the inside");
+  add_choice(verb, "--protection", command.options.protection, "where a missing segment is split");
+  add_choice(verb, "--locator", command.options.locator,
+             "what finds the vertices near a face and the faces near an edge");
+  add_choice(verb, "--delaunay", command.options.delaunay,
+             "how the Delaunay tetrahedralization is built; the result is the same");
+  constexpr auto surfaces = std::to_array<NamedValue<bool>>(
+      {{false, "keep", "the surface's triangles as they are"}, {true, "remesh", "new ones of --edge-length"}});
+  add_choice(verb, "--surface", command.remesh, surfaces, "which triangles bound the mesh");
   verb.add_option("--sharp-angle", command.sharp_angle,
                   "remeshing keeps edges between facets whose normals differ by more degrees")
       ->check(CLI::Range(1.0, 179.0))
       ->capture_default_str();
-  verb.add_option("--threads", command.most_threads, "at most so many threads work; so far one does all")
+  verb.add_option("--threads", command.most_threads, "at most this many threads work; so far there is one")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }
 
 void add_improvement(CLI::App& verb, ImproveOptions& options) {
-  add_choice<Improvement>(verb, "--improve", options.improvement,
-                          {{"all", Improvement::all},
-                           {"swap", Improvement::swap},
-                           {"smooth", Improvement::smooth},
-                           {"none", Improvement::none}},
-                          "all, swap, smooth, none: what makes the worst tetrahedra better; with --lattice none: none",
-                          "all");
-  add_choice<Objective>(
-      verb, "--objective", options.objective, {{"r", Objective::r}, {"dihedral", Objective::dihedral}},
-      "r, dihedral: what is improved, the paper's measure of shape and then dihedral angles, or these", "r");
-  add_choice<BoundaryRule>(verb, "--boundary", options.boundary,
-                           {{"keep", BoundaryRule::keep}, {"slide", BoundaryRule::slide}},
-                           "keep, slide: whether vertices inside facets and segments may move along them", "keep");
+  add_choice(verb, "--improve", options.improvement, names_of(Improvement{}),
+             "what makes the worst tetrahedra better; with --lattice none, the default is none");
+  add_choice(verb, "--objective", options.objective, "what is improved");
+  add_choice(verb, "--boundary", options.boundary, "what improvement may do with the boundary");
   verb.add_option("--target-dihedral", options.target_dihedral,
                   "degrees: improve until no dihedral angle is smaller, nor larger than 180 less this")
       ->check(CLI::Range(0.0, 60.0))
-      ->check(non_negative_number())  // a range lets a number pass that is none
+      ->check(non_negative_number())  // a range accepts nan
       ->capture_default_str();
-  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron is worse; with --objective r")
+  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron is worse than this; with --objective r")
       ->check(CLI::Range(1.0, 1e6))
       ->check(positive_number())
       ->capture_default_str();
-  verb.add_option("--improve-time", options.time, "stop improvement after so many seconds; 0: no limit")
+  verb.add_option("--improve-time", options.time, "stop improvement after this many seconds; 0: no limit")
       ->check(non_negative_number())
       ->capture_default_str();
 }

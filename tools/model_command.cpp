@@ -18,11 +18,7 @@ struct ModelCommand {
 
 std::string footer() {
   std::string text = "Solids:\n";
-  for (const Solid& solid : solids()) {
-    std::string name(solid.name);
-    name.resize(15, ' ');
-    text += "  " + name + std::string(solid.what) + "\n";
-  }
+  for (const Solid& solid : solids()) text += list_line(std::string(solid.name), std::string(solid.what));
   return text +
          "\nExample: a stepping pole with edges of about 2 mm\n"
          "  ccdt model stepping-pole --edge-length 2 -o pole.poly\n";

@@ -1,13 +1,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "engine/base/errors.h"
 #include "reports/comparison.h"
 #include "reports/result_text.h"
+#include "reports/text_table.h"
+#include "reports/write_report.h"
 #include "tools/commands.h"
 #include "tools/options.h"
-#include "tools/print_report.h"
-#include "tools/share_folder.h"
 
 namespace ccdt {
 namespace {
@@ -17,6 +16,28 @@ struct ReportCommand {
   std::string output;
 };
 
+/// Where the files are that come with the program, such as the page of a report: `share/ccdt` beside the program, as in
+/// a build, or beside the folder that the program is in, as when it is installed.
+std::filesystem::path share_folder() {
+  auto beside = own_program().parent_path() / "share" / "ccdt";
+  if (std::filesystem::exists(beside)) return beside;
+  return own_program().parent_path().parent_path() / "share" / "ccdt";
+}
+
+std::string verdicts(const Report& report) {
+  TextTable table = {{"the paper's claim", "verdict"}};
+  for (const PaperClaim& claim : report.claims) table.push_back({claim.sentence, std::string(name_of(claim.verdict))});
+  return to_terminal(table);
+}
+
+/// Writes a report and prints what could not be made, and where the report is, last.
+void write_and_print(const Report& report, const std::filesystem::path& folder) {
+  const WrittenReport written = write_report(report, folder, share_folder());
+  for (const std::string& note : written.notes) std::fprintf(stderr, "%s\n", note.c_str());
+  const auto place = std::filesystem::absolute(written.page.empty() ? folder : written.page).lexically_normal();
+  std::printf("\nThe report is in\n%s\n", place.c_str());
+}
+
 void compare(const ReportCommand& command) {
   const std::filesystem::path first = command.folders[0], second = command.folders[1];
   const std::filesystem::path into =
@@ -24,7 +45,7 @@ void compare(const ReportCommand& command) {
   std::filesystem::create_directories(into);
   const Report report = compare_reports(first, second, into, read_charts(share_folder() / "charts"));
   for (const ReportSection& section : report.sections) std::fputs(to_terminal(section.result).c_str(), stdout);
-  print_where(write_report(report, into, share_folder()), into);
+  write_and_print(report, into);
 }
 
 void run(const ReportCommand& command) {
@@ -35,13 +56,27 @@ void run(const ReportCommand& command) {
 constexpr const char* footer =
     "The folder is one that `ccdt reproduce` has filled. All is made anew from the JSON files in it: report.json,\n"
     "claims.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG) and the page index.html.\n"
-    "What is missing is said in the report.\n\n"
+    "The report says what is missing.\n\n"
     "Example: the report of a folder, after one of its experiments was made again\n"
     "  ccdt reproduce fig8 -o build/paper --scale paper && ccdt report build/paper\n"
     "Example: what has changed from one folder to the other; the report goes to new/comparison\n"
     "  ccdt report old new\n";
 
 }  // namespace
+
+std::filesystem::path own_program() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+void make_report(const std::filesystem::path& folder) {
+  const Report report = read_report(folder, read_charts(share_folder() / "charts"));
+  std::fputs(verdicts(report).c_str(), stdout);
+  for (const ReportSection& section : report.sections)
+    if (section.is_missing)
+      std::printf("\nMissing: %s %s\n  %s\n", section.result.title.c_str(), section.reason.c_str(),
+                  section.result.how.command.c_str());
+  write_and_print(report, folder);
+}
 
 void add_report_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ReportCommand>();

@@ -7,14 +7,12 @@
 
 #include "baselines/mesher.h"
 #include "bench/experiments/registry.h"
-#include "engine/base/errors.h"
+#include "engine/io/file_bytes.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/options.h"
-#include "tools/print_report.h"
 #include "tools/progress_bar.h"
-#include "tools/share_folder.h"
 
 namespace ccdt {
 namespace {
@@ -53,7 +51,7 @@ double tetrahedra_of(const std::string& scale) {
   const bool is_within = tetrahedra >= fewest && tetrahedra <= most;
   if (!is_number || !is_within)
     throw CLI::ValidationError("--scale", "'" + scale +
-                                              "' is none of quick, paper, large, and no number of tetrahedra "
+                                              "' is neither quick, paper or large nor a number of tetrahedra "
                                               "from 100 to 10^8");
   return tetrahedra;
 }
@@ -86,10 +84,8 @@ void check_names_differ(const std::vector<std::filesystem::path>& files) {
   std::set<std::filesystem::path> names;
   for (const auto& file : files) {
     if (names.insert(file.filename()).second) continue;
-    Place place;
-    place.file = file.string();
-    throw InputError("two inputs have the same name", place,
-                     "give one of them another name: rows are told apart by it");
+    throw InputError("two inputs have the same name", io::place_in(file.string()),
+                     "rename one of them: the rows of a table are known by it");
   }
 }
 
@@ -153,25 +149,16 @@ bool run(ReproduceCommand& command) {
   return is_good;
 }
 
-std::string padded(std::string name) {
-  constexpr std::size_t width = 17;
-  name.resize(width, ' ');
-  return "  " + name;
-}
-
 std::string footer() {
   std::string text = "Experiments; without one, all but those in brackets:\n";
   for (const KnownExperiment& e : known_experiments())
-    text += padded(e.name) + (e.is_usual ? e.what : "[" + e.what + "]") + "\n";
-  text += padded(claims_name) + "all experiments that a claim of the paper is tested by\n\nScales:\n";
-  for (const NamedScale& scale : named_scales) text += padded(scale.name) + scale.what + "\n";
+    text += list_line(e.name, e.is_usual ? e.what : "[" + e.what + "]");
+  text += list_line(claims_name, "all experiments that test a claim of the paper") + "\nScales:\n";
+  for (const NamedScale& scale : named_scales) text += list_line(scale.name, scale.what);
   return text +
-         "\nEvery run is a process of its own; its report stays in DIR/runs, that of an experiment is DIR/NAME.json. A "
-         "case\n"
-         "that fails is a row with the reason. Tables, figures and the page are then made of all experiments in DIR, "
-         "as "
-         "by\n"
-         "`ccdt report DIR`.\n\n"
+         "\nEvery run is a process of its own; its report stays in DIR/runs, that of an experiment is DIR/NAME.json.\n"
+         "A case that fails is a row with the reason. Tables, figures and the page are then made of all experiments\n"
+         "in DIR, as by `ccdt report DIR`.\n\n"
          "Example: the whole paper, in minutes\n"
          "  ccdt reproduce -o build/reproduction\n"
          "Example: the paper's Table 1 and Fig. 8, as large as there\n"
@@ -223,7 +210,7 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   for (const KnownExperiment& e : known_experiments()) names.push_back(e.name);
   verb->add_option("EXPERIMENT", command->experiments, "which (listed below); default: all")
       ->check(CLI::IsMember(names).description(""));
-  verb->add_option("-o,--output", command->folder, "folder of the report; made if need be")->required();
+  verb->add_option("-o,--output", command->folder, "folder of the report; created if needed")->required();
   add_what_to_measure(*verb, *command);
   add_limits(*verb, *command);
   verb->footer(footer());

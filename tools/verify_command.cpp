@@ -45,31 +45,15 @@ bool run(const VerifyCommand& command) {
 
 void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<VerifyCommand>();
-  CLI::App* verb = app.add_subcommand("verify", "check a mesh, of whatever mesher, exactly against its input");
+  CLI::App* verb = app.add_subcommand("verify", "check a mesh of any mesher exactly against its input");
   verb->add_option("INPUT", command->input, "the surface or PLC that was meshed")->required();
   verb->add_option("MESH", command->mesh, "the mesh: .vtu .msh .mesh .node")->required();
   verb->add_option("--flatness", command->options.flatness,
                    "what counts as flat and as the same place; fraction of the bounding box")
       ->check(non_negative_number())
       ->capture_default_str();
-  using Delaunay = VerifyOptions::Delaunay;
-  verb->add_option("--constrained-delaunay", command->options.delaunay,
-                   "claimed, yes, no: must it be constrained Delaunay (claimed: if the mesh says so)")
-      ->transform(CLI::CheckedTransformer(
-                      std::vector<std::pair<std::string, Delaunay>>{
-                          {"claimed", Delaunay::claimed}, {"yes", Delaunay::yes}, {"no", Delaunay::no}},
-                      CLI::ignore_case)
-                      .description(""))
-      ->default_str("claimed");
-  using Boundary = VerifyOptions::Boundary;
-  verb->add_option("--boundary", command->options.boundary,
-                   "keep, slide: may vertices inside flat facets and straight segments have slid in these (keep: all "
-                   "vertices of the input are where they were)")
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Boundary>>{{"keep", Boundary::keep},
-                                                                                        {"slide", Boundary::slide}},
-                                          CLI::ignore_case)
-                      .description(""))
-      ->default_str("keep");
+  add_choice(*verb, "--constrained-delaunay", command->options.delaunay, "must the mesh be constrained Delaunay?");
+  add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input have to be");
   verb->add_option("--report", command->report, "write the checks there as JSON (schema ccdt.verify/1)");
   verb->footer(
       "Exit code 0: the mesh is right; 1: it is not.\n\n"

@@ -8,6 +8,7 @@
 #include "baselines/known_meshers.h"
 #include "baselines/mesher_input.h"
 #include "baselines/tests/shapes.h"
+#include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/io/tet_mesh_files.h"
 
@@ -114,7 +115,7 @@ TEST_F(ScriptMesher, ThatFailsIsQuoted) {
   EXPECT_TRUE(reason().starts_with("what mine wrote cannot be read: input.out.mesh, line 1: ")) << reason();
   description_.command[0] = "no-such-mesher";
   description_.install = "get it somewhere";
-  EXPECT_EQ(reason(), "/command/0: there is no program 'no-such-mesher' here");
+  EXPECT_EQ(reason(), "/command/0: there is no program 'no-such-mesher'");
 }
 
 TEST_F(ScriptMesher, MayEndWithAnotherCodeThatMeansSuccess) {

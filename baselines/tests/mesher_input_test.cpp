@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "baselines/tests/shapes.h"
+#include "engine/base/digits.h"
 
 namespace ccdt {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baselines/mesher_input.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
+#include "engine/base/digits.h"
 
 namespace ccdt {
 namespace {

@@ -7,6 +7,7 @@
 #include "bench/experiments/count_search.h"
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"
+#include "engine/base/digits.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {

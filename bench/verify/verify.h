@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "engine/base/enum_names.h"
 #include "engine/base/progress.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
@@ -21,6 +23,19 @@ struct VerifyOptions {
   /// `keep`: they are vertices of the mesh. `slide`: they may be elsewhere in their facet or chain, or nowhere.
   enum class Boundary { keep, slide } boundary = Boundary::keep;
 };
+
+constexpr auto names_of(VerifyOptions::Delaunay) {
+  using enum VerifyOptions::Delaunay;
+  return std::to_array<NamedValue<VerifyOptions::Delaunay>>(
+      {{claimed, "claimed", "if the mesh says so"}, {yes, "yes", "it must"}, {no, "no", "it need not"}});
+}
+
+constexpr auto names_of(VerifyOptions::Boundary) {
+  using enum VerifyOptions::Boundary;
+  return std::to_array<NamedValue<VerifyOptions::Boundary>>(
+      {{keep, "keep", "where they were"},
+       {slide, "slide", "the same, but those inside flat facets and straight segments may have slid in these"}});
+}
 
 /// One property that was checked.
 struct Check {
