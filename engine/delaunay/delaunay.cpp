@@ -92,8 +92,8 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   Insertion insertion(d);
   std::uint32_t last = 0;
   for (std::uint32_t v = 4; v < d.vertices.size(); ++v) {
-    insertion.dig(v, last);
-    last = insertion.fill();
+    insertion.find_cavity(v, last);
+    last = insertion.fill_cavity();
     if ((v & 0xFFFF) == 0) report(progress, "delaunay", v, d.vertices.size());
   }
   renumber(d, order);

@@ -83,7 +83,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
 
-bool Insertion::dig(std::uint32_t v, std::uint32_t start) {
+bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start) {
   v_ = v;
   p_ = d_.point(v);
   mark_.resize(d_.cells.size(), Mark::unknown);
@@ -128,13 +128,13 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
   }
 }
 
-void Insertion::abandon() {
+void Insertion::discard_cavity() {
   for (const std::uint32_t c : cavity_.items()) mark_[c] = Mark::unknown;
   for (const std::uint32_t c : outside_.items()) mark_[c] = Mark::unknown;
   cavity_.size = outside_.size = border_.size = 0;
 }
 
-std::uint32_t Insertion::fill() {
+std::uint32_t Insertion::fill_cavity() {
   ++insertions_;
   choose_places();
   number_border_vertices();
@@ -150,7 +150,7 @@ std::uint32_t Insertion::fill() {
     d_.cells[cavity_.slots[i]].neighbors[0] = no_neighbor;
     d_.free_cells.push_back(cavity_.slots[i]);
   }
-  abandon();
+  discard_cavity();
   return some;
 }
 

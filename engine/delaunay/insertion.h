@@ -30,18 +30,18 @@ class Insertion {
   /// rank there, is in.
   /// \param start  a cell to walk from; the nearer the quicker
   /// \return false if a vertex with this very point is in the tetrahedralization (`twin()` tells which)
-  bool dig(std::uint32_t v, std::uint32_t start);
+  bool find_cavity(std::uint32_t v, std::uint32_t start);
 
   std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
   std::span<const CavityFace> cavity_faces() const { return border_.items(); }
   std::uint32_t twin() const { return twin_; }
   bool in_cavity(std::uint32_t cell) const { return mark_[cell] == Mark::conflict; }
 
-  /// Gives the cavity up and leaves all as it was.
-  void abandon();
+  /// Forgets the cavity and leaves all as it was.
+  void discard_cavity();
   /// Joins the new vertex to the border of the cavity.
   /// \return one of the new cells
-  std::uint32_t fill();
+  std::uint32_t fill_cavity();
 
  private:
   enum class Mark : std::uint8_t { unknown, conflict, outside };

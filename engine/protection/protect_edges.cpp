@@ -108,8 +108,8 @@ ChainVertex Protector::split(const Subsegment& piece) {
   const std::uint32_t fraction = split_fraction(piece);
   const auto id = static_cast<std::uint32_t>(d_.vertices.size());
   d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
-  insertion_.dig(id, d_.vertices[piece.from.vertex].cell);
-  insertion_.fill();
+  insertion_.find_cavity(id, d_.vertices[piece.from.vertex].cell);
+  insertion_.fill_cavity();
   segment_of_steiner_.push_back(piece.segment);
   return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
 }
@@ -131,7 +131,7 @@ std::uint32_t Protector::split_fraction(const Subsegment& piece) {
 std::optional<std::uint32_t> Protector::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
   const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
   d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
-  insertion_.dig(probe, d_.vertices[piece.from.vertex].cell);
+  insertion_.find_cavity(probe, d_.vertices[piece.from.vertex].cell);
   const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
   std::optional<std::uint32_t> worst;
   double least_cosine = 0;
@@ -146,7 +146,7 @@ std::optional<std::uint32_t> Protector::encroaching_vertex(const Subsegment& pie
       worst = v;
     }
   }
-  insertion_.abandon();
+  insertion_.discard_cavity();
   d_.vertices.pop_back();
   return worst;
 }
@@ -288,10 +288,10 @@ Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start
     if ((++done & 0xFFFF) == 0) report(progress, "delaunay", done, points.size());
     const auto id = static_cast<std::uint32_t>(delaunay.vertices.size());
     delaunay.vertices.push_back({points[i], id, 0});
-    if (insertion.dig(id, last) && !destroys_edge(delaunay, insertion, edges, found)) {
-      last = insertion.fill();
+    if (insertion.find_cavity(id, last) && !destroys_edge(delaunay, insertion, edges, found)) {
+      last = insertion.fill_cavity();
     } else {
-      insertion.abandon();
+      insertion.discard_cavity();
       delaunay.vertices.pop_back();
     }
   }

@@ -37,8 +37,8 @@ Delaunay build_in_two_steps(const std::vector<Point3>& points) {
   Insertion insertion(d);
   std::uint32_t start = first_living_cell(d);
   for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
-    EXPECT_TRUE(insertion.dig(add_vertex(d, points[i]), start));
-    start = insertion.fill();
+    EXPECT_TRUE(insertion.find_cavity(add_vertex(d, points[i]), start));
+    start = insertion.fill_cavity();
   }
   return d;
 }
@@ -74,8 +74,8 @@ TEST(Insertion, KeepsTheStructureConsistentAfterEachVertex) {
     Insertion insertion(d);
     for (std::size_t i = given; i < set.points.size(); ++i) {
       const std::uint32_t far = d.vertices[i % given].cell;
-      ASSERT_TRUE(insertion.dig(add_vertex(d, set.points[i]), far)) << set.name;
-      insertion.fill();
+      ASSERT_TRUE(insertion.find_cavity(add_vertex(d, set.points[i]), far)) << set.name;
+      insertion.fill_cavity();
       ASSERT_TRUE(is_consistent(d)) << set.name << ", vertex " << i;
       ASSERT_TRUE(has_empty_spheres(d)) << set.name << ", vertex " << i;
     }
@@ -90,13 +90,13 @@ TEST(Insertion, FindsTheSameCavityFromEveryCell) {
     std::set<std::uint32_t> expected;
     for (std::uint32_t start = 0; start < d.cells.size(); ++start) {
       if (d.is_dead(start)) continue;
-      ASSERT_TRUE(insertion.dig(v, start));
+      ASSERT_TRUE(insertion.find_cavity(v, start));
       const auto cells = insertion.cavity_cells();
       const std::set<std::uint32_t> cavity(cells.begin(), cells.end());
       EXPECT_EQ(cavity.size(), cells.size());
       if (expected.empty()) expected = cavity;
       EXPECT_EQ(cavity, expected);
-      insertion.abandon();
+      insertion.discard_cavity();
     }
     d.vertices.pop_back();
   }
@@ -106,7 +106,7 @@ TEST(Insertion, TheCavityIsClosedAndItsFacesLookAtTheNewVertex) {
   for (const NamedPoints& set : small_sets()) {
     Delaunay d = build_delaunay(std::span(set.points).first(set.points.size() - 1));
     Insertion insertion(d);
-    ASSERT_TRUE(insertion.dig(add_vertex(d, set.points.back()), first_living_cell(d))) << set.name;
+    ASSERT_TRUE(insertion.find_cavity(add_vertex(d, set.points.back()), first_living_cell(d))) << set.name;
     std::set<std::uint32_t> outside;
     for (const CavityFace& face : insertion.cavity_faces()) {
       const Cell& cell = d.cells[cell_of(face.outside)];
@@ -132,9 +132,9 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
     const std::uint32_t start = first_living_cell(d);
     for (const Point3& p : std::span(set.points).last(10)) {
       const std::uint32_t v = add_vertex(d, p);
-      ASSERT_TRUE(insertion.dig(v, start)) << set.name;
+      ASSERT_TRUE(insertion.find_cavity(v, start)) << set.name;
       EXPECT_FALSE(insertion.cavity_cells().empty());
-      insertion.abandon();
+      insertion.discard_cavity();
       EXPECT_TRUE(insertion.cavity_cells().empty() && insertion.cavity_faces().empty());
       for (std::uint32_t c = 0; c < d.cells.size(); ++c) ASSERT_FALSE(insertion.in_cavity(c));
       d.vertices.pop_back();
@@ -144,10 +144,10 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
     Delaunay fresh = before;
     Insertion never_abandoned(fresh);
     for (const Point3& p : std::span(set.points).last(10)) {
-      ASSERT_TRUE(insertion.dig(add_vertex(d, p), d.vertices[0].cell)) << set.name;
-      ASSERT_TRUE(never_abandoned.dig(add_vertex(fresh, p), fresh.vertices[0].cell)) << set.name;
-      insertion.fill();
-      never_abandoned.fill();
+      ASSERT_TRUE(insertion.find_cavity(add_vertex(d, p), d.vertices[0].cell)) << set.name;
+      ASSERT_TRUE(never_abandoned.find_cavity(add_vertex(fresh, p), fresh.vertices[0].cell)) << set.name;
+      insertion.fill_cavity();
+      never_abandoned.fill_cavity();
     }
     EXPECT_TRUE(is_consistent(d)) << set.name;
     EXPECT_EQ(sorted_cells(d), sorted_cells(fresh)) << set.name;
@@ -161,7 +161,7 @@ TEST(Insertion, NamesTheTwinOfAPointThatIsThere) {
     const Delaunay before = d;
     for (std::uint32_t v = 0; v < set.points.size(); v += 7) {
       const std::uint32_t copy = add_vertex(d, set.points[v]);
-      EXPECT_FALSE(insertion.dig(copy, d.vertices[set.points.size() / 2].cell)) << set.name;
+      EXPECT_FALSE(insertion.find_cavity(copy, d.vertices[set.points.size() / 2].cell)) << set.name;
       EXPECT_EQ(insertion.twin(), v) << set.name;
       d.vertices.pop_back();
       ASSERT_TRUE(are_equal(d, before)) << set.name;
@@ -179,9 +179,9 @@ TEST(Insertion, FillsCavitiesOfManyVertices) {
     Delaunay d = build_delaunay(points);
     Insertion insertion(d);
     const std::uint32_t centre = add_vertex(d, {});
-    ASSERT_TRUE(insertion.dig(centre, first_living_cell(d)));
+    ASSERT_TRUE(insertion.find_cavity(centre, first_living_cell(d)));
     EXPECT_EQ(cavity_vertices(insertion).size(), n);
-    insertion.fill();
+    insertion.fill_cavity();
     EXPECT_TRUE(is_consistent(d)) << n;
     EXPECT_TRUE(has_empty_spheres(d)) << n;
   }
@@ -195,13 +195,13 @@ TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
     points.resize(n);
     Delaunay d = build_delaunay(points);
     Insertion insertion(d);
-    ASSERT_TRUE(insertion.dig(add_vertex(d, {1000003, 1000, 10}), first_living_cell(d)));
+    ASSERT_TRUE(insertion.find_cavity(add_vertex(d, {1000003, 1000, 10}), first_living_cell(d)));
     const auto border = cavity_vertices(insertion);
     EXPECT_TRUE(border.contains(ghost_vertex));
     if (n == 500) {
       EXPECT_GT(border.size(), 200u);
     }
-    insertion.fill();
+    insertion.fill_cavity();
     EXPECT_TRUE(is_consistent(d)) << n;
     EXPECT_TRUE(has_empty_spheres(d)) << n;
   }

@@ -54,8 +54,8 @@ std::vector<Delaunay> samples() {
     Insertion insertion(d);
     for (std::size_t i = d.vertices.size(); i < set.points.size(); ++i) {
       d.vertices.push_back({set.points[i], static_cast<std::uint32_t>(i), 0});
-      insertion.dig(static_cast<std::uint32_t>(i), d.vertices[0].cell);
-      insertion.fill();
+      insertion.find_cavity(static_cast<std::uint32_t>(i), d.vertices[0].cell);
+      insertion.fill_cavity();
     }
     result.push_back(std::move(d));
   }

@@ -165,8 +165,8 @@ Delaunay insert_by_rank(const std::vector<DelaunayVertex>& vertices) {
   std::uint32_t start = 0;
   for (std::uint32_t i = 4; i < order.size(); ++i) {
     d.vertices.push_back({vertices[order[i]].point, i, 0});
-    EXPECT_TRUE(insertion.dig(i, start));
-    start = insertion.fill();
+    EXPECT_TRUE(insertion.find_cavity(i, start));
+    start = insertion.fill_cavity();
   }
   for (Cell& cell : d.cells)
     for (std::uint32_t& v : cell.vertices)
@@ -205,8 +205,8 @@ Delaunay build_and_insert(const std::vector<Point3>& points, const Build& build)
   Insertion insertion(d);
   for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
     d.vertices.push_back({points[i], static_cast<std::uint32_t>(i), 0});
-    EXPECT_TRUE(insertion.dig(static_cast<std::uint32_t>(i), d.vertices[i % (points.size() / 2)].cell));
-    insertion.fill();
+    EXPECT_TRUE(insertion.find_cavity(static_cast<std::uint32_t>(i), d.vertices[i % (points.size() / 2)].cell));
+    insertion.fill_cavity();
   }
   return d;
 }
