@@ -67,6 +67,8 @@ Improvement improvement_of(const MeshOptions& options);
 
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
+/// \param input     facets in any units, in which lengths are then meant and the mesh is given
+/// \param options   strategies, sizes and what improvement is to reach
 /// \param progress  called several times in each stage; to cancel the meshing, throw from it: the exception reaches the
 ///                  caller, and all memory is given back
 /// \throw InputError  the input is no valid PLC

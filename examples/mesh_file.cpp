@@ -15,7 +15,7 @@ int main(int argc, char** argv) try {
 
   ccdt::MeshOptions options;
   options.edge_length = edge_length;
-  options.improve.improvement = ccdt::Improvement::all;
+  options.improve.target_dihedral = 25;  // degrees; what is worse is improved
   const ccdt::MeshResult result = ccdt::mesh_plc(surface, options);
 
   ccdt::write_tet_mesh(result.mesh, argv[2]);
