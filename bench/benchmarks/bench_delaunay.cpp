@@ -10,7 +10,7 @@
 //                        making is within
 //
 //   .../random/N         N uniformly distributed points, snapped to the grid
-//   .../lattice/N        N points of a perfect face-centred lattice in random order: almost all spheres have more than
+//   .../lattice/N        N points of a perfect face-centered lattice in random order: almost all spheres have more than
 //                        four points on them, which is the common case in the mesher
 //   .../MODEL/N          the about N vertices of a mesh of the model, those of its surface first
 //   .../FILE             the same for a file given by --input
@@ -253,20 +253,18 @@ std::vector<PointSet> point_sets(const Files& files) {
 }
 
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    for (const PointSet& set : point_sets(files)) {
-      add<Insert>(set);
-      add<Wrap>(set);
+void add_benchmarks(const Files& files) {
+  for (const PointSet& set : point_sets(files)) {
+    add<Insert>(set);
+    add<Wrap>(set);
 #ifdef CCDT_WITH_CGAL_MESHERS
-      add<Cgal>(set);
+    add<Cgal>(set);
 #endif
 #ifdef CCDT_WITH_TETGEN
-      add<TetGen>(set);
+    add<TetGen>(set);
 #endif
-    }
-  });
+  }
 }
+
+}  // namespace ccdt::benchmarks

@@ -53,11 +53,9 @@ void measure(benchmark::State& state, const Stages& s) {
 }
 
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    add_stage({.name = "face_check", .flattened_too = true, .find_fault = find_fault, .measure = measure}, files);
-  });
+void add_benchmarks(const Files& files) {
+  add_stage({.name = "face_check", .flattened_too = true, .find_fault = find_fault, .measure = measure}, files);
 }
+
+}  // namespace ccdt::benchmarks

@@ -14,7 +14,7 @@
 //
 // "vertices" and "cells" are those of the finished mesh, also with the check, where the front meets but few of them (so
 // that the two modes compare); "front_cells" are the front's own, "undelaunay" the faces that have been in the front.
-// Time with the check goes with the undelaunay faces: its fit is free. Before anything is timed, front and labelled
+// Time with the check goes with the undelaunay faces: its fit is free. Before anything is timed, front and labeled
 // cells together must be the very tetrahedra that the grid with the check finds.
 
 #include "bench/benchmarks/benchmark_main.h"
@@ -34,12 +34,12 @@ std::vector<std::uint32_t> codes_for(const Stages& s, bool check) {
   return check ? s.codes : std::vector<std::uint32_t>(s.codes.size(), no_neighbor);
 }
 
-FrontResult advance(const Stages& s, const Strategy& strategy, const std::vector<std::uint32_t>& codes) {
+FrontResult advance(const Stages& s, Strategy strategy, const std::vector<std::uint32_t>& codes) {
   return advance_front({s.plc, s.facets, codes, s.delaunay},
                        {.locator = strategy.locator, .face_protection = strategy.check});
 }
 
-std::string find_fault(const Stages& s, const Strategy& strategy) {
+std::string find_fault(const Stages& s, Strategy strategy) {
   const auto codes = codes_for(s, strategy.check);
   const FrontResult front = advance(s, strategy, codes);
   const auto regions = label_cells(s.plc, s.delaunay, front.open, codes).regions;
@@ -48,7 +48,7 @@ std::string find_fault(const Stages& s, const Strategy& strategy) {
   return {};
 }
 
-void measure(benchmark::State& state, const Stages& s, const Strategy& strategy) {
+void measure(benchmark::State& state, const Stages& s, Strategy strategy) {
   const auto codes = codes_for(s, strategy.check);
   std::optional<FrontResult> front;
   for (auto _ : state) {
@@ -62,27 +62,18 @@ void measure(benchmark::State& state, const Stages& s, const Strategy& strategy)
   set_counters(state, s.delaunay.vertices.size(), s.tetrahedra.size());
 }
 
-void add(const std::string& name, LocatorKind locator, const Files& files) {
-  for (const bool check : {true, false}) {
-    const Strategy strategy{locator, check};
-    add_stage({.name = "front/" + name + (check ? "/check" : "/no_check"),
-               .complexity = check ? benchmark::oAuto : benchmark::oN,
-               .largest = check ? model_sizes.back() : 40000,
-               .flattened_too = true,
-               .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
-               .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
-              files);
-  }
-}
-
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    add("grid", ccdt::LocatorKind::grid, files);
-    add("octree", ccdt::LocatorKind::octree, files);
-    add("cavity", ccdt::LocatorKind::cavity, files);
-  });
+void add_benchmarks(const Files& files) {
+  for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity})
+    for (const Strategy strategy : {Strategy{locator, true}, Strategy{locator, false}})
+      add_stage({.name = "front/" + std::string(name_of(locator)) + (strategy.check ? "/check" : "/no_check"),
+                 .complexity = strategy.check ? benchmark::oAuto : benchmark::oN,
+                 .largest = strategy.check ? model_sizes.back() : 40000,
+                 .flattened_too = true,
+                 .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
+                 .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
+                files);
 }
+
+}  // namespace ccdt::benchmarks

@@ -75,23 +75,15 @@ double least_quality(const Unimproved& u) {
   return least;
 }
 
-double six_volumes(const Unimproved& u) {
-  double volume = 0;
-  for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
-    const Point3& origin = u.points[a];
-    volume += dot(u.points[d] - origin, cross(u.points[b] - origin, u.points[c] - origin));
-  }
-  return volume;
-}
-
 std::string find_fault(const Stages& s, Improvement improvement) {
   const Unimproved& before = unimproved(s);
   Unimproved after = before;
   improve(s, improvement, after);
-  const double least = least_quality(after), volume = six_volumes(before);
+  const double least = least_quality(after), volume = volume_of(before.mesh.tetrahedra, before.points);
   if (!(least > 0)) return "a cell is not positive";
   if (least < least_quality(before)) return "the worst cell is worse than before";
-  if (std::fabs(six_volumes(after) - volume) > 1e-9 * volume) return "the volume has changed";
+  if (std::fabs(volume_of(after.mesh.tetrahedra, after.points) - volume) > 1e-9 * volume)
+    return "the volume has changed";
   return {};
 }
 
@@ -112,22 +104,15 @@ void measure(benchmark::State& state, const Stages& s, Improvement improvement) 
   set_counters(state, before.points.size(), before.mesh.tetrahedra.size());
 }
 
-void add(const std::string& name, Improvement improvement, const Files& files) {
-  add_stage({.name = "improve/" + name,
-             .flattened_too = true,
-             .find_fault = [=](const Stages& s) { return find_fault(s, improvement); },
-             .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, improvement); }},
-            files);
-}
-
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    add("swap", ccdt::Improvement::swap, files);
-    add("smooth", ccdt::Improvement::smooth, files);
-    add("all", ccdt::Improvement::all, files);
-  });
+void add_benchmarks(const Files& files) {
+  for (const Improvement strategy : {Improvement::swap, Improvement::smooth, Improvement::all})
+    add_stage({.name = "improve/" + std::string(name_of(strategy)),
+               .flattened_too = true,
+               .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
+               .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
+              files);
 }
+
+}  // namespace ccdt::benchmarks

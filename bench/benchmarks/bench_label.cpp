@@ -20,10 +20,6 @@ TetMesh label(const Stages& s) {
   return collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
 }
 
-double six_volumes(const Point3& a, const Point3& b, const Point3& c) {
-  return dot(a, cross(b, c));
-}
-
 /// By the divergence theorem, from the input's own triangles.
 double enclosed_volume(const Plc& plc) {
   double volume = 0;
@@ -31,22 +27,13 @@ double enclosed_volume(const Plc& plc) {
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     if (outward == 0) continue;
     for (const auto& [a, b, c] : facet.triangles)
-      volume += outward * six_volumes(plc.vertices[a], plc.vertices[b], plc.vertices[c]);
-  }
-  return volume / 6;
-}
-
-double filled_volume(const TetMesh& mesh, const Delaunay& d) {
-  double volume = 0;
-  for (const auto& t : mesh.tetrahedra) {
-    const Point3& a = d.point(t[0]);
-    volume += six_volumes(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
+      volume += outward * dot(plc.vertices[a], cross(plc.vertices[b], plc.vertices[c]));
   }
   return volume / 6;
 }
 
 std::string find_fault(const Stages& s) {
-  const double filled = filled_volume(label(s), s.delaunay), wanted = enclosed_volume(s.plc);
+  const double filled = volume_of(label(s).tetrahedra, points_of(s.delaunay)), wanted = enclosed_volume(s.plc);
   if (std::fabs(filled - wanted) > 1e-7 * std::fabs(wanted))
     return "the cells fill " + std::to_string(filled / wanted) + " of the volume";
   return {};
@@ -58,11 +45,9 @@ void measure(benchmark::State& state, const Stages& s) {
 }
 
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    add_stage({.name = "label", .find_fault = find_fault, .measure = measure}, files);
-  });
+void add_benchmarks(const Files& files) {
+  add_stage({.name = "label", .find_fault = find_fault, .measure = measure}, files);
 }
+
+}  // namespace ccdt::benchmarks

@@ -1,8 +1,8 @@
 // What is measured: place_lattice_points, from the surface (vertices, triangles, protected subsegments) in memory to
 // the array of interior points; the octree and the tests of distance to the surface are within.
 //
-//   lattice/fcc/...   face-centred cubic
-//   lattice/bcc/...   body-centred cubic
+//   lattice/fcc/...   face-centered cubic
+//   lattice/bcc/...   body-centerd cubic
 //   lattice/sc/...    simple cubic; all three at equal density
 //
 //   .../MODEL/N   one edge length inside and on the surface, such that the mesh has about N vertices with fcc
@@ -46,21 +46,14 @@ void measure(benchmark::State& state, const Stages& s, Lattice kind) {
   set_count(state, "triangles", s.lattice.triangles.size());
 }
 
-void add(const std::string& name, Lattice kind, const Files& files) {
-  add_stage({.name = "lattice/" + name,
-             .find_fault = [=](const Stages& s) { return find_fault(s, kind); },
-             .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, kind); }},
-            files);
-}
-
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    add("fcc", ccdt::Lattice::fcc, files);
-    add("bcc", ccdt::Lattice::bcc, files);
-    add("sc", ccdt::Lattice::sc, files);
-  });
+void add_benchmarks(const Files& files) {
+  for (const Lattice strategy : {Lattice::fcc, Lattice::bcc, Lattice::sc})
+    add_stage({.name = "lattice/" + std::string(name_of(strategy)),
+               .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
+               .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
+              files);
 }
+
+}  // namespace ccdt::benchmarks

@@ -48,22 +48,16 @@ void measure(benchmark::State& state, const Stages& s, Protection strategy) {
   set_count(state, "steiner", changed.delaunay.vertices.size() - s.input_delaunay.vertices.size());
 }
 
-void add(const std::string& name, Protection strategy, const Files& files) {
-  add_stage({.name = "protection/" + name,
-             .complexity = benchmark::oAuto,
-             .flattened_too = true,
-             .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
-             .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
-            files);
-}
-
 }  // namespace
-}  // namespace ccdt::benchmarks
 
-int main(int argc, char** argv) {
-  using namespace ccdt::benchmarks;
-  return run_benchmarks(argc, argv, [](const Files& files) {
-    add("shell", ccdt::Protection::shell, files);
-    add("midpoint", ccdt::Protection::midpoint, files);
-  });
+void add_benchmarks(const Files& files) {
+  for (const Protection strategy : {Protection::shell, Protection::midpoint})
+    add_stage({.name = "protection/" + std::string(name_of(strategy)),
+               .complexity = benchmark::oAuto,
+               .flattened_too = true,
+               .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
+               .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},
+              files);
 }
+
+}  // namespace ccdt::benchmarks

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -93,8 +92,8 @@ void add_stage(const StageBenchmark& stage, const Files& files) {
                 .measure = [=](benchmark::State& state, std::int64_t size) { stage.measure(state, stages_of(size)); }});
   };
   const auto add_models = [&](bool flattened, std::int64_t largest) {
-    std::vector<std::int64_t> sizes;
-    std::ranges::copy_if(model_sizes, std::back_inserter(sizes), [&](std::int64_t size) { return size <= largest; });
+    std::vector<std::int64_t> sizes(model_sizes.begin(), model_sizes.end());
+    std::erase_if(sizes, [&](std::int64_t size) { return size > largest; });
     for (const std::string model : model_names)
       add((flattened ? "flat-" : "") + model, sizes,
           [model, flattened](std::int64_t size) -> const Stages& { return stages_of_model(model, flattened, size); });
@@ -121,7 +120,10 @@ void set_counters(benchmark::State& state, std::size_t vertices, std::size_t cel
   state.SetComplexityN(static_cast<std::int64_t>(vertices));
 }
 
-int run_benchmarks(int argc, char** argv, const std::function<void(const Files&)>& add_all) {
+}  // namespace ccdt::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace ccdt::benchmarks;
   std::vector<std::string> all = with_defaults(argc, argv);
   std::vector<char*> arguments;
   for (std::string& argument : all) arguments.push_back(argument.data());
@@ -142,10 +144,8 @@ int run_benchmarks(int argc, char** argv, const std::function<void(const Files&)
     std::cerr << "--input: " << fault << '\n';
     return 2;
   }
-  add_all(files);
+  add_benchmarks(files);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return any_fault ? 1 : 0;
 }
-
-}  // namespace ccdt::benchmarks

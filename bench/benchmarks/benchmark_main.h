@@ -13,6 +13,10 @@
 #include "bench/benchmarks/stages.h"
 
 /// What the benchmark programs have in common: their names, sizes, counters and command line.
+///
+/// The arguments of each program are those of Google Benchmark, `--input FILE` as often as wanted, `--largest N` and
+/// `--no-complexity`. Repetitions are interleaved by default, so that all strategies see the same machine. The exit
+/// code is 1 if a benchmark found a fault, 2 if the arguments are wrong.
 namespace ccdt::benchmarks {
 
 /// One way to do something, over several sizes of one subject.
@@ -31,6 +35,9 @@ void add_family(const Family& family);
 
 /// The parts of the user: files that a stage is measured on beside the models.
 using Files = std::vector<std::filesystem::path>;
+
+/// Defined by each program: adds all that it measures.
+void add_benchmarks(const Files& files);
 
 /// One strategy of a stage.
 struct StageBenchmark {
@@ -66,12 +73,5 @@ void time_runs(benchmark::State& state, const Run& run) {
     state.ResumeTiming();
   }
 }
-
-/// The program: reads the arguments, has the benchmarks added and runs them. The arguments are those of Google
-/// Benchmark, `--input FILE` as often as wanted, `--largest N` and `--no-complexity`. Repetitions are interleaved by
-/// default, so that all strategies see the same machine.
-///
-/// \return  the exit code: 1 if a benchmark found a fault, 2 if the arguments are wrong
-int run_benchmarks(int argc, char** argv, const std::function<void(const Files&)>& add_all);
 
 }  // namespace ccdt::benchmarks

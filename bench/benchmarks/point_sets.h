@@ -12,7 +12,7 @@ namespace ccdt::benchmarks {
 /// Uniformly distributed in a cube, snapped to the quantum as the vertices of an input are.
 std::vector<Point3> random_points(std::size_t n, std::uint64_t seed);
 
-/// The first n points of a perfect face-centred lattice in a cube, layer by layer, put in random order.
+/// The first n points of a perfect face-centered lattice in a cube, layer by layer, put in random order.
 std::vector<Point3> lattice_points(std::size_t n, std::uint64_t seed);
 
 }  // namespace ccdt::benchmarks

@@ -17,7 +17,7 @@
 namespace ccdt::benchmarks {
 namespace {
 
-/// The edge lengths, in millimetres, that give the models their `model_sizes`.
+/// The edge lengths, in millimeters, that give the models their `model_sizes`.
 constexpr std::array<std::array<double, model_sizes.size()>, model_names.size()> edge_lengths = {
     {{3.85, 3.05, 2.4, 1.87, 1.47}, {3.0, 2.3, 1.82, 1.4, 1.11}, {2.95, 2.29, 1.8, 1.43, 1.13}}};
 
@@ -135,6 +135,15 @@ std::vector<Point3> points_of(const Delaunay& delaunay) {
   points.reserve(delaunay.vertices.size());
   for (const DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
   return points;
+}
+
+double volume_of(const Tetrahedra& tetrahedra, const std::vector<Point3>& points) {
+  double six_volumes = 0;
+  for (const auto& [a, b, c, d] : tetrahedra) {
+    const Point3& origin = points[a];
+    six_volumes += dot(points[d] - origin, cross(points[b] - origin, points[c] - origin));
+  }
+  return six_volumes / 6;
 }
 
 }  // namespace ccdt::benchmarks

@@ -47,7 +47,7 @@ struct Stages {
   FacetMesh facets;                  ///< up to date with all vertices
   std::vector<std::uint32_t> codes;  ///< of the facets' triangles in `delaunay`
   FrontResult front;
-  Tetrahedra tetrahedra;  ///< of the front and the labelled cells
+  Tetrahedra tetrahedra;  ///< of the front and the labeled cells
 };
 
 /// The stages of a model at one of `model_sizes`, of a uniform edge length inside as on the surface. Made at the first
@@ -67,5 +67,8 @@ Tetrahedra sorted(Tetrahedra tetrahedra);
 Tetrahedra finite_cells(const Delaunay& delaunay);
 
 std::vector<Point3> points_of(const Delaunay& delaunay);
+
+/// Of tetrahedra together.
+double volume_of(const Tetrahedra& tetrahedra, const std::vector<Point3>& points);
 
 }  // namespace ccdt::benchmarks

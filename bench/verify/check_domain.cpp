@@ -218,7 +218,7 @@ Check check_volume(const Surface& surface, const Regions& regions, double of_mes
   check.checked = 1;
   double area = 0;
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    if (regions.touches_inside(p)) area += std::sqrt(squared_length(surface.area_vector[p]));
+    if (regions.touches_inside(p)) area += length(surface.area_vector[p]);
   if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
   fail(check, [&] {
     char buffer[128];

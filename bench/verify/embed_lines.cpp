@@ -11,25 +11,6 @@ namespace ccdt::verification {
 
 namespace {
 
-namespace geometry = boost::geometry;
-using Corner = geometry::model::point<double, 3, geometry::cs::cartesian>;
-using Box = geometry::model::box<Corner>;
-
-std::vector<std::pair<Box, std::uint32_t>> boxes_of(const Surface& surface) {
-  std::vector<std::pair<Box, std::uint32_t>> items;
-  items.reserve(surface.pieces());
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    Point3 low = surface.origin(p), high = low;
-    for (const auto& [site, next] : surface.edges_of(p)) {
-      const Point3& v = surface.at(site);
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
-    items.emplace_back(Box(Corner(low.x, low.y, low.z), Corner(high.x, high.y, high.z)), p);
-  }
-  return items;
-}
-
 double squared_distance(const Point3& p, const Point3& a, const Point3& b) {
   const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
   return squared_length(p - a - along * (b - a));
@@ -48,7 +29,7 @@ bool has_edge(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
 bool runs_along(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
   const Point3& area = surface.area_vector[piece];
   const Point3 along = surface.at(surface.edges[edge][1]) - surface.at(surface.edges[edge][0]);
-  const double squared_size = std::sqrt(squared_length(area));
+  const double squared_size = length(area);
   const double slack = 1 + std::sqrt(squared_length(along) / squared_size);
   return std::fabs(dot(area, along)) <= 2 * surface.tolerances.flat * slack * squared_size;
 }
@@ -188,11 +169,15 @@ void divide_patches(const Drawings& drawings, Surface& surface) {
 
 }  // namespace
 
-PieceTree::PieceTree(const Surface& surface) : tolerance_(surface.tolerances.flat), tree_(boxes_of(surface)) {}
+PieceTree::PieceTree(const Surface& surface) : tolerance_(surface.tolerances.flat) {
+  std::vector<Item> items;
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) items.emplace_back(to_boost(surface.box_of_piece(p)), p);
+  tree_ = Tree(items);
+}
 
 PointOnPiece locate_on_piece(const Surface& surface, std::uint32_t piece, const Point3& p) {
   const Point3& area = surface.area_vector[piece];
-  const double size = std::sqrt(squared_length(area)), tolerance = surface.tolerances.place;
+  const double size = length(area), tolerance = surface.tolerances.place;
   if (std::fabs(dot(area, p - surface.origin(piece))) > surface.tolerances.flat * size) return PointOnPiece::off;
   for (const auto& [a, b] : surface.edges_of(piece))
     if (squared_distance(p, surface.at(a), surface.at(b)) <= tolerance * tolerance) return PointOnPiece::border;

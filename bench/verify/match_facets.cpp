@@ -224,7 +224,7 @@ class Sheet {
 
   /// Adds the topmost face to the left of a directed edge.
   bool add_face(std::uint32_t a, std::uint32_t b) {
-    const double least_area = -flat_ * std::sqrt(squared_length(at(b) - at(a)));
+    const double least_area = -flat_ * length(at(b) - at(a));
     std::uint32_t best = none, best_tet = none;
     std::pair<bool, double> best_rank = {false, least_area};  // is it topmost? its area
     for (const std::uint32_t t : topology_.stars.of(a)) {

@@ -55,7 +55,7 @@ class EdgeWalk {
         origin_(surface.at(ends[0])),
         axis_(surface.at(ends[1]) - surface.at(ends[0])),
         tolerance_(surface.tolerances.place) {
-    length_ = std::sqrt(squared_length(axis_));
+    length_ = length(axis_);
     axis_ = (1 / length_) * axis_;
   }
 
@@ -158,13 +158,13 @@ void find_planes(const Surface& surface, Patches& patches) {
         ++corners;
       }
     }
-    const double area = std::sqrt(squared_length(sum));
+    const double area = length(sum);
     patches.normal.push_back(area > 0 ? (1 / area) * sum : Point3{});
     patches.center.push_back((1 / corners) * center);
     for (const std::uint32_t p : patches.pieces.of(n))
       for (const auto& [site, next] : surface.edges_of(p))
         thickness = std::max(thickness, std::fabs(patches.height(n, surface.at(site))));
-    for (const auto& [a, b] : patches.links[n]) perimeter += std::sqrt(squared_length(surface.at(a) - surface.at(b)));
+    for (const auto& [a, b] : patches.links[n]) perimeter += length(surface.at(a) - surface.at(b));
     patches.area.push_back(area);
     patches.thickness.push_back(thickness);
     patches.perimeter.push_back(perimeter);
@@ -182,10 +182,9 @@ std::vector<bool> find_features(const Surface& surface) {
                   fold_width(surface, e) > surface.tolerances.flat;
     if (!features[e] && folds_back(surface, e)) {
       // Two leaves of one needle are as good as flat; two broad ones are a fold that the surface may not lose.
-      const double length =
-          std::sqrt(squared_length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1])));
+      const double length = length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1]));
       const auto broad = [&](std::uint32_t u) {
-        return std::sqrt(squared_length(surface.area_vector[surface.piece_of[u]])) > surface.tolerances.flat * length;
+        return length(surface.area_vector[surface.piece_of[u]]) > surface.tolerances.flat * length;
       };
       features[e] = broad(use[0]) && broad(use[1]);
     }

@@ -76,9 +76,9 @@ std::vector<Spoke> spokes(const Surface& surface, std::uint32_t edge) {
   for (const std::uint32_t use : surface.uses.of(edge)) {
     Point3 inward = cross(surface.area_vector[surface.piece_of[use]], axis);
     if (!surface.is_forward(use)) inward = -1.0 * inward;
-    if (const double length = std::sqrt(squared_length(inward)); length > 0) inward = (1 / length) * inward;
+    inward = normalized(inward);
     if (result.empty()) first = inward;
-    const Point3 second = (1 / std::sqrt(squared_length(axis))) * cross(axis, first);
+    const Point3 second = (1 / length(axis)) * cross(axis, first);
     result.push_back({use, result.empty() ? 0 : std::atan2(dot(inward, second), dot(inward, first))});
   }
   std::sort(result.begin(), result.end(),
@@ -218,18 +218,10 @@ void place_seeds(const InputPlc& input, const Surface& surface, const RayShooter
 }  // namespace
 
 RayShooter::RayShooter(const Surface& surface) : surface_(surface) {
-  rectangles_.reserve(surface.pieces());
   high_z_ = -std::numeric_limits<double>::infinity();
   for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    const Point3& o = surface.origin(p);
-    Rectangle r{o.x, o.y, o.x, o.y, o.z};
-    for (const auto& [site, next] : surface.edges_of(p)) {
-      const Point3& v = surface.at(site);
-      r = {std::min(r.low_x, v.x), std::min(r.low_y, v.y), std::max(r.high_x, v.x), std::max(r.high_y, v.y),
-           std::max(r.high_z, v.z)};
-    }
-    high_z_ = std::max(high_z_, r.high_z);
-    rectangles_.push_back(r);
+    boxes_.push_back(surface.box_of_piece(p));
+    high_z_ = std::max(high_z_, boxes_[p].high.z);
   }
 }
 
@@ -239,12 +231,10 @@ Point3 RayShooter::direction(int attempt) {
 
 std::optional<std::vector<Hit>> RayShooter::shoot(const Point3& start, int attempt) const {
   const Point3 end = start + length(start.z) * direction(attempt);
-  const double low_x = std::min(start.x, end.x), high_x = std::max(start.x, end.x);
-  const double low_y = std::min(start.y, end.y), high_y = std::max(start.y, end.y);
+  const Box around = hull(box_of(start), box_of(end));
   std::vector<Hit> hits;
   for (std::uint32_t p = 0; p < surface_.pieces(); ++p) {
-    const Rectangle& r = rectangles_[p];
-    if (r.high_x < low_x || r.low_x > high_x || r.high_y < low_y || r.low_y > high_y || r.high_z < start.z) continue;
+    if (!around.meets(boxes_[p])) continue;
     const Crossing crossing = cross_piece(surface_, p, start, end);
     if (crossing == Crossing::no) continue;
     const Point3& n = surface_.area_vector[p];
@@ -287,7 +277,7 @@ std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& reg
     if (!hits) continue;
     std::vector<std::uint32_t> found = {0};
     if (!hits->empty()) found[0] = regions.of_side[2 * hits->front().piece + (hits->front().from_above ? 0 : 1)];
-    const double slope = std::sqrt(squared_length(RayShooter::direction(i)));
+    const double slope = length(RayShooter::direction(i));
     for (const Hit& hit : *hits) {
       if (hit.along * rays.length(point.z - back) * slope > 2 * back) break;
       found.push_back(regions.of_side[2 * hit.piece + (hit.from_above ? 1 : 0)]);

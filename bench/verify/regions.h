@@ -28,11 +28,8 @@ class RayShooter {
   static Point3 direction(int attempt);
 
  private:
-  struct Rectangle {
-    double low_x, low_y, high_x, high_y, high_z;
-  };
   const Surface& surface_;
-  std::vector<Rectangle> rectangles_;  // of each piece
+  std::vector<Box> boxes_;  // of each piece
   double high_z_ = 0;
 };
 

@@ -72,7 +72,7 @@ class FlatParts {
   }
 
   bool is_within(std::uint32_t piece, const Point3& origin, const Point3& area) const {
-    const double bound = tolerance() * std::sqrt(squared_length(area));
+    const double bound = tolerance() * length(area);
     return std::ranges::none_of(surface_.edges_of(piece), [&](const Edge& e) {
       return std::fabs(dot(area, surface_.at(e[0]) - origin)) > bound;
     });

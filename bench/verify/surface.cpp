@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -198,13 +197,9 @@ Sites match_sites(const InputPlc& input, const TetMesh& mesh, const Topology& to
 }
 
 Tolerances find_tolerances(const InputPlc& input, double flatness) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Point3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  for (const Point3& p : input.vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double box = input.vertices.empty() ? 0 : std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const Box bounds = bounding_box(input.vertices);
+  const Point3 extent = bounds.high - bounds.low;
+  const double box = input.vertices.empty() ? 0 : std::max({extent.x, extent.y, extent.z});
   // A mesher may measure flatness against the next power of two above the box, and on both sides of a plane that is not
   // ours.
   return {box, 0.1 * flatness * box, 4 * flatness * box};
@@ -215,6 +210,12 @@ void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_
   piece_begin.push_back(static_cast<std::uint32_t>(directed.size()));
   marker.push_back(its_marker);
   number.push_back(its_number);
+}
+
+Box Surface::box_of_piece(std::uint32_t piece) const {
+  Box box = box_of(origin(piece));
+  for (const auto& [site, next] : edges_of(piece)) box = hull(box, box_of(at(site)));
+  return box;
 }
 
 void set_pieces(Pieces pieces, Surface& surface) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "bench/verify/topology.h"
+#include "engine/base/box.h"
 #include "engine/plc/input.h"
 
 namespace ccdt::verification {
@@ -67,6 +68,7 @@ struct Surface : Pieces {
   const Point3& at(std::uint32_t site) const { return sites.position[site]; }
   /// Some point of the piece's plane.
   const Point3& origin(std::uint32_t piece) const { return at(directed[piece_begin[piece]][0]); }
+  Box box_of_piece(std::uint32_t piece) const;
   bool is_triangle(std::uint32_t piece) const { return edges_of(piece).size() == 3; }
   /// Does the directed edge run from the smaller site to the larger?
   bool is_forward(std::uint32_t use) const { return directed[use][0] < directed[use][1]; }
