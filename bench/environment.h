@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,5 +33,8 @@ std::vector<std::string> command_line();
 /// The largest resident memory so far of this process, or of a child that it has waited for. Unlike getrusage's, its
 /// own starts anew at exec: a program is not blamed for the memory of the one that started it.
 std::uint64_t peak_rss_bytes();
+
+/// SHA-256 of a file's bytes, 64 lowercase hexadecimal digits; empty if the file cannot be read.
+std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace ccdt

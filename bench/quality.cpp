@@ -119,7 +119,7 @@ double radius_edge_ratio(const std::array<Point3, 4>& t) {
   const Point3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0];
   const double v = std::abs(volume(t));
   if (!(v > 0)) return std::numeric_limits<double>::infinity();
-  // From t[0] to the centre: (|a|^2 b x c + |b|^2 c x a + |c|^2 a x b) / (12 V).
+  // From t[0] to the center: (|a|^2 b x c + |b|^2 c x a + |c|^2 a x b) / (12 V).
   const Point3 sum =
       squared_length(a) * cross(b, c) + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b);
   return length(sum) / (12 * v) / std::sqrt(squared_edges(t).first);

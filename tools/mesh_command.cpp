@@ -4,7 +4,6 @@
 #include "baselines/mesher.h"
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
-#include "bench/sha256.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/plc_files.h"

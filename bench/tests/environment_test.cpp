@@ -6,7 +6,6 @@
 #include <fstream>
 #include <vector>
 
-#include "bench/sha256.h"
 
 namespace ccdt {
 namespace {

@@ -182,9 +182,9 @@ std::vector<bool> find_features(const Surface& surface) {
                   fold_width(surface, e) > surface.tolerances.flat;
     if (!features[e] && folds_back(surface, e)) {
       // Two leaves of one needle are as good as flat; two broad ones are a fold that the surface may not lose.
-      const double length = length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1]));
+      const double edge_length = length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1]));
       const auto broad = [&](std::uint32_t u) {
-        return length(surface.area_vector[surface.piece_of[u]]) > surface.tolerances.flat * length;
+        return length(surface.area_vector[surface.piece_of[u]]) > surface.tolerances.flat * edge_length;
       };
       features[e] = broad(use[0]) && broad(use[1]);
     }
