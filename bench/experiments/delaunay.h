@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
-#include "engine/base/progress.h"
 
 namespace ccdt {
 

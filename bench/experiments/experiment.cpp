@@ -4,14 +4,15 @@
 #include <cmath>
 
 #include "baselines/mesher.h"
+#include "bench/results/numbers.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
 
-Circumstances start_experiment(const ExperimentOptions& options) {
+Circumstances start_experiment(const ExperimentOptions& options, int runs) {
   for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
   return {.environment = capture_environment(),
-          .runs = options.runs,
+          .runs = runs,
           .confidence = Bootstrap{}.confidence,
           .limits = options.limits,
           .tetrahedra = options.tetrahedra,
@@ -50,26 +51,22 @@ void check_something_is_measured(std::size_t cases, std::string_view experiment)
                      "leave out --models, and it measures all that it has");
 }
 
-Claim is_at_most(const Estimate& estimate, double bound) {
-  if (estimate.high <= bound) return Claim::holds;
-  return estimate.low > bound ? Claim::fails : Claim::undecided;
+BoundTest is_at_most(const Estimate& estimate, double bound) {
+  if (estimate.high <= bound) return BoundTest::holds;
+  return estimate.low > bound ? BoundTest::fails : BoundTest::undecided;
 }
 
-Claim is_at_least(const Estimate& estimate, double bound) {
-  if (estimate.low >= bound) return Claim::holds;
-  return estimate.high < bound ? Claim::fails : Claim::undecided;
+BoundTest is_at_least(const Estimate& estimate, double bound) {
+  if (estimate.low >= bound) return BoundTest::holds;
+  return estimate.high < bound ? BoundTest::fails : BoundTest::undecided;
 }
 
-std::string_view name_of(Claim claim) {
-  switch (claim) {
-    case Claim::holds:
-      return "holds";
-    case Claim::undecided:
-      return "undecided";
-    case Claim::fails:
-      return "fails";
-  }
-  return "";
+std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails) {
+  return std::string(test == BoundTest::holds ? holds : test == BoundTest::fails ? fails : undecided);
+}
+
+std::string share_words(std::uint64_t part, std::uint64_t whole) {
+  return with_separators(part) + " of " + with_separators(whole);
 }
 
 }  // namespace ccdt

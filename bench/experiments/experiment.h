@@ -9,10 +9,11 @@
 #include "baselines/process.h"
 #include "bench/results/experiment_result.h"
 #include "bench/statistics.h"
+#include "engine/base/progress.h"
 
 namespace ccdt {
 
-/// What every experiment of `ccdt reproduce` is told.
+/// The options of every experiment of `ccdt reproduce`.
 struct ExperimentOptions {
   std::filesystem::path program;                     ///< the `ccdt` that is run
   std::filesystem::path folder;                      ///< models, meshes and records go here; exists
@@ -27,10 +28,12 @@ struct ExperimentOptions {
 };
 
 /// Makes the folders of an experiment: models, meshes, runs.
-/// \return  the circumstances, as they are before the first run
-Circumstances start_experiment(const ExperimentOptions& options);
+///
+/// \param runs  counted runs a case
+/// \return      the circumstances, as they are before the first run
+Circumstances start_experiment(const ExperimentOptions& options, int runs);
 
-/// What an edge length that makes about 100,000 tetrahedra is to be multiplied with, to make as many as are wanted.
+/// The factor of an edge length that makes about 100,000 tetrahedra, to make as many as are wanted.
 double edge_factor(const ExperimentOptions& options);
 
 /// Has the user asked for this model?
@@ -49,14 +52,30 @@ std::vector<std::string> described_meshers(const ExperimentOptions& options);
 /// \throw InputError  there is nothing to measure, because none of the models that were asked for is part of it
 void check_something_is_measured(std::size_t cases, std::string_view experiment);
 
-/// What an interval says about a bound.
-enum class Claim {
+/// Reports the steps of an experiment, of which the total is known.
+class StepCounter {
+ public:
+  StepCounter(const Progress& progress, std::uint64_t total) : progress_(progress), total_(total) {}
+  void next(std::string_view what) { report(progress_, what, done_ < total_ ? done_++ : total_, total_); }
+
+ private:
+  const Progress& progress_;
+  std::uint64_t total_, done_ = 0;
+};
+
+/// The result of comparing an interval with a bound.
+enum class BoundTest {
   holds,      ///< all of the interval is on the right side
   undecided,  ///< the bound is inside
   fails       ///< all of the interval is on the wrong side
 };
-Claim is_at_most(const Estimate& estimate, double bound);
-Claim is_at_least(const Estimate& estimate, double bound);
-std::string_view name_of(Claim claim);
+BoundTest is_at_most(const Estimate& estimate, double bound);
+BoundTest is_at_least(const Estimate& estimate, double bound);
+
+/// The text for the outcome of a test.
+std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails);
+
+/// "20 of 1,000"
+std::string share_words(std::uint64_t part, std::uint64_t whole);
 
 }  // namespace ccdt

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "baselines/mesher.h"
-#include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/plc_files.h"
+#include "bench/experiments/tables.h"
+#include "bench/results/numbers.h"
+#include "engine/io/write_plc.h"
 #include "models/solids.h"
 
 namespace ccdt {
@@ -16,14 +16,15 @@ namespace {
 
 constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
 
-struct Strategy {
+/// A way to mesh all sizes up to one.
+struct MeshStrategy {
   std::string id, label, mesher;
   std::vector<std::string> options;
   int sizes;  ///< how many, from the coarsest
 };
 
-const std::vector<Strategy>& all_strategies() {
-  static const std::vector<Strategy> all = {
+const std::vector<MeshStrategy>& all_strategies() {
+  static const std::vector<MeshStrategy> all = {
       {"insert", "with check", "ccdt", {"--delaunay", "insert", "--face-protection", "on"}, size_count},
       {"wrap", "with check, wrap", "ccdt", {"--delaunay", "wrap", "--face-protection", "on"}, 5},
       {"without_check", "without check", "ccdt", {"--delaunay", "insert", "--face-protection", "off"}, 5},
@@ -39,10 +40,10 @@ const std::vector<Strategy>& all_strategies() {
 }
 
 /// Those of this build that are asked for.
-std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
-  std::vector<Strategy> strategies;
+std::vector<MeshStrategy> strategies_of(const ExperimentOptions& options) {
+  std::vector<MeshStrategy> strategies;
   std::ranges::copy_if(all_strategies(), std::back_inserter(strategies),
-                       [&](const Strategy& s) { return is_timed(options, s.mesher); });
+                       [&](const MeshStrategy& s) { return is_timed(options, s.mesher); });
   for (const std::string& file : described_meshers(options)) {
     const std::string name = mesher(file).name;
     strategies.push_back({name, name + ", its own vertices", file, {}, 4});
@@ -50,18 +51,15 @@ std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
   return strategies;
 }
 
-double whole_seconds(const StageSeconds& seconds) {
-  return seconds.mesh;
-}
-
-struct Size {
+/// A size of a model.
+struct ModelSize {
   int number;  ///< from 0, the coarsest
   double edge_length;
 };
 
 /// From a tenth of the tetrahedra that are wanted to ten times as many, within the limits of the solid.
-std::vector<Size> sizes_of(const PaperModel& model, const ExperimentOptions& options) {
-  std::vector<Size> sizes;
+std::vector<ModelSize> sizes_of(const PaperModel& model, const ExperimentOptions& options) {
+  std::vector<ModelSize> sizes;
   const auto solid = std::ranges::find(solids(), model.name, &Solid::name);
   for (int i = 0; i < size_count; ++i) {
     const double decades = 2 * static_cast<double>(i) / (size_count - 1) - 1;
@@ -72,13 +70,13 @@ std::vector<Size> sizes_of(const PaperModel& model, const ExperimentOptions& opt
 }
 
 /// The cases of one size, one a strategy that goes that far.
-std::vector<MeasuredCase> plan(const ExperimentOptions& options, const PaperModel& model, const Size& size) {
+std::vector<MeasuredCase> plan(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size) {
   const std::string stem = "fig8-" + std::string(model.name) + "-" + std::to_string(size.number);
   const auto surface = options.folder / "models" / (stem + ".poly");
   write_plc(make_solid(model.name, size.edge_length), surface);
   const auto mesh_of = [&](const std::string& id) { return options.folder / "meshes" / (stem + "-" + id + ".node"); };
   std::vector<MeasuredCase> cases;
-  for (const Strategy& strategy : strategies_of(options)) {
+  for (const MeshStrategy& strategy : strategies_of(options)) {
     if (size.number >= strategy.sizes) continue;
     std::vector<std::string> words = strategy.options;
     if (strategy.mesher == "ccdt") words.insert(words.end(), {"--improve", "none", "--grading", "0"});
@@ -90,71 +88,36 @@ std::vector<MeasuredCase> plan(const ExperimentOptions& options, const PaperMode
   return cases;
 }
 
-Fig8Point point_of(const MeasuredCase& measured, const Size& size) {
-  Fig8Point point{size.edge_length,      measured.first.counts, {}, {}, measured.first.status,
-                  measured.first.reason, run_files(measured)};
-  if (measured.failed()) return point;
-  for (const RunRecord& run : measured.counted) point.samples.push_back(run.seconds);
-  point.seconds =
-      median_estimate(samples_of(measured.counted, measured.what.mesher == "ccdt" ? cdt_seconds : whole_seconds));
+Fig8Point point_of(const MeasuredCase& measured, const ModelSize& size) {
+  const bool is_ours = measured.call.mesher == "ccdt";
+  Fig8Point point{outcome_of(measured, is_ours ? cdt_seconds : mesh_seconds), size.edge_length};
+  if (point.ok())
+    for (const RunRecord& run : measured.counted) point.stages.push_back(run.seconds);
   return point;
 }
 
-void measure_size(const ExperimentOptions& options, const PaperModel& model, const Size& size, Fig8Model& result,
-                  const std::function<void(const std::string&)>& announce) {
+void measure_size(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size, StepCounter& steps,
+                  Fig8Model& result) {
   std::vector<MeasuredCase> cases = plan(options, model, size);
-  for (int number = 0; number <= options.runs; ++number)
-    for (MeasuredCase& measured : cases) {
-      announce(measured.stem);
-      run_once(options, measured, number);
-    }
+  run_in_turn(options, cases, 0, [&](const MeasuredCase& measured, int) { steps.next(measured.stem); });
   for (const MeasuredCase& measured : cases) {
     if (measured.name != "insert")  // whose vertices are the input of others
       for (const char* ending : {".node", ".ele", ".face", ".edge"})
-        std::filesystem::remove(std::filesystem::path(measured.what.output).replace_extension(ending));
+        std::filesystem::remove(std::filesystem::path(measured.call.output).replace_extension(ending));
     std::ranges::find(result.series, measured.name, &Fig8Series::id)->points.push_back(point_of(measured, size));
   }
 }
 
-Fig8Model measure_model(const ExperimentOptions& options, const PaperModel& model,
-                        const std::function<void(const std::string&)>& announce) {
+Fig8Model measure_model(const ExperimentOptions& options, const PaperModel& model, StepCounter& steps) {
   Fig8Model result{model.name, {}};
-  for (const Strategy& strategy : strategies_of(options))
-    result.series.push_back({strategy.id, strategy.label, mesher(strategy.mesher).name, {}, {}});
-  for (const Size& size : sizes_of(model, options)) measure_size(options, model, size, result, announce);
+  for (const MeshStrategy& strategy : strategies_of(options))
+    result.series.push_back({strategy.id, strategy.label, mesher(strategy.mesher).name});
+  for (const ModelSize& size : sizes_of(model, options)) measure_size(options, model, size, steps, result);
   for (Fig8Series& series : result.series) series.fits = fit_series(series);
   return result;
 }
 
-}  // namespace
-
-std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
-  std::vector<Fig8Fit> fits;
-  const auto add = [&](const char* quantity, const auto& seconds_of) {
-    std::vector<double> vertices, medians;
-    for (const Fig8Point& point : series.points) {
-      if (!point.seconds) continue;
-      std::vector<double> samples;
-      for (const StageSeconds& s : point.samples) samples.push_back(seconds_of(s));
-      if (median(samples) <= 0) continue;  // shorter than a tick of the clock
-      vertices.push_back(static_cast<double>(point.counts.vertices));
-      medians.push_back(median(samples));
-    }
-    if (vertices.size() < 3) return;
-    const auto [least, most] = std::ranges::minmax(vertices);
-    fits.push_back({quantity, vertices.size(), least, most, fit_line(vertices, medians), fit_power(vertices, medians)});
-  };
-  if (series.mesher != "ccdt") {
-    add("mesh", whole_seconds);
-    return fits;
-  }
-  add("cdt", cdt_seconds);
-  add("delaunay", [](const StageSeconds& s) { return s.delaunay; });
-  if (series.id.starts_with("without_check")) add("front", [](const StageSeconds& s) { return s.front; });
-  return fits;
-}
-
-std::vector<std::string> fig8_definitions() {
+std::vector<std::string> definitions() {
   return {
       "Models at uniform density: the lattice has the edge length of the surface everywhere (--grading 0).",
       "Seconds of the CDT: the stages delaunay, face_check, front and label of a run.",
@@ -173,21 +136,133 @@ std::vector<std::string> fig8_definitions() {
   };
 }
 
+/// Appends a row that begins with the labels of a series.
+template <class... Values>
+void add_series_row(ResultTable& table, const std::string& model, const Fig8Series& series,
+                    const std::vector<std::string>& runs, const Values&... values) {
+  add_row(table, runs, model, series.mesher, series.label, values...);
+}
+
+std::vector<Column> series_columns(const std::vector<Column>& more) {
+  std::vector<Column> columns = {label_column("model"), label_column("mesher"), label_column("strategy")};
+  append(columns, more);
+  return columns;
+}
+
+std::vector<std::string> all_runs(const Fig8Series& series) {
+  std::vector<std::string> runs;
+  for (const Fig8Point& point : series.points) append(runs, point.runs);
+  return runs;
+}
+
+Estimate in_microseconds(const Estimate& e) {
+  return {1e6 * e.value, 1e6 * e.low, 1e6 * e.high};
+}
+
+void add_rows(const std::string& model, const Fig8Series& series, ResultTable& points, ResultTable& fits,
+              ResultTable& lines) {
+  for (const Fig8Point& p : series.points)
+    add_series_row(points, model, series, p.runs, name_of(p.status), p.edge_length,
+                   p.seconds ? as_cell(p.counts.vertices) : Cell(), p.seconds ? as_cell(p.counts.tetrahedra) : Cell(),
+                   p.seconds, p.reason);
+  const std::vector<std::string> runs = all_runs(series);
+  for (const Fig8Fit& fit : series.fits)
+    add_series_row(fits, model, series, runs, fit.quantity, fit.points, fit.power.slope, fit.power.r_squared,
+                   in_microseconds(fit.line.slope), fit.line.intercept, fit.line.r_squared);
+  if (series.fits.empty()) return;
+  const Fig8Fit& fit = series.fits.front();  // the ends of its straight line
+  for (const double vertices : {fit.least_vertices, fit.most_vertices})
+    add_series_row(lines, model, series, runs, vertices, fit.line.intercept + vertices * fit.line.slope.value);
+}
+
+void add_finding(const std::string& model, const Fig8Series& series, ExperimentResult& result) {
+  const std::string who = model + ", " + series.label + ": ";
+  if (series.fits.empty()) {
+    result.findings.push_back(who + "too few sizes for a fit");
+    return;
+  }
+  const Estimate& exponent = series.fits.front().power.slope;
+  result.findings.push_back(who + "the exponent is " + with_interval(exponent) + "; that it is at most " +
+                            rounded(claimed_exponent) + ": " +
+                            choose(is_at_most(exponent, claimed_exponent), "holds",
+                                   "undecided, the bound is within the interval", "does not hold"));
+}
+
+void add_problems(const std::string& model, const Fig8Series& series, ExperimentResult& result) {
+  for (const Fig8Point& p : series.points) {
+    if (p.seconds) continue;
+    result.problems.push_back(model + ", " + series.label + ", edge length " + rounded(p.edge_length) + ": " +
+                              p.failure());
+    result.is_good = result.is_good && series.mesher != "ccdt";
+  }
+}
+
+}  // namespace
+
+std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
+  std::vector<Fig8Fit> fits;
+  const auto add = [&](const char* quantity, SecondsOf seconds_of) {
+    std::vector<double> vertices, medians;
+    for (const Fig8Point& point : series.points) {
+      if (!point.seconds) continue;
+      std::vector<double> samples;
+      for (const StageSeconds& s : point.stages) samples.push_back(seconds_of(s));
+      if (median(samples) <= 0) continue;  // shorter than a tick of the clock
+      vertices.push_back(static_cast<double>(point.counts.vertices));
+      medians.push_back(median(samples));
+    }
+    if (vertices.size() < 3) return;
+    const auto [least, most] = std::ranges::minmax(vertices);
+    fits.push_back({quantity, vertices.size(), least, most, fit_line(vertices, medians), fit_power(vertices, medians)});
+  };
+  if (series.mesher != "ccdt") {
+    add("mesh", mesh_seconds);
+    return fits;
+  }
+  add("cdt", cdt_seconds);
+  add("delaunay", delaunay_seconds);
+  if (series.id.starts_with("without_check")) add("front", front_seconds);
+  return fits;
+}
+
 Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress) {
-  Fig8 fig8;
-  fig8.how = start_experiment(options);
-  std::uint64_t cases = 0, done = 0;
+  Fig8 fig8{start_experiment(options, options.runs), {}};
+  std::uint64_t cases = 0;
   for (const PaperModel& model : paper_models)
-    for (const Size& size : sizes_of(model, options))
-      for (const Strategy& strategy : strategies_of(options))
+    for (const ModelSize& size : sizes_of(model, options))
+      for (const MeshStrategy& strategy : strategies_of(options))
         cases += is_asked_for(options, model.name) && size.number < strategy.sizes;
   check_something_is_measured(cases, "fig8");
-  const std::uint64_t total = cases * static_cast<std::uint64_t>(options.runs + 1);
+  StepCounter steps(progress, cases * static_cast<std::uint64_t>(options.runs + 1));
   for (const PaperModel& model : paper_models)
-    if (is_asked_for(options, model.name))
-      fig8.models.push_back(measure_model(
-          options, model, [&](const std::string& what) { report(progress, what, std::min(done++, total), total); }));
+    if (is_asked_for(options, model.name)) fig8.models.push_back(measure_model(options, model, steps));
   return fig8;
+}
+
+ExperimentResult result_of(const Fig8& fig8) {
+  ResultTable fits{"fits", "How the seconds grow with the number of vertices",
+                   series_columns({label_column("quantity", "seconds of"), figure_column("points", "sizes"),
+                                   time_column("exponent"), time_column("exponent_r2", "R2 of the exponent"),
+                                   time_column("microseconds_per_vertex", "slope, a vertex", "us"),
+                                   time_column("seconds_at_zero", "", "s"), time_column("r2", "R2 of the line")})};
+  ResultTable points{
+      "points", "Seconds against size",
+      series_columns({label_column("status"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
+                      figure_column("tetrahedra"), time_column("seconds", "", "s"), note_column("reason")})};
+  ResultTable lines{"lines",
+                    "Straight lines through the points",
+                    series_columns({figure_column("vertices"), time_column("seconds", "", "s")}),
+                    {},
+                    true};
+  ExperimentResult result{.how = fig8.how, .definitions = definitions()};
+  for (const Fig8Model& model : fig8.models)
+    for (const Fig8Series& series : model.series) {
+      add_rows(model.name, series, points, fits, lines);
+      add_finding(model.name, series, result);
+      add_problems(model.name, series, result);
+    }
+  result.tables = {fits, points, lines};
+  return result;
 }
 
 }  // namespace ccdt

@@ -1,28 +1,20 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/experiments/experiment.h"
+#include "bench/experiments/measured_case.h"
 #include "bench/statistics.h"
-#include "engine/base/progress.h"
-#include "engine/mesher.h"
 
 namespace ccdt {
 
 /// The exponent that we claim for the growth of the time with the number of vertices; 1 is linear.
 inline constexpr double claimed_exponent = 1.10;
 
-/// One size of one model, meshed with one strategy.
-struct Fig8Point {
-  double edge_length = 0;  ///< units of the model
-  MeshCounts counts;
-  std::vector<StageSeconds> samples;  ///< of the counted runs, in order
-  std::optional<Estimate> seconds;    ///< of the CDT; of other meshers, of all; none if a run failed
-  RunStatus status = RunStatus::ok;
-  std::string reason;
-  std::vector<std::string> runs = {};  ///< files of the runs
+/// One size of one model, meshed with one strategy. Seconds are of the CDT; of other meshers, of all.
+struct Fig8Point : CaseOutcome {
+  double edge_length = 0;                 ///< units of the model
+  std::vector<StageSeconds> stages = {};  ///< of the counted runs, in order
 };
 
 /// How the seconds of a stage grow with the number of vertices: medians over the points that went well.
@@ -36,8 +28,8 @@ struct Fig8Fit {
 
 struct Fig8Series {
   std::string id, label, mesher;  ///< id: insert, wrap, without_check, or that of the mesher
-  std::vector<Fig8Point> points;
-  std::vector<Fig8Fit> fits;  ///< none with fewer than three points
+  std::vector<Fig8Point> points = {};
+  std::vector<Fig8Fit> fits = {};  ///< none with fewer than three points
 };
 
 struct Fig8Model {
@@ -63,8 +55,5 @@ std::vector<Fig8Fit> fit_series(const Fig8Series& series);
 
 /// As tables, with what they say.
 ExperimentResult result_of(const Fig8& fig8);
-
-/// What the rows mean, one sentence each.
-std::vector<std::string> fig8_definitions();
 
 }  // namespace ccdt

@@ -1,12 +1,12 @@
 #include "bench/experiments/interior_points.h"
 
 #include <algorithm>
-#include <array>
 
-#include "bench/experiments/case_runner.h"
+#include "bench/experiments/small_plcs/families.h"
+#include "bench/experiments/small_plcs/tetrahedralization.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/plc_files.h"
-#include "models/solids.h"
+#include "bench/experiments/tables.h"
+#include "bench/results/numbers.h"
 
 namespace ccdt {
 namespace {
@@ -28,83 +28,22 @@ std::vector<std::string> options_of(InteriorRule rule) {
   return {};
 }
 
-std::vector<SurfaceFile> surfaces(const ExperimentOptions& options) {
-  std::vector<SurfaceFile> files;
-  for (const Solid& solid : solids()) {
-    if (!is_asked_for(options, solid.name)) continue;
-    std::vector<Point3> before;
-    for (const double coarsening : coarsenings) {
-      const SurfaceFile surface =
-          write_solid(options, "interior-points", std::string(solid.name), coarsening * solid.default_edge_length);
-      std::vector<Point3> vertices = read_plc(surface.file).vertices;
-      if (vertices == before) continue;  // too coarse for a difference, or always the same
-      files.push_back(surface);
-      before = std::move(vertices);
-    }
-  }
-  std::ranges::copy(input_files(options), std::back_inserter(files));
-  return files;
+bool has_constrained_delaunay(const small::SmallPlc& plc) {
+  return search_constrained_delaunay(plc).constrained_delaunay > 0;
 }
 
 InteriorCase run(const ExperimentOptions& options, const SurfaceFile& surface, Lattice lattice, InteriorRule rule,
                  std::uint64_t number) {
   std::vector<std::string> words = options_of(rule);
-  words.insert(words.end(), {"--improve", "none", "--lattice", std::string(name_of(lattice))});
+  append(words, std::vector<std::string>{"--improve", "none", "--lattice", std::string(name_of(lattice))});
   const std::string record = "runs/interior-points-" + std::to_string(number) + ".json";
-  const RunRecord run = run_case(options.program, options.folder,
-                                 {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},
-                                 options.folder / record, options.limits);
-  return {surface.name,
-          surface.edge_length,
-          lattice,
-          rule,
-          run.counts.interior_vertices,
-          run.counts.dropped_interior_vertices,
-          run.status,
-          run.reason,
-          {record}};
+  const RunRecord run =
+      run_call(options, {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},
+               options.folder / record);
+  return {{run.status, run.reason, {record}, run.counts}, surface.name, surface.edge_length, lattice, rule};
 }
 
-template <class Chosen>
-InteriorSummary summarize_if(std::span<const InteriorCase> cases, Chosen is_chosen) {
-  InteriorSummary summary;
-  for (const InteriorCase& c : cases) {
-    if (!is_chosen(c)) continue;
-    if (c.status != RunStatus::ok) {
-      ++summary.failed;
-      continue;
-    }
-    ++summary.cases;
-    summary.harmed += c.dropped > 0;
-    summary.placed += c.placed;
-    summary.dropped += c.dropped;
-  }
-  return summary;
-}
-
-}  // namespace
-
-InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule) {
-  return summarize_if(cases, [&](const InteriorCase& c) { return c.rule == rule; });
-}
-
-InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule, Lattice lattice) {
-  return summarize_if(cases, [&](const InteriorCase& c) { return c.rule == rule && c.lattice == lattice; });
-}
-
-std::string_view name_of(InteriorRule rule) {
-  switch (rule) {
-    case InteriorRule::paper:
-      return "paper";
-    case InteriorRule::no_spheres:
-      return "no spheres";
-    case InteriorRule::no_distances:
-      return "no distances";
-  }
-  return "";
-}
-
-std::vector<std::string> interior_points_definitions() {
+std::vector<std::string> definitions() {
   return {
       "The paper, section 3: \"Insertion of interior points does not affect CDT existence.\" It gives no proof.",
       "Family: small random PLCs with a CDT, to which one interior point is added; existence is tested by exhaustion.",
@@ -121,11 +60,129 @@ std::vector<std::string> interior_points_definitions() {
   };
 }
 
+std::vector<ResultTable> tables_of(const InteriorPoints& points) {
+  const char* dropped_title = "points that would have destroyed a protected edge";
+  ResultTable existence{"existence",
+                        "Existence with one interior point more, by exhaustion",
+                        {label_column("family"), figure_column("cases", "PLCs with a CDT"),
+                         figure_column("lost", "of these without one with the point"),
+                         note_column("counterexample", "the smallest, its last vertex the point")}};
+  for (const ExistenceTrials& trials : points.existence)
+    add_row(existence, {}, trials.family, trials.cases, trials.lost,
+            trials.lost > 0 ? Cell(small::in_words(trials.counterexample)) : Cell());
+  ResultTable rules_table{
+      "rules",
+      "What the rules let through",
+      {label_column("rule"), label_column("lattice"), figure_column("cases"), figure_column("interior_vertices"),
+       figure_column("dropped", dropped_title), figure_column("harmed", "cases with such points")}};
+  const auto add = [&](InteriorRule rule, std::string_view lattice, const InteriorSummary& s) {
+    add_row(rules_table, {}, name_of(rule), lattice, s.cases, s.placed, s.dropped, s.harmed);
+  };
+  for (const InteriorRule rule : rules) {
+    for (const Lattice lattice : lattices) add(rule, name_of(lattice), summarize(points.cases, rule, lattice));
+    add(rule, "all", summarize(points.cases, rule));
+  }
+  ResultTable cases{"cases",
+                    "The cases",
+                    {label_column("model"), label_column("edge_length"), label_column("rule"), label_column("lattice"),
+                     label_column("status"), figure_column("interior_vertices"),
+                     figure_column("dropped", dropped_title), note_column("reason")}};
+  for (const InteriorCase& c : points.cases)
+    add_row(cases, c.runs, c.input, c.edge_length > 0 ? rounded(c.edge_length) : "", name_of(c.rule),
+            name_of(c.lattice), name_of(c.status), c.counts.interior_vertices, c.counts.dropped_interior_vertices,
+            c.reason);
+  return {existence, rules_table, cases};
+}
+
+std::string existence_finding(const InteriorPoints& points) {
+  std::uint64_t cases = 0, lost = 0;
+  for (const ExistenceTrials& trials : points.existence) {
+    cases += trials.cases;
+    lost += trials.lost;
+  }
+  return share_words(lost, cases) + " small PLCs with a CDT have none when one interior point is added";
+}
+
+std::vector<std::string> findings_of(const InteriorPoints& points) {
+  std::vector<std::string> lines = {existence_finding(points)};
+  for (const InteriorRule rule : rules) {
+    const InteriorSummary s = summarize(points.cases, rule);
+    const std::string rule_words = "Rule \"" + std::string(name_of(rule)) + "\": ";
+    if (s.cases == 0)
+      lines.push_back(rule_words + "no case to judge by");
+    else if (s.harmed == 0)
+      lines.push_back(rule_words + "no point did harm in " + with_separators(s.cases) + " cases with " +
+                      with_separators(s.placed) + " interior vertices");
+    else
+      lines.push_back(rule_words + "points do harm: " + with_separators(s.dropped) + " points of " +
+                      with_separators(s.placed + s.dropped) + " would have destroyed a protected edge, in " +
+                      share_words(s.harmed, s.cases) + " cases");
+  }
+  return lines;
+}
+
+}  // namespace
+
+small::SmallPlc with_interior_point(const small::SmallPlc& plc, std::uint64_t seed) {
+  constexpr int most_draws = 50;
+  small::Random random(seed);
+  small::Point low = plc.vertices.front(), high = low;
+  for (const small::Point& p : plc.vertices) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const auto last = static_cast<small::Vertex>(plc.vertices.size());
+  small::SmallPlc more = plc;
+  more.vertices.emplace_back();
+  for (int draw = 0; draw < most_draws; ++draw) {
+    more.vertices.back() = {random.between(low.x, high.x), random.between(low.y, high.y),
+                            random.between(low.z, high.z)};
+    if (is_inside(more, {last}) && is_generic(more)) return more;
+  }
+  return {};
+}
+
+std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
+  std::vector<ExistenceTrials> all;
+  std::uint64_t seed = 1;
+  for (const small::Family& family : small::families()) {
+    if (family.is_cospherical) continue;
+    ExistenceTrials trials{.family = std::string(family.name)};
+    small::Random random(++seed);
+    for (std::uint64_t i = 0; i < cases_a_family; ++i) {
+      const small::SmallPlc plc = next_plc(family, random);
+      const small::SmallPlc more = with_interior_point(plc, ++seed);
+      if (more.vertices.empty() || !has_constrained_delaunay(plc)) continue;
+      ++trials.cases;
+      if (has_constrained_delaunay(more)) continue;
+      const bool is_smallest = trials.lost++ == 0 || more.vertices.size() < trials.counterexample.vertices.size();
+      if (is_smallest) trials.counterexample = more;
+    }
+    all.push_back(std::move(trials));
+  }
+  return all;
+}
+
+InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule, std::optional<Lattice> lattice) {
+  InteriorSummary summary;
+  for (const InteriorCase& c : cases) {
+    if (c.rule != rule || (lattice && c.lattice != *lattice)) continue;
+    if (!c.ok()) {
+      ++summary.failed;
+      continue;
+    }
+    ++summary.cases;
+    summary.harmed += c.counts.dropped_interior_vertices > 0;
+    summary.placed += c.counts.interior_vertices;
+    summary.dropped += c.counts.dropped_interior_vertices;
+  }
+  return summary;
+}
+
 InteriorPoints measure_interior_points(const ExperimentOptions& options, const Progress& progress) {
-  InteriorPoints points;
-  points.how = start_experiment(options);
-  points.how.runs = 1;
-  const std::vector<SurfaceFile> files = surfaces(options);
+  InteriorPoints points{start_experiment(options, 1), {}, {}};
+  std::vector<SurfaceFile> files = write_solids(options, "interior-points", coarsenings);
+  append(files, input_files(options));
   check_something_is_measured(files.size(), "interior-points");
   const std::uint64_t total = files.size() * lattices.size() * rules.size();
   for (const SurfaceFile& file : files)
@@ -138,6 +195,19 @@ InteriorPoints measure_interior_points(const ExperimentOptions& options, const P
   std::filesystem::remove(options.folder / "meshes" / "interior-points.vtu");
   points.existence = try_interior_points(static_cast<std::uint64_t>(options.tetrahedra) / tetrahedra_a_trial);
   return points;
+}
+
+ExperimentResult result_of(const InteriorPoints& points) {
+  ExperimentResult result{
+      .how = points.how, .definitions = definitions(), .tables = tables_of(points), .findings = findings_of(points)};
+  for (const InteriorCase& c : points.cases) {
+    if (c.ok()) continue;
+    const std::string at = c.edge_length > 0 ? " at " + rounded(c.edge_length) : "";
+    result.problems.push_back(c.input + at + ", " + std::string(name_of(c.lattice)) + ", " +
+                              std::string(name_of(c.rule)) + ": " + c.failure());
+    result.is_good = false;
+  }
+  return result;
 }
 
 }  // namespace ccdt

@@ -1,23 +1,18 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/experiments/experiment.h"
-#include "engine/base/progress.h"
-#include "engine/mesher.h"
+#include "bench/experiments/measured_case.h"
+#include "engine/base/enum_names.h"
 
 namespace ccdt {
 
-/// One locator on one surface.
-struct LocatorsRow {
+/// One locator on one surface. Seconds are of the front.
+struct LocatorsRow : CaseOutcome {
   LocatorKind locator = LocatorKind::grid;
-  std::vector<double> samples;      ///< seconds of the front in the counted runs, in order
-  std::optional<Estimate> seconds;  ///< none if a run failed
-  RunStatus status = RunStatus::ok;
-  std::string reason;
-  std::vector<std::string> runs = {};  ///< files of the runs
 };
 
 enum class SurfaceKind {
@@ -27,18 +22,25 @@ enum class SurfaceKind {
   input     ///< a file of the user's
 };
 
+constexpr auto names_of(SurfaceKind) {
+  return std::to_array<NamedValue<SurfaceKind>>({{SurfaceKind::uniform, "uniform"},
+                                                 {SurfaceKind::graded, "graded"},
+                                                 {SurfaceKind::rough, "rough"},
+                                                 {SurfaceKind::input, "input"}});
+}
+
 /// A surface, meshed with each of the locators.
 struct LocatorsCase {
   std::string name;
   SurfaceKind kind = SurfaceKind::uniform;
   bool face_protection = false;
   double edge_ratio = 1;  ///< the longest edge of the surface over the shortest
-  MeshCounts counts;
-  std::vector<LocatorsRow> rows;  ///< grid, octree, cavity
-  std::optional<Estimate> octree_over_grid, cavity_over_grid;
+  MeshCounts counts = {};
+  std::vector<LocatorsRow> rows = {};  ///< grid, octree, cavity
+  std::optional<Estimate> octree_over_grid = {}, cavity_over_grid = {};
 };
 
-/// Who finds the front's candidates fastest.
+/// How fast the locators find the front's candidates.
 struct Locators {
   Circumstances how;
   std::vector<LocatorsCase> cases;
@@ -46,7 +48,7 @@ struct Locators {
 
 /// What is expected of octree and grid on such a surface: on a graded one the octree is faster, on a uniform one the
 /// grid. None for the others, and where a run failed.
-std::optional<Claim> expectation(const LocatorsCase& locators);
+std::optional<BoundTest> expectation(const LocatorsCase& locators);
 
 /// Measures the front of the three locators: without the check on the paper's models at uniform density and on a graded
 /// cube, with and without it on a rough sphere and on the files of the user.
@@ -55,12 +57,7 @@ std::optional<Claim> expectation(const LocatorsCase& locators);
 /// \throw OutputError  a file of the experiment cannot be written
 Locators measure_locators(const ExperimentOptions& options, const Progress& progress = {});
 
-std::string_view name_of(SurfaceKind kind);
-
 /// As tables, with what they say.
 ExperimentResult result_of(const Locators& locators);
-
-/// What the rows mean, one sentence each.
-std::vector<std::string> locators_definitions();
 
 }  // namespace ccdt

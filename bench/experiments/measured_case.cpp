@@ -3,11 +3,50 @@
 #include <algorithm>
 
 #include "bench/results/kept_mesh.h"
+#include "engine/base/errors.h"
 #include "engine/io/tet_mesh_files.h"
 
 namespace ccdt {
-
 namespace {
+
+/// A file as it is called in its folder; elsewhere by its whole path.
+std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto whole = std::filesystem::absolute(file).lexically_normal();
+  const auto name = whole.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+  return name.empty() || *name.begin() == ".." ? whole.string() : name.string();
+}
+
+std::vector<std::string> command_of(const ExperimentOptions& options, const MeshCall& call,
+                                    const std::filesystem::path& report) {
+  const auto name = [&](const std::filesystem::path& file) { return name_in(options.folder, file); };
+  const std::string mesher = is_mesher_description(call.mesher) ? name(call.mesher) : call.mesher;
+  std::vector<std::string> command = {options.program.string(),
+                                      "mesh",
+                                      name(call.input),
+                                      "-o",
+                                      name(call.output),
+                                      "--report",
+                                      name(report),
+                                      "--mesher",
+                                      mesher};
+  command.insert(command.end(), call.options.begin(), call.options.end());
+  return command;
+}
+
+/// The record of a child that ended before it wrote a report.
+RunRecord record_without_report(const MeshCall& call, const std::vector<std::string>& command) {
+  RunRecord record;
+  record.environment = capture_environment();
+  const Mesher& asked = mesher(call.mesher);
+  record.mesher = {asked.name, version_of(asked), asked.name == "ccdt" ? record.environment.revision : ""};
+  record.command = command;
+  record.command.front() = "ccdt";
+  record.input.name = command[2];
+  std::string words;
+  for (const std::string& option : call.options) words += (words.empty() ? "" : " ") + option;
+  record.options = {{"command_line", words}};
+  return record;
+}
 
 std::string run_file(const MeasuredCase& measured, std::size_t number) {
   return "runs/" + measured.stem + "-" + std::to_string(number) + ".json";
@@ -15,13 +54,49 @@ std::string run_file(const MeasuredCase& measured, std::size_t number) {
 
 }  // namespace
 
-double long_run_seconds(const ExperimentOptions& options) {
-  return options.tetrahedra / 10000;
+RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report) {
+  std::filesystem::remove(report);  // or that of an earlier experiment would be taken for this one's
+  const std::vector<std::string> command = command_of(options, call, report);
+  const ProcessResult child = run_program(command, {.folder = options.folder, .limits = options.limits});
+  const bool wrote_one = std::filesystem::exists(report);
+  RunRecord record = wrote_one ? read_run_record(report) : record_without_report(call, command);
+  // A child that has failed by itself says more in its own record than its last words do; but what it wrote before it
+  // crashed says only what it was to do.
+  const bool ended_by_itself = child.status == RunStatus::ok || child.status == RunStatus::failed;
+  if (wrote_one && ended_by_itself && record.status != RunStatus::crashed) return record;
+  record.status = child.status;
+  record.reason = child.reason;
+  write_run_record(record, report);
+  return record;
 }
 
 bool is_counted(const ExperimentOptions& options, const MeasuredCase& measured, int number) {
-  const bool is_long = measured.first.seconds.mesh > long_run_seconds(options);
+  constexpr int counted_long_runs = 3;
+  const bool is_long = measured.first.seconds.mesh > options.tetrahedra / 10000;
   return number <= (is_long ? std::min(options.runs, counted_long_runs) : options.runs);
+}
+
+void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number) {
+  if (measured.failed() || !is_counted(options, measured, number)) return;
+  const auto report = options.folder / run_file(measured, static_cast<std::size_t>(number));
+  RunRecord record = run_call(options, measured.call, report);
+  if (number > 0 && record.status == RunStatus::ok) {
+    measured.counted.push_back(record);
+  } else {
+    // A failure counts even if it went well before: a row of fewer samples than the others would not be fair.
+    measured.first = record;
+    measured.first_run = static_cast<std::size_t>(number);
+  }
+}
+
+void run_in_turn(const ExperimentOptions& options, std::vector<MeasuredCase>& cases, int first_number,
+                 const RunCallback& before, const RunCallback& after) {
+  for (int number = first_number; number <= options.runs; ++number)
+    for (MeasuredCase& measured : cases) {
+      if (before) before(measured, number);
+      run_once(options, measured, number);
+      if (after) after(measured, number);
+    }
 }
 
 std::vector<std::string> run_files(const MeasuredCase& measured) {
@@ -33,25 +108,46 @@ std::vector<std::string> run_files(const MeasuredCase& measured) {
 
 KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title) {
   const std::string file = "meshes/" + measured.stem + ".json";
-  write_kept_mesh(read_tet_mesh(measured.what.output), title, options.folder / file);
+  write_kept_mesh(read_tet_mesh(measured.call.output), title, options.folder / file);
   return {file, title, run_files(measured).front()};
-}
-
-void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number) {
-  if (measured.failed() || !is_counted(options, measured, number)) return;
-  const auto report = options.folder / run_file(measured, static_cast<std::size_t>(number));
-  RunRecord record = run_case(options.program, options.folder, measured.what, report, options.limits);
-  if (number > 0 && record.status == RunStatus::ok) {
-    measured.counted.push_back(record);
-  } else {
-    // A failure counts even if it went well before: a row of fewer samples than the others would not be fair.
-    measured.first = record;
-    measured.first_run = static_cast<std::size_t>(number);
-  }
 }
 
 double cdt_seconds(const StageSeconds& s) {
   return s.delaunay + s.face_check + s.front + s.label;
+}
+
+double mesh_seconds(const StageSeconds& s) {
+  return s.mesh;
+}
+
+double front_seconds(const StageSeconds& s) {
+  return s.front;
+}
+
+double delaunay_seconds(const StageSeconds& s) {
+  return s.delaunay;
+}
+
+std::vector<double> samples_of(const MeasuredCase& measured, SecondsOf seconds) {
+  std::vector<double> samples;
+  for (const RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));
+  return samples;
+}
+
+std::string CaseOutcome::failure() const {
+  return std::string(name_of(status)) + ": " + reason;
+}
+
+CaseOutcome outcome_of(const MeasuredCase& measured) {
+  return {measured.first.status, measured.first.reason, run_files(measured), measured.first.counts};
+}
+
+CaseOutcome outcome_of(const MeasuredCase& measured, SecondsOf seconds) {
+  CaseOutcome outcome = outcome_of(measured);
+  if (measured.failed()) return outcome;
+  outcome.samples = samples_of(measured, seconds);
+  outcome.seconds = median_estimate(outcome.samples);
+  return outcome;
 }
 
 }  // namespace ccdt

@@ -1,32 +1,57 @@
 #pragma once
 
-#include <span>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/experiments/case_runner.h"
 #include "bench/experiments/experiment.h"
+#include "bench/run_record.h"
 
 namespace ccdt {
 
-/// A case with all that its runs have told.
+/// A call of `ccdt mesh` to measure.
+struct MeshCall {
+  std::string mesher;
+  std::filesystem::path input;
+  std::filesystem::path output;      ///< where its mesh goes
+  std::vector<std::string> options;  ///< more of the command line
+};
+
+/// A call with the records of its runs.
 struct MeasuredCase {
   std::string name;  ///< within its group
   std::string stem;  ///< of the names of its records: "piston-with_check"
-  Case what;
+  MeshCall call;
   std::vector<RunRecord> counted = {};
   RunRecord first = {};       ///< of the run that is not counted, or of the one that failed
   std::size_t first_run = 0;  ///< the number of that run
   bool failed() const { return first.status != RunStatus::ok; }
 };
 
-/// Cases of which a run takes long are counted only so often. What is long depends on the scale: a second with 10,000
-/// tetrahedra a model.
-inline constexpr int counted_long_runs = 3;
-double long_run_seconds(const ExperimentOptions& options);
+/// Runs a call in a child process of its own and returns its record, which is also written to `report`. A child that
+/// crashes or meets a limit has a record as well, with its status and the reason.
+///
+/// The child runs in the experiment's folder and gets paths relative to it, so that its command can be repeated
+/// wherever that folder has been moved to.
+///
+/// \throw OutputError  the record cannot be written
+RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report);
 
-/// Is the run of this number still to be made, now that the case has been run once?
+/// Is the run of this number still to be made, now that the case has been run once? Cases of which a run takes long are
+/// counted three times at most. What is long depends on the scale: a second with 10,000 tetrahedra a model.
 bool is_counted(const ExperimentOptions& options, const MeasuredCase& measured, int number);
+
+/// Runs a case once, unless it has failed before; run 0 is not counted. Its record goes to runs/STEM-NUMBER.json.
+/// \throw OutputError  the record cannot be written
+void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number);
+
+/// Called before or after a run of a case, with the number of the run.
+using RunCallback = std::function<void(MeasuredCase&, int number)>;
+
+/// Runs the cases in turn (A B C A B C ...): run `first_number` of each, then the next, up to `options.runs`.
+void run_in_turn(const ExperimentOptions& options, std::vector<MeasuredCase>& cases, int first_number,
+                 const RunCallback& before, const RunCallback& after = {});
 
 /// The files of the runs that a row of this case stands on, relative to the folder: the counted ones, or the one that
 /// failed.
@@ -37,21 +62,34 @@ std::vector<std::string> run_files(const MeasuredCase& measured);
 /// \throw OutputError
 KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title);
 
-/// Runs a case once, unless it has failed before; run 0 is not counted. Its record goes to runs/STEM-NUMBER.json.
-/// \throw OutputError  the record cannot be written
-void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number);
+/// The seconds of a run that are of interest.
+using SecondsOf = double (*)(const StageSeconds&);
 
 /// Seconds of the constrained Delaunay tetrahedralization of given vertices, the paper's CDT times: Delaunay, face
-/// check, front and labelling.
+/// check, front and labeling.
 double cdt_seconds(const StageSeconds& seconds);
+/// Seconds of meshing alone.
+double mesh_seconds(const StageSeconds& seconds);
+double front_seconds(const StageSeconds& seconds);
+double delaunay_seconds(const StageSeconds& seconds);
 
 /// One number of each counted run.
-template <class Seconds>
-std::vector<double> samples_of(std::span<const RunRecord> runs, Seconds seconds) {
-  std::vector<double> samples;
-  samples.reserve(runs.size());
-  for (const RunRecord& run : runs) samples.push_back(seconds(run.seconds));
-  return samples;
-}
+std::vector<double> samples_of(const MeasuredCase& measured, SecondsOf seconds);
+
+/// What the rows of all experiments say of a case.
+struct CaseOutcome {
+  RunStatus status = RunStatus::ok;
+  std::string reason = {};             ///< why the status is not ok
+  std::vector<std::string> runs = {};  ///< files of the runs
+  MeshCounts counts = {};
+  std::vector<double> samples = {};      ///< seconds of the counted runs, in order
+  std::optional<Estimate> seconds = {};  ///< their median; none if a run failed
+  bool ok() const { return status == RunStatus::ok; }
+  /// "timeout: limit of 600 s"
+  std::string failure() const;
+};
+/// Without seconds.
+CaseOutcome outcome_of(const MeasuredCase& measured);
+CaseOutcome outcome_of(const MeasuredCase& measured, SecondsOf seconds);
 
 }  // namespace ccdt

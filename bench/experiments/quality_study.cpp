@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
 
 #include "baselines/mesher_input.h"
 #include "bench/experiments/count_search.h"
-#include "bench/experiments/measured_case.h"
-#include "bench/experiments/surfaces.h"
+#include "bench/experiments/tables.h"
+#include "bench/results/numbers.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 
@@ -14,32 +17,26 @@ namespace ccdt {
 namespace {
 
 /// A solid's name or a file, to be read when its turn comes.
-struct Source {
+struct StudySource {
   std::string name;
   std::filesystem::path file = {};  ///< none of a solid
 };
 
-std::vector<Source> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
-  std::vector<Source> sources;
+std::vector<StudySource> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
+  std::vector<StudySource> sources;
   for (const std::string& model : plan.models)
     if (is_asked_for(options, model)) sources.push_back({model});
   for (const auto& input : options.inputs) sources.push_back({input.filename().string(), input});
   return sources;
 }
 
-std::vector<std::string> words_for(const QualityVariant& variant, double edge_length) {
-  std::vector<std::string> words = variant.words;
-  words.insert(words.end(), {"--edge-length", digits(edge_length), "--grading", "0"});
-  return words;
-}
-
 /// One source at one size, while it is measured.
-struct Work {
+struct SourceStudy {
   const ExperimentOptions& options;
   const StudyPlan& plan;
   const SurfaceSource& source;
-  std::string stem;                 ///< of the names of its files
-  std::vector<MeasuredCase> cases;  ///< one a variant
+  std::string stem;                      ///< of the names of its files
+  std::vector<MeasuredCase> cases = {};  ///< one a variant
   std::vector<KeptMesh> meshes = {};
 
   std::filesystem::path mesh() const { return options.folder / "meshes" / (plan.experiment + ".vtu"); }
@@ -47,44 +44,46 @@ struct Work {
   MeasuredCase case_of(const QualityVariant& variant, const std::filesystem::path& surface, double edge_length) const {
     std::string name = variant.name;
     std::ranges::replace(name, ' ', '-');
-    return {variant.name, stem + "-" + name, {variant.mesher, surface, mesh(), words_for(variant, edge_length)}};
+    std::vector<std::string> words = variant.words;
+    append(words, std::vector<std::string>{"--edge-length", digits(edge_length), "--grading", "0"});
+    return {variant.name, stem + "-" + name, {variant.mesher, surface, mesh(), words}};
   }
 };
 
 /// Looks for the edge length of the surface at which our FCC lattice makes the wanted number of tetrahedra, the surface
 /// having edges of the length of those inside.
-EvenSurface find_surface(const Work& work, double wanted) {
+EvenSurface find_surface(const SourceStudy& study, double wanted) {
   const QualityVariant bare = {"surface", "ccdt", {"--lattice", "fcc", "--improve", "none"}};
-  const auto file = work.options.folder / "models" / (work.stem + ".poly");
+  const auto file = study.options.folder / "models" / (study.stem + ".poly");
   EvenSurface surface;
   std::string reason;
   const auto count_of = [&](double edge_length) -> std::optional<std::uint64_t> {
-    surface = make_even_surface(work.source, edge_length, file);
-    MeasuredCase measured = work.case_of(bare, file, edge_length);
-    run_once(work.options, measured, 0);
+    surface = make_even_surface(study.source, edge_length, file);
+    MeasuredCase measured = study.case_of(bare, file, edge_length);
+    run_once(study.options, measured, 0);
     reason = measured.first.reason;
     if (measured.failed()) return {};
     return measured.first.counts.tetrahedra;
   };
-  const double regular = std::cbrt(work.source.volume / wanted / regular_tetrahedron_volume(1));
+  const double regular = std::cbrt(study.source.volume / wanted / regular_tetrahedron_volume(1));
   const auto found = search_edge_length({.wanted = wanted,
                                          .first = regular,
-                                         .shortest = work.source.shortest,
-                                         .longest = work.source.longest,
+                                         .shortest = study.source.shortest,
+                                         .longest = study.source.longest,
                                          .most_tries = 5},
                                         count_of);
   if (!found) throw MeshError("no surface of this source was meshed: " + reason, {}, "");
-  if (found->edge_length != surface.edge_length) surface = make_even_surface(work.source, found->edge_length, file);
+  if (found->edge_length != surface.edge_length) surface = make_even_surface(study.source, found->edge_length, file);
   return surface;
 }
 
 /// Runs a variant for the first time, at the edge length that makes as many tetrahedra as the first variant has.
-void run_at_equal_count(Work& work, const QualityVariant& variant, const EvenSurface& surface) {
-  const double wanted = static_cast<double>(work.cases.front().first.counts.tetrahedra);
+void run_at_equal_count(SourceStudy& study, const QualityVariant& variant, const EvenSurface& surface) {
+  const double wanted = static_cast<double>(study.cases.front().first.counts.tetrahedra);
   MeasuredCase tried, best;
   const auto count_of = [&](double edge_length) -> std::optional<std::uint64_t> {
-    tried = work.case_of(variant, surface.file, edge_length);
-    run_once(work.options, tried, 0);
+    tried = study.case_of(variant, surface.file, edge_length);
+    run_once(study.options, tried, 0);
     const double count = static_cast<double>(tried.first.counts.tetrahedra);
     const auto error = [&](double n) { return std::abs(std::log(std::max(n, 1.0) / wanted)); };
     const double least = static_cast<double>(best.first.counts.tetrahedra);
@@ -93,57 +92,47 @@ void run_at_equal_count(Work& work, const QualityVariant& variant, const EvenSur
     return tried.first.counts.tetrahedra;
   };
   search_edge_length({.wanted = wanted, .first = surface.edge_length}, count_of);
-  work.cases.push_back(best);
+  study.cases.push_back(best);
 }
 
-void run_first(Work& work, const QualityVariant& variant, const EvenSurface& surface) {
-  const bool has_reference = !work.cases.empty() && !work.cases.front().failed();
-  if (work.plan.equal_counts && has_reference) return run_at_equal_count(work, variant, surface);
-  work.cases.push_back(work.case_of(variant, surface.file, surface.edge_length));
-  run_once(work.options, work.cases.back(), 0);
+void run_first(SourceStudy& study, const QualityVariant& variant, const EvenSurface& surface) {
+  const bool has_reference = !study.cases.empty() && !study.cases.front().failed();
+  if (study.plan.equal_counts && has_reference) return run_at_equal_count(study, variant, surface);
+  study.cases.push_back(study.case_of(variant, surface.file, surface.edge_length));
+  run_once(study.options, study.cases.back(), 0);
 }
 
 /// Keeps the mesh that a variant has just made, if it is wanted and not too large.
-void keep_small_mesh(Work& work, const MeasuredCase& measured) {
-  if (!work.plan.keeps_meshes || measured.failed()) return;
+void keep_small_mesh(SourceStudy& study, const MeasuredCase& measured) {
+  if (!study.plan.keeps_meshes || measured.failed()) return;
   if (measured.first.counts.tetrahedra > most_kept_tetrahedra) return;
-  work.meshes.push_back(keep_mesh(work.options, measured, work.source.name + ", " + measured.name));
+  study.meshes.push_back(keep_mesh(study.options, measured, study.source.name + ", " + measured.name));
 }
 
 /// Counts the runs after the first, in turn; or the first itself, if it is the only one.
-void run_counted(Work& work) {
-  if (work.plan.once) {
-    for (MeasuredCase& measured : work.cases)
+void run_counted(SourceStudy& study) {
+  if (study.plan.once) {
+    for (MeasuredCase& measured : study.cases)
       if (!measured.failed()) measured.counted = {measured.first};
     return;
   }
-  for (int number = 1; number <= work.options.runs; ++number)
-    for (MeasuredCase& measured : work.cases) {
-      run_once(work.options, measured, number);
-      if (number == 1) keep_small_mesh(work, measured);
-    }
+  run_in_turn(study.options, study.cases, 1, {}, [&](const MeasuredCase& measured, int number) {
+    if (number == 1) keep_small_mesh(study, measured);
+  });
 }
 
 /// The edge length among the options of a case.
 double asked_edge_length(const MeasuredCase& measured) {
-  const auto& words = measured.what.options;
+  const auto& words = measured.call.options;
   return std::stod(*(std::ranges::find(words, "--edge-length") + 1));
 }
 
 QualityRow row_of(const MeasuredCase& measured, const QualityVariant& variant, const MeasuredCase& reference) {
-  QualityRow row;
-  row.variant = measured.name;
-  row.labels = variant.labels;
-  row.runs = run_files(measured);
+  QualityRow row{outcome_of(measured, mesh_seconds), measured.name, variant.labels};
   row.is_ours = variant.mesher == "ccdt";
   row.edge_length = asked_edge_length(measured);
-  row.status = measured.first.status;
-  row.reason = measured.first.reason;
   if (measured.failed()) return row;
-  row.samples = samples_of(measured.counted, [](const StageSeconds& s) { return s.mesh; });
-  row.seconds = median_estimate(row.samples);
-  row.improve_seconds = median(samples_of(measured.counted, [](const StageSeconds& s) { return s.improve; }));
-  row.counts = measured.first.counts;
+  row.improve_seconds = median(samples_of(measured, [](const StageSeconds& s) { return s.improve; }));
   row.quality = measured.first.quality;
   const double ratio =
       static_cast<double>(row.counts.tetrahedra) / static_cast<double>(reference.first.counts.tetrahedra);
@@ -151,61 +140,43 @@ QualityRow row_of(const MeasuredCase& measured, const QualityVariant& variant, c
   return row;
 }
 
-QualityCase measure_case(Work& work, std::uint64_t wanted, const std::function<void(const std::string&)>& announce) {
-  QualityCase result;
-  result.name = work.source.name;
-  result.wanted = wanted;
-  announce(work.stem);
+void measure_case(SourceStudy& study, StepCounter& steps, QualityCase& result) {
+  steps.next(study.stem);
   try {
-    result.surface = find_surface(work, static_cast<double>(wanted));
+    result.surface = find_surface(study, static_cast<double>(result.wanted));
   } catch (const Error& error) {
     result.reason = error.what();
-    return result;
+    return;
   }
-  for (const QualityVariant& variant : work.plan.variants) {
-    announce(work.stem + " " + variant.name);
-    run_first(work, variant, result.surface);
+  for (const QualityVariant& variant : study.plan.variants) {
+    steps.next(study.stem + " " + variant.name);
+    run_first(study, variant, result.surface);
   }
-  run_counted(work);
-  for (std::size_t i = 0; i < work.cases.size(); ++i)
-    result.rows.push_back(row_of(work.cases[i], work.plan.variants[i], work.cases.front()));
-  std::filesystem::remove(work.mesh());
-  return result;
+  run_counted(study);
+  for (std::size_t i = 0; i < study.cases.size(); ++i)
+    result.rows.push_back(row_of(study.cases[i], study.plan.variants[i], study.cases.front()));
+  std::filesystem::remove(study.mesh());
 }
 
 /// A source. One that cannot be read is a case without rows, not the end of the experiment.
-void measure_source(const ExperimentOptions& options, const StudyPlan& plan, const Source& source, QualityStudy& study,
-                    const std::function<void(const std::string&)>& announce) {
-  std::optional<SurfaceSource> read;
-  std::string reason;
-  try {
-    read = source.file.empty() ? solid_source(source.name) : file_source(source.file);
-    read->name = source.name;
-  } catch (const Error& error) {
-    reason = error.what();
-  }
-  const auto wanted = static_cast<std::uint64_t>(options.tetrahedra);
+void measure_source(const ExperimentOptions& options, const StudyPlan& plan, const StudySource& source,
+                    StepCounter& steps, QualityStudy& study) {
   const std::string stem = plan.experiment + "-" + std::to_string(study.cases.size()) + "-" +
                            std::filesystem::path(source.name).stem().string();
-  if (read) {
-    Work work{options, plan, *read, stem, {}};
-    study.cases.push_back(measure_case(work, wanted, announce));
-    study.meshes.insert(study.meshes.end(), work.meshes.begin(), work.meshes.end());
+  QualityCase& result = study.cases.emplace_back();
+  result.name = source.name;
+  result.wanted = static_cast<std::uint64_t>(options.tetrahedra);
+  SurfaceSource surface;
+  try {
+    surface = source.file.empty() ? solid_source(source.name) : file_source(source.file);
+  } catch (const Error& error) {
+    result.reason = error.what();
     return;
   }
-  QualityCase unread;
-  unread.name = source.name;
-  unread.wanted = wanted;
-  unread.reason = reason;
-  study.cases.push_back(unread);
-}
-
-}  // namespace
-
-std::vector<std::string> names_of_paper_models() {
-  std::vector<std::string> names;
-  for (const PaperModel& model : paper_models) names.emplace_back(model.name);
-  return names;
+  surface.name = source.name;
+  SourceStudy source_study{options, plan, surface, stem};
+  measure_case(source_study, steps, result);
+  append(study.meshes, source_study.meshes);
 }
 
 std::vector<std::string> study_definitions() {
@@ -221,18 +192,155 @@ std::vector<std::string> study_definitions() {
   };
 }
 
+/// The columns that tell whose a row is.
+std::vector<Column> label_columns(const QualityStudy& study) {
+  std::vector<Column> columns = {label_column("model")};
+  append(columns, study.labels);
+  return columns;
+}
+
+std::vector<Cell> label_cells(const QualityCase& c, const QualityRow& row) {
+  std::vector<Cell> labels = {c.name};
+  append(labels, std::vector<Cell>(row.labels.begin(), row.labels.end()));
+  return labels;
+}
+
+/// A single run has no interval.
+Cell seconds_of(const QualityRow& row) {
+  return row.samples.size() > 1 ? Cell(*row.seconds) : Cell(row.seconds->value);
+}
+
+/// Million tetrahedra a second, where the clock could tell.
+Cell speed_of(const QualityRow& row) {
+  const double millions = static_cast<double>(row.counts.tetrahedra) / 1e6;
+  return row.seconds->value > 0 ? Cell(millions / row.seconds->value) : Cell();
+}
+
+ResultTable quality_table(const QualityStudy& study) {
+  ResultTable table{"quality", "Quality", label_columns(study)};
+  append(table.columns,
+         std::vector<Column>{
+             label_column("status"), figure_column("tetrahedra"), figure_column("mean_r"), figure_column("median_r"),
+             figure_column("p99_r", "99% of r below"), figure_column("worst_r"),
+             figure_column("smallest_dihedral", "", "degrees"), figure_column("largest_dihedral", "", "degrees"),
+             figure_column("mean_aspect", "mean aspect ratio"), figure_column("worst_aspect", "worst aspect ratio"),
+             figure_column("mean_radius_edge", "mean radius-edge ratio"),
+             figure_column("worst_radius_edge", "worst radius-edge ratio"),
+             figure_column("edge_length", "edge length asked for"),
+             figure_column("comparable", "comparable number of tetrahedra"), time_column("seconds", "", "s"),
+             time_column("improve_seconds", "of these improvement", "s"),
+             time_column("speed", "million tetrahedra a second"), note_column("reason")});
+  for (const QualityCase& c : study.cases)
+    for (const QualityRow& row : c.rows) {
+      std::vector<Cell> values = label_cells(c, row);
+      values.push_back(as_cell(name_of(row.status)));
+      const Quality& q = row.quality;
+      if (row.ok())
+        append(values, cells(row.counts.tetrahedra, q.r.mean, q.r.median, q.r.p99, q.r.max, q.dihedral_degrees.min,
+                             q.dihedral_degrees.max, q.aspect_ratio.mean, q.aspect_ratio.max, q.radius_edge_ratio.mean,
+                             q.radius_edge_ratio.max, row.edge_length, row.is_comparable, seconds_of(row),
+                             row.improve_seconds, speed_of(row)));
+      values.resize(table.columns.size());
+      values.back() = row.reason;
+      table.rows.push_back({std::move(values), row.runs});
+    }
+  return table;
+}
+
+/// A row a bin. The histograms have as many bins as the quality's.
+template <class HistogramOf>
+ResultTable histogram_table(const QualityStudy& study, std::string name, std::string title, const std::string& unit,
+                            HistogramOf histogram_of) {
+  ResultTable table{std::move(name), std::move(title), label_columns(study), {}, true};
+  append(table.columns, std::vector<Column>{figure_column("low", "from", unit), figure_column("high", "to", unit),
+                                            figure_column("count"), figure_column("percent")});
+  for (const QualityCase& c : study.cases)
+    for (const QualityRow& row : c.rows) {
+      if (!row.ok()) continue;
+      const Histogram& h = histogram_of(row.quality);
+      const auto total = static_cast<double>(std::accumulate(h.counts.begin(), h.counts.end(), std::uint64_t{0}));
+      for (std::size_t bin = 0; bin < h.counts.size(); ++bin) {
+        std::vector<Cell> values = label_cells(c, row);
+        const double percent = total > 0 ? 100 * static_cast<double>(h.counts[bin]) / total : 0;
+        append(values, cells(h.edges[bin], h.edges[bin + 1], h.counts[bin], percent));
+        table.rows.push_back({std::move(values), {row.runs.front()}});
+      }
+    }
+  return table;
+}
+
+std::string coordinates(const Point3& p) {
+  return "(" + rounded(p.x, 5) + ", " + rounded(p.y, 5) + ", " + rounded(p.z, 5) + ")";
+}
+
+ResultTable surfaces_table(const QualityStudy& study) {
+  ResultTable table{
+      "surfaces",
+      "The surfaces",
+      {label_column("model"), figure_column("edge_length"), figure_column("vertices"), figure_column("triangles"),
+       figure_column("made"), figure_column("smallest_angle", "smallest angle of a triangle", "degrees"),
+       figure_column("smallest_angle_at", "at"),
+       figure_column("smallest_facet_angle", "smallest angle between facets", "degrees"),
+       figure_column("smallest_facet_angle_at", "at")}};
+  for (const QualityCase& c : study.cases) {
+    if (!c.reason.empty()) continue;
+    const EvenSurface& s = c.surface;
+    add_row(table, {}, c.name, s.edge_length, s.vertices, s.triangles, s.remeshed ? "remeshed" : "kept",
+            s.angles.planar.degrees, coordinates(s.angles.planar.at), s.angles.dihedral.degrees,
+            coordinates(s.angles.dihedral.at));
+  }
+  return table;
+}
+
+/// "piston, 10,000 tetrahedra"
+std::string title_of(const QualityCase& c) {
+  return c.name + ", " + with_separators(c.wanted) + " tetrahedra";
+}
+
+std::vector<std::string> problems_of(const QualityStudy& study) {
+  std::vector<std::string> lines;
+  for (const QualityCase& c : study.cases) {
+    if (!c.reason.empty()) lines.push_back(title_of(c) + ": " + c.reason);
+    for (const QualityRow& row : c.rows) {
+      const std::string who = title_of(c) + ", " + row.variant + ": ";
+      if (!row.ok())
+        lines.push_back(who + row.failure());
+      else if (!row.is_comparable)
+        lines.push_back(who + with_separators(row.counts.tetrahedra) +
+                        " tetrahedra are not comparable: no edge length was found that makes about " +
+                        with_separators(c.rows.front().counts.tetrahedra));
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
 QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& plan, const Progress& progress) {
-  QualityStudy study;
-  study.how = start_experiment(options);
-  study.labels = plan.labels;
-  if (plan.once) study.how.runs = 1;
-  const std::vector<Source> sources = sources_of(options, plan);
+  QualityStudy study{start_experiment(options, plan.once ? 1 : options.runs), plan.labels, {}};
+  const std::vector<StudySource> sources = sources_of(options, plan);
   check_something_is_measured(sources.size(), plan.experiment);
-  const std::uint64_t total = sources.size() * (plan.variants.size() + 1);
-  std::uint64_t done = 0;
-  const auto announce = [&](const std::string& what) { report(progress, what, std::min(done++, total), total); };
-  for (const Source& source : sources) measure_source(options, plan, source, study, announce);
+  StepCounter steps(progress, sources.size() * (plan.variants.size() + 1));
+  for (const StudySource& source : sources) measure_source(options, plan, source, steps, study);
   return study;
+}
+
+ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions) {
+  ExperimentResult result{.how = study.how, .definitions = study_definitions()};
+  append(result.definitions, definitions);
+  result.tables = {quality_table(study),
+                   histogram_table(study, "r_histogram", "Histogram of r", "",
+                                   [](const Quality& q) -> const Histogram& { return q.r.histogram; }),
+                   histogram_table(study, "dihedral_histogram", "Histogram of the dihedral angles", "degrees",
+                                   [](const Quality& q) -> const Histogram& { return q.dihedral_degrees.histogram; }),
+                   surfaces_table(study)};
+  result.problems = problems_of(study);
+  result.meshes = study.meshes;
+  for (const QualityCase& c : study.cases) {
+    result.is_good = result.is_good && c.reason.empty();
+    for (const QualityRow& row : c.rows) result.is_good = result.is_good && (row.ok() || !row.is_ours);
+  }
+  return result;
 }
 
 }  // namespace ccdt

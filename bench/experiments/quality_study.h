@@ -1,14 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/experiments/even_surface.h"
-#include "bench/experiments/experiment.h"
+#include "bench/experiments/measured_case.h"
+#include "bench/experiments/surfaces.h"
 #include "bench/quality.h"
-#include "engine/base/progress.h"
-#include "engine/mesher.h"
 
 namespace ccdt {
 
@@ -23,22 +20,15 @@ struct QualityVariant {
   std::vector<std::string> labels = {};  ///< what tells its rows from others: a value for each label of the plan
 };
 
-/// A variant on a surface.
-struct QualityRow {
+/// A variant on a surface. Seconds are of meshing.
+struct QualityRow : CaseOutcome {
   std::string variant;
   std::vector<std::string> labels;
-  double edge_length = 0;           ///< that it was asked for
-  std::vector<double> samples;      ///< seconds of meshing in the counted runs, in order
-  std::optional<Estimate> seconds;  ///< none if a run failed
-  double improve_seconds = 0;       ///< median; 0 for meshers that do not tell
-  MeshCounts counts;
-  Quality quality;
+  double edge_length = 0;      ///< that it was asked for
+  double improve_seconds = 0;  ///< median; 0 for meshers that do not tell
+  Quality quality = {};
   bool is_comparable = false;  ///< about as many tetrahedra as the first row has
-  RunStatus status = RunStatus::ok;
-  std::string reason;
-  std::vector<std::string> runs = {};  ///< files of the runs
-  bool is_ours = true;                 ///< made by our engine
-  bool ok() const { return status == RunStatus::ok; }
+  bool is_ours = true;         ///< made by our engine
 };
 
 /// A surface at one size, filled by all variants.
@@ -71,9 +61,6 @@ struct StudyPlan {
 /// Meshes with more tetrahedra are not kept: a page could not hold them.
 inline constexpr std::uint64_t most_kept_tetrahedra = 150000;
 
-/// The paper's three models.
-std::vector<std::string> names_of_paper_models();
-
 /// Measures the plan's models and the user's files, each with a surface of triangles of nearly one size on which our
 /// FCC lattice, unimproved, makes the wanted number of tetrahedra. The variants take turns. Searches for edge lengths
 /// are not counted.
@@ -82,13 +69,10 @@ std::vector<std::string> names_of_paper_models();
 /// \throw OutputError  a file of the experiment cannot be written
 QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& plan, const Progress& progress);
 
-/// The tables that all studies have, with the problems that came up: a row a mesh, its histograms, the surfaces.
-ExperimentResult study_result(const QualityStudy& study);
-
-/// "piston, 10,000 tetrahedra".
-std::string title_of(const QualityCase& c);
-
-/// What the rows of every study mean, one sentence each.
-std::vector<std::string> study_definitions();
+/// The definitions and tables that all studies have, with the problems that came up: a row a mesh, its histograms, the
+/// surfaces.
+///
+/// \param definitions  more of what the rows mean, one sentence each
+ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions);
 
 }  // namespace ccdt

@@ -4,14 +4,11 @@
 #include <vector>
 
 #include "bench/experiments/delaunay.h"
-#include "bench/experiments/fig7.h"
 #include "bench/experiments/fig8.h"
-#include "bench/experiments/improvement.h"
 #include "bench/experiments/interior_points.h"
-#include "bench/experiments/lattice_fit.h"
-#include "bench/experiments/lattices.h"
 #include "bench/experiments/locators.h"
-#include "bench/experiments/mesher_quality.h"
+#include "bench/experiments/quality_experiments.h"
+#include "bench/experiments/surfaces.h"
 #include "bench/experiments/table1.h"
 #include "bench/experiments/termination.h"
 #include "bench/experiments/theorem1.h"

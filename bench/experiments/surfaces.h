@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/experiments/experiment.h"
+#include "engine/numbers/point.h"
 #include "engine/plc/input.h"
+#include "engine/plc/plc.h"
 
 namespace ccdt {
 
@@ -16,6 +19,7 @@ struct PaperModel {
 };
 inline constexpr std::array<PaperModel, 3> paper_models = {
     {{"piston", 2.32}, {"bracket", 1.73}, {"stepping-pole", 1.62}}};
+std::vector<std::string> names_of_paper_models();
 
 /// A surface that experiments mesh.
 struct SurfaceFile {
@@ -29,10 +33,64 @@ struct SurfaceFile {
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length);
 
+/// Writes the solids that are asked for, each with multiples of its usual edge length, if it has then other vertices
+/// than before: some solids are always the same, and others get no coarser.
+std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const std::string& experiment,
+                                      std::span<const double> coarsenings);
+
 /// The user's files, named without their folder.
 std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
 
 /// The length of the longest edge over that of the shortest; 1 if there is none.
 double edge_ratio(const InputPlc& plc);
+
+/// An angle in degrees and a corner at which it is.
+struct SurfaceAngle {
+  double degrees = 180;
+  Point3 at = {};
+};
+
+/// The smallest angles of a surface: what its own geometry forbids the tetrahedra.
+struct SurfaceAngles {
+  SurfaceAngle planar;    ///< of its triangles
+  SurfaceAngle dihedral;  ///< between two triangles at an edge, where the inside of the domain is between them
+};
+
+SurfaceAngles smallest_angles(const Plc& plc);
+
+/// The volume of all that is inside, in the units of the input cubed.
+double enclosed_volume(const Plc& plc);
+
+/// Are the triangles of a surface good enough to be kept? All their angles have 25 degrees or more, nine tenths of the
+/// edges differ by a factor of less than 2, and the median edge is within a quarter of the wanted length.
+bool has_even_triangles(const Plc& plc, double edge_length);
+
+/// Where surfaces of any edge length come from: one of our solids, or a file of the user's.
+struct SurfaceSource {
+  std::string name;  ///< of the solid, or the path of the file
+  bool is_solid = false;
+  double shortest = 0, longest = 1e300;  ///< edge lengths that it can have
+  double volume = 0;                     ///< of what is inside
+  InputPlc input;                        ///< a file's content
+};
+
+/// \throw InputError  the file cannot be read or is no valid PLC
+SurfaceSource solid_source(const std::string& name);
+SurfaceSource file_source(const std::filesystem::path& file);
+
+/// A surface of triangles of nearly one size, in a file.
+struct EvenSurface {
+  std::filesystem::path file;
+  double edge_length = 0;
+  bool remeshed = false;  ///< else its triangles are as they came, because they were even enough
+  std::uint64_t vertices = 0, triangles = 0;
+  SurfaceAngles angles;
+};
+
+/// Makes a solid of an edge length, or takes the user's file; remeshes it where its triangles are not even and of about
+/// that length; and writes it.
+///
+/// \throw InputError, MeshError  as `remesh_surface`
+EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, const std::filesystem::path& file);
 
 }  // namespace ccdt

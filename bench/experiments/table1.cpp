@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <span>
 
-#include "bench/experiments/measured_case.h"
 #include "bench/experiments/surfaces.h"
-#include "engine/io/plc_files.h"
+#include "bench/experiments/tables.h"
+#include "bench/results/numbers.h"
+#include "engine/io/read_plc.h"
 #include "engine/io/tet_mesh_files.h"
 #include "models/solids.h"
 
@@ -24,16 +23,7 @@ constexpr std::array<PaperTimes, 3> paper_times = {{{paper_models[0], 25.53, 26.
                                                     {paper_models[1], 33.14, 34.26, 607.15},
                                                     {paper_models[2], 35.83, 37.14, 610.94}}};
 
-double delaunay_seconds(const StageSeconds& seconds) {
-  return seconds.delaunay;
-}
-double front_seconds(const StageSeconds& seconds) {
-  return seconds.front;
-}
-double mesh_seconds(const StageSeconds& seconds) {
-  return seconds.mesh;
-}
-
+/// The cases of one model, and what becomes of their files.
 class ModelExperiment {
  public:
   ModelExperiment(const ExperimentOptions& options, const PaperTimes& paper)
@@ -61,12 +51,17 @@ class ModelExperiment {
 
   void write_surface() const { write_plc(surface(), surface_file()); }
 
-  void run(MeasuredCase& measured, int number) const {
-    run_once(options_, measured, number);
-    if (number == 0 && measured.name == "with_check" && !measured.failed()) write_points(measured.first);
+  /// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and
+  /// facets.
+  void write_points(const MeasuredCase& with_check) const {
+    InputPlc plc = surface();
+    const TetMesh mesh = read_tet_mesh(with_check.call.output);
+    const auto interior = static_cast<std::ptrdiff_t>(with_check.first.counts.interior_vertices);
+    plc.vertices.insert(plc.vertices.end(), mesh.vertices.end() - interior, mesh.vertices.end());
+    write_plc(plc, points_file());
   }
 
-  Table1Model evaluate(std::span<const MeasuredCase> cases) const;
+  Table1Model evaluate(const std::vector<MeasuredCase>& cases) const;
 
  private:
   std::filesystem::path in_folder(const char* folder, const std::string& rest) const {
@@ -77,16 +72,6 @@ class ModelExperiment {
   std::filesystem::path mesh_file(const std::string& name) const { return in_folder("meshes", "-" + name + ".node"); }
 
   InputPlc surface() const { return make_solid(paper_.model.name, edge_length_); }
-
-  /// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and
-  /// facets.
-  void write_points(const RunRecord& record) const {
-    InputPlc plc = surface();
-    const TetMesh mesh = read_tet_mesh(mesh_file("with_check"));
-    const auto interior = static_cast<std::ptrdiff_t>(record.counts.interior_vertices);
-    plc.vertices.insert(plc.vertices.end(), mesh.vertices.end() - interior, mesh.vertices.end());
-    write_plc(plc, points_file());
-  }
 
   bool same_tetrahedra() const {
     const auto sorted = [&](const char* name) {
@@ -103,30 +88,20 @@ class ModelExperiment {
   double edge_length_;
 };
 
-Table1Row row_of(const MeasuredCase& measured, std::string id, std::string label,
-                 double (*seconds)(const StageSeconds&), std::optional<double> paper = {}) {
-  Table1Row row{std::move(id),         std::move(label),   {}, {}, paper, measured.first.counts, measured.first.status,
-                measured.first.reason, run_files(measured)};
-  if (measured.failed()) return row;
-  row.samples = samples_of(measured.counted, seconds);
-  row.seconds = median_estimate(row.samples);
-  return row;
-}
-
 Table1Ratio ratio_of(const Table1Model& model, std::string id, std::string label, const char* above,
                      const char* below) {
   const auto row = [&](const char* name) { return std::ranges::find(model.rows, name, &Table1Row::id); };
-  Table1Ratio ratio{std::move(id), std::move(label), {}, {}};
+  Table1Ratio ratio{std::move(id), std::move(label)};
   const auto a = row(above), b = row(below);
   if (a == model.rows.end() || b == model.rows.end()) return ratio;
   if (a->seconds && b->seconds && b->seconds->value > 0) ratio.value = ratio_of_medians(a->samples, b->samples);
   ratio.runs = a->runs;
-  if (b->runs != a->runs) ratio.runs.insert(ratio.runs.end(), b->runs.begin(), b->runs.end());
+  if (b->runs != a->runs) append(ratio.runs, b->runs);
   if (a->paper_seconds && b->paper_seconds) ratio.paper = *a->paper_seconds / *b->paper_seconds;
   return ratio;
 }
 
-/// The check against the Delaunay stage of the very same run: paired, so the machine's moods cancel out.
+/// The check against the Delaunay stage of the very same run: paired, so that the machine's ups and downs cancel out.
 Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperTimes& paper) {
   Table1Ratio ratio{"with_check/delaunay",
                     "with check / Delaunay",
@@ -134,13 +109,13 @@ Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperTimes& paper)
                     paper.with_check_seconds / paper.delaunay_seconds,
                     run_files(with_check)};
   const auto in_a_run = [](const StageSeconds& s) { return cdt_seconds(s) / s.delaunay; };
-  if (!with_check.failed()) ratio.value = median_estimate(samples_of(with_check.counted, in_a_run));
+  if (!with_check.failed()) ratio.value = median_estimate(samples_of(with_check, in_a_run));
   return ratio;
 }
 
 Table1Costs costs_of(const MeasuredCase& with_check, const MeasuredCase& without_check) {
-  const auto cost = [](const MeasuredCase& measured, double (*seconds)(const StageSeconds&), std::uint64_t units) {
-    return 1e6 * median(samples_of(measured.counted, seconds)) / static_cast<double>(units);
+  const auto cost = [](const MeasuredCase& measured, SecondsOf seconds, std::uint64_t units) {
+    return 1e6 * median(samples_of(measured, seconds)) / static_cast<double>(units);
   };
   const auto check = [](const StageSeconds& s) { return cdt_seconds(s) - s.delaunay; };
   const std::uint64_t vertices = with_check.first.counts.vertices;
@@ -148,14 +123,14 @@ Table1Costs costs_of(const MeasuredCase& with_check, const MeasuredCase& without
           cost(without_check, front_seconds, without_check.first.counts.front_tetrahedra)};
 }
 
-Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const {
+Table1Model ModelExperiment::evaluate(const std::vector<MeasuredCase>& cases) const {
   Table1Model model;
   model.name = paper_.model.name;
   model.edge_length = edge_length_;
-  const auto add = [&](const char* name, const char* id, const char* label, double (*seconds)(const StageSeconds&),
+  const auto add = [&](const char* name, const char* id, const char* label, SecondsOf seconds,
                        std::optional<double> paper = {}) {
     const auto found = std::ranges::find(cases, name, &MeasuredCase::name);
-    if (found != cases.end()) model.rows.push_back(row_of(*found, id, label, seconds, paper));
+    if (found != cases.end()) model.rows.push_back({outcome_of(*found, seconds), id, label, paper});
   };
   add("with_check", "delaunay", "Delaunay", delaunay_seconds, paper_.delaunay_seconds);
   add("with_check", "with_check", "CDT with face protection check", cdt_seconds, paper_.with_check_seconds);
@@ -168,17 +143,13 @@ Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const
   add("tetgen_quality", "tetgen_quality", "TetGen, its own vertices", mesh_seconds);
   add("mesh3", "mesh3", "CGAL Mesh_3, its own vertices", mesh_seconds);
 
-  model.ratios.push_back(check_ratio(cases[0], paper_));
-  model.ratios.push_back(
-      ratio_of(model, "without_check/delaunay", "without check / Delaunay", "without_check", "delaunay"));
-  model.ratios.push_back(ratio_of(model, "without_check_grid/delaunay", "without check, paper's grid / Delaunay",
-                                  "without_check_grid", "delaunay"));
-  model.ratios.push_back(
-      ratio_of(model, "without_check/with_check", "without / with check", "without_check", "with_check"));
-  model.ratios.push_back(
-      ratio_of(model, "delaunay/cgal_delaunay", "Delaunay / CGAL Delaunay", "delaunay", "cgal_delaunay"));
-  model.ratios.push_back(
-      ratio_of(model, "with_check/tetgen_cdt", "with check / TetGen CDT", "with_check", "tetgen_cdt"));
+  model.ratios = {check_ratio(cases[0], paper_),
+                  ratio_of(model, "without_check/delaunay", "without check / Delaunay", "without_check", "delaunay"),
+                  ratio_of(model, "without_check_grid/delaunay", "without check, paper's grid / Delaunay",
+                           "without_check_grid", "delaunay"),
+                  ratio_of(model, "without_check/with_check", "without / with check", "without_check", "with_check"),
+                  ratio_of(model, "delaunay/cgal_delaunay", "Delaunay / CGAL Delaunay", "delaunay", "cgal_delaunay"),
+                  ratio_of(model, "with_check/tetgen_cdt", "with check / TetGen CDT", "with_check", "tetgen_cdt")};
   if (!cases[0].failed() && !cases[1].failed()) {
     model.same_tetrahedra = same_tetrahedra();
     model.costs = costs_of(cases[0], cases[1]);
@@ -186,9 +157,7 @@ Table1Model ModelExperiment::evaluate(std::span<const MeasuredCase> cases) const
   return model;
 }
 
-}  // namespace
-
-std::vector<std::string> table1_definitions() {
+std::vector<std::string> definitions() {
   return {
       "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
       "CDT: the stages delaunay, face_check, front and label of a run.",
@@ -208,9 +177,116 @@ std::vector<std::string> table1_definitions() {
   };
 }
 
+std::vector<ResultTable> tables_of(const Table1& table) {
+  ResultTable ratios{"ratios",
+                     "Ratios",
+                     {label_column("model"), label_column("ratio"), time_column("value", "here"),
+                      column(ColumnKind::paper, "paper_value", "in the paper")}};
+  ResultTable times{"times",
+                    "Seconds",
+                    {label_column("model"), label_column("what", "what is timed"), label_column("status"),
+                     time_column("seconds", "", "s"), column(ColumnKind::paper, "paper_seconds", "in the paper", "s"),
+                     figure_column("vertices"), figure_column("tetrahedra"), note_column("reason")}};
+  ResultTable sizes{"sizes",
+                    "The meshes",
+                    {label_column("model"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
+                     figure_column("steiner_vertices", "Steiner vertices"), figure_column("interior_vertices"),
+                     figure_column("tetrahedra"), figure_column("faces"),
+                     figure_column("undelaunay_faces", "faces that are not Delaunay"),
+                     figure_column("same_tetrahedra", "same tetrahedra without the check")}};
+  ResultTable costs{"costs",
+                    "What a unit of work costs",
+                    {label_column("model"), time_column("delaunay", "Delaunay, a vertex", "us"),
+                     time_column("check", "face check, front and labels, a vertex", "us"),
+                     time_column("front", "front without the check, a tetrahedron", "us")}};
+  for (const Table1Model& model : table.models) {
+    for (const Table1Ratio& ratio : model.ratios)
+      if (ratio.value) add_row(ratios, ratio.runs, model.name, ratio.label, ratio.value, ratio.paper);
+    for (const Table1Row& row : model.rows)
+      add_row(times, row.runs, model.name, row.label, name_of(row.status), row.seconds, row.paper_seconds,
+              row.seconds ? as_cell(row.counts.vertices) : Cell(),
+              row.seconds ? as_cell(row.counts.tetrahedra) : Cell(), row.reason);
+    const Table1Row& row = model.rows.front();
+    const MeshCounts& c = row.counts;
+    add_row(sizes, row.runs, model.name, model.edge_length, c.vertices, c.steiner_vertices, c.interior_vertices,
+            c.tetrahedra, c.faces, c.undelaunay_faces, model.same_tetrahedra);
+    if (model.costs)
+      add_row(costs, row.runs, model.name, model.costs->delaunay_per_vertex, model.costs->check_per_vertex,
+              model.costs->front_per_tetrahedron);
+  }
+  return {ratios, times, sizes, costs};
+}
+
+const Table1Ratio* ratio(const Table1Model& model, std::string_view id) {
+  const auto found = std::ranges::find(model.ratios, id, &Table1Ratio::id);
+  return found != model.ratios.end() && found->value ? &*found : nullptr;
+}
+
+/// "1.21 [1.20, 1.22] times as long as Delaunay (paper: 1.019): ".
+std::string times_delaunay(const Table1Ratio& ratio) {
+  return with_interval(*ratio.value) + " times as long as Delaunay (paper: " + rounded(*ratio.paper, 4) + "): ";
+}
+
+std::string check_sentence(const Table1Model& model, const Table1Ratio& check) {
+  return model.name + ": with the check, the CDT takes " + times_delaunay(check) +
+         choose(is_at_most(*check.value, *check.paper), "not more than there.", "these runs cannot tell it from there.",
+                "more than there.");
+}
+
+std::string front_sentence(const Table1Model& model, const Table1Ratio& front) {
+  return model.name + ": without the check, it takes " + times_delaunay(front) +
+         choose(is_at_least(*front.value, least_gain), "at least ", "not surely ", "less than ") +
+         rounded(least_gain, 1) + ".";
+}
+
+std::string check_reason(const Table1Model& model) {
+  const Table1Costs& costs = *model.costs;
+  return model.name + ": the check is one pass over the cells, labelling another; together they take " +
+         rounded(costs.check_per_vertex) +
+         " microseconds a vertex. That is linear, but the Delaunay stage that it is compared with takes only " +
+         rounded(costs.delaunay_per_vertex) +
+         " microseconds a vertex. (The paper's Delaunay took 26 to 36 s; it does not say for how many vertices.)";
+}
+
+std::string front_reason(const Table1Model& model) {
+  return model.name + ": without the check, the front finds each apex in " +
+         rounded(model.costs->front_per_tetrahedron) +
+         " microseconds a tetrahedron; the cheaper that is, the less there is for the check to save.";
+}
+
+/// Where our ratios differ from the paper's, and why, as measured.
+void add_differences(const Table1Model& model, std::vector<std::string>& lines) {
+  const Table1Ratio* check = ratio(model, "with_check/delaunay");
+  const Table1Ratio* front = ratio(model, "without_check/delaunay");
+  if (check != nullptr && check->paper) {
+    lines.push_back(check_sentence(model, *check));
+    if (model.costs && is_at_most(*check->value, *check->paper) != BoundTest::holds)
+      lines.push_back(check_reason(model));
+  }
+  if (front != nullptr && front->paper) {
+    lines.push_back(front_sentence(model, *front));
+    if (model.costs && is_at_least(*front->value, *front->paper) != BoundTest::holds)
+      lines.push_back(front_reason(model));
+  }
+}
+
+void add_problems(const Table1Model& model, ExperimentResult& result) {
+  for (const Table1Row& row : model.rows) {
+    if (row.ok()) continue;
+    result.problems.push_back(model.name + ", " + row.label + ": " + row.failure());
+    result.is_good = result.is_good && !row.paper_seconds;
+  }
+  if (!model.same_tetrahedra) {
+    result.problems.push_back(model.name +
+                              ": with and without the check, the tetrahedra differ, which is an error of ccdt");
+    result.is_good = false;
+  }
+}
+
+}  // namespace
+
 Table1 measure_table1(const ExperimentOptions& options, const Progress& progress) {
-  Table1 table;
-  table.how = start_experiment(options);
+  Table1 table{start_experiment(options, options.runs), {}};
   const auto is_asked = [&](const PaperTimes& paper) { return is_asked_for(options, paper.model.name); };
   const auto model_count = static_cast<std::uint64_t>(std::ranges::count_if(paper_times, is_asked));
   check_something_is_measured(model_count, "table1");
@@ -221,14 +297,28 @@ Table1 measure_table1(const ExperimentOptions& options, const Progress& progress
     experiment.write_surface();
     std::vector<MeasuredCase> cases = experiment.plan();
     const std::uint64_t total = model_count * cases.size() * static_cast<std::uint64_t>(options.runs + 1);
-    for (int number = 0; number <= options.runs; ++number)
-      for (MeasuredCase& measured : cases) {
-        report(progress, std::string(paper.model.name) + " " + measured.name, done++, total);
-        experiment.run(measured, number);
-      }
+    run_in_turn(
+        options, cases, 0,
+        [&](const MeasuredCase& measured, int) {
+          report(progress, std::string(paper.model.name) + " " + measured.name, done++, total);
+        },
+        [&](const MeasuredCase& measured, int number) {
+          if (number == 0 && measured.name == "with_check" && !measured.failed()) experiment.write_points(measured);
+        });
     table.models.push_back(experiment.evaluate(cases));
   }
   return table;
+}
+
+ExperimentResult result_of(const Table1& table) {
+  ExperimentResult result{.how = table.how, .definitions = definitions()};
+  if (table.models.empty()) return result;
+  result.tables = tables_of(table);
+  for (const Table1Model& model : table.models) {
+    add_differences(model, result.findings);
+    add_problems(model, result);
+  }
+  return result;
 }
 
 }  // namespace ccdt

@@ -4,36 +4,28 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/experiment.h"
-#include "engine/base/progress.h"
-#include "engine/mesher.h"
+#include "bench/experiments/measured_case.h"
 
 namespace ccdt {
 
-/// One row of one model: what was timed, the samples and what came of them.
-struct Table1Row {
-  std::string id;                   ///< delaunay, with_check, without_check, ccdt_mesh, cgal_delaunay, tetgen_cdt, ...
-  std::string label;                ///< for people
-  std::vector<double> samples;      ///< seconds of the counted runs, in order
-  std::optional<Estimate> seconds;  ///< none if the case failed
-  std::optional<double> paper_seconds;
-  MeshCounts counts;
-  RunStatus status = RunStatus::ok;
-  std::string reason;
-  std::vector<std::string> runs = {};  ///< files of the runs
+/// One row of one model: what was timed. The seconds are none if the case failed.
+struct Table1Row : CaseOutcome {
+  std::string id;     ///< delaunay, with_check, without_check, ccdt_mesh, cgal_delaunay, tetgen_cdt, ...
+  std::string label;  ///< for people
+  std::optional<double> paper_seconds = {};
 };
 
 struct Table1Ratio {
   std::string id, label;
-  std::optional<Estimate> value;
-  std::optional<double> paper;
+  std::optional<Estimate> value = {};
+  std::optional<double> paper = {};
   std::vector<std::string> runs = {};  ///< files of all runs that it is made of
 };
 
 /// What a unit of work costs, in microseconds; medians.
 struct Table1Costs {
   double delaunay_per_vertex = 0;
-  double check_per_vertex = 0;       ///< face check, front and labelling of the run with the check
+  double check_per_vertex = 0;       ///< face check, front and labeling of the run with the check
   double front_per_tetrahedron = 0;  ///< of the run without the check, whose front builds every tetrahedron
 };
 
@@ -63,8 +55,5 @@ inline constexpr double least_gain = 8;
 
 /// As tables, with what they say.
 ExperimentResult result_of(const Table1& table);
-
-/// What the rows mean, one sentence each; part of every form of the table.
-std::vector<std::string> table1_definitions();
 
 }  // namespace ccdt

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "bench/experiments/small_plcs/families.h"
+#include "bench/experiments/tables.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
 #include "engine/io/plc_files.h"
@@ -32,11 +32,11 @@ std::string model_file(const FamilyTrials& family) {
   return "models/theorem1-" + name + ".poly";
 }
 
-FamilyTrials measure(const small::Family& family, std::uint64_t cases, const std::function<void()>& announce) {
+FamilyTrials measure(const small::Family& family, std::uint64_t cases, StepCounter& steps) {
   FamilyTrials trials{.name = std::string(family.name), .is_cospherical = family.is_cospherical};
   small::Random random(seed);
   for (std::uint64_t i = 0; i < cases; ++i) {
-    announce();
+    steps.next(family.name);
     add_trial(small::try_plc(small::next_plc(family, random), family.is_cospherical), trials);
   }
   return trials;
@@ -60,61 +60,54 @@ std::vector<std::string> definitions() {
   return all;
 }
 
-ResultRow row_of(const FamilyTrials& f) {
-  const Cell agreements = f.is_cospherical ? Cell{} : cell_of(f.cases - f.disagreements);
-  const Cell note = has_counterexample(f) ? Cell(model_file(f) + ": " + small::in_words(f.counterexample)) : Cell{};
-  return {{f.name, f.is_cospherical ? "one sphere" : "general", cell_of(f.cases), cell_of(f.premise), cell_of(f.dt),
-           cell_of(f.against_if), cell_of(f.against_only_if), cell_of(f.edges_alone), cell_of(f.edges_alone_loose),
-           cell_of(f.edge_protected), cell_of(f.edge_protected_without_cdt), agreements, note}};
-}
-
-ResultTable table_of(std::span<const FamilyTrials> families) {
+ResultTable families_table(std::span<const FamilyTrials> families) {
   ResultTable table{"families",
                     "Small random PLCs held against Theorem 1",
-                    {{"family", "family", ColumnKind::label},
-                     {"position", "position", ColumnKind::label},
-                     {"cases", "PLCs"},
-                     {"premise", "edges and faces protected"},
-                     {"dt", "with a DT"},
-                     {"against_if", "protected, without a DT"},
-                     {"against_only_if", "with a DT, not protected"},
-                     {"edges_alone", "faces protected, an edge not"},
-                     {"edges_alone_loose", "of these, the edge is of no facet"},
-                     {"edge_protected", "edges protected"},
-                     {"edge_protected_without_cdt", "of these, without a CDT"},
-                     {"engine_agrees", "the engine agrees"},
-                     {"counterexample", "the smallest counterexample", ColumnKind::note}}};
-  for (const FamilyTrials& family : families) table.rows.push_back(row_of(family));
+                    {label_column("family"), label_column("position"), figure_column("cases", "PLCs"),
+                     figure_column("premise", "edges and faces protected"), figure_column("dt", "with a DT"),
+                     figure_column("against_if", "protected, without a DT"),
+                     figure_column("against_only_if", "with a DT, not protected"),
+                     figure_column("edges_alone", "faces protected, an edge not"),
+                     figure_column("edges_alone_loose", "of these, the edge is of no facet"),
+                     figure_column("edge_protected", "edges protected"),
+                     figure_column("edge_protected_without_cdt", "of these, without a CDT"),
+                     figure_column("engine_agrees", "the engine agrees"),
+                     note_column("counterexample", "the smallest counterexample")}};
+  for (const FamilyTrials& f : families) {
+    const Cell agreements = f.is_cospherical ? Cell() : as_cell(f.cases - f.disagreements);
+    const Cell note = has_counterexample(f) ? Cell(model_file(f) + ": " + small::in_words(f.counterexample)) : Cell();
+    add_row(table, {}, f.name, f.is_cospherical ? "one sphere" : "general", f.cases, f.premise, f.dt, f.against_if,
+            f.against_only_if, f.edges_alone, f.edges_alone_loose, f.edge_protected, f.edge_protected_without_cdt,
+            agreements, note);
+  }
   return table;
 }
 
-std::string share(std::uint64_t part, std::uint64_t whole) {
-  return with_separators(part) + " of " + with_separators(whole);
+/// "20 of 1,000", of the families in general position: those of `whole` without those of `exceptions`.
+std::string general_share(std::span<const FamilyTrials> families, std::uint64_t FamilyTrials::*whole,
+                          std::uint64_t FamilyTrials::*exceptions) {
+  const std::uint64_t all = sum(families, false, whole);
+  return share_words(all - sum(families, false, exceptions), all);
 }
 
 std::vector<std::string> findings_of(std::span<const FamilyTrials> families) {
-  const auto general = [&](auto count) { return sum(families, false, count); };
-  const auto on_sphere = [&](auto count) { return sum(families, true, count); };
+  using F = FamilyTrials;
+  const auto on_sphere = [&](auto part, auto whole) {
+    return share_words(sum(families, true, part), sum(families, true, whole));
+  };
   return {
-      "If: " +
-          share(general(&FamilyTrials::premise) - general(&FamilyTrials::against_if), general(&FamilyTrials::premise)) +
+      "If: " + general_share(families, &F::premise, &F::against_if) +
           " PLCs in general position that are grazeable edge protected and face protected have a DT",
-      "Only if: " +
-          share(general(&FamilyTrials::dt) - general(&FamilyTrials::against_only_if), general(&FamilyTrials::dt)) +
+      "Only if: " + general_share(families, &F::dt, &F::against_only_if) +
           " PLCs in general position that have a DT are grazeable edge protected and face protected",
-      "The theorem's proviso: with all vertices on one sphere, " +
-          share(on_sphere(&FamilyTrials::against_only_if), on_sphere(&FamilyTrials::dt)) +
-          " PLCs with a DT are not protected, and " +
-          share(on_sphere(&FamilyTrials::against_if), on_sphere(&FamilyTrials::premise)) +
+      "The theorem's proviso: with all vertices on one sphere, " + on_sphere(&F::against_only_if, &F::dt) +
+          " PLCs with a DT are not protected, and " + on_sphere(&F::against_if, &F::premise) +
           " that are protected have no DT",
       "Where all faces were protected but an edge was not, the edge was of no facet in " +
-          share(general(&FamilyTrials::edges_alone_loose), general(&FamilyTrials::edges_alone)) + " PLCs",
-      "Section 2: " +
-          share(general(&FamilyTrials::edge_protected) - general(&FamilyTrials::edge_protected_without_cdt),
-                general(&FamilyTrials::edge_protected)) +
+          share_words(sum(families, false, &F::edges_alone_loose), sum(families, false, &F::edges_alone)) + " PLCs",
+      "Section 2: " + general_share(families, &F::edge_protected, &F::edge_protected_without_cdt) +
           " PLCs in general position that are grazeable edge protected have a CDT",
-      "The engine and the exhaustive tests agree on " +
-          share(general(&FamilyTrials::cases) - general(&FamilyTrials::disagreements), general(&FamilyTrials::cases)) +
+      "The engine and the exhaustive tests agree on " + general_share(families, &F::cases, &F::disagreements) +
           " PLCs in general position",
   };
 }
@@ -142,7 +135,7 @@ void add_trial(const small::Trial& trial, FamilyTrials& family) {
 ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
   ExperimentResult result;
   result.definitions = definitions();
-  result.tables = {table_of(families)};
+  result.tables = {families_table(families)};
   result.findings = findings_of(families);
   for (const FamilyTrials& family : families) {
     if (family.disagreements == 0) continue;
@@ -154,14 +147,12 @@ ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
 }
 
 ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress) {
-  Circumstances how = start_experiment(options);
-  how.runs = 1;
+  Circumstances how = start_experiment(options, 1);
   const auto cases = static_cast<std::uint64_t>(std::max(1.0, std::round(options.tetrahedra / tetrahedra_per_case)));
   std::vector<FamilyTrials> families;
-  std::uint64_t done = 0;
+  StepCounter steps(progress, cases * small::families().size());
   for (const small::Family& family : small::families()) {
-    families.push_back(
-        measure(family, cases, [&] { report(progress, family.name, done++, cases * small::families().size()); }));
+    families.push_back(measure(family, cases, steps));
     if (has_counterexample(families.back()))
       write_plc(small::as_input(families.back().counterexample), options.folder / model_file(families.back()));
   }

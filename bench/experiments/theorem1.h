@@ -2,11 +2,10 @@
 
 #include "bench/experiments/experiment.h"
 #include "bench/experiments/small_plcs/trial.h"
-#include "engine/base/progress.h"
 
 namespace ccdt {
 
-/// What the trials of one family of small PLCs have told.
+/// The counts of the trials of one family of small PLCs.
 struct FamilyTrials {
   std::string name;
   bool is_cospherical = false;  ///< not in general position, so that the theorem does not speak of it

@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "bench/experiments/fig8.h"
-#include "bench/experiments/improvement.h"
 #include "bench/experiments/interior_points.h"
-#include "bench/experiments/lattice_fit.h"
-#include "bench/experiments/lattices.h"
 #include "bench/experiments/locators.h"
-#include "bench/experiments/mesher_quality.h"
+#include "bench/experiments/quality_experiments.h"
 
 namespace ccdt {
 namespace {
@@ -20,13 +17,13 @@ bool say(const std::vector<std::string>& lines, const std::string& words) {
 }
 
 Fig8 fig8_with_exponent(double exponent) {
-  Fig8Series series{"insert", "with check", "ccdt", {}, {}};
+  Fig8Series series{"insert", "with check", "ccdt"};
   for (const std::uint64_t n : {10000, 20000, 40000}) {
     Fig8Point point;
     point.counts.vertices = n;
     StageSeconds seconds;
     seconds.delaunay = 1e-5 * std::pow(static_cast<double>(n), exponent);
-    point.samples.assign(5, seconds);
+    point.stages.assign(5, seconds);
     point.seconds = Estimate{seconds.delaunay, seconds.delaunay, seconds.delaunay};
     series.points.push_back(point);
   }
@@ -63,7 +60,7 @@ ExperimentResult locators_result(SurfaceKind kind, const Estimate& ratio, const 
   c.kind = kind;
   c.edge_ratio = 181;
   for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree})
-    c.rows.push_back({locator, {2, 2}, Estimate{2, 2, 2}, RunStatus::ok, ""});
+    c.rows.push_back({{.samples = {2, 2}, .seconds = Estimate{2, 2, 2}}, locator});
   c.rows.push_back(last);
   c.octree_over_grid = ratio;
   Locators locators;
@@ -72,7 +69,7 @@ ExperimentResult locators_result(SurfaceKind kind, const Estimate& ratio, const 
 }
 
 TEST(LocatorsFindings, JudgeByTheRatioThatWasMeasured) {
-  const LocatorsRow good{LocatorKind::cavity, {2, 2}, Estimate{2, 2, 2}, RunStatus::ok, ""};
+  const LocatorsRow good{{.samples = {2, 2}, .seconds = Estimate{2, 2, 2}}, LocatorKind::cavity};
   const auto findings = [&](SurfaceKind kind, const Estimate& ratio) {
     return locators_result(kind, ratio, good).findings;
   };
@@ -86,7 +83,7 @@ TEST(LocatorsFindings, JudgeByTheRatioThatWasMeasured) {
 }
 
 TEST(LocatorsFindings, GiveAFailedRowItsReason) {
-  const LocatorsRow bad{LocatorKind::cavity, {}, {}, RunStatus::crashed, "ended by signal SIGSEGV"};
+  const LocatorsRow bad{{RunStatus::crashed, "ended by signal SIGSEGV"}, LocatorKind::cavity};
   const ExperimentResult result = locators_result(SurfaceKind::rough, {1, 1, 1}, bad);
   EXPECT_TRUE(say(result.problems, "part, check off, cavity: crashed: ended by signal SIGSEGV"));
   EXPECT_FALSE(result.is_good);
@@ -94,9 +91,12 @@ TEST(LocatorsFindings, GiveAFailedRowItsReason) {
 
 TEST(InteriorPointsFindings, CountTheHarm) {
   InteriorPoints points;
-  points.cases = {{"cube", 0.5, Lattice::fcc, InteriorRule::paper, 1000, 0, RunStatus::ok, ""},
-                  {"cube", 0.5, Lattice::fcc, InteriorRule::no_spheres, 1200, 3, RunStatus::ok, ""},
-                  {"part.off", 0, Lattice::sc, InteriorRule::paper, 0, 0, RunStatus::failed, "it is open"}};
+  points.cases = {{{}, "cube", 0.5, Lattice::fcc, InteriorRule::paper},
+                  {{}, "cube", 0.5, Lattice::fcc, InteriorRule::no_spheres},
+                  {{RunStatus::failed, "it is open"}, "part.off", 0, Lattice::sc, InteriorRule::paper}};
+  points.cases[0].counts.interior_vertices = 1000;
+  points.cases[1].counts.interior_vertices = 1200;
+  points.cases[1].counts.dropped_interior_vertices = 3;
   points.existence = {{"segments", 40, 7, {}}};
   const ExperimentResult result = result_of(points);
   EXPECT_TRUE(say(result.findings, "7 of 40 small PLCs"));

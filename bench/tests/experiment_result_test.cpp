@@ -79,8 +79,8 @@ Table1 table_with_ratios(const Estimate& check, const Estimate& front) {
   Table1Model model;
   model.name = "piston";
   model.rows.push_back(
-      {"delaunay", "Delaunay", {1, 1}, Estimate{1, 1, 1}, 25.53, {}, RunStatus::ok, "", {"runs/a.json"}});
-  model.rows.push_back({"tetgen_cdt", "TetGen CDT", {}, {}, {}, {}, RunStatus::crashed, "ended by signal SIGSEGV"});
+      {{.runs = {"runs/a.json"}, .samples = {1, 1}, .seconds = Estimate{1, 1, 1}}, "delaunay", "Delaunay", 25.53});
+  model.rows.push_back({{RunStatus::crashed, "ended by signal SIGSEGV"}, "tetgen_cdt", "TetGen CDT"});
   model.ratios = {{"with_check/delaunay", "with check / Delaunay", check, 1.0188},
                   {"without_check/delaunay", "without check / Delaunay", front, 23.59}};
   model.costs = Table1Costs{3.25, 0.5, 7.5};

@@ -15,13 +15,13 @@
 namespace ccdt {
 namespace {
 
-TEST(Claim, HoldsOrFailsOnlyWithTheWholeInterval) {
-  EXPECT_EQ(is_at_most({1, 0.9, 1.05}, 1.1), Claim::holds);
-  EXPECT_EQ(is_at_most({1, 0.9, 1.2}, 1.1), Claim::undecided);
-  EXPECT_EQ(is_at_most({1.3, 1.2, 1.4}, 1.1), Claim::fails);
-  EXPECT_EQ(is_at_least({9, 8.5, 9.5}, 8), Claim::holds);
-  EXPECT_EQ(is_at_least({9, 7.5, 9.5}, 8), Claim::undecided);
-  EXPECT_EQ(is_at_least({7, 6.5, 7.5}, 8), Claim::fails);
+TEST(BoundTest, HoldsOrFailsOnlyWithTheWholeInterval) {
+  EXPECT_EQ(is_at_most({1, 0.9, 1.05}, 1.1), BoundTest::holds);
+  EXPECT_EQ(is_at_most({1, 0.9, 1.2}, 1.1), BoundTest::undecided);
+  EXPECT_EQ(is_at_most({1.3, 1.2, 1.4}, 1.1), BoundTest::fails);
+  EXPECT_EQ(is_at_least({9, 8.5, 9.5}, 8), BoundTest::holds);
+  EXPECT_EQ(is_at_least({9, 7.5, 9.5}, 8), BoundTest::undecided);
+  EXPECT_EQ(is_at_least({7, 6.5, 7.5}, 8), BoundTest::fails);
 }
 
 TEST(Experiments, CountLongRunsLessOften) {
@@ -93,13 +93,13 @@ Fig8Point point_of_size(std::uint64_t n, double exponent) {
   StageSeconds seconds;
   seconds.delaunay = 1e-6 * std::pow(static_cast<double>(n), exponent);
   seconds.front = 2e-6 * static_cast<double>(n);
-  point.samples.assign(5, seconds);
+  point.stages.assign(5, seconds);
   point.seconds = Estimate{seconds.delaunay + seconds.front, 0, 0};
   return point;
 }
 
 TEST(Fig8, FitsEachStageOnItsOwn) {
-  Fig8Series series{"without_check", "without check", "ccdt", {}, {}};
+  Fig8Series series{"without_check", "without check", "ccdt"};
   for (const std::uint64_t n : {10000, 20000, 40000, 80000}) series.points.push_back(point_of_size(n, 1.5));
   const auto fits = fit_series(series);
   ASSERT_EQ(fits.size(), 3u);
@@ -120,7 +120,7 @@ TEST(Fig8, FitsEachStageOnItsOwn) {
 }
 
 TEST(Fig8, LeavesOutFailedPointsAndDoesNotFitTwo) {
-  Fig8Series series{"insert", "with check", "ccdt", {}, {}};
+  Fig8Series series{"insert", "with check", "ccdt"};
   for (const std::uint64_t n : {10000, 20000, 40000}) series.points.push_back(point_of_size(n, 1));
   series.points.push_back(point_of_size(80000, 7));
   series.points.back().seconds = {};
@@ -133,11 +133,11 @@ TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
   LocatorsCase c;
   EXPECT_FALSE(expectation(c));
   c.octree_over_grid = Estimate{0.5, 0.4, 0.6};
-  EXPECT_EQ(expectation(c), Claim::fails);
+  EXPECT_EQ(expectation(c), BoundTest::fails);
   c.kind = SurfaceKind::graded;
-  EXPECT_EQ(expectation(c), Claim::holds);
+  EXPECT_EQ(expectation(c), BoundTest::holds);
   c.octree_over_grid = Estimate{1, 0.9, 1.1};
-  EXPECT_EQ(expectation(c), Claim::undecided);
+  EXPECT_EQ(expectation(c), BoundTest::undecided);
   c.kind = SurfaceKind::rough;
   EXPECT_FALSE(expectation(c));
 }
@@ -171,11 +171,19 @@ TEST(InteriorExistence, IsLostInCounterexamplesThatCanBeLookedAt) {
   EXPECT_GT(lost, 0u);
 }
 
+InteriorCase interior_case(const char* input, Lattice lattice, InteriorRule rule, std::uint64_t placed,
+                           std::uint64_t dropped) {
+  InteriorCase c{{}, input, 1, lattice, rule};
+  c.counts.interior_vertices = placed;
+  c.counts.dropped_interior_vertices = dropped;
+  return c;
+}
+
 TEST(InteriorPointsSummary, CountsCasesOfARuleAndAsideThoseThatFailed) {
-  const std::vector<InteriorCase> cases = {{"a", 1, Lattice::fcc, InteriorRule::paper, 100, 0, RunStatus::ok, ""},
-                                           {"a", 1, Lattice::bcc, InteriorRule::paper, 90, 2, RunStatus::ok, ""},
-                                           {"a", 1, Lattice::bcc, InteriorRule::no_spheres, 95, 7, RunStatus::ok, ""},
-                                           {"b", 1, Lattice::fcc, InteriorRule::paper, 0, 0, RunStatus::failed, "why"}};
+  const std::vector<InteriorCase> cases = {interior_case("a", Lattice::fcc, InteriorRule::paper, 100, 0),
+                                           interior_case("a", Lattice::bcc, InteriorRule::paper, 90, 2),
+                                           interior_case("a", Lattice::bcc, InteriorRule::no_spheres, 95, 7),
+                                           {{RunStatus::failed, "why"}, "b", 1, Lattice::fcc, InteriorRule::paper}};
   const InteriorSummary paper = summarize(cases, InteriorRule::paper);
   EXPECT_EQ(paper.cases, 2u);
   EXPECT_EQ(paper.failed, 1u);

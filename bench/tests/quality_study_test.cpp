@@ -1,12 +1,8 @@
-#include "bench/experiments/quality_study.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "bench/experiments/lattice_fit.h"
-#include "bench/experiments/lattices.h"
-#include "bench/experiments/mesher_quality.h"
+#include "bench/experiments/quality_experiments.h"
 
 namespace ccdt {
 namespace {
@@ -38,14 +34,14 @@ TEST(MesherQuality, ComparesWithTheBestOfTheOthersByEachCriterion) {
   QualityCase c;
   c.rows = {row("ccdt fcc", 1.2, 3, 17), row("ccdt bcc", 1.1, 2, 30), row("tetgen", 1.5, 8, 10),
             row("gmsh-hxt", 1.4, 4, 18)};
-  const auto verdicts = judge(c, c.rows[0]);
-  ASSERT_EQ(verdicts.size(), 4u);
-  EXPECT_EQ(verdicts[0].best_variant, "gmsh-hxt");
-  EXPECT_EQ(verdicts[0].best, 1.4);
-  EXPECT_TRUE(verdicts[0].is_better());
-  EXPECT_TRUE(verdicts[2].is_better());
-  EXPECT_FALSE(verdicts[3].is_better());  // HXT has the larger smallest angle
-  EXPECT_TRUE(judge(c, c.rows[1])[3].is_better());
+  const auto comparisons = compare_with_others(c, c.rows[0]);
+  ASSERT_EQ(comparisons.size(), 4u);
+  EXPECT_EQ(comparisons[0].best_variant, "gmsh-hxt");
+  EXPECT_EQ(comparisons[0].best, 1.4);
+  EXPECT_TRUE(comparisons[0].is_better());
+  EXPECT_TRUE(comparisons[2].is_better());
+  EXPECT_FALSE(comparisons[3].is_better());  // HXT has the larger smallest angle
+  EXPECT_TRUE(compare_with_others(c, c.rows[1])[3].is_better());
 }
 
 TEST(MesherQuality, DoesNotCompareWithOtherCountsOrFailures) {
@@ -53,11 +49,11 @@ TEST(MesherQuality, DoesNotCompareWithOtherCountsOrFailures) {
   c.rows = {row("ccdt fcc", 1.2, 3, 17), row("tetgen", 1.1, 2, 30), row("cgal-mesh3", 1, 2, 40)};
   c.rows[1].is_comparable = false;
   c.rows[2].status = RunStatus::crashed;
-  const auto verdicts = judge(c, c.rows[0]);
-  EXPECT_TRUE(verdicts[0].best_variant.empty());
-  EXPECT_FALSE(verdicts[0].is_better());
+  const auto comparisons = compare_with_others(c, c.rows[0]);
+  EXPECT_TRUE(comparisons[0].best_variant.empty());
+  EXPECT_FALSE(comparisons[0].is_better());
   c.rows[0].status = RunStatus::failed;
-  EXPECT_TRUE(judge(c, c.rows[0]).empty());
+  EXPECT_TRUE(compare_with_others(c, c.rows[0]).empty());
 }
 
 QualityCase lattices_case(double fcc, double bcc, double sc) {

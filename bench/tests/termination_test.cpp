@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "bench/experiments/stars.h"
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 
@@ -79,33 +78,33 @@ TEST(SmallestAngle, IsOfSegmentsThatMeet) {
 }
 
 TerminationCase stopped(const char* group, double degrees) {
-  return {.group = group,
-          .input = "0",
-          .degrees = degrees,
-          .smallest_angle = degrees,
-          .status = RunStatus::failed,
-          .reason = "a segment cannot be protected: it would have to be split into more than 2^20 pieces",
-          .runs = {"runs/stopped.json"}};
+  return {{.status = RunStatus::failed,
+           .reason = "a segment cannot be protected: it would have to be split into more than 2^20 pieces",
+           .runs = {"runs/stopped.json"}},
+          group,
+          "0",
+          degrees,
+          degrees};
 }
 
 TEST(Termination, TellsTheLimitFromOtherFailures) {
   TerminationCase c = stopped("wheel", 30);
-  EXPECT_EQ(ending_of(c), Ending::stopped);
+  EXPECT_EQ(termination_of(c), Termination::stopped);
   c.reason = "the facets enclose nothing";
-  EXPECT_EQ(ending_of(c), Ending::unknown);
+  EXPECT_EQ(termination_of(c), Termination::unknown);
   c = stopped("wheel", 30);
   c.status = RunStatus::timeout;
-  EXPECT_EQ(ending_of(c), Ending::unknown);
+  EXPECT_EQ(termination_of(c), Termination::unknown);
   c.status = RunStatus::ok;
-  EXPECT_EQ(ending_of(c), Ending::ended);
+  EXPECT_EQ(termination_of(c), Termination::ended);
 }
 
 TEST(Termination, ResultSaysAtWhichAnglesMidpointsEnded) {
   TerminationCase ended = stopped("wheel", 60);
   ended.status = RunStatus::ok;
   ended.reason.clear();
-  ended.steiner_vertices = 7;
-  ended.deepest_level = 2;
+  ended.counts.steiner_vertices = 7;
+  ended.counts.splits_by_level = {4, 3};
   TerminationCase shell = stopped("wheel", 30);
   shell.status = RunStatus::ok;
   shell.protection = Protection::shell;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "bench/experiments/small_plcs/families.h"
-#include "bench/experiments/small_plcs/solids.h"
 
 namespace ccdt {
 namespace {
@@ -81,7 +80,7 @@ TEST(SmallPlcs, HaveAnInside) {
   EXPECT_TRUE(is_inside(plc, {6}));
 }
 
-TEST(SmallPlcs, HaveAnInsideEvenForACentreOnTheLineOfAnEdge) {
+TEST(SmallPlcs, HaveAnInsideEvenForACenterOnTheLineOfAnEdge) {
   const SmallPlc dented{
       {{54, 28, 75}, {52, 91, 78}, {80, 50, 75}, {87, 62, 41}, {56, 70, 76}, {74, 56, 63}, {69, 70, 67}},
       {{0, 3, 2}, {1, 2, 3}, {0, 2, 4}, {2, 1, 4}, {1, 0, 4}, {0, 1, 5}, {3, 0, 5}, {1, 3, 6}, {3, 5, 6}, {5, 1, 6}}};

@@ -4,6 +4,7 @@
 #include <random>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bench/experiments/small_plcs/small_plc.h"
 
@@ -35,5 +36,10 @@ std::span<const Family> families();
 
 /// The next one of a family that is valid and, as far as the family is to be, generic.
 SmallPlc next_plc(const Family& family, Random& random);
+
+Point random_point(Random& random);
+
+/// The convex hull, as boundary. \pre no four vertices are coplanar
+std::vector<Polygon> convex_hull(const std::vector<Point>& vertices);
 
 }  // namespace ccdt::small

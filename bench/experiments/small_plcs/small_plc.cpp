@@ -8,8 +8,33 @@
 namespace ccdt::small {
 namespace {
 
-bool has(const Polygon& corners, Vertex v) {
-  return std::ranges::find(corners, v) != corners.end();
+int sign(std::int64_t value) {
+  return (value > 0) - (value < 0);
+}
+
+/// Is one simplex on one side of a plane across this direction, and the other on the other?
+bool separates(const Point& direction, std::span<const Point> one, std::span<const Point> other) {
+  if (direction == Point{}) return false;
+  const auto less = [&](const Point& p, const Point& q) { return dot(direction, p) < dot(direction, q); };
+  const auto [low_one, high_one] = std::ranges::minmax_element(one, less);
+  const auto [low_other, high_other] = std::ranges::minmax_element(other, less);
+  return dot(direction, *high_one) <= dot(direction, *low_other) ||
+         dot(direction, *high_other) <= dot(direction, *low_one);
+}
+
+std::vector<Point> edge_directions(std::span<const Point> simplex) {
+  std::vector<Point> directions;
+  for (std::size_t i = 0; i < simplex.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) directions.push_back(simplex[i] - simplex[j]);
+  return directions;
+}
+
+std::vector<Point> face_normals(std::span<const Point> simplex) {
+  std::vector<Point> normals;
+  for (std::size_t i = 0; i < simplex.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) normals.push_back(cross(simplex[j] - simplex[i], simplex[k] - simplex[i]));
+  return normals;
 }
 
 bool is_within_a_facet(const SmallPlc& plc, const std::vector<Vertex>& four) {
@@ -80,6 +105,39 @@ std::string list_in_words(const std::vector<Polygon>& polygons) {
 
 }  // namespace
 
+std::int64_t six_volumes(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return determinant(b - a, c - a, d - a);
+}
+
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return sign(six_volumes(a, b, c, d));
+}
+
+int side_of_sphere(const Point& a, const Point& b, const Point& c, const Point& d, const Point& e) {
+  // The five points lifted to the paraboloid, seen from e (Guibas and Stolfi 1985).
+  const Point p = a - e, q = b - e, r = c - e, s = d - e;
+  const std::int64_t lifted = dot(p, p) * determinant(q, r, s) - dot(q, q) * determinant(p, r, s) +
+                              dot(r, r) * determinant(p, q, s) - dot(s, s) * determinant(p, q, r);
+  return sign(lifted) * orientation(a, b, c, d);
+}
+
+bool pierces(const Point& p, const Point& q, const Point& a, const Point& b, const Point& c) {
+  if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0) return false;
+  const int turn = orientation(p, q, a, b);
+  return turn != 0 && turn == orientation(p, q, b, c) && turn == orientation(p, q, c, a);
+}
+
+bool insides_meet(const std::array<Point, 4>& tetrahedron, std::span<const Point> simplex) {
+  const auto is_separating = [&](const Point& direction) { return separates(direction, tetrahedron, simplex); };
+  if (std::ranges::any_of(face_normals(tetrahedron), is_separating)) return false;
+  if (std::ranges::any_of(face_normals(simplex), is_separating)) return false;
+  const std::vector<Point> directions = edge_directions(simplex);
+  for (const Point& edge : edge_directions(tetrahedron))
+    for (const Point& other : directions)
+      if (is_separating(cross(edge, other))) return false;
+  return true;
+}
+
 Edge edge_of(Vertex a, Vertex b) {
   return {std::min(a, b), std::max(a, b)};
 }
@@ -109,8 +167,7 @@ std::vector<Triangle> triangles_of(const SmallPlc& plc, const Polygon& p) {
 
 bool is_within(const SmallPlc& plc, const Polygon& polygon, const Triangle& triangle) {
   Polygon in_order;
-  for (const Vertex v : polygon)
-    if (std::ranges::find(triangle, v) != triangle.end()) in_order.push_back(v);
+  std::ranges::copy_if(polygon, std::back_inserter(in_order), [&](Vertex v) { return has(triangle, v); });
   // At a reflex corner three in order turn the other way.
   return in_order.size() == 3 && dot(area_vector(plc, in_order), area_vector(plc, polygon)) > 0;
 }

@@ -8,22 +8,9 @@
 namespace ccdt::small {
 namespace {
 
-template <class Corners>
-bool has(const Corners& corners, Vertex v) {
-  return std::ranges::find(corners, v) != corners.end();
-}
-
-std::array<Point, 4> points_of(const SmallPlc& plc, const Tetrahedron& t) {
-  return {plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]], plc.vertices[t[3]]};
-}
-
 std::int64_t six_volumes(const SmallPlc& plc, const Tetrahedron& t) {
-  const auto [a, b, c, d] = points_of(plc, t);
+  const auto [a, b, c, d] = points_of(plc.vertices, t);
   return std::abs(small::six_volumes(a, b, c, d));
-}
-
-Triangle face_opposite(const Tetrahedron& t, unsigned i) {
-  return triangle_of(t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]);
 }
 
 /// Inside or on its boundary.
@@ -96,11 +83,12 @@ class Search {
   }
   bool are_disjoint(std::size_t a, std::size_t b) {
     signed char& known = disjoint_[a * candidates_.size() + b];
-    if (known == unknown) known = !insides_meet(points_of(plc_, candidates_[a]), points_of(plc_, candidates_[b]));
+    if (known == unknown)
+      known = !insides_meet(points_of(plc_.vertices, candidates_[a]), points_of(plc_.vertices, candidates_[b]));
     return known == 1;
   }
   bool is_locally_delaunay(std::size_t a, std::size_t b, const Triangle& face) const {
-    const auto [p, q, r, s] = points_of(plc_, candidates_[a]);
+    const auto [p, q, r, s] = points_of(plc_.vertices, candidates_[a]);
     return side_of_sphere(p, q, r, s, plc_.vertices[apex(b, face)]) <= 0;
   }
 
@@ -139,7 +127,7 @@ class Search {
     }
   }
 
-  /// False if the tetrahedron does not fit one of its neighbours.
+  /// False if the tetrahedron does not fit one of its neighbors.
   bool advance_over(std::size_t candidate) {
     for (unsigned i = 0; i < 4; ++i) {
       const Tetrahedron& t = candidates_[candidate];
@@ -206,7 +194,7 @@ std::vector<Tetrahedron> possible_tetrahedra(const SmallPlc& plc) {
           bool is_possible = six_volumes(plc, t) != 0;
           for (Vertex v = 0; v < n && is_possible; ++v) is_possible = has(t, v) || !contains(plc, t, v);
           is_possible = is_possible && std::ranges::none_of(constraints, [&](const auto& constraint) {
-                          return insides_meet(points_of(plc, t), constraint);
+                          return insides_meet(points_of(plc.vertices, t), constraint);
                         });
           if (is_possible && is_inside(plc, {a, b, c, d})) possible.push_back(t);
         }

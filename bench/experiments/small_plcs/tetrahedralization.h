@@ -10,6 +10,13 @@ namespace ccdt::small {
 
 using Tetrahedron = std::array<Vertex, 4>;  ///< in growing order
 
+inline std::array<Point, 4> points_of(const std::vector<Point>& vertices, const Tetrahedron& t) {
+  return {vertices[t[0]], vertices[t[1]], vertices[t[2]], vertices[t[3]]};
+}
+inline Triangle face_opposite(const Tetrahedron& t, unsigned i) {
+  return triangle_of(t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]);
+}
+
 /// Has the circumsphere of a tetrahedron no vertex strictly inside?
 bool is_delaunay(const std::vector<Point>& vertices, const Tetrahedron& tetrahedron);
 

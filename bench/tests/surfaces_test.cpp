@@ -1,4 +1,4 @@
-#include "bench/experiments/surface_measures.h"
+#include "bench/experiments/surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bench/experiments/quality_study.h"
+#include "engine/base/enum_names.h"
+
+namespace ccdt {
+
+/// The criteria by which a comparison of quality is made.
+enum class Criterion { mean_r, p99_r, worst_r, smallest_dihedral, largest_dihedral };
+
+constexpr auto names_of(Criterion) {
+  return std::to_array<NamedValue<Criterion>>({{Criterion::mean_r, "mean r"},
+                                               {Criterion::p99_r, "p99 r"},
+                                               {Criterion::worst_r, "worst r"},
+                                               {Criterion::smallest_dihedral, "smallest dihedral"},
+                                               {Criterion::largest_dihedral, "largest dihedral"}});
+}
+double value_of(const Quality& quality, Criterion criterion);
+/// Is a strictly better than b?
+bool is_better(Criterion criterion, double a, double b);
+
+/// What every mesher is compared by.
+inline constexpr std::array judged_criteria = {Criterion::mean_r, Criterion::p99_r, Criterion::worst_r,
+                                               Criterion::smallest_dihedral};
+
+/// Our meshes beside those of other meshers, at equal numbers of tetrahedra.
+struct MesherQuality : QualityStudy {};
+
+/// Whether one of our rows is better than all others' by one criterion.
+struct QualityComparison {
+  Criterion criterion = Criterion::mean_r;
+  double ours = 0;
+  double best = 0;           ///< of the others
+  std::string best_variant;  ///< whose that is; empty if there is no other to compare with
+  bool is_better() const { return !best_variant.empty() && ccdt::is_better(criterion, ours, best); }
+};
+
+/// By all judged criteria, against the comparable rows of other meshers. None if the row itself failed.
+std::vector<QualityComparison> compare_with_others(const QualityCase& c, const QualityRow& ours);
+
+/// Measures ccdt with its FCC lattice, improved and not, and with BCC, and TetGen, Mesh_3 and HXT (what of these the
+/// build has, or the machine) on every surface, at equal numbers of tetrahedra.
+///
+/// \param experiment  begins the names of its files
+/// \throw InputError, OutputError  as `measure_study`
+MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std::string& experiment,
+                                     const std::vector<std::string>& models, const Progress& progress = {});
+
+ExperimentResult result_of(const MesherQuality& quality);
+
+/// The three lattices, each before and after improvement.
+struct Lattices : QualityStudy {};
+
+/// The criteria in which the lattices are compared.
+inline constexpr std::array lattice_criteria = {Criterion::mean_r, Criterion::p99_r, Criterion::worst_r,
+                                                Criterion::smallest_dihedral, Criterion::largest_dihedral};
+
+/// The paper's claim (section 3, after Radovitzky and Ortiz) that the FCC lattice makes the best tetrahedra, by one
+/// criterion.
+struct LatticeClaim {
+  Criterion criterion = Criterion::mean_r;
+  bool improved = false;
+  std::uint64_t cases = 0;                 ///< in which all three went well
+  std::array<std::uint64_t, 3> best = {};  ///< in how many of these fcc, bcc and sc are the best; at a tie all of them
+  bool is_confirmed() const { return cases > 0 && best[0] == cases && best[1] == 0 && best[2] == 0; }
+};
+
+/// One for each criterion, before and after improvement.
+std::vector<LatticeClaim> lattice_claims(const Lattices& lattices);
+
+/// Measures FCC, BCC and SC at the same edge length on every surface.
+///
+/// \throw InputError, OutputError  as `measure_study`
+Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress = {});
+
+ExperimentResult result_of(const Lattices& lattices);
+
+/// What each part of the improvement does alone: nothing, swaps, smoothing, all.
+struct ImprovementParts : QualityStudy {};
+
+/// Measures the four on every surface, with the FCC lattice.
+///
+/// \throw InputError, OutputError  as `measure_study`
+ImprovementParts measure_improvement(const ExperimentOptions& options, const Progress& progress = {});
+
+ExperimentResult result_of(const ImprovementParts& parts);
+
+/// How near to the surface lattice points may be.
+struct LatticeSetting {
+  double sphere_factor = 1;
+  double clearance = usual_clearance;
+  bool operator==(const LatticeSetting&) const = default;
+};
+
+/// The settings that are tried; the defaults of `ccdt mesh` among them.
+std::vector<LatticeSetting> lattice_settings();
+LatticeSetting default_lattice_setting();
+/// "sphere 1, clearance 0.55"; the name of the setting's rows.
+std::string name_of(const LatticeSetting& setting);
+
+/// The same surfaces with many settings.
+struct LatticeFit : QualityStudy {};
+
+/// A setting over all cases in which every setting went well.
+struct SettingSummary {
+  LatticeSetting setting;
+  double mean_r = 0, p99_r = 0;                    ///< means over the cases
+  double worst_r = 0;                              ///< geometric mean
+  double smallest_dihedral = 0;                    ///< mean
+  double largest_worst_r = 0, least_dihedral = 0;  ///< of all cases
+  double improve_seconds = 0;                      ///< sum
+  double rank = 0;  ///< mean over cases and judged criteria; 1 is the best, ties share theirs
+};
+
+/// In the order of the settings; empty without such a case.
+std::vector<SettingSummary> summarize(const LatticeFit& fit);
+
+/// Tries all settings on every surface with the FCC lattice and all of the improvement.
+///
+/// \throw InputError, OutputError  as `measure_study`
+LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress = {});
+
+ExperimentResult result_of(const LatticeFit& fit);
+
+}  // namespace ccdt
