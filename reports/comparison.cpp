@@ -4,23 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/results/numbers.h"
-#include "bench/results/result_table.h"
+#include "bench/experiments/tables.h"
 
 namespace ccdt {
 namespace {
-
-/// What is compared, and under which names the runs of both are found.
-struct Sides {
-  std::string first, second;  ///< folders, relative to that of the new report
-};
-
-std::vector<std::string> runs_of_both(const Sides& sides, const ResultRow& a, const ResultRow& b) {
-  std::vector<std::string> runs;
-  for (const std::string& run : a.runs) runs.push_back(sides.first + "/" + run);
-  for (const std::string& run : b.runs) runs.push_back(sides.second + "/" + run);
-  return runs;
-}
 
 /// The labels of a row.
 std::string key_of(const ResultTable& table, const ResultRow& row) {
@@ -45,50 +32,30 @@ const ResultRow* counterpart(const ResultTable& table, std::size_t number, const
   return nullptr;
 }
 
-/// Whether a second measurement is what the first has announced.
-struct TimePair {
-  double ratio = 0;
-  bool is_within = false;  ///< of the interval of the first
-};
-
-TimePair pair_of(const Estimate& first, const Estimate& second) {
-  return {second.value / first.value, second.value >= first.low && second.value <= first.high};
-}
-
 /// The tables of the new section while they are filled.
-struct Work {
-  Sides sides;
-  std::string experiment;
+struct ComparisonTables {
+  std::string first, second;  ///< folders, relative to that of the new report
   ResultTable summary{"summary",
                       "In all",
-                      {{"experiment", "experiment", ColumnKind::label},
-                       {"figures", "deterministic figures"},
-                       {"different", "of these different"},
-                       {"others_different", "different, of other meshers"},
-                       {"times", "times"},
-                       {"outside", "of these outside the first's interval"},
-                       {"unmatched", "rows without a counterpart"}}};
+                      {label_column("experiment"), figure_column("figures", "deterministic figures"),
+                       figure_column("different", "of these different"),
+                       figure_column("others_different", "different, of other meshers"), figure_column("times"),
+                       figure_column("outside", "of these outside the first's interval"),
+                       figure_column("unmatched", "rows without a counterpart")}};
   ResultTable times{"times",
                     "Times",
-                    {{"experiment", "experiment", ColumnKind::label},
-                     {"table", "table", ColumnKind::label},
-                     {"row", "row", ColumnKind::label},
-                     {"quantity", "quantity", ColumnKind::label},
-                     {"first", "first", ColumnKind::time},
-                     {"second", "second", ColumnKind::time},
-                     {"ratio", "second / first", ColumnKind::time},
-                     {"within", "within the first's interval"}}};
+                    {label_column("experiment"), label_column("table"), label_column("row"), label_column("quantity"),
+                     time_column("first"), time_column("second"), time_column("ratio", "second / first"),
+                     figure_column("within", "within the first's interval")}};
   ResultTable differences{"differences",
                           "Figures that differ, though they should not",
-                          {{"experiment", "experiment", ColumnKind::label},
-                           {"table", "table", ColumnKind::label},
-                           {"row", "row", ColumnKind::label},
-                           {"quantity", "quantity", ColumnKind::label},
-                           {"first", "first"},
-                           {"second", "second"}}};
-  struct Counts {
-    std::uint64_t figures = 0, different = 0, others_different = 0, times = 0, outside = 0, unmatched = 0;
-  } counts;
+                          {label_column("experiment"), label_column("table"), label_column("row"),
+                           label_column("quantity"), figure_column("first"), figure_column("second")}};
+};
+
+/// Of one experiment: a row of the summary.
+struct ComparisonCounts {
+  std::uint64_t figures = 0, different = 0, others_different = 0, times = 0, outside = 0, unmatched = 0;
 };
 
 /// Others' programs need not repeat themselves.
@@ -97,81 +64,88 @@ bool is_of_another_mesher(const ResultTable& table, const ResultRow& row) {
   return mesher != table.columns.end() && text_in(table, row, "mesher") != "ccdt";
 }
 
-void compare_cells(const ResultTable& table, std::size_t column, const ResultRow& a, const ResultRow& b, Work& work) {
-  const Column& c = table.columns[column];
-  const Cell &first = a.cells[column], &second = b.cells[column];
-  const std::vector<Cell> names = {cell_of(work.experiment), cell_of(table.title), cell_of(key_of(table, a)),
-                                   cell_of(c.title)};
-  const auto add = [&](ResultTable& to, const std::vector<Cell>& more) {
-    to.rows.push_back({names, runs_of_both(work.sides, a, b)});
-    to.rows.back().cells.insert(to.rows.back().cells.end(), more.begin(), more.end());
-  };
-  if (c.kind == ColumnKind::figure) {
-    const bool is_same = cell_json(first) == cell_json(second);
-    if (is_of_another_mesher(table, a)) {
-      work.counts.others_different += !is_same;
-      return;
-    }
-    ++work.counts.figures;
-    work.counts.different += !is_same;
-    if (!is_same) add(work.differences, {first, second});
-  }
-  const auto *e = std::get_if<Estimate>(&first), *f = std::get_if<Estimate>(&second);
-  if (c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
-  const TimePair pair = pair_of(*e, *f);
-  ++work.counts.times;
-  work.counts.outside += !pair.is_within;
-  add(work.times, {first, second, pair.ratio, cell_of(pair.is_within)});
-}
+/// Compares one experiment.
+class ExperimentComparison {
+ public:
+  ExperimentComparison(std::string experiment, ComparisonTables& tables)
+      : experiment_(std::move(experiment)), tables_(tables) {}
 
-void compare_tables(const ResultTable& first, const ResultTable& second, Work& work) {
-  for (std::size_t r = 0; r < first.rows.size(); ++r) {
-    const ResultRow* other = counterpart(first, r, second);
-    if (other == nullptr) {
-      ++work.counts.unmatched;
-      continue;
-    }
-    for (std::size_t c = 0; c < first.columns.size(); ++c) {
-      const auto same = std::ranges::find(second.columns, first.columns[c].name, &Column::name);
-      if (same - second.columns.begin() == static_cast<std::ptrdiff_t>(c))
-        compare_cells(first, c, first.rows[r], *other, work);
+  void compare_tables(const ResultTable& first, const ResultTable& second) {
+    for (std::size_t r = 0; r < first.rows.size(); ++r) {
+      const ResultRow* other = counterpart(first, r, second);
+      if (other == nullptr) {
+        ++counts_.unmatched;
+        continue;
+      }
+      for (std::size_t c = 0; c < first.columns.size(); ++c) {
+        const auto same = std::ranges::find(second.columns, first.columns[c].name, &Column::name);
+        if (same - second.columns.begin() == static_cast<std::ptrdiff_t>(c))
+          compare_cells(first, c, first.rows[r], *other);
+      }
     }
   }
-}
 
-void compare_experiments(const ExperimentResult& first, const ExperimentResult& second, Work& work) {
-  work.experiment = first.name;
-  work.counts = {};
+  void add_summary() {
+    const ComparisonCounts& n = counts_;
+    add_row(tables_.summary, {}, experiment_, n.figures, n.different, n.others_different, n.times, n.outside,
+            n.unmatched);
+  }
+
+ private:
+  void compare_cells(const ResultTable& table, std::size_t column, const ResultRow& a, const ResultRow& b) {
+    const Column& c = table.columns[column];
+    const Cell &first = a.cells[column], &second = b.cells[column];
+    const auto add = [&](ResultTable& to, const auto&... more) {
+      std::vector<std::string> runs;
+      for (const std::string& run : a.runs) runs.push_back(tables_.first + "/" + run);
+      for (const std::string& run : b.runs) runs.push_back(tables_.second + "/" + run);
+      add_row(to, runs, experiment_, table.title, key_of(table, a), c.title, first, second, more...);
+    };
+    if (c.kind == ColumnKind::figure) {
+      const bool is_same = cell_json(first) == cell_json(second);
+      if (is_of_another_mesher(table, a)) {
+        counts_.others_different += !is_same;
+        return;
+      }
+      ++counts_.figures;
+      counts_.different += !is_same;
+      if (!is_same) add(tables_.differences);
+    }
+    const auto *e = std::get_if<Estimate>(&first), *f = std::get_if<Estimate>(&second);
+    if (c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
+    const bool is_within = f->value >= e->low && f->value <= e->high;
+    ++counts_.times;
+    counts_.outside += !is_within;
+    add(tables_.times, f->value / e->value, is_within);
+  }
+
+  std::string experiment_;
+  ComparisonTables& tables_;
+  ComparisonCounts counts_;
+};
+
+void compare_experiments(const ExperimentResult& first, const ExperimentResult& second, ComparisonTables& tables) {
+  ExperimentComparison comparison(first.name, tables);
   for (const ResultTable& table : first.tables)
-    if (const ResultTable* other = find_table(second, table.name)) compare_tables(table, *other, work);
-  const Work::Counts& n = work.counts;
-  work.summary.rows.push_back(
-      {{cell_of(first.name), cell_of(n.figures), cell_of(n.different), cell_of(n.others_different), cell_of(n.times),
-        cell_of(n.outside), cell_of(n.unmatched)},
-       {}});
+    if (const ResultTable* other = find_table(second, table.name)) comparison.compare_tables(table, *other);
+  comparison.add_summary();
 }
 
 ResultTable verdicts_table(const Report& first, const Report& second) {
-  ResultTable table{"verdicts",
-                    "Verdicts",
-                    {{"claim", "claim", ColumnKind::label},
-                     {"first", "first", ColumnKind::note},
-                     {"second", "second", ColumnKind::note}}};
+  ResultTable table{"verdicts", "Verdicts", {label_column("claim"), note_column("first"), note_column("second")}};
   for (const PaperClaim& claim : first.claims)
     if (const auto other = std::ranges::find(second.claims, claim.id, &PaperClaim::id); other != second.claims.end())
-      table.rows.push_back(
-          {{cell_of(claim.sentence), cell_of(name_of(claim.verdict)), cell_of(name_of(other->verdict))}, {}});
+      add_row(table, {}, claim.sentence, name_of(claim.verdict), name_of(other->verdict));
   return table;
 }
 
-std::string finding_of(const ResultTable& summary, const char* all, const char* odd, const char* words) {
+std::string finding_of(const ResultTable& summary, const char* all, const char* different, const char* words) {
   double total = 0, wrong = 0;
   for (const ResultRow& row : summary.rows) {
     total += number_in(summary, row, all);
-    wrong += number_in(summary, row, odd);
+    wrong += number_in(summary, row, different);
   }
-  return with_separators(static_cast<std::uint64_t>(total - wrong)) + " of " +
-         with_separators(static_cast<std::uint64_t>(total)) + words;
+  return share_words(static_cast<std::uint64_t>(total - wrong), static_cast<std::uint64_t>(total)) + words;
 }
 
 /// The runs of one of the folders, by their names in the new report.
@@ -193,7 +167,7 @@ std::string name_from(const std::filesystem::path& into, const std::filesystem::
 Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
                        const std::filesystem::path& into, std::span<const ReportChart> charts) {
   const Report a = read_report(first, {}), b = read_report(second, {});
-  Work work{.sides = {name_from(into, first), name_from(into, second)}, .experiment = {}, .counts = {}};
+  ComparisonTables tables{.first = name_from(into, first), .second = name_from(into, second)};
   ReportSection section;
   for (const ReportSection& s : a.sections) {
     const auto other = std::ranges::find(b.sections, s.result.name, [](const auto& o) { return o.result.name; });
@@ -202,27 +176,27 @@ Report compare_reports(const std::filesystem::path& first, const std::filesystem
         section.result.problems.push_back(s.result.title + ": only one of the folders has it");
       continue;
     }
-    compare_experiments(s.result, other->result, work);
+    compare_experiments(s.result, other->result, tables);
     section.result.how = other->result.how;
   }
   section.result.name = "comparison";
   section.result.title = "Comparison of " + first.string() + " and " + second.string();
   section.result.how.command = "ccdt report " + first.string() + " " + second.string();
   section.result.findings = {
-      finding_of(work.summary, "figures", "different", " deterministic figures are the same, bit for bit."),
-      finding_of(work.summary, "times", "outside", " times are within the interval that the first folder states.")};
+      finding_of(tables.summary, "figures", "different", " deterministic figures are the same, bit for bit."),
+      finding_of(tables.summary, "times", "outside", " times are within the interval that the first folder states.")};
   section.result.definitions = {
       "Deterministic figures are counts and measures of meshes: the same inputs and options must give the same ones.",
       "Figures of other meshers are counted apart: not all repeat themselves (Mesh_3 does not when it perturbs).",
       "Times are compared by the value of the second folder and the interval of the first.",
       "Rows belong together that have the same labels."};
-  section.result.is_good = work.differences.rows.empty();
-  section.result.tables = {work.summary, verdicts_table(a, b), work.differences, work.times};
+  section.result.is_good = tables.differences.rows.empty();
+  section.result.tables = {tables.summary, verdicts_table(a, b), tables.differences, tables.times};
   add_charts(charts, section);
   Report report;
   report.title = section.result.title;
-  take_runs(a, work.sides.first, report);
-  take_runs(b, work.sides.second, report);
+  take_runs(a, tables.first, report);
+  take_runs(b, tables.second, report);
   report.sections = {section};
   return report;
 }

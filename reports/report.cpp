@@ -1,13 +1,30 @@
 #include "reports/report.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiments/registry.h"
 #include "bench/run_record.h"
 #include "engine/base/errors.h"
+#include "engine/io/file_bytes.h"
 
 namespace ccdt {
 namespace {
+
+/// What all charts have in common; whoever draws them has it.
+constexpr const char* shared_file = "config.json";
+
+ReportChart read_chart(const std::filesystem::path& file) {
+  try {
+    const Json json = Json::parse(io::read_whole_file(file).bytes);
+    return {json.at("experiment"), json.at("name"),   json.at("title"),
+            json.at("caption"),    json.at("tables"), json.at("spec").dump()};
+  } catch (const Json::exception& error) {
+    Place place;
+    place.file = file.string();
+    throw InputError(std::string("no chart: ") + error.what(), place, "build ccdt anew: its charts are broken");
+  }
+}
 
 std::string quoted_for_shell(const std::string& word) {
   const bool is_plain = !word.empty() && word.find_first_not_of(
@@ -76,7 +93,93 @@ ReportSection read_section(const std::filesystem::path& folder, const KnownExper
   return section;
 }
 
+template <class Item>
+Json array_of(const std::vector<Item>& items, Json (*json_of)(const Item&)) {
+  Json array = Json::array();
+  for (const Item& item : items) array.push_back(json_of(item));
+  return array;
+}
+
+Json chart_json(const ReportChart& chart) {
+  return {{"name", chart.name},
+          {"title", chart.title},
+          {"caption", chart.caption},
+          {"tables", chart.tables},
+          {"spec", Json::parse(chart.spec)}};
+}
+
+Json measure_json(const ClaimMeasure& m) {
+  return {{"what", m.what},
+          {"value", cell_json(m.value)},
+          {"bound", m.bound},
+          {"holds", m.strong == BoundTest::undecided ? Json(nullptr) : Json(m.strong == BoundTest::holds)},
+          {"experiment", m.experiment},
+          {"table", m.table},
+          {"runs", m.runs}};
+}
+
+Json claim_json(const PaperClaim& claim) {
+  return {{"id", claim.id},
+          {"section", claim.section},
+          {"sentence", claim.sentence},
+          {"experiments", claim.experiments},
+          {"measured", array_of(claim.measured, measure_json)},
+          {"verdict", name_of(claim.verdict)},
+          {"reason", claim.reason}};
+}
+
+std::string_view status_of(const ReportSection& section) {
+  if (section.is_missing) return "missing";
+  return section.result.is_good ? "ok" : "failed";
+}
+
+Json section_json(const ReportSection& section) {
+  const ExperimentResult& result = section.result;
+  Json json = {{"name", result.name},
+               {"title", result.title},
+               {"section", result.section},
+               {"status", status_of(section)},
+               {"reason", section.reason},
+               {"command", result.how.command},
+               {"definitions", result.definitions},
+               {"findings", result.findings},
+               {"problems", result.problems},
+               {"tables", result.tables},
+               {"charts", array_of(section.charts, chart_json)},
+               {"meshes", result.meshes},
+               {"raw_files", result.raw_files}};
+  if (section.is_missing) return json;
+  json["scale"] = result.how.scale;
+  json["tetrahedra"] = result.how.tetrahedra;
+  json["runs"] = result.how.runs;
+  json["confidence"] = result.how.confidence;
+  json["limits"] = {{"seconds", result.how.limits.seconds}, {"memory_bytes", result.how.limits.memory_bytes}};
+  json["environment"] = result.how.environment;
+  return json;
+}
+
+Json run_json(const RunLine& run) {
+  Json settings = Json::object();
+  for (const auto& [name, words] : run.settings) settings[name] = words;
+  return {{"command", run.command},
+          {"status", run.status},
+          {"mesher", run.mesher},
+          {"version", run.version},
+          {"settings", settings}};
+}
+
 }  // namespace
+
+std::vector<ReportChart> read_charts(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::exists(folder)) return {};
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".json" && entry.path().filename() != shared_file) files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::vector<ReportChart> charts;
+  for (const auto& file : files) charts.push_back(read_chart(file));
+  return charts;
+}
 
 void add_charts(std::span<const ReportChart> charts, ReportSection& section) {
   for (const ReportChart& chart : charts) {
@@ -113,6 +216,21 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
   }
   report.claims = judge_claims(results);
   return report;
+}
+
+Json report_json(const Report& report) {
+  Json sections = Json::array(), runs = Json::object();
+  for (const ReportSection& section : report.sections) sections.push_back(section_json(section));
+  for (const auto& [file, run] : report.runs) runs[file] = run_json(run);
+  return {{"schema", "ccdt.report/1"},
+          {"title", report.title},
+          {"claims", array_of(report.claims, claim_json)},
+          {"experiments", sections},
+          {"runs", runs}};
+}
+
+Json claims_json(const Report& report) {
+  return {{"schema", "ccdt.claims/1"}, {"claims", array_of(report.claims, claim_json)}};
 }
 
 }  // namespace ccdt

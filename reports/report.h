@@ -8,10 +8,20 @@
 #include <vector>
 
 #include "bench/results/experiment_result.h"
-#include "reports/chart.h"
-#include "reports/claims/claim.h"
+#include "reports/claims.h"
 
 namespace ccdt {
+
+/// A declarative description of a chart: Vega-Lite, without its data, which are tables of an experiment.
+struct ReportChart {
+  std::string experiment, name, title, caption;
+  std::vector<std::string> tables;  ///< each a data set of its name
+  std::string spec;                 ///< the JSON of Vega-Lite
+};
+
+/// All charts of a folder, by the names of their files. None if there is no such folder.
+/// \throw InputError  a file is no chart
+std::vector<ReportChart> read_charts(const std::filesystem::path& folder);
 
 /// An experiment as a report shows it.
 struct ReportSection {
@@ -21,7 +31,7 @@ struct ReportSection {
   std::vector<ReportChart> charts;
 };
 
-/// What a reader needs to repeat a run.
+/// What a reader needs in order to repeat a run.
 struct RunLine {
   std::string command;  ///< in the folder of the report; it overwrites nothing. Empty if nobody knows
   std::string status;

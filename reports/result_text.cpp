@@ -1,5 +1,6 @@
 #include "reports/result_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -8,6 +9,32 @@
 
 namespace ccdt {
 namespace {
+
+/// How many columns of a terminal a UTF-8 text takes: continuation bytes take none.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::vector<std::size_t> column_widths(const TextTable& table, std::size_t least) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : table) {
+    widths.resize(std::max(widths.size(), row.size()), least);
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
+  }
+  return widths;
+}
+
+std::string aligned(const std::string& text, std::size_t column, std::size_t to) {
+  const std::string spaces(to - width(text), ' ');
+  return column == 0 ? text + spaces : spaces + text;
+}
+
+/// A text within a Markdown cell, where a bar would end the cell and a line feed the row.
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
+  return safe;
+}
 
 /// A whole number with separators, another with four digits.
 std::string number_text(double value) {
@@ -30,9 +57,7 @@ std::string heading(const Column& column) {
 }
 
 bool is_empty(const ResultTable& table, std::size_t column) {
-  for (const ResultRow& row : table.rows)
-    if (!cell_text(row.cells[column]).empty()) return false;
-  return true;
+  return std::ranges::all_of(table.rows, [&](const ResultRow& row) { return cell_text(row.cells[column]).empty(); });
 }
 
 /// With all digits that are needed to read the same number back.
@@ -43,7 +68,7 @@ std::string all_digits(double value) {
   return {text.data(), end};
 }
 
-std::string quoted(const std::string& text) {
+std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -51,9 +76,8 @@ std::string quoted(const std::string& text) {
 }
 
 bool has_estimates(const ResultTable& table, std::size_t column) {
-  for (const ResultRow& row : table.rows)
-    if (std::holds_alternative<Estimate>(row.cells[column])) return true;
-  return false;
+  return std::ranges::any_of(table.rows,
+                             [&](const ResultRow& row) { return std::holds_alternative<Estimate>(row.cells[column]); });
 }
 
 std::string csv_cell(const Cell& cell, bool as_estimate) {
@@ -61,7 +85,7 @@ std::string csv_cell(const Cell& cell, bool as_estimate) {
     return all_digits(e->value) + "," + all_digits(e->low) + "," + all_digits(e->high);
   std::string text;
   if (const auto* number = std::get_if<double>(&cell)) text = all_digits(*number);
-  if (const auto* words = std::get_if<std::string>(&cell)) text = quoted(*words);
+  if (const auto* words = std::get_if<std::string>(&cell)) text = csv_quoted(*words);
   return as_estimate ? text + ",," : text;
 }
 
@@ -80,18 +104,16 @@ std::string latex_text(const std::string& text) {
   return safe;
 }
 
-std::string bullets(const std::string& title, const std::vector<std::string>& lines) {
+/// A title with a line for each text; nothing without texts.
+std::string list(const std::string& title, const char* bullet, const std::vector<std::string>& lines) {
   if (lines.empty()) return "";
-  std::string text = "## " + title + "\n\n";
-  for (const std::string& line : lines) text += "- " + line + "\n";
+  std::string text = title + "\n";
+  for (const std::string& line : lines) text += bullet + line + "\n";
   return text + "\n";
 }
 
-std::string indented(const std::string& title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return "";
-  std::string text = title + "\n";
-  for (const std::string& line : lines) text += "  " + line + "\n";
-  return text + "\n";
+std::string markdown_list(const std::string& title, const std::vector<std::string>& lines) {
+  return list("## " + title + "\n", "- ", lines);
 }
 
 std::string machine(const Environment& e) {
@@ -108,6 +130,42 @@ std::string how_measured(const Circumstances& how) {
 }
 
 }  // namespace
+
+std::string to_terminal(const TextTable& table) {
+  const auto widths = column_widths(table, 0);
+  std::string text;
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    std::string line, rule;
+    for (std::size_t c = 0; c < table[r].size(); ++c) {
+      line += (c == 0 ? "" : "  ") + aligned(table[r][c], c, widths[c]);
+      rule += (c == 0 ? "" : "  ") + std::string(widths[c], '-');
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+    if (r == 0) text += rule + "\n";
+  }
+  return text;
+}
+
+std::string to_markdown(const TextTable& table) {
+  TextTable cells = table;
+  for (auto& row : cells)
+    for (auto& cell : row) cell = escaped(cell);
+  const auto widths = column_widths(cells, 3);
+  std::string text;
+  for (std::size_t r = 0; r < cells.size(); ++r) {
+    cells[r].resize(widths.size());
+    text += "|";
+    for (std::size_t c = 0; c < widths.size(); ++c) text += " " + aligned(cells[r][c], c, widths[c]) + " |";
+    text += "\n";
+    if (r > 0) continue;
+    text += "|";
+    for (std::size_t c = 0; c < widths.size(); ++c)
+      text += c == 0 ? std::string(widths[c] + 2, '-') + "|" : std::string(widths[c] + 1, '-') + ":|";
+    text += "\n";
+  }
+  return text;
+}
 
 TextTable text_table(const ResultTable& table) {
   TextTable text(table.rows.size() + 1);
@@ -157,18 +215,18 @@ std::string to_terminal(const ExperimentResult& result) {
   std::string text = result.title + "\n\n";
   for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty()) text += table.title + "\n\n" + to_terminal(text_table(table)) + "\n";
-  return text + indented("What this says", result.findings) + indented("What went wrong", result.problems) +
+  return text + list("What this says", "  ", result.findings) + list("What went wrong", "  ", result.problems) +
          how_measured(result.how) + "\n";
 }
 
 std::string to_markdown(const ExperimentResult& result) {
   std::string text = "# " + result.title + "\n\n" + how_measured(result.how) + "\n\n";
-  text += bullets("What this says", result.findings) + bullets("What went wrong", result.problems);
+  text += markdown_list("What this says", result.findings) + markdown_list("What went wrong", result.problems);
   for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty())
       text += "## " + table.title + "\n\n" + to_markdown(text_table(table)) + "\n";
-  return text + bullets("What the rows mean", result.definitions) + "## How it was measured\n\n`" + result.how.command +
-         "`\n\n" + machine(result.how.environment) + "\n";
+  return text + markdown_list("What the rows mean", result.definitions) + "## How it was measured\n\n`" +
+         result.how.command + "`\n\n" + machine(result.how.environment) + "\n";
 }
 
 }  // namespace ccdt

@@ -1,11 +1,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/results/experiment_result.h"
-#include "reports/text_table.h"
 
 namespace ccdt {
+
+/// A table of texts: the first row is the heading, the first column is aligned left and the others right. Rows may be
+/// short.
+using TextTable = std::vector<std::vector<std::string>>;
+
+/// With columns aligned by spaces, for a terminal. A rule follows the heading.
+std::string to_terminal(const TextTable& table);
+
+/// In Markdown, with aligned columns so that the source can be read as well.
+std::string to_markdown(const TextTable& table);
 
 /// A table as people read it: columns that are empty in all rows are left out, numbers are rounded, estimates have
 /// their intervals, and a row that failed says why.

@@ -8,7 +8,7 @@
 
 namespace ccdt {
 
-/// What became of a report's files.
+/// Where the files of a report are.
 struct WrittenReport {
   std::filesystem::path page;      ///< empty if there is none
   std::vector<std::string> notes;  ///< what could not be made, and what to do about it
@@ -22,5 +22,11 @@ struct WrittenReport {
 /// \throw OutputError  a file cannot be written
 WrittenReport write_report(const Report& report, const std::filesystem::path& folder,
                            const std::filesystem::path& share);
+
+/// The page with all that it shows inside: the report, the meshes of the viewer, and the raw JSON of every run and
+/// experiment, deflated. Files that are missing are left out.
+///
+/// \param folder  where the files are that the report names
+std::string fill_page(const std::string& page, const Report& report, const std::filesystem::path& folder);
 
 }  // namespace ccdt

@@ -3,7 +3,6 @@
 
 #include "reports/comparison.h"
 #include "reports/result_text.h"
-#include "reports/text_table.h"
 #include "reports/write_report.h"
 #include "tools/commands.h"
 #include "tools/options.h"

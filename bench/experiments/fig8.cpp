@@ -8,7 +8,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/tables.h"
 #include "bench/results/numbers.h"
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 #include "models/solids.h"
 
 namespace ccdt {

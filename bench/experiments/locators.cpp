@@ -5,7 +5,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/tables.h"
 #include "bench/results/numbers.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 
 namespace ccdt {
 namespace {

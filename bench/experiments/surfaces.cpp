@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "bench/statistics.h"
-#include "engine/io/read_plc.h"
-#include "engine/io/write_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"
 #include "engine/surface/remesh_surface.h"
 #include "models/solids.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
-#include "engine/numbers/point.h"
+#include "engine/base/point.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 

@@ -6,7 +6,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/tables.h"
 #include "bench/results/numbers.h"
-#include "engine/io/read_plc.h"
+#include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "models/solids.h"
 

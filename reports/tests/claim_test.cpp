@@ -1,4 +1,4 @@
-#include "reports/claims/claim.h"
+#include "reports/claims.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace ccdt {
 namespace {
 
-PaperClaim claim_of(const std::vector<std::pair<Claim, Claim>>& outcomes) {
+PaperClaim claim_of(const std::vector<std::pair<BoundTest, BoundTest>>& outcomes) {
   PaperClaim claim{"id", "6", "A sentence.", {"table1"}};
   claim.weaker = "A weaker one.";
   for (const auto& [strong, weak] : outcomes) {
@@ -17,7 +17,7 @@ PaperClaim claim_of(const std::vector<std::pair<Claim, Claim>>& outcomes) {
   return claim;
 }
 
-constexpr Claim yes = Claim::holds, open = Claim::undecided, no = Claim::fails;
+constexpr BoundTest yes = BoundTest::holds, open = BoundTest::undecided, no = BoundTest::fails;
 
 TEST(ClaimVerdict, FollowsFromTheMeasuresAlone) {
   EXPECT_EQ(claim_of({}).verdict, ClaimVerdict::not_testable);

@@ -9,7 +9,7 @@
 #include "bench/run_record.h"
 #include "engine/base/errors.h"
 #include "reports/comparison.h"
-#include "reports/page.h"
+#include "reports/write_report.h"
 
 namespace ccdt {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/verification_report.h"
+#include "reports/command_output.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,11 @@
-#include "reports/run_summary.h"
+#include "reports/command_output.h"
 
+#include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bench/json.h"
 #include "bench/results/numbers.h"
 
 namespace ccdt {
@@ -59,6 +62,11 @@ std::string improvement(const ImproveCounts& c) {
          (c.stop == ImproveStop::time ? "the time was up" : "which nothing makes better") + "\n";
 }
 
+std::string check_word(const Check& check) {
+  if (check.failed == 0) return "ok";
+  return check.required ? "FAILED" : "differs";
+}
+
 }  // namespace
 
 std::string summarize(const RunRecord& r) {
@@ -73,6 +81,39 @@ std::string summarize(const RunRecord& r) {
   text += improvement(c.improve);
   for (const std::string& note : r.notes) text += "note        " + note + "\n";
   return text;
+}
+
+std::string to_terminal(const Verification& verification) {
+  std::size_t width = 0;
+  for (const Check& check : verification.checks) width = std::max(width, check.name.size());
+  std::string text;
+  for (const Check& check : verification.checks) {
+    const std::string word = check_word(check);
+    text += word + std::string(9 - word.size(), ' ') + check.name + std::string(width + 2 - check.name.size(), ' ');
+    text += check.failed == 0 ? with_separators(check.checked)
+                              : with_separators(check.failed) + " of " + with_separators(check.checked);
+    text += "\n";
+    for (const std::string& example : check.examples) text += "           " + example + "\n";
+  }
+  return text + "volume   " + rounded(verification.mesh_volume, 12) + ", of the input " +
+         rounded(verification.input_volume, 12) + "\n";
+}
+
+std::string to_json(const Verification& verification, const std::string& input, const std::string& mesh) {
+  Json checks = Json::array();
+  for (const Check& check : verification.checks)
+    checks.push_back({{"name", check.name},
+                      {"checked", check.checked},
+                      {"failed", check.failed},
+                      {"required", check.required},
+                      {"examples", check.examples}});
+  return to_text({{"schema", "ccdt.verify/1"},
+                  {"input", input},
+                  {"mesh", mesh},
+                  {"ok", verification.ok()},
+                  {"mesh_volume", verification.mesh_volume},
+                  {"input_volume", verification.input_volume},
+                  {"checks", checks}});
 }
 
 }  // namespace ccdt

@@ -1,30 +1,37 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/experiments/experiment.h"
+#include "engine/base/enum_names.h"
 
 namespace ccdt {
 
-/// What came of testing a claim of the paper.
+/// The result of testing a claim of the paper.
 enum class ClaimVerdict {
   confirmed,    ///< all that was measured is as the claim says
   reservation,  ///< it holds in a weaker form
   refuted,      ///< something that was measured contradicts even that
   not_testable  ///< nothing was measured, or the intervals do not tell
 };
-std::string_view name_of(ClaimVerdict verdict);
+
+constexpr auto names_of(ClaimVerdict) {
+  return std::to_array<NamedValue<ClaimVerdict>>({{ClaimVerdict::confirmed, "confirmed"},
+                                                  {ClaimVerdict::reservation, "confirmed with a reservation"},
+                                                  {ClaimVerdict::refuted, "refuted"},
+                                                  {ClaimVerdict::not_testable, "not testable here"}});
+}
 
 /// One number that a claim stands or falls with.
 struct ClaimMeasure {
-  std::string what;             ///< for people
-  Cell value;                   ///< with its interval, if it has one
-  std::string bound;            ///< what the claim asks of it, for people
-  Claim strong = Claim::fails;  ///< does it hold as the paper has it?
-  Claim weak = Claim::fails;    ///< and in its weaker form?
+  std::string what;                     ///< for people
+  Cell value;                           ///< with its interval, if it has one
+  std::string bound;                    ///< what the claim asks of it, for people
+  BoundTest strong = BoundTest::fails;  ///< does it hold as the paper has it?
+  BoundTest weak = BoundTest::fails;    ///< and in its weaker form?
   std::string experiment, table;
   std::vector<std::string> runs = {};
 };
@@ -47,17 +54,5 @@ void judge(PaperClaim& claim);
 
 /// All claims, judged by what these experiments found. A claim whose experiments are missing is not testable here.
 std::vector<PaperClaim> judge_claims(std::span<const ExperimentResult> results);
-
-/// The same answer for both forms of a measure that is a yes or a no.
-ClaimMeasure yes_or_no(std::string what, Cell value, std::string bound, bool holds);
-
-/// The groups of claims, one a file. Each adds its own; measures of experiments that are missing are left out.
-void add_time_claims(std::span<const ExperimentResult> results, std::vector<PaperClaim>& claims);
-void add_quality_claims(std::span<const ExperimentResult> results, std::vector<PaperClaim>& claims);
-void add_existence_claims(std::span<const ExperimentResult> results, std::vector<PaperClaim>& claims);
-
-/// Null if the experiment or its table is missing.
-const ResultTable* find_table(std::span<const ExperimentResult> results, std::string_view experiment,
-                              std::string_view table);
 
 }  // namespace ccdt
