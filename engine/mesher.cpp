@@ -88,7 +88,7 @@ void constrain(const Delaunay& delaunay, FacetMesh facets, const MeshOptions& op
   });
   t.counts.faces = facets.triangles.size();
   t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, no_neighbor));
-  if (!options.face_protection) std::ranges::fill(codes, no_neighbor);  // none of them is told apart
+  if (!options.face_protection) std::ranges::fill(codes, no_neighbor);
 
   const FrontResult front = timed(s.front, [&] {
     return advance_front({t.plc, facets, codes, delaunay},

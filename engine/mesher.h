@@ -74,7 +74,7 @@ Improvement improvement_of(const MeshOptions& options);
 /// \throw InputError  the input is no valid PLC
 /// \throw LimitError  a segment would need a split finer than the grid allows
 /// \throw MeshError   no valid mesh was found
-/// \throw            whatever `progress` throws
+/// \throw ...         what `progress` throws
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt

@@ -50,7 +50,7 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_corners = {
 struct Delaunay {
   std::vector<DelaunayVertex> vertices;  ///< by id
   std::vector<Cell> cells;
-  std::vector<std::uint32_t> free_cells;  ///< the dead ones
+  std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
   const Point3& point(std::uint32_t v) const { return vertices[v].point; }
   bool is_dead(std::uint32_t cell) const { return cells[cell].neighbors[0] == no_neighbor; }

@@ -202,7 +202,7 @@ bool Insertion::ghost_conflicts(const Cell& ghost) const {
   return insphere(a, c, b, apex, p_) > 0;
 }
 
-/// The cells of the cavity give their places to the new ones; more are taken from the dead and from the end.
+/// The cells of the cavity give their places to the new ones; more are taken from dead cells and from the end.
 void Insertion::choose_places() {
   const auto cavity = cavity_.items();
   places_.assign(cavity.begin(), cavity.begin() + static_cast<std::ptrdiff_t>(std::min(cavity.size(), border_.size)));

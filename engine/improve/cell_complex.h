@@ -77,7 +77,7 @@ class CellComplex {
   /// The number of the last change around the vertex.
   std::uint64_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
 
-  /// With the dead ones, whose places wait to be used again.
+  /// Dead cells included, whose places wait to be used again.
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t dead_count() const { return free_.size(); }
   const Cell& cell(std::uint32_t c) const { return cells_[c]; }
@@ -159,7 +159,7 @@ class CellComplex {
   std::vector<int> regions_;
   std::vector<double> qualities_;
   std::vector<std::uint32_t> generations_;
-  std::vector<std::uint32_t> free_;  // the dead ones
+  std::vector<std::uint32_t> free_;  // places of dead cells
 
   // The surface.
   HashSet<std::uint64_t> segments_;               // edges that lie on segments

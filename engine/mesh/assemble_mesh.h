@@ -12,7 +12,7 @@
 
 namespace ccdt {
 
-/// The tetrahedra of the front and the labelled cells, with their regions: the constrained Delaunay tetrahedralization.
+/// The tetrahedra of the front and the labeled cells, with their regions: the constrained Delaunay tetrahedralization.
 /// The mesh has nothing else yet.
 TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
                            const Delaunay& delaunay);
