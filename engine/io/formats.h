@@ -60,6 +60,7 @@ struct FacetLoop {
   std::span<const std::uint32_t> corners;
   int marker = 0;
   const PolygonFacet* polygon = nullptr;  ///< null for a triangle
+  std::uint32_t number = 0;               ///< in the file
 };
 
 /// All facets, in the order of their numbers in the file that they came from.

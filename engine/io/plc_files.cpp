@@ -1,7 +1,7 @@
 #include "engine/io/plc_files.h"
 
 #include <algorithm>
-#include <numeric>
+#include <ranges>
 
 #include "engine/base/errors.h"
 #include "engine/io/formats.h"
@@ -27,31 +27,23 @@ void add_facet(InputPlc& plc, std::span<const std::uint32_t> corners, int marker
 void finish_facets(InputPlc& plc) {
   for (std::vector<int>* markers : {&plc.triangle_markers, &plc.segment_markers})
     if (std::ranges::all_of(*markers, [](int m) { return m == 0; })) markers->clear();
-  bool trivial = true;
-  for (std::size_t i = 0; trivial && i < plc.triangle_numbers.size(); ++i) trivial = plc.triangle_numbers[i] == i;
-  if (trivial) plc.triangle_numbers.clear();
+  const auto indices = std::views::iota(std::size_t{0}, plc.triangle_numbers.size());
+  if (std::ranges::equal(plc.triangle_numbers, indices)) plc.triangle_numbers.clear();
 }
 
 std::vector<FacetLoop> facets_in_order(const InputPlc& plc) {
   std::vector<FacetLoop> loops;
-  std::vector<std::uint32_t> numbers;
-  for (std::size_t i = 0; i < plc.triangles.size(); ++i) {
-    loops.push_back({plc.triangles[i], attribute_of(plc.triangle_markers, i), nullptr});
-    numbers.push_back(plc.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : plc.triangle_numbers[i]);
-  }
-  if (plc.polygon_facets.empty() && plc.triangle_numbers.empty()) return loops;
+  loops.reserve(plc.facet_count());
+  for (std::size_t i = 0; i < plc.triangles.size(); ++i)
+    loops.push_back({plc.triangles[i], attribute_of(plc.triangle_markers, i), nullptr,
+                     plc.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : plc.triangle_numbers[i]});
   for (const PolygonFacet& facet : plc.polygon_facets) {
     const bool none = facet.polygons.empty();
-    loops.push_back({none ? std::span<const std::uint32_t>() : facet.polygons[0], facet.marker, &facet});
-    numbers.push_back(facet.number);
+    loops.push_back({none ? std::span<const std::uint32_t>() : facet.polygons[0], facet.marker, &facet, facet.number});
   }
-  std::vector<std::size_t> order(loops.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return numbers[i]; });
-  std::vector<FacetLoop> sorted;
-  sorted.reserve(loops.size());
-  for (const std::size_t i : order) sorted.push_back(loops[i]);
-  return sorted;
+  if (!plc.polygon_facets.empty() || !plc.triangle_numbers.empty())
+    std::ranges::stable_sort(loops, {}, &FacetLoop::number);
+  return loops;
 }
 
 }  // namespace io

@@ -24,15 +24,15 @@ std::string expected(const std::string& what, std::string_view found) {
   return "expected " + what + ", found " + in_quotes(found);
 }
 
-/// from_chars does not know the plus sign.
-std::string_view without_plus(std::string_view word) {
-  return word.substr(word.size() > 1 && word[0] == '+');
+/// Skips the plus sign, which from_chars does not know.
+const char* digits_begin(std::string_view word) {
+  return word.size() > 1 && word[0] == '+' ? word.data() + 1 : word.data();
 }
 
 std::optional<double> parse_number(std::string_view word) {
   const char* end = word.data() + word.size();
   double value = 0;
-  const auto [stop, error] = std::from_chars(without_plus(word).data(), end, value);
+  const auto [stop, error] = std::from_chars(digits_begin(word), end, value);
   if (stop != end) return std::nullopt;
   // Too large for a double or too small: strtod says which; from_chars has already seen that the form is right.
   if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
@@ -149,9 +149,11 @@ Point3 TextScanner::point(const Item& item) {
 
 std::int64_t TextScanner::integer(const Item& item) {
   const std::string_view found = word(item);
-  const std::optional<std::int64_t> value = parse_whole<std::int64_t>(without_plus(found));
-  if (!value) fail(item, expected("a whole number", found));
-  return *value;
+  const char* end = found.data() + found.size();
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(digits_begin(found), end, value);
+  if (error != std::errc() || stop != end) fail(item, expected("a whole number", found));
+  return value;
 }
 
 void TextScanner::expect_integer(const Item& item, std::int64_t expected, const std::string& remedy,
