@@ -10,7 +10,7 @@
 #include "baselines/mesher_input.h"
 #include "engine/io/file_bytes.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -61,4 +61,4 @@ Mesher cgal_delaunay_mesher() {
       "GPL-3.0-or-later", run_cgal_delaunay, settings_of_cgal_delaunay};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -21,7 +21,7 @@
 #include "engine/io/file_bytes.h"
 #include "engine/plc/build_plc.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -49,7 +49,7 @@ struct Interface {
   std::vector<std::array<std::size_t, 3>> triangles;
   std::unordered_map<std::uint32_t, std::size_t> index;
 
-  std::size_t add(const Plc& plc, VertexId v) {
+  std::size_t add(const plc::Plc& plc, VertexId v) {
     const auto [entry, is_new] = index.try_emplace(v.value, points.size());
     const Point3& p = plc.world[v];
     if (is_new) points.emplace_back(p.x, p.y, p.z);
@@ -59,10 +59,10 @@ struct Interface {
 
 using SubdomainPair = std::pair<int, int>;  ///< subdomains below and above; 0 is outside
 
-std::map<SubdomainPair, Interface> interfaces_of(const Plc& plc) {
+std::map<SubdomainPair, Interface> interfaces_of(const plc::Plc& plc) {
   const auto subdomain = [&](RegionId c) { return plc.regions[c].inside ? static_cast<int>(c.value) + 1 : 0; };
   std::map<SubdomainPair, Interface> interfaces;
-  for (const Facet& facet : plc.facets) {
+  for (const plc::Facet& facet : plc.facets) {
     SubdomainPair sides{subdomain(facet.below), subdomain(facet.above)};
     if (sides.first == 0 && sides.second == 0) continue;  // in a hole
     const bool flip = sides.first < sides.second;
@@ -104,7 +104,7 @@ class VertexNumbers {
   std::unordered_map<const void*, std::uint32_t> numbers_;
 };
 
-TetMesh read_back(const Complex& complex, const Plc& plc) {
+TetMesh read_back(const Complex& complex, const plc::Plc& plc) {
   TetMesh mesh;
   VertexNumbers number(mesh);
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
@@ -169,7 +169,7 @@ Complex refine(const std::map<SubdomainPair, Interface>& interfaces, const Sizes
 }
 
 MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  const Plc plc = build_plc(input, {.flatness = options.flatness});
+  const plc::Plc plc = plc::build_plc(input, {.flatness = options.flatness});
   const auto interfaces = interfaces_of(plc);
   const Sizes sizes(target_edge_length(input, options));
   MesherRun run;
@@ -196,4 +196,4 @@ Mesher cgal_mesh3_mesher() {
           "GPL-3.0-or-later", run_cgal_mesh3,   settings_of_mesh3};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

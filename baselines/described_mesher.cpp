@@ -14,7 +14,7 @@
 #include "engine/io/tet_mesh_files.h"
 #include "engine/plc/build_plc.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 constexpr const char* input_stem = "input";
@@ -106,7 +106,7 @@ InputPlc input_for_format(const Description& description, const InputPlc& input,
 
 void write_input(const Description& description, const InputPlc& input, const std::filesystem::path& folder) {
   try {
-    write_plc(input, folder / input_name(description));
+    io::write_plc(input, folder / input_name(description));
   } catch (const OutputError& error) {
     throw MeshError(description.name + " reads ." + description.input_format + ": " + error.what(),
                     io::place_in(input.name), "leave that out, or choose a mesher that reads .poly");
@@ -151,7 +151,7 @@ TetMesh read_output(const Description& description, const InputPlc& input, const
     throw MeshError(description.name + " wrote no file " + name + "; its last words: " + last_lines(log),
                     io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
   try {
-    return read_tet_mesh(folder / name);
+    return io::read_tet_mesh(folder / name);
   } catch (const InputError& error) {
     const long long line = error.place().line;
     throw MeshError("what " + description.name + " wrote cannot be read: " + name +
@@ -227,4 +227,4 @@ Mesher described_mesher(const MesherDescription& description) {
           }};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -11,7 +11,7 @@
 
 #include "baselines/process.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 constexpr std::size_t most_last_lines = 5;
@@ -120,4 +120,4 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

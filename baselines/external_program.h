@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// Where an external program is: what the environment variable says, else the first of that name on PATH. None if that
 /// is not a file that can be executed.
@@ -49,4 +49,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

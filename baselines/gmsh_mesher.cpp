@@ -13,7 +13,7 @@
 #include "engine/io/tet_mesh_files.h"
 #include "engine/plc/build_plc.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 constexpr const char* program_name = "gmsh";
@@ -45,20 +45,20 @@ struct DiscreteModel {
 }
 
 /// Every segment has to be an edge of a facet.
-void check_segments(const Plc& plc, std::vector<std::array<VertexId, 2>> facet_edges) {
+void check_segments(const plc::Plc& plc, std::vector<std::array<VertexId, 2>> facet_edges) {
   std::ranges::sort(facet_edges);
-  for (const Segment& segment : plc.segments) {
+  for (const plc::Segment& segment : plc.segments) {
     const auto [low, high] = std::minmax(segment.ends[0], segment.ends[1]);
     if (!std::ranges::binary_search(facet_edges, std::array{low, high})) refuse("segments", plc.name);
   }
 }
 
-DiscreteModel discrete_model(const Plc& plc) {
+DiscreteModel discrete_model(const plc::Plc& plc) {
   DiscreteModel model;
   std::map<DiscreteSurface, int> numbers;
   std::vector<std::array<VertexId, 2>> edges;
   std::vector<char> is_used(plc.vertices.size(), 0);
-  for (const Facet& facet : plc.facets) {
+  for (const plc::Facet& facet : plc.facets) {
     const bool inside_below = plc.regions[facet.below].inside, inside_above = plc.regions[facet.above].inside;
     if (facet.below == facet.above && inside_below) refuse("facets", plc.name);
     const DiscreteSurface surface{facet.below, facet.above, facet.marker};
@@ -119,8 +119,8 @@ void write_script(const DiscreteModel& model, const std::string& surface, const 
   script.commit();
 }
 
-TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const Plc& plc) {
-  TetMesh mesh = read_tet_mesh(file);
+TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const plc::Plc& plc) {
+  TetMesh mesh = io::read_tet_mesh(file);
   for (int& region : mesh.regions)
     region = plc.regions[model.volumes.at(static_cast<std::size_t>(region) - 1)].attribute;
   for (int& marker : mesh.face_markers) marker = model.surfaces.at(static_cast<std::size_t>(marker) - 1).marker;
@@ -132,14 +132,14 @@ TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model,
 MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const auto program = find_program(program_name, program_variable);
   if (!program) fail("the program gmsh is no longer there", input.name, "install it, or set CCDT_GMSH to its path");
-  const Plc plc = build_plc(input, {.flatness = options.flatness});
+  const plc::Plc plc = plc::build_plc(input, {.flatness = options.flatness});
   const DiscreteModel model = discrete_model(plc);
 
   const TemporaryFolder folder;
   const auto file = [&](const char* name) { return folder.path() / name; };
   MesherRun run;
   run.settings = settings_of_gmsh(input, options);
-  write_tet_mesh(model.triangles, file("surface.msh"));
+  io::write_tet_mesh(model.triangles, file("surface.msh"));
   write_script(model, "surface.msh", run.settings, file("model.geo"));
   report(progress, "gmsh", 0, 0);
   const int code = run_program({program->string(), file("model.geo").string(), "-3", "-nt", "1", "-v", "5", "-o",
@@ -178,4 +178,4 @@ std::optional<Mesher> gmsh_hxt_mesher() {
       version_of_gmsh};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

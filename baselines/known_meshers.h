@@ -5,7 +5,7 @@
 #include "baselines/mesher.h"
 #include "baselines/mesher_description.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// TetGen (Si 2015), called as a library in this process. Without interior points (`Lattice::none`) it makes the
 /// constrained Delaunay tetrahedralization of the input; with them it refines to the target edge length.
@@ -27,4 +27,4 @@ std::optional<Mesher> gmsh_hxt_mesher();
 /// A mesher of somebody's own. Its version command is run once, when its version is asked for.
 Mesher described_mesher(const MesherDescription& description);
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -8,7 +8,7 @@
 #include <deque>
 #include <map>
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 using Face = std::array<std::uint32_t, 3>;
@@ -297,4 +297,4 @@ MeshCounts count_elements(const InputPlc& input, const TetMesh& mesh) {
   return counts;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

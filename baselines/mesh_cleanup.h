@@ -2,7 +2,7 @@
 
 #include "baselines/mesher.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// Makes all tetrahedra positively oriented, given that they are all oriented alike.
 void orient_positively(TetMesh& mesh);
@@ -25,4 +25,4 @@ void keep_odd_regions(TetMesh& mesh);
 /// is on a face or edge of `mesh.faces` or `mesh.edges`, else an interior vertex.
 MeshCounts count_elements(const InputPlc& input, const TetMesh& mesh);
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -9,7 +9,7 @@
 
 #include "engine/mesher.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// How a mesher is asked, in its own words: {"switches", "pQ"}.
 using MesherSettings = std::vector<std::pair<std::string, std::string>>;
@@ -52,4 +52,4 @@ std::string version_of(const Mesher& mesher);
 /// What the mesher will ask for; empty if the options say it all.
 MesherSettings settings_of(const Mesher& mesher, const InputPlc& input, const MeshOptions& options);
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -12,7 +12,7 @@
 #include "baselines/mesher_schema.h"
 #include "engine/io/file_bytes.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 using Json = nlohmann::ordered_json;  // choices and files keep their order
@@ -179,4 +179,4 @@ std::string fill_placeholders(std::string_view text, const std::vector<Placehold
   return result.append(text.substr(done));
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -9,7 +9,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// What the text of a choice depends on.
 enum class ChoiceCondition { interior_points, improvement, edge_length, regions };
@@ -78,4 +78,4 @@ std::vector<std::string> placeholders_in(std::string_view text);
 /// The text with the values; what is not among them stays.
 std::string fill_placeholders(std::string_view text, const std::vector<Placeholder>& values);
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

@@ -6,7 +6,7 @@
 #include "engine/io/merge_vertices.h"
 #include "engine/plc/build_plc.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 double distance(const Point3& a, const Point3& b) {
@@ -33,14 +33,14 @@ InputPlc merge_equal_vertices(const InputPlc& input) {
 }
 
 InputPlc triangulate_facets(const InputPlc& input, const MeshOptions& options) {
-  const Plc plc = build_plc(input, {.flatness = options.flatness});
+  const plc::Plc plc = plc::build_plc(input, {.flatness = options.flatness});
   InputPlc triangles = input;
   triangles.vertices = plc.world;
   triangles.triangles.clear();
   triangles.triangle_markers.clear();
   triangles.triangle_numbers.clear();
   triangles.polygon_facets.clear();
-  for (const Facet& facet : plc.facets)
+  for (const plc::Facet& facet : plc.facets)
     for (const auto& [a, b, c] : facet.triangles) {
       triangles.triangles.push_back({a.value, b.value, c.value});
       triangles.triangle_markers.push_back(facet.marker);
@@ -80,4 +80,4 @@ double largest_tetrahedron_volume(double edge_length) {
   return largest_to_average * regular_tetrahedron_volume(edge_length);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

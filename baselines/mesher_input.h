@@ -2,7 +2,7 @@
 
 #include "baselines/mesher.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// The input with vertices of equal coordinates merged: surface formats repeat a vertex in every triangle, and the
 /// other meshers want them shared. Triangles, polygons and segments keep their order.
@@ -24,4 +24,4 @@ double regular_tetrahedron_volume(double edge_length);
 /// average.
 double largest_tetrahedron_volume(double edge_length);
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

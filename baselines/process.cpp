@@ -20,7 +20,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -239,4 +239,4 @@ ProcessResult run_function(const std::function<std::string()>& function) {
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

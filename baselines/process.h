@@ -11,7 +11,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 
 /// How a run ended; the names are those of the `ccdt.run/1` schema.
 enum class RunStatus { ok, failed, timeout, out_of_memory, crashed };
@@ -68,4 +68,4 @@ ProcessResult run_program(const std::vector<std::string>& command, const Program
 /// \throw std::system_error  no process can be started
 ProcessResult run_function(const std::function<std::string()>& function);
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

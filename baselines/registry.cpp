@@ -6,7 +6,7 @@
 #include "engine/io/file_bytes.h"
 #include "engine/version.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 MesherRun run_ccdt(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
@@ -74,4 +74,4 @@ MesherSettings settings_of(const Mesher& mesher, const InputPlc& input, const Me
   return mesher.settings ? mesher.settings(input, options) : MesherSettings();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

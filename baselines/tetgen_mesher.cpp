@@ -15,7 +15,7 @@
 #include "engine/base/digits.h"
 #include "engine/io/file_bytes.h"
 
-namespace ccdt {
+namespace ccdt::baselines {
 namespace {
 
 /// Radius-edge ratio of the examples in TetGen's manual for meshes of good quality, and smallest dihedral angle in
@@ -275,4 +275,4 @@ Mesher tetgen_mesher() {
           settings_of_tetgen};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::baselines

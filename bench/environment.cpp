@@ -17,7 +17,7 @@
 #include "bench/json_fields.h"
 #include "bench/revision.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 namespace {
 
 constexpr auto fields_of_environment =
@@ -54,7 +54,7 @@ std::map<std::string, std::string> library_versions() {
       {"boost", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
       {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
   };
-  for (const Mesher& m : meshers()) {
+  for (const baselines::Mesher& m : baselines::meshers()) {
     if (m.name == "tetgen") versions["tetgen"] = m.version;
     if (m.name.starts_with("cgal")) versions["cgal"] = m.version;
   }
@@ -125,4 +125,4 @@ std::string sha256_of_file(const std::filesystem::path& file) {
   return text;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

@@ -8,7 +8,7 @@
 
 #include "bench/json.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 
 /// Where and with what a run was made: what is needed to understand its times later.
 struct Environment {
@@ -37,4 +37,4 @@ std::uint64_t peak_rss_bytes();
 /// SHA-256 of a file's bytes, 64 lowercase hexadecimal digits; empty if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

@@ -6,7 +6,7 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/output_file.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 
 std::string to_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -40,4 +40,4 @@ void parse_document(const std::filesystem::path& file, const DocumentKind& kind,
   }
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

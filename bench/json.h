@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace ccdt {
+namespace ccdt::bench {
 
 /// JSON whose names keep the order in which they were written.
 using Json = nlohmann::ordered_json;
@@ -39,4 +39,4 @@ Value read_document(const Source& source, const DocumentKind& kind, Value (*from
   return value;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

@@ -11,9 +11,9 @@
 #include "bench/json.h"
 #include "engine/base/enum_names.h"
 
-/// Structs in JSON. The members of a struct are listed once, with their names, in `fields<Struct>`; writing, reading and
-/// the conversions of nlohmann::json follow from that. Enumerations with `names_of` are their names.
-namespace ccdt {
+/// Structs in JSON. The members of a struct are listed once, with their names, in `fields<Struct>`; writing, reading
+/// and the conversions of nlohmann::json follow from that. Enumerations with `names_of` are their names.
+namespace ccdt::bench {
 
 /// A member of a struct.
 template <class Access>
@@ -63,23 +63,23 @@ void read_fields(const Json& json, const Fields& list, Struct& value) {
   std::apply([&](const auto&... f) { (read(f), ...); }, list);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench
 
-template <ccdt::HasFields Struct>
+template <ccdt::bench::HasFields Struct>
 struct nlohmann::adl_serializer<Struct, void> {
-  static void to_json(ccdt::Json& json, const Struct& value) {
-    json = ccdt::Json::object();
-    ccdt::write_fields(value, ccdt::fields<Struct>, json);
+  static void to_json(ccdt::bench::Json& json, const Struct& value) {
+    json = ccdt::bench::Json::object();
+    ccdt::bench::write_fields(value, ccdt::bench::fields<Struct>, json);
   }
-  static void from_json(const ccdt::Json& json, Struct& value) {
-    ccdt::read_fields(json, ccdt::fields<Struct>, value);
+  static void from_json(const ccdt::bench::Json& json, Struct& value) {
+    ccdt::bench::read_fields(json, ccdt::bench::fields<Struct>, value);
   }
 };
 
 template <ccdt::NamedEnum Enum>
 struct nlohmann::adl_serializer<Enum, void> {
-  static void to_json(ccdt::Json& json, Enum value) { json = ccdt::name_of(value); }
-  static void from_json(const ccdt::Json& json, Enum& value) {
+  static void to_json(ccdt::bench::Json& json, Enum value) { json = ccdt::name_of(value); }
+  static void from_json(const ccdt::bench::Json& json, Enum& value) {
     const auto name = json.get<std::string>();
     const auto found = ccdt::value_of<Enum>(name);
     if (!found) throw std::invalid_argument("unknown name '" + name + "'");

@@ -9,7 +9,7 @@
 
 #include "bench/statistics.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 namespace {
 
 constexpr double regular_factor = 8.485281374238570;  ///< 6 sqrt(2): makes the regular tetrahedron's r equal to 1
@@ -125,7 +125,7 @@ double radius_edge_ratio(const std::array<Point3, 4>& t) {
   return length(sum) / (12 * v) / std::sqrt(squared_edges(t).first);
 }
 
-Quality measure_quality(const TetMesh& mesh) {
+Quality measure_quality(const mesh::TetMesh& mesh) {
   std::vector<double> r, aspect, radius_edge;
   for (auto* values : {&r, &aspect, &radius_edge}) values->reserve(mesh.tetrahedra.size());
   Quality quality;
@@ -146,4 +146,4 @@ Quality measure_quality(const TetMesh& mesh) {
   return quality;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

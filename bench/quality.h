@@ -6,7 +6,7 @@
 
 #include "engine/mesh/tet_mesh.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 
 /// How often a measure falls between `edges[i]` and `edges[i + 1]`; what is outside is counted at the nearer end.
 struct Histogram {
@@ -47,6 +47,6 @@ double radius_edge_ratio(const std::array<Point3, 4>& tetrahedron);
 std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& tetrahedron);
 
 /// Measures every tetrahedron. All zero for a mesh without any.
-Quality measure_quality(const TetMesh& mesh);
+Quality measure_quality(const mesh::TetMesh& mesh);
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

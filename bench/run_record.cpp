@@ -4,7 +4,7 @@
 
 #include "bench/json_fields.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 
 template <>
 inline constexpr auto fields<Histogram> = std::tuple(field("edges", &Histogram::edges),
@@ -149,10 +149,11 @@ void RunRecord::set_option(std::string_view name, const Option& value) {
     options.emplace_back(name, value);
 }
 
-RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
+RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
   RunRecord record;
   record.environment = capture_environment();
-  record.mesher = {mesher.name, version_of(mesher), mesher.name == "ccdt" ? record.environment.revision : ""};
+  record.mesher = {mesher.name, baselines::version_of(mesher),
+                   mesher.name == "ccdt" ? record.environment.revision : ""};
   record.input.name = input.name;
   record.input.vertices = input.vertices.size();
   record.input.facets = input.facet_count();
@@ -196,4 +197,4 @@ RunRecord read_run_record(const std::filesystem::path& file) {
   return read_document(file, run_document, record_from);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

@@ -12,7 +12,7 @@
 #include "bench/environment.h"
 #include "bench/quality.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 
 /// One run of one mesher on one input: what is written as JSON of schema `ccdt.run/1`.
 struct RunRecord {
@@ -36,7 +36,7 @@ struct RunRecord {
   std::uint64_t peak_rss_bytes = 0;
   Quality quality;
   double largest_rounding = 0;
-  RunStatus status = RunStatus::ok;
+  baselines::RunStatus status = baselines::RunStatus::ok;
   std::string reason;              ///< why the status is not ok
   std::vector<std::string> notes;  ///< what a reader has to know
   std::map<std::string, std::vector<double>>
@@ -47,7 +47,7 @@ struct RunRecord {
 };
 
 /// A record that says who was asked to mesh what and how, before anything has been done.
-RunRecord start_record(const Mesher& mesher, const InputPlc& input, const MeshOptions& options);
+RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options);
 
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);
@@ -59,4 +59,4 @@ void write_run_record(const RunRecord& record, const std::filesystem::path& file
 /// \throw InputError  cannot be read, or no JSON of that schema
 RunRecord read_run_record(const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace ccdt {
+namespace ccdt::bench {
 namespace {
 
 /// Draws with replacement. `std::uniform_int_distribution` may differ between standard libraries; a product of the
@@ -105,4 +105,4 @@ LineFit fit_power(std::span<const double> x, std::span<const double> y, double c
   return fit_line(logarithms(x), logarithms(y), confidence);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

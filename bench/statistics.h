@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-namespace ccdt {
+namespace ccdt::bench {
 
 /// An estimate with its confidence interval.
 struct Estimate {
@@ -49,4 +49,4 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y, double co
 /// \pre as for `fit_line`, and all are positive
 LineFit fit_power(std::span<const double> x, std::span<const double> y, double confidence = 0.95);
 
-}  // namespace ccdt
+}  // namespace ccdt::bench

@@ -26,49 +26,51 @@ auto timed(double& seconds, const Stage& stage) {
   return stage();
 }
 
-BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
+BackgroundSizes in_grid_units(BackgroundSizes background, const numbers::DyadicGrid& grid) {
   for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
   for (double& size : background.sizes) size /= grid.unit;
   return background;
 }
 
-std::vector<Point3> points_of(const Delaunay& delaunay) {
+std::vector<Point3> points_of(const delaunay::Delaunay& delaunay) {
   std::vector<Point3> points;
   points.reserve(delaunay.vertices.size());
-  for (const DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
+  for (const delaunay::DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
   return points;
 }
 
 /// The points of the lattice, which keeps away from faces and subsegments.
-std::vector<Point3> place_points(const Plc& plc, const ProtectedDelaunay& surface, const FacetMesh& facets,
-                                 const MeshOptions& options, const Progress& progress) {
-  std::vector<SurfaceTriangle> triangles;
+std::vector<Point3> place_points(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
+                                 const facets::FacetMesh& facets, const MeshOptions& options,
+                                 const Progress& progress) {
+  std::vector<lattice::SurfaceTriangle> triangles;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    const Facet& facet = plc.facets[facets.facet[i]];
+    const plc::Facet& facet = plc.facets[facets.facet[i]];
     triangles.push_back({facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside});
   }
   std::vector<std::array<VertexId, 2>> subsegments;
   for (const auto& chain : surface.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
   const BackgroundSizes background = in_grid_units(options.background, plc.grid);
-  const LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
-                               options.grading,   options.sphere_factor,
-                               options.clearance, &background};
+  const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
+                                        options.grading,   options.sphere_factor,
+                                        options.clearance, &background};
   const std::vector<Point3> vertices = points_of(surface.delaunay);
-  return place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
+  return lattice::place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
 }
 
 /// Adds those of the points that destroy no protected edge.
-Delaunay add_points(const std::vector<Point3>& points, ProtectedDelaunay surface, const MeshOptions& options,
-                    const Progress& progress) {
-  if (options.delaunay == DelaunayMethod::insert) return insert_interior(points, std::move(surface), progress);
-  return wrap_interior(points, std::move(surface), options.grid_scale, progress);
+delaunay::Delaunay add_points(const std::vector<Point3>& points, protection::ProtectedDelaunay surface,
+                              const MeshOptions& options, const Progress& progress) {
+  if (options.delaunay == DelaunayMethod::insert)
+    return protection::insert_interior(points, std::move(surface), progress);
+  return protection::wrap_interior(points, std::move(surface), options.grid_scale, progress);
 }
 
 /// The constrained Delaunay tetrahedralization of an input as a mesh, or why there is none.
 struct Tetrahedralization {
-  Plc plc;
-  SegmentChains chains;
+  plc::Plc plc;
+  protection::SegmentChains chains;
   TetMesh mesh;                              ///< without coordinates
   std::vector<Point3> points;                ///< of the mesh, in grid units
   std::size_t first_interior = 0;            ///< of the points
@@ -78,52 +80,56 @@ struct Tetrahedralization {
 };
 
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and the mesh of what they enclose.
-void constrain(const Delaunay& delaunay, FacetMesh facets, const MeshOptions& options, const Progress& progress,
-               StageSeconds& s, Tetrahedralization& t) {
+void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
+               const Progress& progress, StageSeconds& s, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = timed(s.face_check, [&] {
-    std::vector<std::uint32_t> found = find_delaunay_faces(facets, delaunay);
-    if (t.counts.interior_vertices > 0 && follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
-      found = find_delaunay_faces(facets, delaunay);
+    std::vector<std::uint32_t> found = front::find_delaunay_faces(facets, delaunay);
+    if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
+      found = front::find_delaunay_faces(facets, delaunay);
     return found;
   });
   t.counts.faces = facets.triangles.size();
-  t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, no_neighbor));
-  if (!options.face_protection) std::ranges::fill(codes, no_neighbor);
+  t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, delaunay::no_neighbor));
+  if (!options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
 
-  const FrontResult front = timed(s.front, [&] {
-    return advance_front({t.plc, facets, codes, delaunay},
-                         {options.locator, options.grid_scale, options.face_protection}, progress);
+  const front::FrontResult front = timed(s.front, [&] {
+    return front::advance_front({t.plc, facets, codes, delaunay},
+                                {options.locator, options.grid_scale, options.face_protection}, progress);
   });
   if ((t.stuck = front.stuck)) return;
   t.counts.front_tetrahedra = front.tetrahedra.size();
   t.counts.front_faces = front.undelaunay_faces;
 
-  const CellLabels labels = timed(s.label, [&] { return label_cells(t.plc, delaunay, front.open, codes); });
+  const label::CellLabels labels =
+      timed(s.label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   if ((t.stuck = labels.stuck)) return;
-  t.mesh = timed(s.label, [&] { return collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
-  t.stuck = timed(s.finish, [&] { return check_volume(t.plc, facets, delaunay, t.mesh); });
+  t.mesh = timed(s.label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  t.stuck = timed(s.finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
   if (t.stuck) return;
-  t.facet_of_face = timed(s.finish, [&] { return finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
+  t.facet_of_face = timed(s.finish, [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
 }
 
 /// All stages but improvement.
 Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness,
                                   const Progress& progress, StageSeconds& s) {
   Tetrahedralization t;
-  t.plc = timed(s.plc, [&] { return build_plc(input, {flatness}, progress); });
+  t.plc = timed(s.plc, [&] { return plc::build_plc(input, {flatness}, progress); });
   // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
   // whatever the method is. With another method it is there for the sake of protection alone.
   const bool stays = options.delaunay == DelaunayMethod::insert;
-  Delaunay delaunay = timed(stays ? s.delaunay : s.protect, [&] { return build_delaunay(t.plc.vertices, progress); });
-  ProtectedDelaunay surface = timed(s.protect, [&] {
-    return protect_edges(t.plc, unprotected(t.plc, std::move(delaunay)), options.protection, progress);
+  delaunay::Delaunay delaunay =
+      timed(stays ? s.delaunay : s.protect, [&] { return delaunay::build_delaunay(t.plc.vertices, progress); });
+  protection::ProtectedDelaunay surface = timed(s.protect, [&] {
+    return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay)), options.protection,
+                                     progress);
   });
   t.chains = surface.chains;
   t.first_interior = surface.delaunay.vertices.size();
   t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size();
-  t.counts.splits_by_level = count_splits_by_level(t.chains);
+  t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
 
-  FacetMesh facets = timed(s.facets, [&] { return triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
+  facets::FacetMesh facets =
+      timed(s.facets, [&] { return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
   std::vector<Point3> points;
   if (options.lattice != Lattice::none)
     points = timed(s.lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
@@ -153,12 +159,12 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
 
   if (ImproveOptions improve = options.improve; (improve.improvement = improvement_of(options)) != Improvement::none) {
     t.counts.improve = timed(s.improve, [&] {
-      return improve_mesh(t.plc, t.chains, std::move(t.facet_of_face), t.first_interior, improve, t.points, t.mesh,
-                          progress);
+      return improve::improve_mesh(t.plc, t.chains, std::move(t.facet_of_face), t.first_interior, improve, t.points,
+                                   t.mesh, progress);
     });
     t.counts.interior_vertices = t.points.size() - t.first_interior;
   }
-  t.mesh.vertices = timed(s.finish, [&] { return to_world(t.plc, t.points, t.mesh.tetrahedra); });
+  t.mesh.vertices = timed(s.finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   s.mesh =

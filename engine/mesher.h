@@ -14,6 +14,22 @@
 
 namespace ccdt {
 
+// The names that a user of the engine needs, each from the stage that it belongs to.
+using delaunay::DelaunayMethod;
+using improve::BoundaryRule;
+using improve::ImproveCounts;
+using improve::Improvement;
+using improve::ImproveOptions;
+using improve::ImproveStop;
+using improve::Objective;
+using lattice::BackgroundSizes;
+using lattice::Lattice;
+using locate::LocatorKind;
+using mesh::TetMesh;
+using plc::InputPlc;
+using plc::PolygonFacet;
+using protection::Protection;
+
 /// The strategies of the engine and their parameters.
 struct MeshOptions {
   bool face_protection = true;  ///< check which faces are Delaunay first; off: every face goes through the front
@@ -21,15 +37,15 @@ struct MeshOptions {
   Protection protection = Protection::shell;
   LocatorKind locator = LocatorKind::cavity;
   DelaunayMethod delaunay = DelaunayMethod::insert;
-  double grid_scale = 1;               ///< factor of the cell size that the paper gives its uniform grids (section 4)
-  double edge_length = 0;              ///< target edge length in the units of the input; 0: as the surface has it
-  double grading = 0.5;                ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  double flatness = 1e-8;              ///< see PlcOptions
-  double sphere_factor = 1;            ///< see LatticeOptions
-  double clearance = usual_clearance;  ///< see LatticeOptions
-  ImproveOptions improve = {};         ///< of the finished mesh; see `improvement_of`
-  BackgroundSizes background = {};     ///< a size function, in the units of the input; with one, the lengths of the
-                                       ///< surface's own edges do not matter
+  double grid_scale = 1;     ///< factor of the cell size that the paper gives its uniform grids (section 4)
+  double edge_length = 0;    ///< target edge length in the units of the input; 0: as the surface has it
+  double grading = 0.5;      ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  double flatness = 1e-8;    ///< see PlcOptions
+  double sphere_factor = 1;  ///< see LatticeOptions
+  double clearance = lattice::usual_clearance;  ///< see LatticeOptions
+  ImproveOptions improve = {};                  ///< of the finished mesh; see `improvement_of`
+  BackgroundSizes background = {};  ///< a size function, in the units of the input; with one, the lengths of the
+                                    ///< surface's own edges do not matter
 };
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.

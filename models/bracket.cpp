@@ -8,7 +8,7 @@
 #include "models/patch.h"
 #include "models/revolve.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 // Millimeters. The foot runs along x and the wall along z, both as wide as y goes.
@@ -247,7 +247,7 @@ void add_interior_facets(Bracket& b, const GussetCurves& g, const LegCurves& on_
 
 }  // namespace
 
-InputPlc make_bracket(double edge_length) {
+plc::InputPlc make_bracket(double edge_length) {
   Bracket b{{}, edge_length, spacing_beside(edge_length, narrow)};
   const Leg foot_leg{true}, wall_leg{false};
   const LegCurves on_foot = cut_leg(b, foot_leg), on_wall = cut_leg(b, wall_leg);
@@ -259,9 +259,9 @@ InputPlc make_bracket(double edge_length) {
   add_bend(b, on_foot, on_wall, g.arcs);
   add_gusset(b, g, on_foot, on_wall);
   add_interior_facets(b, g, on_foot);
-  InputPlc input = to_input(std::move(b.surface), InputPlc::Inside::seeds);
+  plc::InputPlc input = to_input(std::move(b.surface), plc::InputPlc::Inside::seeds);
   input.regions = {{{30, 10, thickness / 2}, foot, 0}, {{thickness / 2, slit_across, 40}, wall, 0}};
   return input;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 int parts_of(double length, double spacing) {
@@ -135,4 +135,4 @@ Chain part_of(const Ring& ring, int from_quarter, int to_quarter) {
   return part;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

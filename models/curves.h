@@ -4,7 +4,7 @@
 
 #include "models/model_surface.h"
 
-namespace ccdt {
+namespace ccdt::models {
 
 /// A direction of the coordinate system that something turns around. The local axes keep the handedness:
 /// around z they are (x, y, z), around x (y, z, x), around y (z, x, y).
@@ -60,4 +60,4 @@ Ring ring(ModelSurface& surface, Axis axis, const Point3& center, double radius,
 /// The open part of a ring between two quarter turns (0 to 4, counterclockwise, may go past 4).
 Chain part_of(const Ring& ring, int from_quarter, int to_quarter);
 
-}  // namespace ccdt
+}  // namespace ccdt::models

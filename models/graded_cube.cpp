@@ -6,7 +6,7 @@
 #include "models/curves.h"
 #include "models/parts.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 /// How often the squares are halved on the way to the origin: from 1/2 of the cube to 1/256.
@@ -93,7 +93,7 @@ void add_graded_face(const Face& face, int count) {
 
 }  // namespace
 
-InputPlc make_graded_cube(double edge_length) {
+plc::InputPlc make_graded_cube(double edge_length) {
   const int count = std::max(1, static_cast<int>(std::lround(0.5 / edge_length)));
   const std::int64_t size = static_cast<std::int64_t>(count) << halvings;
   ModelSurface surface;
@@ -102,7 +102,7 @@ InputPlc make_graded_cube(double edge_length) {
     add_graded_face({surface, axis, 0, size, ++marker}, count);
     add_even_face({surface, axis, size, size, ++marker}, count);
   }
-  return to_input(std::move(surface), InputPlc::Inside::even_odd);
+  return to_input(std::move(surface), plc::InputPlc::Inside::even_odd);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace ccdt {
+namespace ccdt::models {
 
 std::uint32_t add_vertex(ModelSurface& surface, const Point3& point) {
   surface.vertices.push_back(point);
@@ -43,8 +43,8 @@ Chain closed_loop(std::span<const Chain> chains) {
   return loop;
 }
 
-InputPlc to_input(ModelSurface&& surface, InputPlc::Inside inside) {
-  InputPlc input;
+plc::InputPlc to_input(ModelSurface&& surface, plc::InputPlc::Inside inside) {
+  plc::InputPlc input;
   input.inside = inside;
   input.vertices = std::move(surface.vertices);
   input.triangles = std::move(surface.triangles);
@@ -52,4 +52,4 @@ InputPlc to_input(ModelSurface&& surface, InputPlc::Inside inside) {
   return input;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

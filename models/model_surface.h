@@ -9,7 +9,7 @@
 #include "engine/base/point.h"
 #include "engine/plc/input.h"
 
-namespace ccdt {
+namespace ccdt::models {
 
 /// A triangulated surface while it is put together from patches.
 ///
@@ -41,6 +41,6 @@ Chain reversed(const Chain& chain);
 Chain closed_loop(std::span<const Chain> chains);
 
 /// Moves the surface into an input with triangles and markers only.
-InputPlc to_input(ModelSurface&& surface, InputPlc::Inside inside);
+plc::InputPlc to_input(ModelSurface&& surface, plc::InputPlc::Inside inside);
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -12,7 +12,7 @@
 #include "engine/planar/triangulation.h"
 #include "models/revolve.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 constexpr int smoothing_rounds = 8;
@@ -21,11 +21,11 @@ constexpr double least_gap = 0.72;          // between points
 constexpr double least_gap_to_edge = 0.52;  // between a point and an edge of the outline
 constexpr double triangle_height = 0.8660254037844386;
 
-double gap(const Point2& a, const Point2& b) {
+double gap(const planar::Point2& a, const planar::Point2& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-Point2 middle(const Point2& a, const Point2& b) {
+planar::Point2 middle(const planar::Point2& a, const planar::Point2& b) {
   return {(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
 
@@ -33,7 +33,7 @@ using PatchEdge = std::array<std::uint32_t, 2>;
 
 /// The edges that a patch is to have, over the vertices that they join, in the plane.
 struct PatchOutline {
-  std::vector<Point2> vertices;
+  std::vector<planar::Point2> vertices;
   std::vector<PatchEdge> border;  ///< closed loops that do not cross; inside is what an odd number of them encloses
   std::vector<PatchEdge> cuts;    ///< further edges inside the border
 };
@@ -44,13 +44,13 @@ class PatchSpacing {
  public:
   PatchSpacing(const PatchOutline& outline, double edge_length);
 
-  double operator()(const Point2& point) const;
+  double operator()(const planar::Point2& point) const;
   double smallest() const { return smallest_; }
   bool is_uniform() const { return fine_.empty(); }
 
  private:
   struct Source {
-    Point2 point;
+    planar::Point2 point;
     double spacing;
   };
   std::vector<Source> fine_;  // the vertices whose edges are clearly shorter than the target
@@ -74,19 +74,19 @@ PatchSpacing::PatchSpacing(const PatchOutline& outline, double edge_length)
   }
 }
 
-double PatchSpacing::operator()(const Point2& point) const {
+double PatchSpacing::operator()(const planar::Point2& point) const {
   double result = edge_length_;
   for (const Source& s : fine_) result = std::min(result, s.spacing + edge_length_growth * gap(s.point, point));
   return result;
 }
 
 struct PlanarBox {
-  Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+  planar::Point2 low{1e300, 1e300}, high{-1e300, -1e300};
 };
 
-PlanarBox bounds_of(std::span<const Point2> points) {
+PlanarBox bounds_of(std::span<const planar::Point2> points) {
   PlanarBox box;
-  for (const Point2& p : points) {
+  for (const planar::Point2& p : points) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
   }
@@ -102,12 +102,12 @@ class PointBuckets {
     buckets_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   }
 
-  void add(const Point2& p) { buckets_[slot(column(p.x), row(p.y))].push_back(p); }
+  void add(const planar::Point2& p) { buckets_[slot(column(p.x), row(p.y))].push_back(p); }
 
-  bool any_within(const Point2& p, double radius) const {
+  bool any_within(const planar::Point2& p, double radius) const {
     for (int r = row(p.y - radius); r <= row(p.y + radius); ++r) {
       for (int c = column(p.x - radius); c <= column(p.x + radius); ++c) {
-        for (const Point2& other : buckets_[slot(c, r)]) {
+        for (const planar::Point2& other : buckets_[slot(c, r)]) {
           if (gap(other, p) < radius) return true;
         }
       }
@@ -122,10 +122,10 @@ class PointBuckets {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
   }
 
-  Point2 low_;
+  planar::Point2 low_;
   double size_;
   int columns_, rows_;
-  std::vector<std::vector<Point2>> buckets_;
+  std::vector<std::vector<planar::Point2>> buckets_;
 };
 
 /// The border's edges in horizontal bands, to ask whether a place is enclosed.
@@ -141,12 +141,12 @@ class Enclosure {
     }
   }
 
-  bool contains(const Point2& p) const {
+  bool contains(const planar::Point2& p) const {
     if (p.x < box_.low.x || p.x > box_.high.x || p.y < box_.low.y || p.y > box_.high.y) return false;
     bool inside = false;
     for (const std::uint32_t e : bands_[band_of(p.y)]) {
-      const Point2& a = outline_.vertices[outline_.border[e][0]];
-      const Point2& b = outline_.vertices[outline_.border[e][1]];
+      const planar::Point2& a = outline_.vertices[outline_.border[e][0]];
+      const planar::Point2& b = outline_.vertices[outline_.border[e][1]];
       if ((a.y > p.y) == (b.y > p.y)) continue;
       if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
     }
@@ -174,23 +174,23 @@ class PointFront {
         enclosure_(outline, box_, 2 * spacing.smallest()),
         points_(box_, spacing.smallest()),
         edge_samples_(box_, spacing.smallest()) {
-    for (const Point2& p : outline.vertices) points_.add(p);
+    for (const planar::Point2& p : outline.vertices) points_.add(p);
     for (const auto* edges : {&outline.border, &outline.cuts}) {
       for (const auto& [a, b] : *edges) add_samples(outline.vertices[a], outline.vertices[b]);
     }
   }
 
   /// The tips of the equilateral triangles on both sides of an edge.
-  void grow_from_edge(const Point2& a, const Point2& b) {
+  void grow_from_edge(const planar::Point2& a, const planar::Point2& b) {
     const double angle = std::atan2(b.y - a.y, b.x - a.x) + std::numbers::pi / 2;
-    const Point2 m = middle(a, b);
+    const planar::Point2 m = middle(a, b);
     // An edge of the new triangle is at 30 degrees from its height.
     for (const double side : {angle, angle + std::numbers::pi}) {
       try_point(m, side, triangle_height * spacing_(m), side + std::numbers::pi / 6);
     }
   }
 
-  std::vector<Point2> run() {
+  std::vector<planar::Point2> run() {
     for (std::size_t next = 0; next < placed_.size(); ++next) {
       const Placed from = placed_[next];
       for (int k = 0; k < 6; ++k) {
@@ -198,7 +198,7 @@ class PointFront {
         try_point(from.point, angle, spacing_(from.point), angle);
       }
     }
-    std::vector<Point2> result;
+    std::vector<planar::Point2> result;
     result.reserve(placed_.size());
     for (const Placed& placed : placed_) result.push_back(placed.point);
     return result;
@@ -206,12 +206,12 @@ class PointFront {
 
  private:
   struct Placed {
-    Point2 point;
+    planar::Point2 point;
     double angle;  // of one of the six edges that it should have
   };
 
   /// Stands for an edge by its middle, and by more points where it is long beside the smallest spacing.
-  void add_samples(const Point2& a, const Point2& b) {
+  void add_samples(const planar::Point2& a, const planar::Point2& b) {
     const int parts = std::max(2, static_cast<int>(std::ceil(gap(a, b) / spacing_.smallest())));
     for (int i = 1; i < parts; ++i) {
       const double t = static_cast<double>(i) / parts;
@@ -219,8 +219,8 @@ class PointFront {
     }
   }
 
-  void try_point(const Point2& from, double angle, double step, double edge_angle) {
-    const Point2 p{from.x + step * std::cos(angle), from.y + step * std::sin(angle)};
+  void try_point(const planar::Point2& from, double angle, double step, double edge_angle) {
+    const planar::Point2 p{from.x + step * std::cos(angle), from.y + step * std::sin(angle)};
     const double wanted = spacing_(p);
     if (points_.any_within(p, least_gap * wanted) || edge_samples_.any_within(p, least_gap_to_edge * wanted)) return;
     if (!enclosure_.contains(p)) return;
@@ -237,7 +237,7 @@ class PointFront {
 
 /// Places points inside the outline layer by layer, from its edges inwards, each where it makes an equilateral triangle
 /// with what is there, and none that is too near to another.
-std::vector<Point2> place_patch_points(const PatchOutline& outline, const PatchSpacing& spacing) {
+std::vector<planar::Point2> place_patch_points(const PatchOutline& outline, const PatchSpacing& spacing) {
   PointFront front(outline, spacing);
   for (const auto* edges : {&outline.border, &outline.cuts}) {
     for (const auto& [a, b] : *edges) front.grow_from_edge(outline.vertices[a], outline.vertices[b]);
@@ -276,18 +276,18 @@ LaidOutPatch lay_out(const ModelSurface& surface, const SurfacePatch& patch) {
   return outline;
 }
 
-PlanarTriangulation triangulate(const std::vector<Point2>& points, const PatchOutline& outline) {
+planar::Triangulation triangulate(const std::vector<planar::Point2>& points, const PatchOutline& outline) {
   std::vector<VertexId> vertices(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) vertices[i] = VertexId(i);
-  std::vector<PlanarEdge> edges;
+  std::vector<planar::Edge> edges;
   for (const auto* part : {&outline.border, &outline.cuts}) {
     for (const auto& [a, b] : *part) edges.push_back({VertexId(a), VertexId(b)});
   }
-  PlanarCarving carving;
-  carving.outside = PlanarCarving::Outside::nesting;
-  PlanarTriangulationResult result = planar_triangulate(vertices, edges, PlanarPoints(points), carving);
-  const auto is_kept = [&](const PlanarEdge& e) {
-    return planar_find_edge(result.triangulation, e[0], e[1]).has_value();
+  planar::Carving carving;
+  carving.outside = planar::Carving::Outside::nesting;
+  planar::TriangulationResult result = planar::triangulate(vertices, edges, planar::Points(points), carving);
+  const auto is_kept = [&](const planar::Edge& e) {
+    return planar::find_edge(result.triangulation, e[0], e[1]).has_value();
   };
   if (!result || !result.unused.empty() || !std::all_of(edges.begin(), edges.end(), is_kept)) {
     throw std::logic_error("the curves of a patch cross, or meet otherwise than in shared vertices");
@@ -295,11 +295,11 @@ PlanarTriangulation triangulate(const std::vector<Point2>& points, const PatchOu
   return std::move(result.triangulation);
 }
 
-double doubled_area(const Point2& a, const Point2& b, const Point2& c) {
+double doubled_area(const planar::Point2& a, const planar::Point2& b, const planar::Point2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-Point2 circumcenter(const Point2& a, const Point2& b, const Point2& c) {
+planar::Point2 circumcenter(const planar::Point2& a, const planar::Point2& b, const planar::Point2& c) {
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
   const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
   return {a.x + (cy * b2 - by * c2) / d, a.y + (bx * c2 - cx * b2) / d};
@@ -310,7 +310,7 @@ struct Stars {
   std::vector<std::uint32_t> first, triangles;
 };
 
-Stars stars_of(const PlanarTriangulation& mesh, std::size_t vertices) {
+Stars stars_of(const planar::Triangulation& mesh, std::size_t vertices) {
   Stars stars{std::vector<std::uint32_t>(vertices + 1, 0), std::vector<std::uint32_t>(3 * mesh.triangles.size())};
   for (const auto& t : mesh.triangles) {
     for (const VertexId v : t) ++stars.first[v + 1];
@@ -325,14 +325,15 @@ Stars stars_of(const PlanarTriangulation& mesh, std::size_t vertices) {
 
 /// Moves a vertex to the mean of the circumcenters around it, weighted by area and density, unless a triangle would
 /// turn over or become much flatter than it is.
-void smooth_vertex(std::uint32_t v, std::vector<Point2>& points, const PlanarTriangulation& mesh, const Stars& stars,
-                   const PatchSpacing& spacing) {
+void smooth_vertex(std::uint32_t v, std::vector<planar::Point2>& points, const planar::Triangulation& mesh,
+                   const Stars& stars, const PatchSpacing& spacing) {
   const auto corners_of = [&](std::uint32_t i) { return mesh.triangles[stars.triangles[i]]; };
   double weights = 0, x = 0, y = 0, flattest = 1e300;
   for (std::uint32_t i = stars.first[v]; i < stars.first[v + 1]; ++i) {
     const auto [a, b, c] = corners_of(i);
-    const Point2 centroid{(points[a].x + points[b].x + points[c].x) / 3, (points[a].y + points[b].y + points[c].y) / 3};
-    const Point2 center = circumcenter(points[a], points[b], points[c]);
+    const planar::Point2 centroid{(points[a].x + points[b].x + points[c].x) / 3,
+                                  (points[a].y + points[b].y + points[c].y) / 3};
+    const planar::Point2 center = circumcenter(points[a], points[b], points[c]);
     const double wanted = spacing(centroid);
     const double area = doubled_area(points[a], points[b], points[c]);
     const double weight = area / (wanted * wanted * wanted * wanted);
@@ -341,7 +342,7 @@ void smooth_vertex(std::uint32_t v, std::vector<Point2>& points, const PlanarTri
     x += weight * center.x;
     y += weight * center.y;
   }
-  const Point2 before = points[v];
+  const planar::Point2 before = points[v];
   points[v] = {x / weights, y / weights};
   const double wanted = spacing(points[v]);
   const double least = std::min(flattest, 0.2 * wanted * wanted);
@@ -362,9 +363,9 @@ Chart plane_chart(const Point3& origin, const Point3& normal) {
   if (dot(u, normal) != 0) throw std::logic_error("a plane of a model must be parallel to an axis");
   const Point3 v = cross(normal, u);
   return {[=](const Point3& p) {
-            return Point2{dot(p - origin, u), dot(p - origin, v)};
+            return planar::Point2{dot(p - origin, u), dot(p - origin, v)};
           },
-          [=](const Point2& q) { return origin + q.x * u + q.y * v; }};
+          [=](const planar::Point2& q) { return origin + q.x * u + q.y * v; }};
 }
 
 Chart cylinder_chart(Axis axis, const Point3& center, double radius, double middle, OuterSide outer_side) {
@@ -375,9 +376,9 @@ Chart cylinder_chart(Axis axis, const Point3& center, double radius, double midd
     const Point3 p = to_local(axis, model) - origin;
     const double along = cos_middle * p.x + sin_middle * p.y;
     const double across = cos_middle * p.y - sin_middle * p.x;
-    return Point2{side * radius * std::atan2(across, along), p.z};
+    return planar::Point2{side * radius * std::atan2(across, along), p.z};
   };
-  const auto lift = [=](const Point2& q) {
+  const auto lift = [=](const planar::Point2& q) {
     const double angle = middle * std::numbers::pi / 180 + side * q.x / radius;
     return to_model(axis, origin + Point3{radius * std::cos(angle), radius * std::sin(angle), q.y});
   };
@@ -387,16 +388,16 @@ Chart cylinder_chart(Axis axis, const Point3& center, double radius, double midd
 void add_patch(ModelSurface& surface, const SurfacePatch& patch) {
   const LaidOutPatch outline = lay_out(surface, patch);
   const PatchSpacing spacing(outline.plane, patch.edge_length);
-  std::vector<Point2> points = outline.plane.vertices;
-  const std::vector<Point2> inner = place_patch_points(outline.plane, spacing);
+  std::vector<planar::Point2> points = outline.plane.vertices;
+  const std::vector<planar::Point2> inner = place_patch_points(outline.plane, spacing);
   points.insert(points.end(), inner.begin(), inner.end());
 
-  PlanarTriangulation mesh = triangulate(points, outline.plane);
+  planar::Triangulation mesh = triangulate(points, outline.plane);
   const auto border = static_cast<std::uint32_t>(outline.vertices.size());
   for (int round = 0; round < smoothing_rounds && !inner.empty(); ++round) {
     const Stars stars = stars_of(mesh, points.size());
     for (std::uint32_t v = border; v < points.size(); ++v) smooth_vertex(v, points, mesh, stars, spacing);
-    planar_legalize(mesh, PlanarPoints(points));
+    planar::legalize(mesh, planar::Points(points));
   }
 
   std::vector<std::uint32_t> ids = outline.vertices;
@@ -404,4 +405,4 @@ void add_patch(ModelSurface& surface, const SurfacePatch& patch) {
   for (const auto& [a, b, c] : mesh.triangles) add_triangle(surface, ids[a], ids[b], ids[c], patch.marker);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

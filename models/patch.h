@@ -6,13 +6,13 @@
 #include "engine/planar/points.h"
 #include "models/curves.h"
 
-namespace ccdt {
+namespace ccdt::models {
 
 /// A developable patch laid out in the plane without distortion. Counterclockwise in the plane is counterclockwise seen
 /// from outside.
 struct Chart {
-  std::function<Point2(const Point3&)> flatten;
-  std::function<Point3(const Point2&)> lift;  ///< the inverse, onto the true surface
+  std::function<planar::Point2(const Point3&)> flatten;
+  std::function<Point3(const planar::Point2&)> lift;  ///< the inverse, onto the true surface
 };
 
 /// Where the outer side of a cylinder is.
@@ -41,4 +41,4 @@ struct SurfacePatch {
 /// \throw std::logic_error  the curves cross, or meet otherwise than in shared vertices
 void add_patch(ModelSurface& surface, const SurfacePatch& patch);
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -6,7 +6,7 @@
 #include "models/patch.h"
 #include "models/revolve.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 // Millimeters; the axis is z, the pin's axis is parallel to x.
@@ -142,7 +142,7 @@ Ring add_ceiling(ModelSurface& surface, double edge_length) {
 
 }  // namespace
 
-InputPlc make_piston(double edge_length) {
+plc::InputPlc make_piston(double edge_length) {
   ModelSurface surface;
   const double rim_spacing = spacing_beside(edge_length, radius - cavity_radius);
   const double boss_spacing = spacing_beside(edge_length, boss_radius - pin_radius);
@@ -169,7 +169,7 @@ InputPlc make_piston(double edge_length) {
   add_crown(surface, add_ring_belt(surface, top_of_skirt, edge_length), edge_length);
   add_pierced_cylinder(surface, inner_rim, add_ceiling(surface, edge_length), inner_holes, OuterSide::towards_axis,
                        edge_length, cavity);
-  return to_input(std::move(surface), InputPlc::Inside::even_odd);
+  return to_input(std::move(surface), plc::InputPlc::Inside::even_odd);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

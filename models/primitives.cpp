@@ -8,7 +8,7 @@
 #include "models/parts.h"
 #include "models/revolve.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 int parts_of(double length, double edge_length) {
@@ -56,7 +56,7 @@ Point3 inside_triangle(const Point3& a, const Point3& b, const Point3& c, int i,
 
 }  // namespace
 
-InputPlc make_cube(double edge_length) {
+plc::InputPlc make_cube(double edge_length) {
   const int n = parts_of(1, edge_length);
   ModelSurface surface;
   const auto at = [&](Axis axis, int i, int j, int k) {
@@ -78,10 +78,10 @@ InputPlc make_cube(double edge_length) {
       }
     }
   }
-  return to_input(std::move(surface), InputPlc::Inside::even_odd);
+  return to_input(std::move(surface), plc::InputPlc::Inside::even_odd);
 }
 
-InputPlc make_sphere(double edge_length) {
+plc::InputPlc make_sphere(double edge_length) {
   const Icosahedron ico = icosahedron();
   // Of 20 n^2 equilateral triangles with that edge length over n and the area of the sphere.
   const double rough_edge = 4 * std::sqrt(std::numbers::pi / (20 * std::numbers::sqrt3));
@@ -119,10 +119,10 @@ InputPlc make_sphere(double edge_length) {
       before = std::move(here);
     }
   }
-  return to_input(std::move(surface), InputPlc::Inside::even_odd);
+  return to_input(std::move(surface), plc::InputPlc::Inside::even_odd);
 }
 
-InputPlc make_torus(double edge_length) {
+plc::InputPlc make_torus(double edge_length) {
   constexpr double major = 1, minor = 0.4;
   const int rows = std::max(8, static_cast<int>(std::lround(2 * std::numbers::pi * minor / edge_length / 0.866)));
   ModelSurface surface;
@@ -134,11 +134,11 @@ InputPlc make_torus(double edge_length) {
     rings.push_back(inner_ring(surface, revolution, at, std::min(edge_length, at.radius / 2), 0.5 * (i % 2)));
   }
   add_closed_rows(surface, rings, revolution);
-  return to_input(std::move(surface), InputPlc::Inside::even_odd);
+  return to_input(std::move(surface), plc::InputPlc::Inside::even_odd);
 }
 
-InputPlc make_schoenhardt(double) {
-  InputPlc input;
+plc::InputPlc make_schoenhardt(double) {
+  plc::InputPlc input;
   for (const double height : {0.0, 1.0}) {
     for (const double degrees : {0.0, 120.0, 240.0}) {
       input.vertices.push_back(on_circle(Axis::z, {0, 0, height}, 1, degrees + 30 * height));
@@ -155,4 +155,4 @@ InputPlc make_schoenhardt(double) {
   return input;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 constexpr double row_height = 0.8660254037844386;  // of a row of equilateral triangles with edges of length one
@@ -120,4 +120,4 @@ void add_closed_rows(ModelSurface& surface, std::span<const Ring> rings, const R
   }
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -6,7 +6,7 @@
 
 #include "models/curves.h"
 
-namespace ccdt {
+namespace ccdt::models {
 
 /// How fast the edge length may grow with the distance from a curve that is cut more finely.
 inline constexpr double edge_length_growth = 0.4;
@@ -55,4 +55,4 @@ void add_closed_rows(ModelSurface& surface, std::span<const Ring> rings, const R
 /// A ring inside a surface of revolution, whose vertices are `phase` of an edge ahead of angle 0.
 Ring inner_ring(ModelSurface& surface, const Revolution& revolution, ProfilePoint at, double spacing, double phase);
 
-}  // namespace ccdt
+}  // namespace ccdt::models

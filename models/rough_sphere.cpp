@@ -3,7 +3,7 @@
 
 #include "models/parts.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 /// A number from 0 to 1 for each index, as good as random (SplitMix64; Steele, Lea and Flood 2014).
@@ -16,12 +16,12 @@ double scattered(std::uint64_t index) {
 
 }  // namespace
 
-InputPlc make_rough_sphere(double edge_length) {
-  InputPlc input = make_sphere(edge_length);
+plc::InputPlc make_rough_sphere(double edge_length) {
+  plc::InputPlc input = make_sphere(edge_length);
   // A ray from the center still meets one triangle, so however rough it is, the surface does not cross itself.
   for (std::size_t i = 0; i < input.vertices.size(); ++i)
     input.vertices[i] = std::exp(rough_sphere_range * edge_length * (scattered(i) - 0.5)) * input.vertices[i];
   return input;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

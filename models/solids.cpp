@@ -8,7 +8,7 @@
 #include "engine/base/errors.h"
 #include "models/parts.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 constexpr std::array<Solid, 9> all_solids{{
@@ -54,13 +54,13 @@ std::span<const Solid> solids() {
   return all_solids;
 }
 
-InputPlc make_solid(std::string_view name, double edge_length) {
+plc::InputPlc make_solid(std::string_view name, double edge_length) {
   const Solid& solid = find_solid(name);
   if (edge_length <= 0) edge_length = solid.default_edge_length;
   check_edge_length(solid, edge_length);
-  InputPlc input = solid.make(edge_length);
+  plc::InputPlc input = solid.make(edge_length);
   input.name = solid.name;
   return input;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -5,15 +5,15 @@
 
 #include "engine/plc/input.h"
 
-namespace ccdt {
+namespace ccdt::models {
 
 /// One of the solids that `ccdt model` knows.
 struct Solid {
   std::string_view name;
   std::string_view what;  ///< one line for people
   double default_edge_length;
-  double finest, coarsest;               ///< the edge lengths for which it keeps its shape and fits into memory
-  InputPlc (*make)(double edge_length);  ///< does not check the edge length; `make_solid` does
+  double finest, coarsest;                    ///< the edge lengths for which it keeps its shape and fits into memory
+  plc::InputPlc (*make)(double edge_length);  ///< does not check the edge length; `make_solid` does
 };
 
 /// piston, bracket, stepping-pole (the paper's, in millimeters), cube, graded-cube, sphere, rough-sphere, torus (of
@@ -26,6 +26,6 @@ std::span<const Solid> solids();
 /// The solid of that name with triangles of about that edge length (units of the model; <= 0: its default).
 /// \throw InputError  no such solid (the known ones are listed), or an edge length that is too coarse or too fine for
 /// it
-InputPlc make_solid(std::string_view name, double edge_length);
+plc::InputPlc make_solid(std::string_view name, double edge_length);
 
-}  // namespace ccdt
+}  // namespace ccdt::models

@@ -8,7 +8,7 @@
 #include "models/patch.h"
 #include "models/revolve.h"
 
-namespace ccdt {
+namespace ccdt::models {
 namespace {
 
 // Millimeters; the axis is z, from the stub at the bottom to the cap at the top.
@@ -175,7 +175,7 @@ void add_cap(ModelSurface& surface, const Ring& edge, double edge_length) {
 
 }  // namespace
 
-InputPlc make_stepping_pole(double edge_length) {
+plc::InputPlc make_stepping_pole(double edge_length) {
   ModelSurface surface;
   const double collar_spacing = spacing_beside(edge_length, collar_radius - tooth_radius);
   const auto collar_ring = [&](double height) {
@@ -200,7 +200,7 @@ InputPlc make_stepping_pole(double edge_length) {
   add_grip(surface, grip_lower, grip_upper, edge_length);
   add_face(surface, cap_edge.chain, grip_upper.loop(), cap_bottom, OuterSide::towards_axis, edge_length, cap);
   add_cap(surface, cap_edge, edge_length);
-  return to_input(std::move(surface), InputPlc::Inside::even_odd);
+  return to_input(std::move(surface), plc::InputPlc::Inside::even_odd);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::models

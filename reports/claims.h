@@ -8,7 +8,7 @@
 #include "bench/experiments/experiment.h"
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 
 /// The result of testing a claim of the paper.
 enum class ClaimVerdict {
@@ -27,11 +27,11 @@ constexpr auto names_of(ClaimVerdict) {
 
 /// One number that a claim stands or falls with.
 struct ClaimMeasure {
-  std::string what;                     ///< for people
-  Cell value;                           ///< with its interval, if it has one
-  std::string bound;                    ///< what the claim asks of it, for people
-  BoundTest strong = BoundTest::fails;  ///< does it hold as the paper has it?
-  BoundTest weak = BoundTest::fails;    ///< and in its weaker form?
+  std::string what;                                               ///< for people
+  results::Cell value;                                            ///< with its interval, if it has one
+  std::string bound;                                              ///< what the claim asks of it, for people
+  experiments::BoundTest strong = experiments::BoundTest::fails;  ///< does it hold as the paper has it?
+  experiments::BoundTest weak = experiments::BoundTest::fails;    ///< and in its weaker form?
   std::string experiment, table;
   std::vector<std::string> runs = {};
 };
@@ -53,6 +53,6 @@ struct PaperClaim {
 void judge(PaperClaim& claim);
 
 /// All claims, judged by what these experiments found. A claim whose experiments are missing is not testable here.
-std::vector<PaperClaim> judge_claims(std::span<const ExperimentResult> results);
+std::vector<PaperClaim> judge_claims(std::span<const results::ExperimentResult> results);
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

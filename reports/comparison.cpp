@@ -6,28 +6,29 @@
 
 #include "bench/experiments/tables.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 namespace {
 
 /// The labels of a row.
-std::string key_of(const ResultTable& table, const ResultRow& row) {
+std::string key_of(const results::ResultTable& table, const results::ResultRow& row) {
   std::string key;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (table.columns[c].kind == ColumnKind::label)
+    if (table.columns[c].kind == results::ColumnKind::label)
       if (const auto* text = std::get_if<std::string>(&row.cells[c]); text != nullptr && !text->empty())
         key += (key.empty() ? "" : ", ") + *text;
   return key;
 }
 
 /// The row of the other table with the same labels: of several the one at the same place among them.
-const ResultRow* counterpart(const ResultTable& table, std::size_t number, const ResultTable& other) {
+const results::ResultRow* counterpart(const results::ResultTable& table, std::size_t number,
+                                      const results::ResultTable& other) {
   const std::string key = key_of(table, table.rows[number]);
-  const auto is_alike = [&](const ResultTable& t) {
-    return [&t, &key](const ResultRow& row) { return key_of(t, row) == key; };
+  const auto is_alike = [&](const results::ResultTable& t) {
+    return [&t, &key](const results::ResultRow& row) { return key_of(t, row) == key; };
   };
   auto before = std::ranges::count_if(table.rows.begin(), table.rows.begin() + static_cast<std::ptrdiff_t>(number),
                                       is_alike(table));
-  for (const ResultRow& row : other.rows)
+  for (const results::ResultRow& row : other.rows)
     if (is_alike(other)(row) && before-- == 0) return &row;
   return nullptr;
 }
@@ -35,22 +36,27 @@ const ResultRow* counterpart(const ResultTable& table, std::size_t number, const
 /// The tables of the new section while they are filled.
 struct ComparisonTables {
   std::string first, second;  ///< folders, relative to that of the new report
-  ResultTable summary{"summary",
-                      "In all",
-                      {label_column("experiment"), figure_column("figures", "deterministic figures"),
-                       figure_column("different", "of these different"),
-                       figure_column("others_different", "different, of other meshers"), figure_column("times"),
-                       figure_column("outside", "of these outside the first's interval"),
-                       figure_column("unmatched", "rows without a counterpart")}};
-  ResultTable times{"times",
-                    "Times",
-                    {label_column("experiment"), label_column("table"), label_column("row"), label_column("quantity"),
-                     time_column("first"), time_column("second"), time_column("ratio", "second / first"),
-                     figure_column("within", "within the first's interval")}};
-  ResultTable differences{"differences",
-                          "Figures that differ, though they should not",
-                          {label_column("experiment"), label_column("table"), label_column("row"),
-                           label_column("quantity"), figure_column("first"), figure_column("second")}};
+  results::ResultTable summary{
+      "summary",
+      "In all",
+      {experiments::label_column("experiment"), experiments::figure_column("figures", "deterministic figures"),
+       experiments::figure_column("different", "of these different"),
+       experiments::figure_column("others_different", "different, of other meshers"),
+       experiments::figure_column("times"),
+       experiments::figure_column("outside", "of these outside the first's interval"),
+       experiments::figure_column("unmatched", "rows without a counterpart")}};
+  results::ResultTable times{
+      "times",
+      "Times",
+      {experiments::label_column("experiment"), experiments::label_column("table"), experiments::label_column("row"),
+       experiments::label_column("quantity"), experiments::time_column("first"), experiments::time_column("second"),
+       experiments::time_column("ratio", "second / first"),
+       experiments::figure_column("within", "within the first's interval")}};
+  results::ResultTable differences{"differences",
+                                   "Figures that differ, though they should not",
+                                   {experiments::label_column("experiment"), experiments::label_column("table"),
+                                    experiments::label_column("row"), experiments::label_column("quantity"),
+                                    experiments::figure_column("first"), experiments::figure_column("second")}};
 };
 
 /// Of one experiment: a row of the summary.
@@ -59,9 +65,9 @@ struct ComparisonCounts {
 };
 
 /// Others' programs need not repeat themselves.
-bool is_of_another_mesher(const ResultTable& table, const ResultRow& row) {
-  const auto mesher = std::ranges::find(table.columns, "mesher", &Column::name);
-  return mesher != table.columns.end() && text_in(table, row, "mesher") != "ccdt";
+bool is_of_another_mesher(const results::ResultTable& table, const results::ResultRow& row) {
+  const auto mesher = std::ranges::find(table.columns, "mesher", &results::Column::name);
+  return mesher != table.columns.end() && results::text_in(table, row, "mesher") != "ccdt";
 }
 
 /// Compares one experiment.
@@ -70,15 +76,15 @@ class ExperimentComparison {
   ExperimentComparison(std::string experiment, ComparisonTables& tables)
       : experiment_(std::move(experiment)), tables_(tables) {}
 
-  void compare_tables(const ResultTable& first, const ResultTable& second) {
+  void compare_tables(const results::ResultTable& first, const results::ResultTable& second) {
     for (std::size_t r = 0; r < first.rows.size(); ++r) {
-      const ResultRow* other = counterpart(first, r, second);
+      const results::ResultRow* other = counterpart(first, r, second);
       if (other == nullptr) {
         ++counts_.unmatched;
         continue;
       }
       for (std::size_t c = 0; c < first.columns.size(); ++c) {
-        const auto same = std::ranges::find(second.columns, first.columns[c].name, &Column::name);
+        const auto same = std::ranges::find(second.columns, first.columns[c].name, &results::Column::name);
         if (same - second.columns.begin() == static_cast<std::ptrdiff_t>(c))
           compare_cells(first, c, first.rows[r], *other);
       }
@@ -87,22 +93,23 @@ class ExperimentComparison {
 
   void add_summary() {
     const ComparisonCounts& n = counts_;
-    add_row(tables_.summary, {}, experiment_, n.figures, n.different, n.others_different, n.times, n.outside,
-            n.unmatched);
+    experiments::add_row(tables_.summary, {}, experiment_, n.figures, n.different, n.others_different, n.times,
+                         n.outside, n.unmatched);
   }
 
  private:
-  void compare_cells(const ResultTable& table, std::size_t column, const ResultRow& a, const ResultRow& b) {
-    const Column& c = table.columns[column];
-    const Cell &first = a.cells[column], &second = b.cells[column];
-    const auto add = [&](ResultTable& to, const auto&... more) {
+  void compare_cells(const results::ResultTable& table, std::size_t column, const results::ResultRow& a,
+                     const results::ResultRow& b) {
+    const results::Column& c = table.columns[column];
+    const results::Cell &first = a.cells[column], &second = b.cells[column];
+    const auto add = [&](results::ResultTable& to, const auto&... more) {
       std::vector<std::string> runs;
       for (const std::string& run : a.runs) runs.push_back(tables_.first + "/" + run);
       for (const std::string& run : b.runs) runs.push_back(tables_.second + "/" + run);
-      add_row(to, runs, experiment_, table.title, key_of(table, a), c.title, first, second, more...);
+      experiments::add_row(to, runs, experiment_, table.title, key_of(table, a), c.title, first, second, more...);
     };
-    if (c.kind == ColumnKind::figure) {
-      const bool is_same = cell_json(first) == cell_json(second);
+    if (c.kind == results::ColumnKind::figure) {
+      const bool is_same = results::cell_json(first) == results::cell_json(second);
       if (is_of_another_mesher(table, a)) {
         counts_.others_different += !is_same;
         return;
@@ -111,8 +118,8 @@ class ExperimentComparison {
       counts_.different += !is_same;
       if (!is_same) add(tables_.differences);
     }
-    const auto *e = std::get_if<Estimate>(&first), *f = std::get_if<Estimate>(&second);
-    if (c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
+    const auto *e = std::get_if<bench::Estimate>(&first), *f = std::get_if<bench::Estimate>(&second);
+    if (c.kind != results::ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
     const bool is_within = f->value >= e->low && f->value <= e->high;
     ++counts_.times;
     counts_.outside += !is_within;
@@ -124,28 +131,33 @@ class ExperimentComparison {
   ComparisonCounts counts_;
 };
 
-void compare_experiments(const ExperimentResult& first, const ExperimentResult& second, ComparisonTables& tables) {
+void compare_experiments(const results::ExperimentResult& first, const results::ExperimentResult& second,
+                         ComparisonTables& tables) {
   ExperimentComparison comparison(first.name, tables);
-  for (const ResultTable& table : first.tables)
-    if (const ResultTable* other = find_table(second, table.name)) comparison.compare_tables(table, *other);
+  for (const results::ResultTable& table : first.tables)
+    if (const results::ResultTable* other = results::find_table(second, table.name))
+      comparison.compare_tables(table, *other);
   comparison.add_summary();
 }
 
-ResultTable verdicts_table(const Report& first, const Report& second) {
-  ResultTable table{"verdicts", "Verdicts", {label_column("claim"), note_column("first"), note_column("second")}};
+results::ResultTable verdicts_table(const Report& first, const Report& second) {
+  results::ResultTable table{
+      "verdicts",
+      "Verdicts",
+      {experiments::label_column("claim"), experiments::note_column("first"), experiments::note_column("second")}};
   for (const PaperClaim& claim : first.claims)
     if (const auto other = std::ranges::find(second.claims, claim.id, &PaperClaim::id); other != second.claims.end())
-      add_row(table, {}, claim.sentence, name_of(claim.verdict), name_of(other->verdict));
+      experiments::add_row(table, {}, claim.sentence, name_of(claim.verdict), name_of(other->verdict));
   return table;
 }
 
-std::string finding_of(const ResultTable& summary, const char* all, const char* different, const char* words) {
+std::string finding_of(const results::ResultTable& summary, const char* all, const char* different, const char* words) {
   double total = 0, wrong = 0;
-  for (const ResultRow& row : summary.rows) {
-    total += number_in(summary, row, all);
-    wrong += number_in(summary, row, different);
+  for (const results::ResultRow& row : summary.rows) {
+    total += results::number_in(summary, row, all);
+    wrong += results::number_in(summary, row, different);
   }
-  return share_words(static_cast<std::uint64_t>(total - wrong), static_cast<std::uint64_t>(total)) + words;
+  return experiments::share_words(static_cast<std::uint64_t>(total - wrong), static_cast<std::uint64_t>(total)) + words;
 }
 
 /// The runs of one of the folders, by their names in the new report.
@@ -201,4 +213,4 @@ Report compare_reports(const std::filesystem::path& first, const std::filesystem
   return report;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

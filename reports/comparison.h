@@ -4,7 +4,7 @@
 
 #include "reports/report.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 
 /// Two folders beside each other, as a report of one section: which deterministic figures differ, which times are
 /// outside of the interval that the first folder states, and which verdicts have changed. Rows belong together that
@@ -15,4 +15,4 @@ namespace ccdt {
 Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
                        const std::filesystem::path& into, std::span<const ReportChart> charts);
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

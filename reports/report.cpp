@@ -8,7 +8,7 @@
 #include "engine/base/errors.h"
 #include "engine/io/file_bytes.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 namespace {
 
 /// What all charts have in common; whoever draws them has it.
@@ -16,10 +16,10 @@ constexpr const char* shared_file = "config.json";
 
 ReportChart read_chart(const std::filesystem::path& file) {
   try {
-    const Json json = Json::parse(io::read_whole_file(file).bytes);
+    const bench::Json json = bench::Json::parse(io::read_whole_file(file).bytes);
     return {json.at("experiment"), json.at("name"),   json.at("title"),
             json.at("caption"),    json.at("tables"), json.at("spec").dump()};
-  } catch (const Json::exception& error) {
+  } catch (const bench::Json::exception& error) {
     Place place;
     place.file = file.string();
     throw InputError(std::string("no chart: ") + error.what(), place, "build ccdt anew: its charts are broken");
@@ -49,7 +49,7 @@ std::string repeating(std::vector<std::string> command) {
 
 RunLine run_line(const std::filesystem::path& file) {
   try {
-    const RunRecord run = read_run_record(file);
+    const bench::RunRecord run = bench::read_run_record(file);
     return {repeating(run.command), std::string(name_of(run.status)), run.mesher.name, run.mesher.version,
             run.mesher_settings};
   } catch (const InputError& error) {
@@ -62,9 +62,9 @@ void add_runs(const std::filesystem::path& folder, const ReportSection& section,
   const auto add = [&](const std::string& file) {
     if (!file.empty() && !report.runs.contains(file)) report.runs[file] = run_line(folder / file);
   };
-  for (const ResultTable& table : section.result.tables)
-    for (const ResultRow& row : table.rows) std::ranges::for_each(row.runs, add);
-  for (const KeptMesh& mesh : section.result.meshes) add(mesh.run);
+  for (const results::ResultTable& table : section.result.tables)
+    for (const results::ResultRow& row : table.rows) std::ranges::for_each(row.runs, add);
+  for (const results::KeptMesh& mesh : section.result.meshes) add(mesh.run);
 }
 
 /// The scale that the other experiments of the folder have.
@@ -74,12 +74,12 @@ std::string usual_scale(const Report& report) {
   return "quick";
 }
 
-ReportSection read_section(const std::filesystem::path& folder, const KnownExperiment& known) {
+ReportSection read_section(const std::filesystem::path& folder, const experiments::KnownExperiment& known) {
   ReportSection section;
   const auto file = folder / (known.name + ".json");
   try {
     if (std::filesystem::exists(file)) {
-      section.result = read_experiment_result(file);
+      section.result = results::read_experiment_result(file);
       return section;
     }
     section.reason = "There is no " + known.name + ".json in this folder.";
@@ -94,31 +94,33 @@ ReportSection read_section(const std::filesystem::path& folder, const KnownExper
 }
 
 template <class Item>
-Json array_of(const std::vector<Item>& items, Json (*json_of)(const Item&)) {
-  Json array = Json::array();
+bench::Json array_of(const std::vector<Item>& items, bench::Json (*json_of)(const Item&)) {
+  bench::Json array = bench::Json::array();
   for (const Item& item : items) array.push_back(json_of(item));
   return array;
 }
 
-Json chart_json(const ReportChart& chart) {
+bench::Json chart_json(const ReportChart& chart) {
   return {{"name", chart.name},
           {"title", chart.title},
           {"caption", chart.caption},
           {"tables", chart.tables},
-          {"spec", Json::parse(chart.spec)}};
+          {"spec", bench::Json::parse(chart.spec)}};
 }
 
-Json measure_json(const ClaimMeasure& m) {
-  return {{"what", m.what},
-          {"value", cell_json(m.value)},
-          {"bound", m.bound},
-          {"holds", m.strong == BoundTest::undecided ? Json(nullptr) : Json(m.strong == BoundTest::holds)},
-          {"experiment", m.experiment},
-          {"table", m.table},
-          {"runs", m.runs}};
+bench::Json measure_json(const ClaimMeasure& m) {
+  return {
+      {"what", m.what},
+      {"value", results::cell_json(m.value)},
+      {"bound", m.bound},
+      {"holds", m.strong == experiments::BoundTest::undecided ? bench::Json(nullptr)
+                                                              : bench::Json(m.strong == experiments::BoundTest::holds)},
+      {"experiment", m.experiment},
+      {"table", m.table},
+      {"runs", m.runs}};
 }
 
-Json claim_json(const PaperClaim& claim) {
+bench::Json claim_json(const PaperClaim& claim) {
   return {{"id", claim.id},
           {"section", claim.section},
           {"sentence", claim.sentence},
@@ -133,21 +135,21 @@ std::string_view status_of(const ReportSection& section) {
   return section.result.is_good ? "ok" : "failed";
 }
 
-Json section_json(const ReportSection& section) {
-  const ExperimentResult& result = section.result;
-  Json json = {{"name", result.name},
-               {"title", result.title},
-               {"section", result.section},
-               {"status", status_of(section)},
-               {"reason", section.reason},
-               {"command", result.how.command},
-               {"definitions", result.definitions},
-               {"findings", result.findings},
-               {"problems", result.problems},
-               {"tables", result.tables},
-               {"charts", array_of(section.charts, chart_json)},
-               {"meshes", result.meshes},
-               {"raw_files", result.raw_files}};
+bench::Json section_json(const ReportSection& section) {
+  const results::ExperimentResult& result = section.result;
+  bench::Json json = {{"name", result.name},
+                      {"title", result.title},
+                      {"section", result.section},
+                      {"status", status_of(section)},
+                      {"reason", section.reason},
+                      {"command", result.how.command},
+                      {"definitions", result.definitions},
+                      {"findings", result.findings},
+                      {"problems", result.problems},
+                      {"tables", result.tables},
+                      {"charts", array_of(section.charts, chart_json)},
+                      {"meshes", result.meshes},
+                      {"raw_files", result.raw_files}};
   if (section.is_missing) return json;
   json["scale"] = result.how.scale;
   json["tetrahedra"] = result.how.tetrahedra;
@@ -158,8 +160,8 @@ Json section_json(const ReportSection& section) {
   return json;
 }
 
-Json run_json(const RunLine& run) {
-  Json settings = Json::object();
+bench::Json run_json(const RunLine& run) {
+  bench::Json settings = bench::Json::object();
   for (const auto& [name, words] : run.settings) settings[name] = words;
   return {{"command", run.command},
           {"status", run.status},
@@ -184,7 +186,7 @@ std::vector<ReportChart> read_charts(const std::filesystem::path& folder) {
 void add_charts(std::span<const ReportChart> charts, ReportSection& section) {
   for (const ReportChart& chart : charts) {
     const bool has_tables = std::ranges::all_of(chart.tables, [&](const std::string& name) {
-      const ResultTable* table = find_table(section.result, name);
+      const results::ResultTable* table = results::find_table(section.result, name);
       return table != nullptr && !table->rows.empty();
     });
     if (chart.experiment == section.result.name && has_tables) section.charts.push_back(chart);
@@ -194,7 +196,7 @@ void add_charts(std::span<const ReportChart> charts, ReportSection& section) {
 Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts) {
   Report report;
   report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization, measured again";
-  for (const KnownExperiment& known : known_experiments()) {
+  for (const experiments::KnownExperiment& known : experiments::known_experiments()) {
     ReportSection section = read_section(folder, known);
     if (section.is_missing && !known.is_usual) continue;
     add_charts(charts, section);
@@ -206,7 +208,7 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
     place.file = folder.string();
     throw InputError("there is no experiment in this folder", place, "fill one with `ccdt reproduce -o DIR`");
   }
-  std::vector<ExperimentResult> results;
+  std::vector<results::ExperimentResult> results;
   for (ReportSection& section : report.sections) {
     if (section.is_missing)
       section.result.how.command =
@@ -218,8 +220,8 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
   return report;
 }
 
-Json report_json(const Report& report) {
-  Json sections = Json::array(), runs = Json::object();
+bench::Json report_json(const Report& report) {
+  bench::Json sections = bench::Json::array(), runs = bench::Json::object();
   for (const ReportSection& section : report.sections) sections.push_back(section_json(section));
   for (const auto& [file, run] : report.runs) runs[file] = run_json(run);
   return {{"schema", "ccdt.report/1"},
@@ -229,8 +231,8 @@ Json report_json(const Report& report) {
           {"runs", runs}};
 }
 
-Json claims_json(const Report& report) {
+bench::Json claims_json(const Report& report) {
   return {{"schema", "ccdt.claims/1"}, {"claims", array_of(report.claims, claim_json)}};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

@@ -10,7 +10,7 @@
 #include "bench/results/experiment_result.h"
 #include "reports/claims.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 
 /// A declarative description of a chart: Vega-Lite, without its data, which are tables of an experiment.
 struct ReportChart {
@@ -25,7 +25,7 @@ std::vector<ReportChart> read_charts(const std::filesystem::path& folder);
 
 /// An experiment as a report shows it.
 struct ReportSection {
-  ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
+  results::ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
   bool is_missing = false;
   std::string reason;  ///< why it is missing
   std::vector<ReportChart> charts;
@@ -57,7 +57,7 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
 void add_charts(std::span<const ReportChart> charts, ReportSection& section);
 
 /// As JSON of schema `ccdt.report/1`, and of schema `ccdt.claims/1` its claims alone.
-Json report_json(const Report& report);
-Json claims_json(const Report& report);
+bench::Json report_json(const Report& report);
+bench::Json claims_json(const Report& report);
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

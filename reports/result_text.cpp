@@ -7,7 +7,7 @@
 
 #include "bench/results/numbers.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 namespace {
 
 /// How many columns of a terminal a UTF-8 text takes: continuation bytes take none.
@@ -41,23 +41,24 @@ std::string number_text(double value) {
   constexpr double largest = 1e15;
   if (!std::isfinite(value)) return std::isnan(value) ? "" : "infinite";
   if (value == std::floor(value) && std::abs(value) < largest)
-    return (value < 0 ? "-" : "") + with_separators(static_cast<std::uint64_t>(std::abs(value)));
-  return rounded(value, 4);
+    return (value < 0 ? "-" : "") + results::with_separators(static_cast<std::uint64_t>(std::abs(value)));
+  return results::rounded(value, 4);
 }
 
-std::string cell_text(const Cell& cell) {
+std::string cell_text(const results::Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* number = std::get_if<double>(&cell)) return number_text(*number);
-  if (const auto* estimate = std::get_if<Estimate>(&cell)) return with_interval(*estimate);
+  if (const auto* estimate = std::get_if<bench::Estimate>(&cell)) return results::with_interval(*estimate);
   return "";
 }
 
-std::string heading(const Column& column) {
+std::string heading(const results::Column& column) {
   return column.unit.empty() ? column.title : column.title + " (" + column.unit + ")";
 }
 
-bool is_empty(const ResultTable& table, std::size_t column) {
-  return std::ranges::all_of(table.rows, [&](const ResultRow& row) { return cell_text(row.cells[column]).empty(); });
+bool is_empty(const results::ResultTable& table, std::size_t column) {
+  return std::ranges::all_of(table.rows,
+                             [&](const results::ResultRow& row) { return cell_text(row.cells[column]).empty(); });
 }
 
 /// With all digits that are needed to read the same number back.
@@ -75,13 +76,14 @@ std::string csv_quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-bool has_estimates(const ResultTable& table, std::size_t column) {
-  return std::ranges::any_of(table.rows,
-                             [&](const ResultRow& row) { return std::holds_alternative<Estimate>(row.cells[column]); });
+bool has_estimates(const results::ResultTable& table, std::size_t column) {
+  return std::ranges::any_of(table.rows, [&](const results::ResultRow& row) {
+    return std::holds_alternative<bench::Estimate>(row.cells[column]);
+  });
 }
 
-std::string csv_cell(const Cell& cell, bool as_estimate) {
-  if (const auto* e = std::get_if<Estimate>(&cell))
+std::string csv_cell(const results::Cell& cell, bool as_estimate) {
+  if (const auto* e = std::get_if<bench::Estimate>(&cell))
     return all_digits(e->value) + "," + all_digits(e->low) + "," + all_digits(e->high);
   std::string text;
   if (const auto* number = std::get_if<double>(&cell)) text = all_digits(*number);
@@ -116,17 +118,17 @@ std::string markdown_list(const std::string& title, const std::vector<std::strin
   return list("## " + title + "\n", "- ", lines);
 }
 
-std::string machine(const Environment& e) {
-  std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + rounded(e.load_average, 2) + "; " +
-                     e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
+std::string machine(const bench::Environment& e) {
+  std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + results::rounded(e.load_average, 2) +
+                     "; " + e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
   for (const auto& [name, version] : e.libraries) text.append("; ").append(name).append(" ").append(version);
   return text;
 }
 
-std::string how_measured(const Circumstances& how) {
+std::string how_measured(const results::Circumstances& how) {
   if (how.runs <= 1) return "One run of each; all but the seconds is the same in every run.";
   return "Medians of " + std::to_string(how.runs) + " runs in turn after one that is not counted, with " +
-         rounded(100 * how.confidence, 2) + "% intervals.";
+         results::rounded(100 * how.confidence, 2) + "% intervals.";
 }
 
 }  // namespace
@@ -167,7 +169,7 @@ std::string to_markdown(const TextTable& table) {
   return text;
 }
 
-TextTable text_table(const ResultTable& table) {
+TextTable text_table(const results::ResultTable& table) {
   TextTable text(table.rows.size() + 1);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     if (is_empty(table, c)) continue;
@@ -177,7 +179,7 @@ TextTable text_table(const ResultTable& table) {
   return text;
 }
 
-std::string to_csv(const ResultTable& table) {
+std::string to_csv(const results::ResultTable& table) {
   std::vector<bool> is_estimate;
   std::string text;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -187,7 +189,7 @@ std::string to_csv(const ResultTable& table) {
     if (is_estimate[c]) text.append(",").append(name).append("_low,").append(name).append("_high");
   }
   text += "\r\n";
-  for (const ResultRow& row : table.rows) {
+  for (const results::ResultRow& row : table.rows) {
     for (std::size_t c = 0; c < row.cells.size(); ++c)
       text += (c == 0 ? "" : ",") + csv_cell(row.cells[c], is_estimate[c]);
     text += "\r\n";
@@ -195,11 +197,11 @@ std::string to_csv(const ResultTable& table) {
   return text;
 }
 
-std::string to_latex(const ResultTable& table, const std::string& experiment) {
+std::string to_latex(const results::ResultTable& table, const std::string& experiment) {
   const TextTable cells = text_table(table);
   std::string columns;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (!is_empty(table, c)) columns += table.columns[c].kind == ColumnKind::label ? "l" : "r";
+    if (!is_empty(table, c)) columns += table.columns[c].kind == results::ColumnKind::label ? "l" : "r";
   std::string text = "% \\usepackage{booktabs}\n\\begin{table}\n  \\centering\n  \\caption{" + latex_text(table.title) +
                      "}\n  \\label{tab:" + experiment + "-" + table.name + "}\n  \\begin{tabular}{" + columns +
                      "}\n    \\toprule\n";
@@ -211,22 +213,22 @@ std::string to_latex(const ResultTable& table, const std::string& experiment) {
   return text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
 }
 
-std::string to_terminal(const ExperimentResult& result) {
+std::string to_terminal(const results::ExperimentResult& result) {
   std::string text = result.title + "\n\n";
-  for (const ResultTable& table : result.tables)
+  for (const results::ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty()) text += table.title + "\n\n" + to_terminal(text_table(table)) + "\n";
   return text + list("What this says", "  ", result.findings) + list("What went wrong", "  ", result.problems) +
          how_measured(result.how) + "\n";
 }
 
-std::string to_markdown(const ExperimentResult& result) {
+std::string to_markdown(const results::ExperimentResult& result) {
   std::string text = "# " + result.title + "\n\n" + how_measured(result.how) + "\n\n";
   text += markdown_list("What this says", result.findings) + markdown_list("What went wrong", result.problems);
-  for (const ResultTable& table : result.tables)
+  for (const results::ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty())
       text += "## " + table.title + "\n\n" + to_markdown(text_table(table)) + "\n";
   return text + markdown_list("What the rows mean", result.definitions) + "## How it was measured\n\n`" +
          result.how.command + "`\n\n" + machine(result.how.environment) + "\n";
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

@@ -12,7 +12,7 @@
 #include "engine/io/output_file.h"
 #include "reports/result_text.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 namespace {
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
@@ -23,9 +23,9 @@ void write_text(const std::string& text, const std::filesystem::path& file) {
 
 void write_tables(const ReportSection& section, const std::filesystem::path& folder) {
   if (section.is_missing) return;
-  const ExperimentResult& result = section.result;
+  const results::ExperimentResult& result = section.result;
   write_text(to_markdown(result), folder / (result.name + ".md"));
-  for (const ResultTable& table : result.tables) {
+  for (const results::ResultTable& table : result.tables) {
     const std::string stem = result.name + "-" + table.name;
     write_text(to_csv(table), folder / "tables" / (stem + ".csv"));
     if (table.is_data || table.rows.empty()) continue;
@@ -45,7 +45,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 /// Draws the charts and the cut-open meshes, by the same descriptions that the page has.
 void draw_figures(const std::filesystem::path& folder, const std::filesystem::path& share, WrittenReport& written) {
   const auto script = share / "render_figures.mjs";
-  const auto node = find_program("node", "CCDT_NODE");
+  const auto node = baselines::find_program("node", "CCDT_NODE");
   if (!std::filesystem::exists(script)) {
     written.notes.push_back("No figures: this build has no " + script.string() + "; build it with CCDT_BUILD_PAGE=ON.");
     return;
@@ -54,12 +54,12 @@ void draw_figures(const std::filesystem::path& folder, const std::filesystem::pa
     written.notes.emplace_back("No figures: they are drawn by the program `node`, which is not there; install nodejs.");
     return;
   }
-  const TemporaryFolder work;
+  const baselines::TemporaryFolder work;
   const auto log = work.path() / "log";
-  const int code =
-      run_program({node->string(), script.string(), (folder / "report.json").string(), (folder / "figures").string()},
-                  {.log = log})
-          .shell_code();
+  const int code = baselines::run_program({node->string(), script.string(), (folder / "report.json").string(),
+                                           (folder / "figures").string()},
+                                          {.log = log})
+                       .shell_code();
   const std::vector<std::string> words = lines_of(log);
   written.notes.insert(written.notes.end(), words.begin(), words.end());
   if (code != 0) written.notes.push_back("Not all figures: drawing them ended with code " + std::to_string(code) + ".");
@@ -68,9 +68,9 @@ void draw_figures(const std::filesystem::path& folder, const std::filesystem::pa
 constexpr std::string_view place_of_data = "<!-- ccdt data -->";
 
 /// JSON as a script element may hold it: nothing in it ends the element.
-std::string inside_script(const Json& json) {
+std::string inside_script(const bench::Json& json) {
   std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : json.dump(-1, ' ', false, bench::Json::error_handler_t::replace)) {
     if (c == '/' && text.ends_with('<')) text += '\\';
     text += c;
   }
@@ -78,11 +78,11 @@ std::string inside_script(const Json& json) {
 }
 
 /// The JSON of each file that is there, by its name.
-Json contents_of(const std::set<std::string>& files, const std::filesystem::path& folder) {
-  Json contents = Json::object();
+bench::Json contents_of(const std::set<std::string>& files, const std::filesystem::path& folder) {
+  bench::Json contents = bench::Json::object();
   for (const std::string& file : files) {
     if (!std::filesystem::exists(folder / file)) continue;
-    Json json = Json::parse(io::read_whole_file(folder / file).bytes, nullptr, false);
+    bench::Json json = bench::Json::parse(io::read_whole_file(folder / file).bytes, nullptr, false);
     if (!json.is_discarded()) contents[file] = std::move(json);
   }
   return contents;
@@ -91,7 +91,7 @@ Json contents_of(const std::set<std::string>& files, const std::filesystem::path
 std::set<std::string> mesh_files(const Report& report) {
   std::set<std::string> files;
   for (const ReportSection& section : report.sections)
-    for (const KeptMesh& mesh : section.result.meshes) files.insert(mesh.file);
+    for (const results::KeptMesh& mesh : section.result.meshes) files.insert(mesh.file);
   return files;
 }
 
@@ -114,11 +114,13 @@ std::string element(const std::string& id, const std::string& type, const std::s
 std::string fill_page(const std::string& page, const Report& report, const std::filesystem::path& folder) {
   const auto at = page.find(place_of_data);
   if (at == std::string::npos) throw std::logic_error("the page has no place for the data");
-  const std::string raw = contents_of(raw_files(report), folder).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string raw =
+      contents_of(raw_files(report), folder).dump(-1, ' ', false, bench::Json::error_handler_t::replace);
   const std::string json = "application/json";
   return page.substr(0, at) + element("ccdt-report", json, inside_script(report_json(report))) +
          element("ccdt-meshes", json, inside_script(contents_of(mesh_files(report), folder))) +
-         element("ccdt-files", "text/plain", packed(raw.data(), raw.size())) + page.substr(at + place_of_data.size());
+         element("ccdt-files", "text/plain", results::packed(raw.data(), raw.size())) +
+         page.substr(at + place_of_data.size());
 }
 
 WrittenReport write_report(const Report& report, const std::filesystem::path& folder,
@@ -128,8 +130,8 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
     std::filesystem::remove_all(folder / part);  // or those of experiments that are gone would stay
     std::filesystem::create_directories(folder / part);
   }
-  write_text(to_text(report_json(report)), folder / "report.json");
-  write_text(to_text(claims_json(report)), folder / "claims.json");
+  write_text(bench::to_text(report_json(report)), folder / "report.json");
+  write_text(bench::to_text(claims_json(report)), folder / "claims.json");
   for (const ReportSection& section : report.sections) write_tables(section, folder);
   draw_figures(folder, share, written);
   const auto page = share / "page.html";
@@ -142,4 +144,4 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
   return written;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

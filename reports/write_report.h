@@ -6,7 +6,7 @@
 
 #include "reports/report.h"
 
-namespace ccdt {
+namespace ccdt::reports {
 
 /// Where the files of a report are.
 struct WrittenReport {
@@ -29,4 +29,4 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
 /// \param folder  where the files are that the report names
 std::string fill_page(const std::string& page, const Report& report, const std::filesystem::path& folder);
 
-}  // namespace ccdt
+}  // namespace ccdt::reports

@@ -7,12 +7,12 @@
 #include "tools/error_words.h"
 
 int main(int argc, char** argv) {
-  using namespace ccdt;
+  using namespace ccdt::tools;
   ExitCode exit_code = wrong_usage;
   try {
     CLI::App app("ccdt: tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",
                  "ccdt");
-    app.set_version_flag("--version", "ccdt " + std::string(engine_version));
+    app.set_version_flag("--version", "ccdt " + std::string(ccdt::engine_version));
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 the result failed a check, 2 usage, 3 bad input or a file cannot be read or\n"

@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace ccdt {
+namespace ccdt::tools {
 
 /// Each adds a verb with its options to the program. When the verb is on the command line, parsing it runs it and sets
 /// the exit code; errors are thrown.
@@ -25,4 +25,4 @@ std::filesystem::path own_program();
 /// \throw InputError, OutputError  as `read_report` and `write_report`
 void make_report(const std::filesystem::path& folder);
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

@@ -7,7 +7,7 @@
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 constexpr std::size_t most_shown = 10;  ///< facets or points; the rest is counted
@@ -67,4 +67,4 @@ ExitCode exit_code_of(const std::exception& error) {
   return failed_a_check;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

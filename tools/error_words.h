@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-namespace ccdt {
+namespace ccdt::tools {
 
 /// What the program's exit code means; part of its interface.
 enum ExitCode : int { done = 0, failed_a_check = 1, wrong_usage = 2, bad_input = 3, limit_reached = 4 };
@@ -15,4 +15,4 @@ std::string in_words(const std::exception& error);
 /// The program's exit code for an error.
 ExitCode exit_code_of(const std::exception& error);
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

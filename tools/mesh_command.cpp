@@ -15,7 +15,7 @@
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 struct MeshCommand {
@@ -24,7 +24,7 @@ struct MeshCommand {
   std::string mesher = "ccdt";
   MeshOptions options;
   bool remesh = false;
-  double sharp_angle = RemeshOptions().sharp_angle;
+  double sharp_angle = surface::RemeshOptions().sharp_angle;
   unsigned most_threads = 1;
 };
 
@@ -36,7 +36,7 @@ void check_surface_options(const MeshCommand& command) {
 }
 
 void check_files(const MeshCommand& command) {
-  if (!is_tet_mesh_file(command.output))
+  if (!io::is_tet_mesh_file(command.output))
     throw OutputError("no mesh format has this ending", io::place_in(command.output),
                       "use one of .mesh .vtu .msh .node .ele .face");
   check_can_be_written(command.output);
@@ -54,9 +54,9 @@ void check_files(const MeshCommand& command) {
   check_are_different(command.output, command.report);
 }
 
-RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
-  RunRecord record = start_record(mesher(command.mesher), input, command.options);
-  record.command = command_line();
+bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
+  bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), input, command.options);
+  record.command = bench::command_line();
   if (command.remesh) {
     record.set_option("surface", "remesh");
     record.set_option("sharp_angle", command.sharp_angle);
@@ -65,56 +65,57 @@ RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
 }
 
 /// The surface with edges of the wanted length, for whichever mesher.
-InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progress& progress, RunRecord& record) {
+InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progress& progress,
+                  bench::RunRecord& record) {
   const Stopwatch watch(record.remesh_seconds);
-  InputPlc surface = remesh_surface(input,
-                                    {.edge_length = command.options.edge_length,
-                                     .sharp_angle = command.sharp_angle,
-                                     .flatness = command.options.flatness},
-                                    progress);
-  record.notes.push_back("the surface was remeshed from " + with_separators(input.facet_count()) + " to " +
-                         with_separators(surface.facet_count()) + " facets");
-  if (!command.surface_output.empty()) write_plc(surface, command.surface_output);
+  InputPlc surface = surface::remesh_surface(input,
+                                             {.edge_length = command.options.edge_length,
+                                              .sharp_angle = command.sharp_angle,
+                                              .flatness = command.options.flatness},
+                                             progress);
+  record.notes.push_back("the surface was remeshed from " + results::with_separators(input.facet_count()) + " to " +
+                         results::with_separators(surface.facet_count()) + " facets");
+  if (!command.surface_output.empty()) io::write_plc(surface, command.surface_output);
   return surface;
 }
 
 /// What remains where the mesher ends its process, or a limit does: which mesher was asked for what.
-void leave_provisional_record(const MeshCommand& command, const RunRecord& record) {
+void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
   if (command.report.empty()) return;
-  RunRecord unfinished = record;
-  unfinished.status = RunStatus::crashed;
+  bench::RunRecord unfinished = record;
+  unfinished.status = baselines::RunStatus::crashed;
   unfinished.reason = "the process ended before its run did";
-  write_run_record(unfinished, command.report);
+  bench::write_run_record(unfinished, command.report);
 }
 
 /// Reads, meshes, measures and writes; at every moment, the record has what is known of the run.
-void mesh_file(const MeshCommand& command, RunRecord& record) {
+void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   ProgressBar bar;
   const Progress progress = bar.progress();
-  const Mesher& chosen = mesher(command.mesher);
+  const baselines::Mesher& chosen = baselines::mesher(command.mesher);
 
   report(progress, "read", 0, 0);
   double read_seconds = 0;
   InputPlc input = [&] {
     const Stopwatch watch(read_seconds);
-    return read_plc(command.input);
+    return io::read_plc(command.input);
   }();
   record = begin_record(command, input);
-  record.input.sha256 = sha256_of_file(command.input);
+  record.input.sha256 = bench::sha256_of_file(command.input);
   if (command.remesh) input = remeshed(command, input, progress, record);
   MeshOptions options = command.options;
   if (!options.background.name.empty()) {
     const Stopwatch watch(read_seconds);
-    options.background = read_sizes(options.background.name);
+    options.background = io::read_sizes(options.background.name);
     check_are_different(options.background.mesh_name, command.output);
   }
   record.read_seconds = read_seconds;
 
-  record.mesher_settings = settings_of(chosen, input, options);
+  record.mesher_settings = baselines::settings_of(chosen, input, options);
   leave_provisional_record(command, record);
 
-  MesherRun run = chosen.run(input, options, progress);
-  record.peak_rss_bytes = peak_rss_bytes();  // of the mesher, not of what measures it
+  baselines::MesherRun run = chosen.run(input, options, progress);
+  record.peak_rss_bytes = bench::peak_rss_bytes();  // of the mesher, not of what measures it
   record.counts = run.result.counts;
   record.seconds = run.result.seconds;
   record.largest_rounding = run.result.largest_rounding;
@@ -122,42 +123,42 @@ void mesh_file(const MeshCommand& command, RunRecord& record) {
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
   if (!options.background.empty() && chosen.name != "ccdt")
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
-  record.quality = measure_quality(run.result.mesh);
+  record.quality = bench::measure_quality(run.result.mesh);
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);
-  write_tet_mesh(run.result.mesh, command.output);
+  io::write_tet_mesh(run.result.mesh, command.output);
 }
 
-void record_failure(const MeshCommand& command, RunRecord& record, const std::exception& error) {
+void record_failure(const MeshCommand& command, bench::RunRecord& record, const std::exception& error) {
   if (record.mesher.name.empty()) {  // the input could not even be read
     InputPlc unread;
     unread.name = command.input;
     record = begin_record(command, unread);
   }
   const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  record.status = memory ? RunStatus::out_of_memory : RunStatus::failed;
+  record.status = memory ? baselines::RunStatus::out_of_memory : baselines::RunStatus::failed;
   record.reason = memory ? "out of memory" : error.what();
 }
 
 void run(const MeshCommand& command) {
   check_surface_options(command);
   check_files(command);
-  RunRecord record;
+  bench::RunRecord record;
   try {
     mesh_file(command, record);
   } catch (const std::exception& error) {
     record_failure(command, record, error);
-    if (!command.report.empty()) write_run_record(record, command.report);
+    if (!command.report.empty()) bench::write_run_record(record, command.report);
     throw;
   }
-  if (!command.report.empty()) write_run_record(record, command.report);
-  std::printf("%s\n%s", command.output.c_str(), summarize(record).c_str());
+  if (!command.report.empty()) bench::write_run_record(record, command.report);
+  std::printf("%s\n%s", command.output.c_str(), reports::summarize(record).c_str());
 }
 
 std::string footer() {
   std::string text = "Meshers of this build:\n";
-  for (const Mesher& m : meshers())
+  for (const baselines::Mesher& m : baselines::meshers())
     text += list_line(m.name, m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.license + ")");
   return text + list_line("FILE.json", "any other, as the file describes it; baselines/described has examples") +
          "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"
@@ -207,7 +208,7 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
 }
 
 void add_improvement(CLI::App& verb, ImproveOptions& options) {
-  add_choice(verb, "--improve", options.improvement, names_of(Improvement{}),
+  add_choice(verb, "--improve", options.improvement, improve::names_of(Improvement{}),
              "what makes the worst tetrahedra better; with --lattice none, the default is none");
   add_choice(verb, "--objective", options.objective, "what is improved");
   add_choice(verb, "--boundary", options.boundary, "what improvement may do with the boundary");
@@ -268,4 +269,4 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

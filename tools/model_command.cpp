@@ -7,7 +7,7 @@
 #include "tools/commands.h"
 #include "tools/options.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 struct ModelCommand {
@@ -18,7 +18,8 @@ struct ModelCommand {
 
 std::string footer() {
   std::string text = "Solids:\n";
-  for (const Solid& solid : solids()) text += list_line(std::string(solid.name), std::string(solid.what));
+  for (const models::Solid& solid : models::solids())
+    text += list_line(std::string(solid.name), std::string(solid.what));
   return text +
          "\nExample: a stepping pole with edges of about 2 mm\n"
          "  ccdt model stepping-pole --edge-length 2 -o pole.poly\n";
@@ -26,10 +27,11 @@ std::string footer() {
 
 void run(const ModelCommand& command) {
   check_can_be_written(command.output);
-  const InputPlc plc = make_solid(command.name, command.edge_length);
-  write_plc(plc, command.output);
-  std::printf("%s: %s vertices, %s facets\n", command.output.c_str(), with_separators(plc.vertices.size()).c_str(),
-              with_separators(plc.facet_count()).c_str());
+  const plc::InputPlc plc = models::make_solid(command.name, command.edge_length);
+  io::write_plc(plc, command.output);
+  std::printf("%s: %s vertices, %s facets\n", command.output.c_str(),
+              results::with_separators(plc.vertices.size()).c_str(),
+              results::with_separators(plc.facet_count()).c_str());
 }
 
 }  // namespace
@@ -38,7 +40,7 @@ void add_model_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ModelCommand>();
   CLI::App* verb = app.add_subcommand("model", "write one of the paper's solids, or a primitive, at a given density");
   std::vector<std::string> names;
-  for (const Solid& solid : solids()) names.emplace_back(solid.name);
+  for (const models::Solid& solid : models::solids()) names.emplace_back(solid.name);
   verb->add_option("NAME", command->name, "which solid (listed below)")
       ->required()
       ->check(CLI::IsMember(names).description(""));
@@ -54,4 +56,4 @@ void add_model_command(CLI::App& app, ExitCode& exit_code) {
   });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

@@ -7,7 +7,7 @@
 #include "baselines/mesher.h"
 #include "engine/io/file_bytes.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 /// \return  what CLI11 prints if the text is not such a number, else nothing
@@ -31,9 +31,9 @@ CLI::Validator non_negative_number() {
 CLI::Validator known_mesher() {
   return CLI::Validator(
       [](std::string& text) {
-        if (is_mesher_description(text)) return std::string();  // its errors are those of an input
+        if (baselines::is_mesher_description(text)) return std::string();  // its errors are those of an input
         std::vector<std::string> names;
-        for (const Mesher& m : meshers()) names.push_back(m.name);
+        for (const baselines::Mesher& m : baselines::meshers()) names.push_back(m.name);
         return CLI::IsMember(names)(text);
       },
       "");
@@ -63,4 +63,4 @@ void check_are_different(const std::filesystem::path& input, const std::filesyst
     throw OutputError("this would overwrite the input", io::place_in(output.string()), "give the output another name");
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

@@ -8,7 +8,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 
 /// A finite number greater than zero: for lengths and seconds.
 CLI::Validator positive_number();
@@ -58,4 +58,4 @@ void check_can_be_written(const std::filesystem::path& file);
 /// \throw OutputError  writing `output` would overwrite `input`
 void check_are_different(const std::filesystem::path& input, const std::filesystem::path& output);
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

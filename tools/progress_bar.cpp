@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 constexpr std::chrono::milliseconds least_pause{100};
@@ -65,4 +65,4 @@ void ProgressBar::erase() {
   drawn_ = false;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

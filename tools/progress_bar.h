@@ -5,7 +5,7 @@
 
 #include "engine/base/progress.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 
 /// A line at the bottom of the terminal that says how far the work is: stage, bar, per cent and the seconds since the
 /// start. It is drawn a few times a second at most and erased at the end. Where standard error is no terminal, nothing
@@ -35,4 +35,4 @@ class ProgressBar {
 /// The line itself, no longer than `columns` characters.
 std::string progress_line(std::string_view stage, std::uint64_t done, std::uint64_t total, double seconds, int columns);
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

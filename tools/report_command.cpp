@@ -7,7 +7,7 @@
 #include "tools/commands.h"
 #include "tools/options.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 struct ReportCommand {
@@ -23,15 +23,16 @@ std::filesystem::path share_folder() {
   return own_program().parent_path().parent_path() / "share" / "ccdt";
 }
 
-std::string verdicts(const Report& report) {
-  TextTable table = {{"the paper's claim", "verdict"}};
-  for (const PaperClaim& claim : report.claims) table.push_back({claim.sentence, std::string(name_of(claim.verdict))});
-  return to_terminal(table);
+std::string verdicts(const reports::Report& report) {
+  reports::TextTable table = {{"the paper's claim", "verdict"}};
+  for (const reports::PaperClaim& claim : report.claims)
+    table.push_back({claim.sentence, std::string(name_of(claim.verdict))});
+  return reports::to_terminal(table);
 }
 
 /// Writes a report and prints what could not be made, and where the report is, last.
-void write_and_print(const Report& report, const std::filesystem::path& folder) {
-  const WrittenReport written = write_report(report, folder, share_folder());
+void write_and_print(const reports::Report& report, const std::filesystem::path& folder) {
+  const reports::WrittenReport written = reports::write_report(report, folder, share_folder());
   for (const std::string& note : written.notes) std::fprintf(stderr, "%s\n", note.c_str());
   const auto place = std::filesystem::absolute(written.page.empty() ? folder : written.page).lexically_normal();
   std::printf("\nThe report is in\n%s\n", place.c_str());
@@ -42,8 +43,10 @@ void compare(const ReportCommand& command) {
   const std::filesystem::path into =
       command.output.empty() ? second / "comparison" : std::filesystem::path(command.output);
   std::filesystem::create_directories(into);
-  const Report report = compare_reports(first, second, into, read_charts(share_folder() / "charts"));
-  for (const ReportSection& section : report.sections) std::fputs(to_terminal(section.result).c_str(), stdout);
+  const reports::Report report =
+      reports::compare_reports(first, second, into, reports::read_charts(share_folder() / "charts"));
+  for (const reports::ReportSection& section : report.sections)
+    std::fputs(reports::to_terminal(section.result).c_str(), stdout);
   write_and_print(report, into);
 }
 
@@ -68,9 +71,9 @@ std::filesystem::path own_program() {
 }
 
 void make_report(const std::filesystem::path& folder) {
-  const Report report = read_report(folder, read_charts(share_folder() / "charts"));
+  const reports::Report report = reports::read_report(folder, reports::read_charts(share_folder() / "charts"));
   std::fputs(verdicts(report).c_str(), stdout);
-  for (const ReportSection& section : report.sections)
+  for (const reports::ReportSection& section : report.sections)
     if (section.is_missing)
       std::printf("\nMissing: %s %s\n  %s\n", section.result.title.c_str(), section.reason.c_str(),
                   section.result.how.command.c_str());
@@ -94,4 +97,4 @@ void add_report_command(CLI::App& app, ExitCode& exit_code) {
   });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

@@ -14,7 +14,7 @@
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 constexpr double bytes_per_gibibyte = 1024.0 * 1024 * 1024;
@@ -35,7 +35,7 @@ constexpr const char* claims_name = "claims";
 struct ReproduceCommand {
   std::vector<std::string> experiments;
   std::string folder;
-  ExperimentOptions options;
+  experiments::ExperimentOptions options;
   std::vector<std::string> beside;
   double memory_gibibytes = 0;
 };
@@ -57,12 +57,12 @@ double tetrahedra_of(const std::string& scale) {
 }
 
 /// What is asked for, in the order of reports.
-std::vector<const KnownExperiment*> chosen(const ReproduceCommand& command) {
+std::vector<const experiments::KnownExperiment*> chosen(const ReproduceCommand& command) {
   const auto is_named = [&](const std::string& name) {
     return std::ranges::find(command.experiments, name) != command.experiments.end();
   };
-  std::vector<const KnownExperiment*> experiments;
-  for (const KnownExperiment& known : known_experiments()) {
+  std::vector<const experiments::KnownExperiment*> experiments;
+  for (const experiments::KnownExperiment& known : experiments::known_experiments()) {
     const bool is_usual = command.experiments.empty() && known.is_usual;
     if (is_usual || is_named(known.name) || (known.is_claimed && is_named(claims_name))) experiments.push_back(&known);
   }
@@ -94,26 +94,26 @@ void take_files(ReproduceCommand& command) {
   check_names_differ(command.options.inputs);
   for (auto& input : command.options.inputs) input = taken(input, command.options.folder / "inputs");
   for (std::string& mesher : command.beside)
-    if (is_mesher_description(mesher)) mesher = taken(mesher, command.options.folder / "meshers").string();
+    if (baselines::is_mesher_description(mesher)) mesher = taken(mesher, command.options.folder / "meshers").string();
   if (!command.beside.empty()) command.options.beside = command.beside;
 }
 
 /// The command that does this experiment alone in the same way, in the folder.
-std::string command_of(const KnownExperiment& known, const ReproduceCommand& command) {
-  const ExperimentOptions& options = command.options;
+std::string command_of(const experiments::KnownExperiment& known, const ReproduceCommand& command) {
+  const experiments::ExperimentOptions& options = command.options;
   const auto in_folder = [&](const std::filesystem::path& file) {
     return file.lexically_relative(std::filesystem::absolute(options.folder)).string();
   };
   std::vector<std::string> beside = command.beside, inputs;
   for (std::string& mesher : beside)
-    if (is_mesher_description(mesher)) mesher = in_folder(mesher);
+    if (baselines::is_mesher_description(mesher)) mesher = in_folder(mesher);
   for (const auto& input : options.inputs) inputs.push_back(in_folder(input));
   std::string text = "ccdt reproduce " + known.name + " --scale " + options.scale;
   const auto add_list = [&](const char* name, const std::vector<std::string>& values, char separator) {
     for (std::size_t i = 0; i < values.size(); ++i)
       text += (i == 0 ? " " + std::string(name) + " " : std::string(1, separator)) + values[i];
   };
-  if (options.runs != ExperimentOptions().runs) text += " --runs " + std::to_string(options.runs);
+  if (options.runs != experiments::ExperimentOptions().runs) text += " --runs " + std::to_string(options.runs);
   add_list("--models", options.models, ',');
   add_list("--beside", beside, ',');
   add_list("--input", inputs, ' ');
@@ -122,20 +122,20 @@ std::string command_of(const KnownExperiment& known, const ReproduceCommand& com
 
 /// Measures with a progress bar, writes the result to the folder and prints it.
 /// \return  did everything of our own go well?
-bool reproduce(const KnownExperiment& known, ReproduceCommand& command) {
+bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& command) {
   command.options.command = command_of(known, command);
-  const ExperimentResult result = [&] {
+  const results::ExperimentResult result = [&] {
     ProgressBar bar;
     return known.measure(command.options, bar.progress());
   }();
-  write_experiment_result(result, command.options.folder);
-  std::printf("%s\n", to_terminal(result).c_str());
+  results::write_experiment_result(result, command.options.folder);
+  std::printf("%s\n", reports::to_terminal(result).c_str());
   return result.is_good;
 }
 
 /// \return  did everything of our own go well?
 bool run(ReproduceCommand& command) {
-  ExperimentOptions& options = command.options;
+  experiments::ExperimentOptions& options = command.options;
   options.tetrahedra = tetrahedra_of(options.scale);
   options.program = own_program();
   options.folder = std::filesystem::absolute(command.folder).lexically_normal();
@@ -144,14 +144,14 @@ bool run(ReproduceCommand& command) {
   take_files(command);
   check_can_be_written(options.folder / "report.json");
   bool is_good = true;
-  for (const KnownExperiment* known : chosen(command)) is_good = reproduce(*known, command) && is_good;
+  for (const experiments::KnownExperiment* known : chosen(command)) is_good = reproduce(*known, command) && is_good;
   make_report(options.folder);
   return is_good;
 }
 
 std::string footer() {
   std::string text = "Experiments; without one, all but those in brackets:\n";
-  for (const KnownExperiment& e : known_experiments())
+  for (const experiments::KnownExperiment& e : experiments::known_experiments())
     text += list_line(e.name, e.is_usual ? e.what : "[" + e.what + "]");
   text += list_line(claims_name, "all experiments that test a claim of the paper") + "\nScales:\n";
   for (const NamedScale& scale : named_scales) text += list_line(scale.name, scale.what);
@@ -185,7 +185,7 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
                   "quick, paper, large, or about how many tetrahedra a model is to get")
       ->capture_default_str();
   std::vector<std::string> models;
-  for (const Solid& solid : solids()) models.emplace_back(solid.name);
+  for (const models::Solid& solid : models::solids()) models.emplace_back(solid.name);
   models.emplace_back("none");
   verb.add_option("--models", command.options.models,
                   "measure only these, separated by commas; default: all models of the experiment; none: files alone")
@@ -207,7 +207,7 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("reproduce", "run the paper's experiments, end to end, to a report");
   command->options.scale = named_scales[0].name;
   std::vector<std::string> names = {claims_name};
-  for (const KnownExperiment& e : known_experiments()) names.push_back(e.name);
+  for (const experiments::KnownExperiment& e : experiments::known_experiments()) names.push_back(e.name);
   verb->add_option("EXPERIMENT", command->experiments, "which (listed below); default: all")
       ->check(CLI::IsMember(names).description(""));
   verb->add_option("-o,--output", command->folder, "folder of the report; created if needed")->required();
@@ -217,4 +217,4 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

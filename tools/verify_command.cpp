@@ -10,12 +10,12 @@
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 
-namespace ccdt {
+namespace ccdt::tools {
 namespace {
 
 struct VerifyCommand {
   std::string input, mesh, report;
-  VerifyOptions options;
+  verify::VerifyOptions options;
 };
 
 bool run(const VerifyCommand& command) {
@@ -24,18 +24,18 @@ bool run(const VerifyCommand& command) {
     check_are_different(command.input, command.report);
     check_are_different(command.mesh, command.report);
   }
-  Verification verification;
+  verify::Verification verification;
   {
     ProgressBar bar;
-    const InputPlc input = read_plc(command.input);
-    const TetMesh mesh = read_tet_mesh(command.mesh);
-    verification = verify(input, mesh, command.options, bar.progress());
+    const InputPlc input = io::read_plc(command.input);
+    const TetMesh mesh = io::read_tet_mesh(command.mesh);
+    verification = verify::verify(input, mesh, command.options, bar.progress());
   }
-  std::fputs(to_terminal(verification).c_str(), stdout);
+  std::fputs(reports::to_terminal(verification).c_str(), stdout);
   std::printf("%s: %s\n", command.mesh.c_str(), verification.ok() ? "right" : "WRONG");
   if (!command.report.empty()) {
     io::OutputFile report(command.report);
-    report << to_json(verification, command.input, command.mesh);
+    report << reports::to_json(verification, command.input, command.mesh);
     report.commit();
   }
   return verification.ok();
@@ -64,4 +64,4 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::tools

@@ -25,13 +25,13 @@ class ScriptMesher : public testing::Test {
   ScriptMesher() {
     TetMesh mesh = shapes::cube_mesh();
     for (auto& t : mesh.tetrahedra) std::swap(t[0], t[1]);  // some programs orient the other way
-    write_tet_mesh(mesh, folder_.path() / "cube.mesh");
+    io::write_tet_mesh(mesh, folder_.path() / "cube.mesh");
     description_.file = folder_.path() / "mine.json";
     description_.name = "mine";
     description_.command = {"./mine.sh", "{input}", "{here}/cube.mesh", "{max_volume}", "{quality}"};
     description_.input_format = "off";
     description_.output = "{stem}.out.mesh";
-    description_.choices = {{"quality", ChoiceCondition::improvement, "good, edges of {edge_length}", ""}};
+    description_.choices = {{"quality", baselines::ChoiceCondition::improvement, "good, edges of {edge_length}", ""}};
     script(R"(cp "$2" input.out.mesh; echo "read in 5 s"; echo "refined in 0.25 s"; echo "optimized in 0.5 s")");
   }
 
@@ -41,8 +41,8 @@ class ScriptMesher : public testing::Test {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
   }
 
-  MesherRun run(const InputPlc& plc = shapes::cube(), const MeshOptions& options = unimproved()) const {
-    return described_mesher(description_).run(plc, options, {});
+  baselines::MesherRun run(const InputPlc& plc = shapes::cube(), const MeshOptions& options = unimproved()) const {
+    return baselines::described_mesher(description_).run(plc, options, {});
   }
 
   /// What a run fails with.
@@ -58,14 +58,14 @@ class ScriptMesher : public testing::Test {
 
   const std::filesystem::path& folder() const { return folder_.path(); }
 
-  MesherDescription description_;
+  baselines::MesherDescription description_;
 
  private:
-  TemporaryFolder folder_;
+  baselines::TemporaryFolder folder_;
 };
 
 TEST_F(ScriptMesher, GivesAMeshThatIsOrientedAndHasItsBoundary) {
-  const MesherRun made = run();
+  const baselines::MesherRun made = run();
   EXPECT_EQ(made.result.counts.tetrahedra, 6u);
   EXPECT_EQ(made.result.counts.faces, 12u);
   EXPECT_EQ(made.result.counts.steiner_vertices + made.result.counts.interior_vertices, 0u);
@@ -80,10 +80,11 @@ TEST_F(ScriptMesher, IsAskedByTheOptionsAndSaysHow) {
   options.improve.improvement = Improvement::all;
   const std::string folder_name = folder().string();
   EXPECT_EQ(run(shapes::cube(), options).settings.at(1).second, "./mine.sh input.off " + folder_name + "/cube.mesh " +
-                                                                    digits(largest_tetrahedron_volume(2)) +
+                                                                    digits(baselines::largest_tetrahedron_volume(2)) +
                                                                     " 'good, edges of 2'");
   options.improve.improvement = Improvement::none;
-  const MesherSettings settings = settings_of(described_mesher(description_), shapes::cube(), options);
+  const baselines::MesherSettings settings =
+      baselines::settings_of(baselines::described_mesher(description_), shapes::cube(), options);
   EXPECT_TRUE(settings.at(1).second.ends_with(" ''")) << settings.at(1).second;
 }
 
@@ -126,14 +127,15 @@ TEST_F(ScriptMesher, MayEndWithAnotherCodeThatMeansSuccess) {
 }
 
 TEST_F(ScriptMesher, SaysItsVersionOnce) {
-  EXPECT_EQ(version_of(described_mesher(description_)), unknown_version);
+  EXPECT_EQ(baselines::version_of(baselines::described_mesher(description_)), baselines::unknown_version);
   description_.version_command = {"./mine.sh", "{here}/said"};
   description_.version_pattern = "version ([0-9.]+)";
   script("[ -f \"$1\" ] && exit; touch \"$1\"; echo Mine; echo 'this is version 4.2, of 2026'; exit 1");
-  const Mesher mine = described_mesher(description_);
-  EXPECT_EQ(version_of(mine), "4.2");
-  EXPECT_EQ(version_of(mine), "4.2");
-  EXPECT_EQ(version_of(described_mesher(description_)), unknown_version) << "now it says nothing";
+  const baselines::Mesher mine = baselines::described_mesher(description_);
+  EXPECT_EQ(baselines::version_of(mine), "4.2");
+  EXPECT_EQ(baselines::version_of(mine), "4.2");
+  EXPECT_EQ(baselines::version_of(baselines::described_mesher(description_)), baselines::unknown_version)
+      << "now it says nothing";
 }
 
 TEST_F(ScriptMesher, GetsTrianglesWhereItReadsASurface) {
@@ -161,10 +163,10 @@ std::string described(const std::string& name) {
 }
 
 TEST(TetgenProgram, MakesWhatTheLibraryMakes) {
-  if (!find_on_path("tetgen")) GTEST_SKIP() << "the program tetgen is not installed";
-  const Mesher& program = mesher(described("tetgen-program"));
-  EXPECT_EQ(version_of(program), "1.5");
-  const MesherRun made = program.run(shapes::cube_with_grid(5), unimproved(0.2), {});
+  if (!baselines::find_on_path("tetgen")) GTEST_SKIP() << "the program tetgen is not installed";
+  const baselines::Mesher& program = baselines::mesher(described("tetgen-program"));
+  EXPECT_EQ(baselines::version_of(program), "1.5");
+  const baselines::MesherRun made = program.run(shapes::cube_with_grid(5), unimproved(0.2), {});
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
   EXPECT_TRUE(made.settings.at(1).second.starts_with("tetgen -pYq1.414/10a0.001")) << made.settings.at(1).second;
@@ -172,18 +174,18 @@ TEST(TetgenProgram, MakesWhatTheLibraryMakes) {
   EXPECT_EQ(program.run(plc, bare, {}).settings.at(1).second, "tetgen -p input.poly");
   plc.inside = InputPlc::Inside::seeds;
   plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
-  const MesherRun regions = program.run(plc, bare, {});
+  const baselines::MesherRun regions = program.run(plc, bare, {});
   EXPECT_GT(std::ranges::count(regions.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(regions.result.mesh.regions, 4), 0);
 }
 
 TEST(GmshDelaunay, KeepsTheSurfaceOfACubeWithAHole) {
-  if (!find_on_path("gmsh")) GTEST_SKIP() << "the program gmsh is not installed";
-  const Mesher& program = mesher(described("gmsh-delaunay"));
-  EXPECT_NE(version_of(program), unknown_version);
+  if (!baselines::find_on_path("gmsh")) GTEST_SKIP() << "the program gmsh is not installed";
+  const baselines::Mesher& program = baselines::mesher(described("gmsh-delaunay"));
+  EXPECT_NE(baselines::version_of(program), baselines::unknown_version);
   InputPlc plc = shapes::cube_with_hole();
   for (Point3& p : plc.vertices) p = 0.1 * p + Point3{0.1, 0.7, 1.0 / 3};
-  const MesherRun made = program.run(plc, bare, {});
+  const baselines::MesherRun made = program.run(plc, bare, {});
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
   EXPECT_EQ(made.result.counts.faces, 24u);
   double volume = 0;
@@ -195,11 +197,12 @@ TEST(GmshDelaunay, KeepsTheSurfaceOfACubeWithAHole) {
 }
 
 TEST(GmshDelaunay, RefinesAndOptimizesAsAsked) {
-  if (!find_on_path("gmsh")) GTEST_SKIP() << "the program gmsh is not installed";
+  if (!baselines::find_on_path("gmsh")) GTEST_SKIP() << "the program gmsh is not installed";
   MeshOptions options = {.edge_length = 0.1};
   options.improve.improvement = Improvement::none;
   const auto count = [&] {
-    const MesherRun made = mesher(described("gmsh-delaunay")).run(shapes::cube_with_grid(5), options, {});
+    const baselines::MesherRun made =
+        baselines::mesher(described("gmsh-delaunay")).run(shapes::cube_with_grid(5), options, {});
     EXPECT_NE(made.settings.at(2).second.find("Mesh.Optimize = 0;"), std::string::npos);
     return made.result.counts.interior_vertices;
   };

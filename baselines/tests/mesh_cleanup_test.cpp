@@ -18,7 +18,7 @@ TetMesh two_tetrahedra() {
 
 TEST(KeepOddRegions, KeepsAllOfAMeshWithoutInnerFacets) {
   TetMesh mesh = two_tetrahedra();
-  keep_odd_regions(mesh);
+  baselines::keep_odd_regions(mesh);
   EXPECT_EQ(mesh.tetrahedra.size(), 2u);
   EXPECT_EQ(mesh.vertices.size(), 5u);
 }
@@ -26,7 +26,7 @@ TEST(KeepOddRegions, KeepsAllOfAMeshWithoutInnerFacets) {
 TEST(OrientPositively, TurnsAMeshThatIsInsideOut) {
   TetMesh mesh = two_tetrahedra();
   mesh.tetrahedra = {{1, 0, 2, 3}};
-  orient_positively(mesh);
+  baselines::orient_positively(mesh);
   EXPECT_EQ(mesh.tetrahedra[0], (std::array<std::uint32_t, 4>{0, 1, 2, 3}));
 }
 
@@ -35,7 +35,7 @@ TEST(CountElements, TellsInputSteinerAndInteriorVerticesApart) {
   plc.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   TetMesh mesh = two_tetrahedra();
   mesh.faces = {{0, 1, 3}};
-  const MeshCounts counts = count_elements(plc, mesh);
+  const MeshCounts counts = baselines::count_elements(plc, mesh);
   EXPECT_EQ(counts.vertices, 5u);
   EXPECT_EQ(counts.steiner_vertices, 1u);   // vertex 3: on a facet, not of the input
   EXPECT_EQ(counts.interior_vertices, 1u);  // vertex 4
@@ -49,10 +49,10 @@ TEST(RestoreCoordinates, GivesBackWhatWasRounded) {
   mesh.vertices = plc.vertices;
   for (Point3& p : mesh.vertices) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   mesh.vertices[7] = plc.vertices[7];
-  EXPECT_EQ(restore_coordinates(plc.vertices, mesh), 7u);
+  EXPECT_EQ(baselines::restore_coordinates(plc.vertices, mesh), 7u);
   for (std::size_t v = 0; v < 8; ++v) EXPECT_EQ(as_array(mesh.vertices[v]), as_array(plc.vertices[v]));
   mesh.vertices[0].x += 1e-6;
-  EXPECT_EQ(restore_coordinates(plc.vertices, mesh), 0u) << "that is no rounding";
+  EXPECT_EQ(baselines::restore_coordinates(plc.vertices, mesh), 0u) << "that is no rounding";
 }
 
 TEST(RestoreCoordinates, SpoilsNoTetrahedron) {
@@ -62,10 +62,10 @@ TEST(RestoreCoordinates, SpoilsNoTetrahedron) {
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}, {0.25, 0.25, 1 + tiny / 2}};
   mesh.tetrahedra = {{0, 1, 2, 4}, {0, 1, 4, 3}};
   mesh.regions = {0, 0};
-  EXPECT_EQ(restore_coordinates(input, mesh), 1u);
+  EXPECT_EQ(baselines::restore_coordinates(input, mesh), 1u);
   mesh.vertices[3].z = 1;
   mesh.tetrahedra[1] = {0, 4, 1, 3};  // stands on its head if vertex 3 moves
-  EXPECT_EQ(restore_coordinates(input, mesh), 0u);
+  EXPECT_EQ(baselines::restore_coordinates(input, mesh), 0u);
   EXPECT_EQ(mesh.vertices[3].z, 1);
 }
 

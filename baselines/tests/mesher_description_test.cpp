@@ -14,16 +14,17 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Placeholders, AreSmallLettersInBracesAndNothingElse) {
-  EXPECT_EQ(placeholders_in("-pa{max_volume} {input}"), (Names{"max_volume", "input"}));
-  EXPECT_EQ(placeholders_in("Surface Loop(1) = {1}; { input } {} {Input} {in"), Names{});
-  EXPECT_EQ(placeholders_in("{{input}}"), Names{"input"});
+  EXPECT_EQ(baselines::placeholders_in("-pa{max_volume} {input}"), (Names{"max_volume", "input"}));
+  EXPECT_EQ(baselines::placeholders_in("Surface Loop(1) = {1}; { input } {} {Input} {in"), Names{});
+  EXPECT_EQ(baselines::placeholders_in("{{input}}"), Names{"input"});
 }
 
 TEST(Placeholders, AreReplacedWhereTheyAreKnown) {
-  const std::vector<Placeholder> values = {{"input", "part.off"}, {"stem", ""}};
-  EXPECT_EQ(fill_placeholders("{input}", values), "part.off");
-  EXPECT_EQ(fill_placeholders("a{stem}b {1} {input}{input}; {other}", values), "ab {1} part.offpart.off; {other}");
-  EXPECT_EQ(fill_placeholders("", values), "");
+  const std::vector<baselines::Placeholder> values = {{"input", "part.off"}, {"stem", ""}};
+  EXPECT_EQ(baselines::fill_placeholders("{input}", values), "part.off");
+  EXPECT_EQ(baselines::fill_placeholders("a{stem}b {1} {input}{input}; {other}", values),
+            "ab {1} part.offpart.off; {other}");
+  EXPECT_EQ(baselines::fill_placeholders("", values), "");
 }
 
 class Descriptions : public testing::Test {
@@ -45,7 +46,7 @@ class Descriptions : public testing::Test {
 
   static void expect_refused(const std::string& file, const std::string& pointer) {
     try {
-      read_mesher_description(file);
+      baselines::read_mesher_description(file);
       FAIL() << "not refused: " << pointer;
     } catch (const InputError& error) {
       EXPECT_EQ(error.place().file, file);
@@ -55,11 +56,11 @@ class Descriptions : public testing::Test {
   }
 
  private:
-  TemporaryFolder folder_;
+  baselines::TemporaryFolder folder_;
 };
 
 TEST_F(Descriptions, OfTheLeastThatIsNeededHasDefaults) {
-  const MesherDescription d = read_mesher_description(with("mine", "mine-2"));
+  const baselines::MesherDescription d = baselines::read_mesher_description(with("mine", "mine-2"));
   EXPECT_EQ(d.name, "mine-2");
   EXPECT_EQ(d.command, (Names{"./mine", "{input}"}));
   EXPECT_EQ(d.success_codes, std::vector<int>{0});
@@ -67,14 +68,15 @@ TEST_F(Descriptions, OfTheLeastThatIsNeededHasDefaults) {
 }
 
 TEST_F(Descriptions, OfEverythingSayEverything) {
-  const MesherDescription d = read_mesher_description(with(R"("output")", R"json("install": "buy it",
+  const baselines::MesherDescription d =
+      baselines::read_mesher_description(with(R"("output")", R"json("install": "buy it",
     "choices": {"fine": {"if": "improvement", "then": "{edge_length}"}}, "success_codes": [0, 3],
     "files": {"a.txt": ["one {fine}", "two"], "b.txt": "three"}, "environment": {"THREADS": "1"},
     "version_command": ["mine", "-v"], "version_pattern": "v(.*)", "seconds_pattern": "([0-9.]+) s",
     "output")json"));
   EXPECT_EQ(d.install, "buy it");
   ASSERT_EQ(d.choices.size(), 1u);
-  EXPECT_EQ(d.choices[0].condition, ChoiceCondition::improvement);
+  EXPECT_EQ(d.choices[0].condition, baselines::ChoiceCondition::improvement);
   EXPECT_EQ(d.choices[0].text_if, "{edge_length}");
   EXPECT_EQ(d.choices[0].text_else, "");
   ASSERT_EQ(d.files.size(), 2u);
@@ -110,23 +112,23 @@ TEST_F(Descriptions, ThatAreWrongAreRefusedAtTheJsonPointer) {
 
 TEST_F(Descriptions, ThatAreNoJsonAreRefusedAtTheByte) {
   try {
-    read_mesher_description(write("{\"schema\": }"));
+    baselines::read_mesher_description(write("{\"schema\": }"));
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_EQ(error.place().byte, 12);
   }
-  EXPECT_THROW(read_mesher_description("/nowhere/mine.json"), InputError);
+  EXPECT_THROW(baselines::read_mesher_description("/nowhere/mine.json"), InputError);
 }
 
 TEST_F(Descriptions, MayNotTakeTheNameOfAMesherOfTheBuild) {
-  EXPECT_THROW(mesher(with("mine", "ccdt")), InputError);
+  EXPECT_THROW(baselines::mesher(with("mine", "ccdt")), InputError);
 }
 
 TEST_F(Descriptions, OfTheProjectAreRight) {
   for (const char* name : {"tetgen-program", "gmsh-delaunay"}) {
     const std::string file = std::string(DESCRIBED_FOLDER) + "/" + name + ".json";
-    EXPECT_EQ(mesher(file).name, name);
-    EXPECT_EQ(&mesher(file), &mesher(file)) << "it is read once";
+    EXPECT_EQ(baselines::mesher(file).name, name);
+    EXPECT_EQ(&baselines::mesher(file), &baselines::mesher(file)) << "it is read once";
   }
 }
 

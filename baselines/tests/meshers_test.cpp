@@ -22,11 +22,11 @@ double volume(const TetMesh& mesh) {
 }
 
 bool has(std::string_view name) {
-  return std::ranges::find(meshers(), name, &Mesher::name) != meshers().end();
+  return std::ranges::find(baselines::meshers(), name, &baselines::Mesher::name) != baselines::meshers().end();
 }
 
-MesherRun run(std::string_view name, const InputPlc& plc, const MeshOptions& options) {
-  return mesher(name).run(plc, options, {});
+baselines::MesherRun run(std::string_view name, const InputPlc& plc, const MeshOptions& options) {
+  return baselines::mesher(name).run(plc, options, {});
 }
 
 const MeshOptions bare = {.lattice = Lattice::none};
@@ -36,12 +36,12 @@ MeshOptions unimproved(double edge_length = 0) {
 }
 
 TEST(Meshers, OursIsFirst) {
-  EXPECT_EQ(meshers().front().name, "ccdt");
+  EXPECT_EQ(baselines::meshers().front().name, "ccdt");
 }
 
 TEST(Meshers, UnknownNameIsAnErrorThatListsTheKnownOnes) {
   try {
-    mesher("nobody");
+    baselines::mesher("nobody");
     FAIL() << "no such mesher";
   } catch (const Error& error) {
     EXPECT_NE(error.remedy().find("ccdt"), std::string::npos);
@@ -50,7 +50,7 @@ TEST(Meshers, UnknownNameIsAnErrorThatListsTheKnownOnes) {
 
 TEST(TetGen, MeshesACubeWithoutNewVertices) {
   if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
-  const MesherRun made = run("tetgen", shapes::with_repeated_vertices(shapes::cube()), bare);
+  const baselines::MesherRun made = run("tetgen", shapes::with_repeated_vertices(shapes::cube()), bare);
   EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
   EXPECT_EQ(made.result.counts.vertices, 8u);
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
@@ -60,7 +60,7 @@ TEST(TetGen, MeshesACubeWithoutNewVertices) {
 
 TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
   if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
-  const MesherRun made = run("tetgen", shapes::cube_with_grid(5), unimproved(0.2));
+  const baselines::MesherRun made = run("tetgen", shapes::cube_with_grid(5), unimproved(0.2));
   EXPECT_NEAR(volume(made.result.mesh), 1, 1e-12);
   EXPECT_GT(made.result.counts.interior_vertices, 20u);
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
@@ -70,7 +70,7 @@ TEST(TetGen, RefinesToTheEdgeLengthWhenThereAreInteriorPoints) {
 
 TEST(TetGen, LeavesAClosedShellWithinASurfaceEmpty) {
   if (!has("tetgen")) GTEST_SKIP() << "built without TetGen";
-  const MesherRun made = run("tetgen", shapes::cube_with_hole(), bare);
+  const baselines::MesherRun made = run("tetgen", shapes::cube_with_hole(), bare);
   EXPECT_NEAR(volume(made.result.mesh), 26, 1e-9);
 }
 
@@ -80,7 +80,7 @@ TEST(TetGen, KeepsRegionsAndMarkers) {
   plc.inside = InputPlc::Inside::seeds;
   plc.triangle_markers.assign(24, 7);
   plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
-  const MesherRun made = run("tetgen", plc, bare);
+  const baselines::MesherRun made = run("tetgen", plc, bare);
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
@@ -106,7 +106,7 @@ TEST(TetGen, OpenSurfaceBecomesAMeshError) {
 
 TEST(CgalDelaunay, FillsTheConvexHullOfTheVertices) {
   if (!has("cgal-delaunay")) GTEST_SKIP() << "built without CGAL's meshers";
-  const MesherRun made = run("cgal-delaunay", shapes::cube_with_hole(), bare);
+  const baselines::MesherRun made = run("cgal-delaunay", shapes::cube_with_hole(), bare);
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
   EXPECT_EQ(made.result.counts.vertices, 16u);
   EXPECT_EQ(made.result.seconds.delaunay, made.result.seconds.mesh);
@@ -121,14 +121,14 @@ TEST(CgalDelaunay, OfVerticesInAPlaneIsAMeshError) {
 
 TEST(CgalMesh3, MeshesACubeWithAHoleKeepingItsSharpEdges) {
   if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
-  const MesherRun made = run("cgal-mesh3", shapes::cube_with_hole(), unimproved(0.6));
+  const baselines::MesherRun made = run("cgal-mesh3", shapes::cube_with_hole(), unimproved(0.6));
   EXPECT_NEAR(volume(made.result.mesh), 26, 1e-6);
   EXPECT_GT(made.result.mesh.edges.size(), 24u);
   EXPECT_FALSE(made.settings.empty());
 }
 
 /// The value of a setting, or nothing.
-std::string setting(const MesherRun& run, std::string_view name) {
+std::string setting(const baselines::MesherRun& run, std::string_view name) {
   const auto found = std::ranges::find(run.settings, name, [](const auto& s) { return std::string_view(s.first); });
   return found == run.settings.end() ? "" : found->second;
 }
@@ -145,9 +145,9 @@ TEST(CgalMesh3, PerturbsAndExudesUnlessThereIsToBeNoImprovement) {
     return least;
   };
   options.improve.improvement = Improvement::all;
-  const MesherRun improved = run("cgal-mesh3", shapes::cube(), options);
+  const baselines::MesherRun improved = run("cgal-mesh3", shapes::cube(), options);
   options.improve.improvement = Improvement::none;
-  const MesherRun refined = run("cgal-mesh3", shapes::cube(), options);
+  const baselines::MesherRun refined = run("cgal-mesh3", shapes::cube(), options);
   EXPECT_EQ(setting(improved, "perturb") + setting(improved, "exude"), "onon");
   EXPECT_EQ(setting(refined, "perturb") + setting(refined, "exude"), "offoff");
   EXPECT_GT(worst_volume(improved.result.mesh), worst_volume(refined.result.mesh));  // slivers are gone
@@ -158,7 +158,7 @@ TEST(CgalMesh3, GivesEachRegionItsAttribute) {
   InputPlc plc = shapes::cube_with_hole();
   plc.inside = InputPlc::Inside::seeds;
   plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
-  const MesherRun made = run("cgal-mesh3", plc, unimproved(0.6));
+  const baselines::MesherRun made = run("cgal-mesh3", plc, unimproved(0.6));
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-6);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);
@@ -167,7 +167,7 @@ TEST(CgalMesh3, GivesEachRegionItsAttribute) {
 TEST(GmshHxt, FillsACubeWithAHoleAndKeepsItsTriangles) {
   if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
   const InputPlc plc = shapes::with_repeated_vertices(shapes::cube_with_hole());
-  const MesherRun made = run("gmsh-hxt", plc, unimproved(1));
+  const baselines::MesherRun made = run("gmsh-hxt", plc, unimproved(1));
   EXPECT_NEAR(volume(made.result.mesh), 26, 1e-9);
   EXPECT_EQ(made.result.mesh.faces.size(), 24u);
   EXPECT_EQ(made.result.counts.steiner_vertices, 0u);
@@ -199,7 +199,7 @@ TEST(GmshHxt, KeepsRegionsAndMarkers) {
   plc.triangle_markers.assign(12, 7);
   plc.triangle_markers.resize(24, 8);
   plc.regions = {{{0.5, 0.5, 0.5}, 3, 0}, {{1.5, 1.5, 1.5}, 4, 0}};
-  const MesherRun made = run("gmsh-hxt", plc, unimproved(1));
+  const baselines::MesherRun made = run("gmsh-hxt", plc, unimproved(1));
   EXPECT_NEAR(volume(made.result.mesh), 27, 1e-9);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 3), 0);
   EXPECT_GT(std::ranges::count(made.result.mesh.regions, 4), 0);

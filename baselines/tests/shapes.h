@@ -9,7 +9,7 @@
 namespace ccdt::shapes {
 
 /// A cube from `low` to `high` with twelve triangles, appended to a PLC.
-inline void add_cube(InputPlc& plc, double low, double high) {
+inline void add_cube(plc::InputPlc& plc, double low, double high) {
   const auto first = static_cast<std::uint32_t>(plc.vertices.size());
   for (int i = 0; i < 8; ++i) plc.vertices.push_back({i & 1 ? high : low, i & 2 ? high : low, i & 4 ? high : low});
   constexpr std::array<std::array<std::uint32_t, 3>, 12> triangles = {{{0, 2, 1},
@@ -30,16 +30,16 @@ inline void add_cube(InputPlc& plc, double low, double high) {
   }
 }
 
-inline InputPlc cube() {
-  InputPlc plc;
+inline plc::InputPlc cube() {
+  plc::InputPlc plc;
   plc.name = "cube";
   add_cube(plc, 0, 1);
   return plc;
 }
 
 /// A cube of six tetrahedra.
-inline TetMesh cube_mesh() {
-  TetMesh mesh;
+inline mesh::TetMesh cube_mesh() {
+  mesh::TetMesh mesh;
   mesh.vertices = cube().vertices;
   mesh.tetrahedra = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
   mesh.regions.assign(6, 0);
@@ -47,8 +47,8 @@ inline TetMesh cube_mesh() {
 }
 
 /// A cube of side 3 around a cubic hole of side 1: volume 26.
-inline InputPlc cube_with_hole() {
-  InputPlc plc;
+inline plc::InputPlc cube_with_hole() {
+  plc::InputPlc plc;
   plc.name = "cube with a hole";
   add_cube(plc, 0, 3);
   add_cube(plc, 1, 2);
@@ -56,8 +56,8 @@ inline InputPlc cube_with_hole() {
 }
 
 /// A unit cube whose faces are grids of n x n squares, each face with vertices of its own.
-inline InputPlc cube_with_grid(std::uint32_t n) {
-  InputPlc plc;
+inline plc::InputPlc cube_with_grid(std::uint32_t n) {
+  plc::InputPlc plc;
   plc.name = "cube with a grid";
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const bool high : {false, true}) {
@@ -81,8 +81,8 @@ inline InputPlc cube_with_grid(std::uint32_t n) {
 }
 
 /// Every triangle with vertices of its own, as in an STL file.
-inline InputPlc with_repeated_vertices(const InputPlc& plc) {
-  InputPlc repeated;
+inline plc::InputPlc with_repeated_vertices(const plc::InputPlc& plc) {
+  plc::InputPlc repeated;
   repeated.name = plc.name;
   for (const auto& triangle : plc.triangles) {
     const auto v = static_cast<std::uint32_t>(repeated.vertices.size());

@@ -81,10 +81,10 @@ struct Insert {
   static constexpr const char* name = "insert";
   static constexpr std::int64_t largest = 1000000;
   using Input = std::vector<Point3>;
-  using Result = Delaunay;
+  using Result = delaunay::Delaunay;
 
   static Input prepare(const std::vector<Point3>& points) { return points; }
-  static Result build(const Input& input) { return build_delaunay(input); }
+  static Result build(const Input& input) { return delaunay::build_delaunay(input); }
   static Outcome outcome(const Result& d) {
     Outcome outcome;
     for (const auto& v : finite_cells(d)) outcome.add_cell(d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3]));
@@ -95,16 +95,16 @@ struct Insert {
 struct Wrap {
   static constexpr const char* name = "wrap";
   static constexpr std::int64_t largest = largest_wrapped;
-  using Input = std::vector<DelaunayVertex>;
-  using Result = Delaunay;
+  using Input = std::vector<delaunay::DelaunayVertex>;
+  using Result = delaunay::Delaunay;
 
   static Input prepare(const std::vector<Point3>& points) {
-    const std::vector<std::uint32_t> ranks = insertion_ranks(points);
+    const std::vector<std::uint32_t> ranks = delaunay::insertion_ranks(points);
     Input input;
     for (std::size_t i = 0; i < points.size(); ++i) input.push_back({points[i], ranks[i]});
     return input;
   }
-  static Result build(const Input& input) { return wrap_delaunay(input); }
+  static Result build(const Input& input) { return delaunay::wrap_delaunay(input); }
   static Outcome outcome(const Result& d) { return Insert::outcome(d); }
 };
 
@@ -184,7 +184,7 @@ const Outcome& reference(const PointSet& set, std::int64_t size) {
   static std::map<std::pair<std::string, std::int64_t>, Outcome> known;
   const auto at = known.find({set.name, size});
   if (at != known.end()) return at->second;
-  return known[{set.name, size}] = Insert::outcome(build_delaunay(kept_points(set, size)));
+  return known[{set.name, size}] = Insert::outcome(delaunay::build_delaunay(kept_points(set, size)));
 }
 
 /// Why a result is not right; empty if it is.
@@ -197,7 +197,7 @@ std::string find_fault(const PointSet& set, std::int64_t size) {
     const bool fills_cube = volume > 0.9 * cube && volume <= cube;
     return set.name == "random" && !fills_cube ? "it does not fill the cube" : "";
   } else if constexpr (std::is_same_v<Program, Wrap>) {
-    const Tetrahedra inserted = sorted(finite_cells(build_delaunay(points)));
+    const Tetrahedra inserted = sorted(finite_cells(delaunay::build_delaunay(points)));
     return inserted == sorted(finite_cells(Wrap::build(Wrap::prepare(points))))
                ? ""
                : "insert and wrap have different cells";

@@ -25,31 +25,31 @@ Triple sorted_triple(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return triple;
 }
 
-std::vector<Triple> all_faces(const Delaunay& delaunay) {
+std::vector<Triple> all_faces(const delaunay::Delaunay& delaunay) {
   std::vector<Triple> faces;
   for (const auto& v : finite_cells(delaunay))
-    for (const auto& corners : face_corners)
+    for (const auto& corners : delaunay::face_corners)
       faces.push_back(sorted_triple(v[corners[0]], v[corners[1]], v[corners[2]]));
   std::ranges::sort(faces);
   return faces;
 }
 
 std::string find_fault(const Stages& s) {
-  const std::vector<std::uint32_t> codes = find_delaunay_faces(s.facets, s.delaunay);
+  const std::vector<std::uint32_t> codes = front::find_delaunay_faces(s.facets, s.delaunay);
   const std::vector<Triple> faces = all_faces(s.delaunay);
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const auto& [a, b, c] = s.facets.triangles[i];
-    if (std::ranges::binary_search(faces, sorted_triple(a, b, c)) != (codes[i] != no_neighbor))
+    if (std::ranges::binary_search(faces, sorted_triple(a, b, c)) != (codes[i] != delaunay::no_neighbor))
       return "triangle " + std::to_string(i) + " of the facets is judged wrongly";
   }
   return {};
 }
 
 void measure(benchmark::State& state, const Stages& s) {
-  time_runs(state, [&] { return find_delaunay_faces(s.facets, s.delaunay); });
+  time_runs(state, [&] { return front::find_delaunay_faces(s.facets, s.delaunay); });
   set_counters(state, s.delaunay.vertices.size(), finite_cells(s.delaunay).size());
   set_count(state, "faces", s.codes.size());
-  set_count(state, "undelaunay", static_cast<std::size_t>(std::ranges::count(s.codes, no_neighbor)));
+  set_count(state, "undelaunay", static_cast<std::size_t>(std::ranges::count(s.codes, delaunay::no_neighbor)));
 }
 
 }  // namespace

@@ -25,32 +25,32 @@ namespace ccdt::benchmarks {
 namespace {
 
 struct Strategy {
-  LocatorKind locator;
+  locate::LocatorKind locator;
   bool check;
 };
 
 /// The codes that `mesh_plc` hands to the front.
 std::vector<std::uint32_t> codes_for(const Stages& s, bool check) {
-  return check ? s.codes : std::vector<std::uint32_t>(s.codes.size(), no_neighbor);
+  return check ? s.codes : std::vector<std::uint32_t>(s.codes.size(), delaunay::no_neighbor);
 }
 
-FrontResult advance(const Stages& s, Strategy strategy, const std::vector<std::uint32_t>& codes) {
-  return advance_front({s.plc, s.facets, codes, s.delaunay},
-                       {.locator = strategy.locator, .face_protection = strategy.check});
+front::FrontResult advance(const Stages& s, Strategy strategy, const std::vector<std::uint32_t>& codes) {
+  return front::advance_front({s.plc, s.facets, codes, s.delaunay},
+                              {.locator = strategy.locator, .face_protection = strategy.check});
 }
 
 std::string find_fault(const Stages& s, Strategy strategy) {
   const auto codes = codes_for(s, strategy.check);
-  const FrontResult front = advance(s, strategy, codes);
-  const auto regions = label_cells(s.plc, s.delaunay, front.open, codes).regions;
-  if (sorted(collect_tetrahedra(s.plc, front, regions, s.delaunay).tetrahedra) != s.tetrahedra)
+  const front::FrontResult front = advance(s, strategy, codes);
+  const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes).regions;
+  if (sorted(mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay).tetrahedra) != s.tetrahedra)
     return "the tetrahedra are not those of the grid with the check";
   return {};
 }
 
 void measure(benchmark::State& state, const Stages& s, Strategy strategy) {
   const auto codes = codes_for(s, strategy.check);
-  std::optional<FrontResult> front;
+  std::optional<front::FrontResult> front;
   for (auto _ : state) {
     front.emplace(advance(s, strategy, codes));
     state.PauseTiming();
@@ -65,7 +65,8 @@ void measure(benchmark::State& state, const Stages& s, Strategy strategy) {
 }  // namespace
 
 void add_benchmarks(const Files& files) {
-  for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity})
+  for (const locate::LocatorKind locator :
+       {locate::LocatorKind::grid, locate::LocatorKind::octree, locate::LocatorKind::cavity})
     for (const Strategy strategy : {Strategy{locator, true}, Strategy{locator, false}})
       add_stage({.name = "front/" + std::string(name_of(locator)) + (strategy.check ? "/check" : "/no_check"),
                  .complexity = strategy.check ? benchmark::oAuto : benchmark::oN,

@@ -34,7 +34,7 @@ namespace {
 
 /// What `improve_mesh` is given, and changes.
 struct Unimproved {
-  TetMesh mesh;
+  mesh::TetMesh mesh;
   std::vector<std::uint32_t> facet_of_face;
   std::vector<Point3> points;
 };
@@ -44,38 +44,38 @@ const Unimproved& unimproved(const Stages& s) {
   const auto [at, is_new] = made.try_emplace(&s);
   Unimproved& u = at->second;
   if (is_new) {
-    u.mesh =
-        collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
-    u.facet_of_face = finish_mesh(s.plc, s.chains, s.facets, u.mesh);
+    u.mesh = mesh::collect_tetrahedra(s.plc, s.front,
+                                      label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
+    u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.facets, u.mesh);
     u.points = points_of(s.delaunay);
   }
   return u;
 }
 
-ImproveOptions options_of(Improvement improvement) {
-  ImproveOptions options;
+improve::ImproveOptions options_of(improve::Improvement improvement) {
+  improve::ImproveOptions options;
   options.improvement = improvement;
   return options;
 }
 
-ImproveCounts improve(const Stages& s, Improvement improvement, Unimproved& u) {
-  return improve_mesh(s.plc, s.chains, std::move(u.facet_of_face), s.lattice.vertices.size(), options_of(improvement),
-                      u.points, u.mesh);
+improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement, Unimproved& u) {
+  return improve::improve_mesh(s.plc, s.chains, std::move(u.facet_of_face), s.lattice.vertices.size(),
+                               options_of(improvement), u.points, u.mesh);
 }
 
 /// Of the worst cell; not positive if a cell is not.
 double least_quality(const Unimproved& u) {
-  const QualityGoal goal = goal_of({});
+  const improve::QualityGoal goal = improve::goal_of({});
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
     const auto& at = u.points;
-    if (orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
-    least = std::min(least, cell_quality(goal, at[a], at[b], at[c], at[d]));
+    if (numbers::orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
+    least = std::min(least, improve::cell_quality(goal, at[a], at[b], at[c], at[d]));
   }
   return least;
 }
 
-std::string find_fault(const Stages& s, Improvement improvement) {
+std::string find_fault(const Stages& s, improve::Improvement improvement) {
   const Unimproved& before = unimproved(s);
   Unimproved after = before;
   improve(s, improvement, after);
@@ -87,9 +87,9 @@ std::string find_fault(const Stages& s, Improvement improvement) {
   return {};
 }
 
-void measure(benchmark::State& state, const Stages& s, Improvement improvement) {
+void measure(benchmark::State& state, const Stages& s, improve::Improvement improvement) {
   const Unimproved& before = unimproved(s);
-  ImproveCounts counts;
+  improve::ImproveCounts counts;
   for (auto _ : state) {
     state.PauseTiming();
     auto mesh = std::make_optional(before);
@@ -107,7 +107,8 @@ void measure(benchmark::State& state, const Stages& s, Improvement improvement) 
 }  // namespace
 
 void add_benchmarks(const Files& files) {
-  for (const Improvement strategy : {Improvement::swap, Improvement::smooth, Improvement::all})
+  for (const improve::Improvement strategy :
+       {improve::Improvement::swap, improve::Improvement::smooth, improve::Improvement::all})
     add_stage({.name = "improve/" + std::string(name_of(strategy)),
                .flattened_too = true,
                .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },

@@ -16,14 +16,15 @@
 namespace ccdt::benchmarks {
 namespace {
 
-TetMesh label(const Stages& s) {
-  return collect_tetrahedra(s.plc, s.front, label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
+mesh::TetMesh label(const Stages& s) {
+  return mesh::collect_tetrahedra(s.plc, s.front, label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions,
+                                  s.delaunay);
 }
 
 /// By the divergence theorem, from the input's own triangles.
-double enclosed_volume(const Plc& plc) {
+double enclosed_volume(const plc::Plc& plc) {
   double volume = 0;
-  for (const Facet& facet : plc.facets) {
+  for (const plc::Facet& facet : plc.facets) {
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     if (outward == 0) continue;
     for (const auto& [a, b, c] : facet.triangles)

@@ -21,26 +21,26 @@
 namespace ccdt::benchmarks {
 namespace {
 
-std::vector<Point3> place(const LatticeInput& input, Lattice kind) {
-  LatticeOptions options = input.options;
+std::vector<Point3> place(const LatticeInput& input, lattice::Lattice kind) {
+  lattice::LatticeOptions options = input.options;
   options.kind = kind;
-  return place_lattice_points({input.vertices, input.triangles, input.subsegments}, options);
+  return lattice::place_lattice_points({input.vertices, input.triangles, input.subsegments}, options);
 }
 
-std::string find_fault(const Stages& s, Lattice kind) {
+std::string find_fault(const Stages& s, lattice::Lattice kind) {
   std::vector<Point3> points = place(s.lattice, kind);
   if (points.empty()) return "no lattice point fits inside: the edges of the surface are too long";
   const auto as_tuple = [](const Point3& p) { return std::tie(p.x, p.y, p.z); };
   std::ranges::sort(points, {}, as_tuple);
   if (std::ranges::adjacent_find(points, {}, as_tuple) != points.end()) return "two lattice points are the same";
   const auto count = static_cast<double>(points.size());
-  const auto fcc = static_cast<double>(place(s.lattice, Lattice::fcc).size());
+  const auto fcc = static_cast<double>(place(s.lattice, lattice::Lattice::fcc).size());
   if (fcc >= 1000 && std::fabs(count - fcc) > 0.2 * fcc)
     return std::to_string(points.size()) + " points, but fcc places " + std::to_string(fcc);
   return {};
 }
 
-void measure(benchmark::State& state, const Stages& s, Lattice kind) {
+void measure(benchmark::State& state, const Stages& s, lattice::Lattice kind) {
   time_runs(state, [&] { return place(s.lattice, kind); });
   set_counters(state, place(s.lattice, kind).size(), 0);
   set_count(state, "triangles", s.lattice.triangles.size());
@@ -49,7 +49,7 @@ void measure(benchmark::State& state, const Stages& s, Lattice kind) {
 }  // namespace
 
 void add_benchmarks(const Files& files) {
-  for (const Lattice strategy : {Lattice::fcc, Lattice::bcc, Lattice::sc})
+  for (const lattice::Lattice strategy : {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc})
     add_stage({.name = "lattice/" + std::string(name_of(strategy)),
                .find_fault = [=](const Stages& s) { return find_fault(s, strategy); },
                .measure = [=](benchmark::State& state, const Stages& s) { measure(state, s, strategy); }},

@@ -22,9 +22,10 @@
 namespace ccdt::benchmarks {
 namespace {
 
-std::string find_fault(const Stages& s, Protection strategy) {
-  const ProtectedDelaunay result = protect_edges(s.plc, unprotected(s.plc, s.input_delaunay), strategy);
-  CellStar star(result.delaunay);
+std::string find_fault(const Stages& s, protection::Protection strategy) {
+  const protection::ProtectedDelaunay result =
+      protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), strategy);
+  delaunay::CellStar star(result.delaunay);
   for (std::size_t segment = 0; segment < result.chains.size(); ++segment) {
     if (!result.must_be_chain[segment]) continue;
     const auto& chain = result.chains[segment];
@@ -35,13 +36,13 @@ std::string find_fault(const Stages& s, Protection strategy) {
   return {};
 }
 
-void measure(benchmark::State& state, const Stages& s, Protection strategy) {
-  ProtectedDelaunay changed;
+void measure(benchmark::State& state, const Stages& s, protection::Protection strategy) {
+  protection::ProtectedDelaunay changed;
   for (auto _ : state) {
     state.PauseTiming();
-    changed = unprotected(s.plc, s.input_delaunay);
+    changed = protection::unprotected(s.plc, s.input_delaunay);
     state.ResumeTiming();
-    changed = protect_edges(s.plc, std::move(changed), strategy);
+    changed = protection::protect_edges(s.plc, std::move(changed), strategy);
   }
   set_counters(state, changed.delaunay.vertices.size(), finite_cells(changed.delaunay).size());
   set_count(state, "segments", static_cast<std::size_t>(std::ranges::count(changed.must_be_chain, true)));
@@ -51,7 +52,7 @@ void measure(benchmark::State& state, const Stages& s, Protection strategy) {
 }  // namespace
 
 void add_benchmarks(const Files& files) {
-  for (const Protection strategy : {Protection::shell, Protection::midpoint})
+  for (const protection::Protection strategy : {protection::Protection::shell, protection::Protection::midpoint})
     add_stage({.name = "protection/" + std::string(name_of(strategy)),
                .complexity = benchmark::oAuto,
                .flattened_too = true,

@@ -14,7 +14,7 @@ std::vector<Point3> random_points(std::size_t n, std::uint64_t seed) {
   const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<Point3> points(n);
   for (Point3& p : points) p = {coordinate(), coordinate(), coordinate()};
-  const DyadicGrid grid = make_grid(points);
+  const numbers::DyadicGrid grid = numbers::make_grid(points);
   for (Point3& p : points) p = grid.snap(p);
   return points;
 }

@@ -30,7 +30,7 @@ double edge_length_of(const std::string& model, std::int64_t size) {
   return edge_lengths.at(name).at(place);
 }
 
-void flatten(InputPlc& plc) {
+void flatten(plc::InputPlc& plc) {
   const auto press = [](Point3& p) { p.z *= flattening; };
   for (Point3& p : plc.vertices) press(p);
   for (Point3& p : plc.holes) press(p);
@@ -49,7 +49,7 @@ LatticeInput lattice_input(const Stages& s, const Density& density) {
   LatticeInput input;
   input.vertices = points_of(s.delaunay);
   for (std::size_t i = 0; i < s.facets.triangles.size(); ++i) {
-    const Facet& facet = s.plc.facets[s.facets.facet[i]];
+    const plc::Facet& facet = s.plc.facets[s.facets.facet[i]];
     input.triangles.push_back(
         {s.facets.triangles[i], s.plc.regions[facet.above].inside, s.plc.regions[facet.below].inside});
   }
@@ -61,30 +61,32 @@ LatticeInput lattice_input(const Stages& s, const Density& density) {
   return input;
 }
 
-Stages mesh_in_stages(const InputPlc& input, const Density& density, const PlcOptions& options) {
+Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const plc::PlcOptions& options) {
   Stages s;
-  s.plc = build_plc(input, options);
-  s.input_delaunay = build_delaunay(s.plc.vertices);
-  ProtectedDelaunay surface = protect_edges(s.plc, unprotected(s.plc, s.input_delaunay), Protection::shell);
+  s.plc = plc::build_plc(input, options);
+  s.input_delaunay = delaunay::build_delaunay(s.plc.vertices);
+  protection::ProtectedDelaunay surface =
+      protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), protection::Protection::shell);
   s.chains = surface.chains;
   s.delaunay = surface.delaunay;
-  s.facets = triangulate_facets(s.plc, s.chains, s.delaunay);
+  s.facets = facets::triangulate_facets(s.plc, s.chains, s.delaunay);
   s.lattice = lattice_input(s, density);
-  const auto points =
-      place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options);
-  s.delaunay = insert_interior(points, std::move(surface));
-  s.codes = find_delaunay_faces(s.facets, s.delaunay);
-  if (follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
-    s.codes = find_delaunay_faces(s.facets, s.delaunay);
-  s.front = advance_front({s.plc, s.facets, s.codes, s.delaunay});
+  const auto points = lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments},
+                                                    s.lattice.options);
+  s.delaunay = protection::insert_interior(points, std::move(surface));
+  s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
+  if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
+    s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
+  s.front = front::advance_front({s.plc, s.facets, s.codes, s.delaunay});
   if (s.front.stuck) return s;
-  const CellLabels labels = label_cells(s.plc, s.delaunay, s.front.open, s.codes);
+  const label::CellLabels labels = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   s.front.stuck = labels.stuck;
-  if (!labels.stuck) s.tetrahedra = sorted(collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay).tetrahedra);
+  if (!labels.stuck)
+    s.tetrahedra = sorted(mesh::collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay).tetrahedra);
   return s;
 }
 
-Stages make_stages(const InputPlc& input, const Density& density) {
+Stages make_stages(const plc::InputPlc& input, const Density& density) {
   Stages s = mesh_in_stages(input, density, {});
   if (s.front.stuck) s = mesh_in_stages(input, density, {.flatness = 0});  // as mesh_plc does
   if (s.front.stuck) throw *s.front.stuck;
@@ -100,7 +102,7 @@ const Stages& stages_of_model(const std::string& model, bool flattened, std::int
   auto& stages = made[flattened][{model, size}];
   if (!stages) {
     double edge_length = edge_length_of(model, size);
-    InputPlc plc = make_solid(model, edge_length);
+    plc::InputPlc plc = models::make_solid(model, edge_length);
     if (flattened) {
       flatten(plc);
       edge_length *= std::cbrt(flattening);  // as many vertices in less space
@@ -113,7 +115,8 @@ const Stages& stages_of_model(const std::string& model, bool flattened, std::int
 const Stages& stages_of_file(const std::filesystem::path& file) {
   static Cache made;
   auto& stages = made[{file.string(), 0}];
-  if (!stages) stages = std::make_unique<const Stages>(make_stages(read_plc(file), {0, LatticeOptions().grading}));
+  if (!stages)
+    stages = std::make_unique<const Stages>(make_stages(io::read_plc(file), {0, lattice::LatticeOptions().grading}));
   return *stages;
 }
 
@@ -123,17 +126,17 @@ Tetrahedra sorted(Tetrahedra tetrahedra) {
   return tetrahedra;
 }
 
-Tetrahedra finite_cells(const Delaunay& delaunay) {
+Tetrahedra finite_cells(const delaunay::Delaunay& delaunay) {
   Tetrahedra cells;
   for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c)
     if (delaunay.is_finite(c)) cells.push_back(delaunay.cells[c].vertices);
   return cells;
 }
 
-std::vector<Point3> points_of(const Delaunay& delaunay) {
+std::vector<Point3> points_of(const delaunay::Delaunay& delaunay) {
   std::vector<Point3> points;
   points.reserve(delaunay.vertices.size());
-  for (const DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
+  for (const delaunay::DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
   return points;
 }
 

@@ -28,9 +28,9 @@ inline constexpr std::int64_t largest_flattened = 20000;
 /// All that `place_lattice_points` is given.
 struct LatticeInput {
   std::vector<Point3> vertices;
-  std::vector<SurfaceTriangle> triangles;
+  std::vector<lattice::SurfaceTriangle> triangles;
   std::vector<std::array<VertexId, 2>> subsegments;
-  LatticeOptions options;  ///< of the kind fcc
+  lattice::LatticeOptions options;  ///< of the kind fcc
 };
 
 /// Tetrahedra that can be compared: sorted lists of sorted vertices.
@@ -39,14 +39,14 @@ using Tetrahedra = std::vector<std::array<std::uint32_t, 4>>;
 /// One meshing with the default strategies, but located by the grid, and what it had after each stage; in the order of
 /// `mesh_plc`.
 struct Stages {
-  Plc plc;
-  Delaunay input_delaunay;  ///< of the vertices of the PLC, before protection
-  SegmentChains chains;     ///< after protection
+  plc::Plc plc;
+  delaunay::Delaunay input_delaunay;  ///< of the vertices of the PLC, before protection
+  protection::SegmentChains chains;   ///< after protection
   LatticeInput lattice;
-  Delaunay delaunay;                 ///< of all vertices
-  FacetMesh facets;                  ///< up to date with all vertices
+  delaunay::Delaunay delaunay;       ///< of all vertices
+  facets::FacetMesh facets;          ///< up to date with all vertices
   std::vector<std::uint32_t> codes;  ///< of the facets' triangles in `delaunay`
-  FrontResult front;
+  front::FrontResult front;
   Tetrahedra tetrahedra;  ///< of the front and the labeled cells
 };
 
@@ -64,9 +64,9 @@ const Stages& stages_of_file(const std::filesystem::path& file);
 Tetrahedra sorted(Tetrahedra tetrahedra);
 
 /// The finite cells.
-Tetrahedra finite_cells(const Delaunay& delaunay);
+Tetrahedra finite_cells(const delaunay::Delaunay& delaunay);
 
-std::vector<Point3> points_of(const Delaunay& delaunay);
+std::vector<Point3> points_of(const delaunay::Delaunay& delaunay);
 
 /// Of tetrahedra together.
 double volume_of(const Tetrahedra& tetrahedra, const std::vector<Point3>& points);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr double usual_exponent = 3;  ///< of the edge length in the number of tetrahedra, which it divides
@@ -81,4 +81,4 @@ std::optional<CountFound> search_edge_length(const CountSearch& search,
   return best;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// Within which an edge length is looked for that makes a wanted number of tetrahedra.
 struct CountSearch {
@@ -34,4 +34,4 @@ struct CountFound {
 std::optional<CountFound> search_edge_length(const CountSearch& search,
                                              const std::function<std::optional<std::uint64_t>(double)>& count_of);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -13,7 +13,7 @@
 #include "engine/base/errors.h"
 #include "engine/io/file_bytes.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr const char* program_name = "bench_delaunay";
@@ -131,9 +131,9 @@ MeasuredMethod method_named(const std::string& name) {
 }
 
 /// The benchmarks in the program's order, whichever order they ran in.
-std::vector<MeasuredMethod> measured_in(const Json& json) {
+std::vector<MeasuredMethod> measured_in(const bench::Json& json) {
   std::map<std::string, MeasuredMethod> by_name;
-  for (const Json& run : json.at("benchmarks")) {
+  for (const bench::Json& run : json.at("benchmarks")) {
     if (run.at("run_type") != "iteration") continue;
     const std::string name = run.at("run_name");
     MeasuredMethod& measured = by_name.try_emplace(name, method_named(name)).first->second;
@@ -158,16 +158,17 @@ std::vector<MeasuredMethod> measured_in(const Json& json) {
   return all;
 }
 
-Estimate scaled(const Estimate& e, double factor) {
+bench::Estimate scaled(const bench::Estimate& e, double factor) {
   return {e.value * factor, e.low * factor, e.high * factor};
 }
 
-void add_times_row(const MeasuredMethod& m, ResultTable& times) {
+void add_times_row(const MeasuredMethod& m, results::ResultTable& times) {
   if (!m.fault.empty() || m.seconds.empty())
-    return add_row(times, {}, m.points, m.size, m.method, "failed", Cell(), Cell(), Cell(), Cell(), m.fault);
-  const Estimate seconds = median_estimate(m.seconds);
+    return add_row(times, {}, m.points, m.size, m.method, "failed", results::Cell(), results::Cell(), results::Cell(),
+                   results::Cell(), m.fault);
+  const bench::Estimate seconds = bench::median_estimate(m.seconds);
   add_row(times, {}, m.points, m.size, m.method, "ok", m.vertices, m.tetrahedra, seconds,
-          scaled(seconds, 1e6 / m.vertices), Cell());
+          scaled(seconds, 1e6 / m.vertices), results::Cell());
 }
 
 /// The methods on the same points.
@@ -179,14 +180,15 @@ const MeasuredMethod* find(const PointsGroup& group, std::string_view method) {
   return found == group.end() || (*found)->seconds.empty() ? nullptr : *found;
 }
 
-std::optional<Estimate> ratio(const PointsGroup& group, std::string_view numerator, std::string_view denominator) {
+std::optional<bench::Estimate> ratio(const PointsGroup& group, std::string_view numerator,
+                                     std::string_view denominator) {
   const MeasuredMethod *above = find(group, numerator), *below = find(group, denominator);
-  if (above == nullptr || below == nullptr || quantile(below->seconds, 0) <= 0) return {};
-  return ratio_of_medians(above->seconds, below->seconds);
+  if (above == nullptr || below == nullptr || bench::quantile(below->seconds, 0) <= 0) return {};
+  return bench::ratio_of_medians(above->seconds, below->seconds);
 }
 
 std::string subject(const MeasuredMethod& m) {
-  return m.points + ", " + with_separators(static_cast<std::uint64_t>(m.vertices)) + " points";
+  return m.points + ", " + results::with_separators(static_cast<std::uint64_t>(m.vertices)) + " points";
 }
 
 /// "piston, 10,521 points: insert takes 0.50 [0.49, 0.52] times as long as CGAL, so it is faster."
@@ -197,8 +199,8 @@ void add_comparison(const PointsGroup& group, const char* method, const char* ot
   const std::string verdict = is_at_most(*estimate, 1) == BoundTest::holds    ? "it is faster"
                               : is_at_least(*estimate, 1) == BoundTest::holds ? "it is slower"
                                                                               : "neither is surely faster";
-  findings.push_back(subject(*find(group, other)) + ": " + std::string(method) + " takes " + with_interval(*estimate) +
-                     " times as long as " + other + ": " + verdict + ".");
+  findings.push_back(subject(*find(group, other)) + ": " + std::string(method) + " takes " +
+                     results::with_interval(*estimate) + " times as long as " + other + ": " + verdict + ".");
 }
 
 /// How the time of a vertex grows from the smallest to the largest set of these points.
@@ -207,9 +209,9 @@ void add_growth(const PointsGroup& small, const PointsGroup& large, std::vector<
   for (const auto& [name, method] : methods) {
     const MeasuredMethod *first = find(small, method), *last = find(large, method);
     if (first == nullptr || last == nullptr) continue;
-    const Estimate r = ratio_of_medians(last->seconds, first->seconds);
+    const bench::Estimate r = bench::ratio_of_medians(last->seconds, first->seconds);
     const double scale = first->vertices / last->vertices;
-    growths += (growths.empty() ? "" : ", ") + std::string(method) + " " + with_interval(scaled(r, scale));
+    growths += (growths.empty() ? "" : ", ") + std::string(method) + " " + results::with_interval(scaled(r, scale));
   }
   if (!growths.empty())
     findings.push_back(small[0]->points +
@@ -217,7 +219,7 @@ void add_growth(const PointsGroup& small, const PointsGroup& large, std::vector<
 }
 
 /// What the timed results must have in common.
-void check_counts(const PointsGroup& group, ExperimentResult& result) {
+void check_counts(const PointsGroup& group, results::ExperimentResult& result) {
   const MeasuredMethod* inserted = find(group, "insert");
   for (const MeasuredMethod* m : group) {
     const bool is_ours = m->method == "insert" || m->method == "wrap";
@@ -255,18 +257,19 @@ void add_findings(const std::vector<PointsGroup>& groups, std::vector<std::strin
 }
 
 /// Of a child that left no JSON: a row for all that it was to measure.
-void add_failure(const ExperimentOptions& options, const ProcessResult& child, ExperimentResult& result) {
+void add_failure(const ExperimentOptions& options, const baselines::ProcessResult& child,
+                 results::ExperimentResult& result) {
   evaluate_delaunay(R"({"benchmarks": []})", result);
   for (const std::string& set : point_sets(options))
     for (const std::string& method : wanted_methods(options))
-      add_row(result.tables[0], {}, set, "", method, name_of(child.status), Cell(), Cell(), Cell(), Cell(),
-              child.reason);
+      add_row(result.tables[0], {}, set, "", method, name_of(child.status), results::Cell(), results::Cell(),
+              results::Cell(), results::Cell(), child.reason);
   result.problems.push_back(std::string(program_name) + " did not end well: " + child.reason);
   result.is_good = false;
 }
 
 /// The JSON that the program wrote, and whether it is whole.
-bool evaluate_file(const std::filesystem::path& file, ExperimentResult& result) {
+bool evaluate_file(const std::filesystem::path& file, results::ExperimentResult& result) {
   try {
     evaluate_delaunay(io::read_whole_file(file).bytes, result);
     return true;
@@ -302,19 +305,20 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
   return command;
 }
 
-void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& result) {
+void evaluate_delaunay(const std::string& benchmark_json, results::ExperimentResult& result) {
   std::vector<MeasuredMethod> all;
   try {
-    all = measured_in(Json::parse(benchmark_json));
+    all = measured_in(bench::Json::parse(benchmark_json));
   } catch (const nlohmann::json::exception& error) {
     throw InputError("no JSON of Google Benchmark: " + std::string(error.what()), {}, "measure again");
   }
-  ResultTable times{"times",
-                    "Delaunay tetrahedralization",
-                    {label_column("points"), label_column("size"), label_column("method"), label_column("status"),
-                     figure_column("vertices"), figure_column("tetrahedra"), time_column("seconds", "", "s"),
-                     time_column("microseconds_per_vertex", "time a vertex", "µs"), note_column("reason")}};
-  ResultTable ratios{
+  results::ResultTable times{
+      "times",
+      "Delaunay tetrahedralization",
+      {label_column("points"), label_column("size"), label_column("method"), label_column("status"),
+       figure_column("vertices"), figure_column("tetrahedra"), time_column("seconds", "", "s"),
+       time_column("microseconds_per_vertex", "time a vertex", "µs"), note_column("reason")}};
+  results::ResultTable ratios{
       "ratios",
       "How the times compare",
       {label_column("points"), label_column("size"), figure_column("vertices"),
@@ -324,16 +328,17 @@ void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& resu
   for (const MeasuredMethod& m : all) add_times_row(m, times);
   for (const PointsGroup& group : groups) {
     const MeasuredMethod* any = find(group, "insert");
-    add_row(ratios, {}, group[0]->points, group[0]->size, any == nullptr ? Cell() : Cell(any->vertices),
-            ratio(group, "insert", "CGAL"), ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
+    add_row(ratios, {}, group[0]->points, group[0]->size,
+            any == nullptr ? results::Cell() : results::Cell(any->vertices), ratio(group, "insert", "CGAL"),
+            ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
     check_counts(group, result);
   }
   add_findings(groups, result.findings);
   result.tables = {times, ratios};
 }
 
-ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress) {
-  ExperimentResult result{.how = start_experiment(options, options.runs)};
+results::ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress) {
+  results::ExperimentResult result{.how = start_experiment(options, options.runs)};
   const auto file = options.folder / output_file;
   const auto program = find_bench_delaunay(options.program);
   check_something_is_measured(point_sets(options).size(), "delaunay");
@@ -349,9 +354,10 @@ ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progre
     return result;
   }
   report(progress, program_name, 0, 0);
-  Limits limits = options.limits;
+  baselines::Limits limits = options.limits;
   limits.seconds *= options.runs;  // there are many runs in this one
-  const ProcessResult child = run_program(bench_delaunay_command(program, options, file), {.limits = limits});
+  const baselines::ProcessResult child =
+      baselines::run_program(bench_delaunay_command(program, options, file), {.limits = limits});
   if (evaluate_file(file, result)) {
     result.raw_files = {output_file};
     return result;
@@ -361,4 +367,4 @@ ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progre
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

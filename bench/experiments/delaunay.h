@@ -6,7 +6,7 @@
 
 #include "bench/experiments/experiment.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// The Delaunay tetrahedralization of the same points by insertion, wrapping (paper, section 5), CGAL and TetGen, over
 /// sizes. The Google Benchmark program `bench_delaunay` measures; its JSON is kept as it writes it, as
@@ -21,7 +21,7 @@ namespace ccdt {
 ///
 /// \throw OutputError  the folder cannot be written
 /// \throw InputError   there is nothing to measure
-ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress = {});
+results::ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress = {});
 
 /// Where `bench_delaunay` is, beside `ccdt` or in its build tree; empty if it is not there.
 std::filesystem::path find_bench_delaunay(const std::filesystem::path& ccdt);
@@ -32,6 +32,6 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
 
 /// Makes tables, findings and problems of the JSON that Google Benchmark wrote.
 /// \throw InputError  it is no such JSON
-void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& result);
+void evaluate_delaunay(const std::string& benchmark_json, results::ExperimentResult& result);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

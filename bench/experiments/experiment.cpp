@@ -7,13 +7,13 @@
 #include "bench/results/numbers.h"
 #include "engine/base/errors.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
-Circumstances start_experiment(const ExperimentOptions& options, int runs) {
+results::Circumstances start_experiment(const ExperimentOptions& options, int runs) {
   for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
-  return {.environment = capture_environment(),
+  return {.environment = bench::capture_environment(),
           .runs = runs,
-          .confidence = Bootstrap{}.confidence,
+          .confidence = bench::Bootstrap{}.confidence,
           .limits = options.limits,
           .tetrahedra = options.tetrahedra,
           .scale = options.scale,
@@ -31,7 +31,7 @@ bool is_asked_for(const ExperimentOptions& options, std::string_view model) {
 
 bool is_measured(const ExperimentOptions& options, std::string_view mesher) {
   if (options.beside && mesher != "ccdt") return std::ranges::find(*options.beside, mesher) != options.beside->end();
-  return std::ranges::find(meshers(), mesher, &Mesher::name) != meshers().end();
+  return std::ranges::find(baselines::meshers(), mesher, &baselines::Mesher::name) != baselines::meshers().end();
 }
 
 bool is_timed(const ExperimentOptions& options, std::string_view mesher) {
@@ -41,7 +41,8 @@ bool is_timed(const ExperimentOptions& options, std::string_view mesher) {
 
 std::vector<std::string> described_meshers(const ExperimentOptions& options) {
   std::vector<std::string> files;
-  if (options.beside) std::ranges::copy_if(*options.beside, std::back_inserter(files), is_mesher_description);
+  if (options.beside)
+    std::ranges::copy_if(*options.beside, std::back_inserter(files), baselines::is_mesher_description);
   return files;
 }
 
@@ -51,12 +52,12 @@ void check_something_is_measured(std::size_t cases, std::string_view experiment)
                      "leave out --models, and it measures all that it has");
 }
 
-BoundTest is_at_most(const Estimate& estimate, double bound) {
+BoundTest is_at_most(const bench::Estimate& estimate, double bound) {
   if (estimate.high <= bound) return BoundTest::holds;
   return estimate.low > bound ? BoundTest::fails : BoundTest::undecided;
 }
 
-BoundTest is_at_least(const Estimate& estimate, double bound) {
+BoundTest is_at_least(const bench::Estimate& estimate, double bound) {
   if (estimate.low >= bound) return BoundTest::holds;
   return estimate.high < bound ? BoundTest::fails : BoundTest::undecided;
 }
@@ -66,7 +67,7 @@ std::string choose(BoundTest test, std::string_view holds, std::string_view unde
 }
 
 std::string share_words(std::uint64_t part, std::uint64_t whole) {
-  return with_separators(part) + " of " + with_separators(whole);
+  return results::with_separators(part) + " of " + results::with_separators(whole);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

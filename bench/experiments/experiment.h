@@ -11,27 +11,27 @@
 #include "bench/statistics.h"
 #include "engine/base/progress.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// The options of every experiment of `ccdt reproduce`.
 struct ExperimentOptions {
-  std::filesystem::path program;                     ///< the `ccdt` that is run
-  std::filesystem::path folder;                      ///< models, meshes and records go here; exists
-  int runs = 5;                                      ///< counted runs a case; one more before them is not counted
-  double tetrahedra = 100000;                        ///< about how many a model is to get
-  std::string scale = "paper";                       ///< as the user said it
-  std::string command = {};                          ///< that repeats the experiment
-  std::vector<std::string> models;                   ///< to measure; empty: all that the experiment has
-  std::optional<std::vector<std::string>> beside;    ///< other meshers to measure; none: all of this build
-  std::vector<std::filesystem::path> inputs;         ///< files in the folder to measure as well, if it takes files
-  Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
+  std::filesystem::path program;                   ///< the `ccdt` that is run
+  std::filesystem::path folder;                    ///< models, meshes and records go here; exists
+  int runs = 5;                                    ///< counted runs a case; one more before them is not counted
+  double tetrahedra = 100000;                      ///< about how many a model is to get
+  std::string scale = "paper";                     ///< as the user said it
+  std::string command = {};                        ///< that repeats the experiment
+  std::vector<std::string> models;                 ///< to measure; empty: all that the experiment has
+  std::optional<std::vector<std::string>> beside;  ///< other meshers to measure; none: all of this build
+  std::vector<std::filesystem::path> inputs;       ///< files in the folder to measure as well, if it takes files
+  baselines::Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
 };
 
 /// Makes the folders of an experiment: models, meshes, runs.
 ///
 /// \param runs  counted runs a case
 /// \return      the circumstances, as they are before the first run
-Circumstances start_experiment(const ExperimentOptions& options, int runs);
+results::Circumstances start_experiment(const ExperimentOptions& options, int runs);
 
 /// The factor of an edge length that makes about 100,000 tetrahedra, to make as many as are wanted.
 double edge_factor(const ExperimentOptions& options);
@@ -69,8 +69,8 @@ enum class BoundTest {
   undecided,  ///< the bound is inside
   fails       ///< all of the interval is on the wrong side
 };
-BoundTest is_at_most(const Estimate& estimate, double bound);
-BoundTest is_at_least(const Estimate& estimate, double bound);
+BoundTest is_at_most(const bench::Estimate& estimate, double bound);
+BoundTest is_at_least(const bench::Estimate& estimate, double bound);
 
 /// The text for the outcome of a test.
 std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails);
@@ -78,4 +78,4 @@ std::string choose(BoundTest test, std::string_view holds, std::string_view unde
 /// "20 of 1,000"
 std::string share_words(std::uint64_t part, std::uint64_t whole);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -6,10 +6,10 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/tables.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
-ResultTable meshes_table() {
+results::ResultTable meshes_table() {
   return {"meshes",
           "The meshes",
           {label_column("model"), label_column("status"), figure_column("edge_length", "", "mm"),
@@ -18,13 +18,13 @@ ResultTable meshes_table() {
            note_column("reason")}};
 }
 
-void measure_model(const ExperimentOptions& options, const PaperModel& model, ExperimentResult& result) {
+void measure_model(const ExperimentOptions& options, const PaperModel& model, results::ExperimentResult& result) {
   const SurfaceFile surface = write_solid(options, "fig7", model.name, model.edge_length);
   const std::string stem = "fig7-" + surface.name;
   MeasuredCase measured{surface.name, stem, {"ccdt", surface.file, options.folder / "meshes" / "fig7.vtu", {}}};
   run_once(options, measured, 0);
-  const RunRecord& run = measured.first;
-  const Quality& q = run.quality;
+  const bench::RunRecord& run = measured.first;
+  const bench::Quality& q = run.quality;
   add_row(result.tables[0], run_files(measured), surface.name, name_of(run.status), surface.edge_length,
           run.counts.vertices, run.counts.tetrahedra, q.r.mean, q.r.max, q.dihedral_degrees.min, q.dihedral_degrees.max,
           run.reason);
@@ -39,14 +39,15 @@ void measure_model(const ExperimentOptions& options, const PaperModel& model, Ex
 
 }  // namespace
 
-ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& progress) {
+results::ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& progress) {
   ExperimentOptions small = options;
   small.tetrahedra = std::min(options.tetrahedra, static_cast<double>(most_kept_tetrahedra) / 2);
-  ExperimentResult result{.how = start_experiment(small, 1),
-                          .definitions = {"All strategies are the default ones; the run has them.",
-                                          "In the pictures, tetrahedra in front of a plane through the middle are "
-                                          "left out whole."},
-                          .tables = {meshes_table()}};
+  results::ExperimentResult result{
+      .how = start_experiment(small, 1),
+      .definitions = {"All strategies are the default ones; the run has them.",
+                      "In the pictures, tetrahedra in front of a plane through the middle are "
+                      "left out whole."},
+      .tables = {meshes_table()}};
   const auto is_asked = [&](const PaperModel& model) { return is_asked_for(options, model.name); };
   check_something_is_measured(static_cast<std::size_t>(std::ranges::count_if(paper_models, is_asked)), "fig7");
   for (std::size_t i = 0; i < paper_models.size(); ++i) {
@@ -58,4 +59,4 @@ ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& 
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -11,7 +11,7 @@
 #include "engine/io/plc_files.h"
 #include "models/solids.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
@@ -45,7 +45,7 @@ std::vector<MeshStrategy> strategies_of(const ExperimentOptions& options) {
   std::ranges::copy_if(all_strategies(), std::back_inserter(strategies),
                        [&](const MeshStrategy& s) { return is_timed(options, s.mesher); });
   for (const std::string& file : described_meshers(options)) {
-    const std::string name = mesher(file).name;
+    const std::string name = baselines::mesher(file).name;
     strategies.push_back({name, name + ", its own vertices", file, {}, 4});
   }
   return strategies;
@@ -60,7 +60,7 @@ struct ModelSize {
 /// From a tenth of the tetrahedra that are wanted to ten times as many, within the limits of the solid.
 std::vector<ModelSize> sizes_of(const PaperModel& model, const ExperimentOptions& options) {
   std::vector<ModelSize> sizes;
-  const auto solid = std::ranges::find(solids(), model.name, &Solid::name);
+  const auto solid = std::ranges::find(models::solids(), model.name, &models::Solid::name);
   for (int i = 0; i < size_count; ++i) {
     const double decades = 2 * static_cast<double>(i) / (size_count - 1) - 1;
     const double edge_length = edge_factor(options) * model.edge_length * std::pow(10, -decades / 3);
@@ -73,7 +73,7 @@ std::vector<ModelSize> sizes_of(const PaperModel& model, const ExperimentOptions
 std::vector<MeasuredCase> plan(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size) {
   const std::string stem = "fig8-" + std::string(model.name) + "-" + std::to_string(size.number);
   const auto surface = options.folder / "models" / (stem + ".poly");
-  write_plc(make_solid(model.name, size.edge_length), surface);
+  io::write_plc(models::make_solid(model.name, size.edge_length), surface);
   const auto mesh_of = [&](const std::string& id) { return options.folder / "meshes" / (stem + "-" + id + ".node"); };
   std::vector<MeasuredCase> cases;
   for (const MeshStrategy& strategy : strategies_of(options)) {
@@ -92,7 +92,7 @@ Fig8Point point_of(const MeasuredCase& measured, const ModelSize& size) {
   const bool is_ours = measured.call.mesher == "ccdt";
   Fig8Point point{outcome_of(measured, is_ours ? cdt_seconds : mesh_seconds), size.edge_length};
   if (point.ok())
-    for (const RunRecord& run : measured.counted) point.stages.push_back(run.seconds);
+    for (const bench::RunRecord& run : measured.counted) point.stages.push_back(run.seconds);
   return point;
 }
 
@@ -111,7 +111,7 @@ void measure_size(const ExperimentOptions& options, const PaperModel& model, con
 Fig8Model measure_model(const ExperimentOptions& options, const PaperModel& model, StepCounter& steps) {
   Fig8Model result{model.name, {}};
   for (const MeshStrategy& strategy : strategies_of(options))
-    result.series.push_back({strategy.id, strategy.label, mesher(strategy.mesher).name});
+    result.series.push_back({strategy.id, strategy.label, baselines::mesher(strategy.mesher).name});
   for (const ModelSize& size : sizes_of(model, options)) measure_size(options, model, size, steps, result);
   for (Fig8Series& series : result.series) series.fits = fit_series(series);
   return result;
@@ -138,13 +138,13 @@ std::vector<std::string> definitions() {
 
 /// Appends a row that begins with the labels of a series.
 template <class... Values>
-void add_series_row(ResultTable& table, const std::string& model, const Fig8Series& series,
+void add_series_row(results::ResultTable& table, const std::string& model, const Fig8Series& series,
                     const std::vector<std::string>& runs, const Values&... values) {
   add_row(table, runs, model, series.mesher, series.label, values...);
 }
 
-std::vector<Column> series_columns(const std::vector<Column>& more) {
-  std::vector<Column> columns = {label_column("model"), label_column("mesher"), label_column("strategy")};
+std::vector<results::Column> series_columns(const std::vector<results::Column>& more) {
+  std::vector<results::Column> columns = {label_column("model"), label_column("mesher"), label_column("strategy")};
   append(columns, more);
   return columns;
 }
@@ -155,16 +155,16 @@ std::vector<std::string> all_runs(const Fig8Series& series) {
   return runs;
 }
 
-Estimate in_microseconds(const Estimate& e) {
+bench::Estimate in_microseconds(const bench::Estimate& e) {
   return {1e6 * e.value, 1e6 * e.low, 1e6 * e.high};
 }
 
-void add_rows(const std::string& model, const Fig8Series& series, ResultTable& points, ResultTable& fits,
-              ResultTable& lines) {
+void add_rows(const std::string& model, const Fig8Series& series, results::ResultTable& points,
+              results::ResultTable& fits, results::ResultTable& lines) {
   for (const Fig8Point& p : series.points)
     add_series_row(points, model, series, p.runs, name_of(p.status), p.edge_length,
-                   p.seconds ? as_cell(p.counts.vertices) : Cell(), p.seconds ? as_cell(p.counts.tetrahedra) : Cell(),
-                   p.seconds, p.reason);
+                   p.seconds ? as_cell(p.counts.vertices) : results::Cell(),
+                   p.seconds ? as_cell(p.counts.tetrahedra) : results::Cell(), p.seconds, p.reason);
   const std::vector<std::string> runs = all_runs(series);
   for (const Fig8Fit& fit : series.fits)
     add_series_row(fits, model, series, runs, fit.quantity, fit.points, fit.power.slope, fit.power.r_squared,
@@ -175,23 +175,23 @@ void add_rows(const std::string& model, const Fig8Series& series, ResultTable& p
     add_series_row(lines, model, series, runs, vertices, fit.line.intercept + vertices * fit.line.slope.value);
 }
 
-void add_finding(const std::string& model, const Fig8Series& series, ExperimentResult& result) {
+void add_finding(const std::string& model, const Fig8Series& series, results::ExperimentResult& result) {
   const std::string who = model + ", " + series.label + ": ";
   if (series.fits.empty()) {
     result.findings.push_back(who + "too few sizes for a fit");
     return;
   }
-  const Estimate& exponent = series.fits.front().power.slope;
-  result.findings.push_back(who + "the exponent is " + with_interval(exponent) + "; that it is at most " +
-                            rounded(claimed_exponent) + ": " +
+  const bench::Estimate& exponent = series.fits.front().power.slope;
+  result.findings.push_back(who + "the exponent is " + results::with_interval(exponent) + "; that it is at most " +
+                            results::rounded(claimed_exponent) + ": " +
                             choose(is_at_most(exponent, claimed_exponent), "holds",
                                    "undecided, the bound is within the interval", "does not hold"));
 }
 
-void add_problems(const std::string& model, const Fig8Series& series, ExperimentResult& result) {
+void add_problems(const std::string& model, const Fig8Series& series, results::ExperimentResult& result) {
   for (const Fig8Point& p : series.points) {
     if (p.seconds) continue;
-    result.problems.push_back(model + ", " + series.label + ", edge length " + rounded(p.edge_length) + ": " +
+    result.problems.push_back(model + ", " + series.label + ", edge length " + results::rounded(p.edge_length) + ": " +
                               p.failure());
     result.is_good = result.is_good && series.mesher != "ccdt";
   }
@@ -207,13 +207,14 @@ std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
       if (!point.seconds) continue;
       std::vector<double> samples;
       for (const StageSeconds& s : point.stages) samples.push_back(seconds_of(s));
-      if (median(samples) <= 0) continue;  // shorter than a tick of the clock
+      if (bench::median(samples) <= 0) continue;  // shorter than a tick of the clock
       vertices.push_back(static_cast<double>(point.counts.vertices));
-      medians.push_back(median(samples));
+      medians.push_back(bench::median(samples));
     }
     if (vertices.size() < 3) return;
     const auto [least, most] = std::ranges::minmax(vertices);
-    fits.push_back({quantity, vertices.size(), least, most, fit_line(vertices, medians), fit_power(vertices, medians)});
+    fits.push_back({quantity, vertices.size(), least, most, bench::fit_line(vertices, medians),
+                    bench::fit_power(vertices, medians)});
   };
   if (series.mesher != "ccdt") {
     add("mesh", mesh_seconds);
@@ -239,22 +240,23 @@ Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress) {
   return fig8;
 }
 
-ExperimentResult result_of(const Fig8& fig8) {
-  ResultTable fits{"fits", "How the seconds grow with the number of vertices",
-                   series_columns({label_column("quantity", "seconds of"), figure_column("points", "sizes"),
-                                   time_column("exponent"), time_column("exponent_r2", "R2 of the exponent"),
-                                   time_column("microseconds_per_vertex", "slope, a vertex", "us"),
-                                   time_column("seconds_at_zero", "", "s"), time_column("r2", "R2 of the line")})};
-  ResultTable points{
+results::ExperimentResult result_of(const Fig8& fig8) {
+  results::ResultTable fits{
+      "fits", "How the seconds grow with the number of vertices",
+      series_columns({label_column("quantity", "seconds of"), figure_column("points", "sizes"), time_column("exponent"),
+                      time_column("exponent_r2", "R2 of the exponent"),
+                      time_column("microseconds_per_vertex", "slope, a vertex", "us"),
+                      time_column("seconds_at_zero", "", "s"), time_column("r2", "R2 of the line")})};
+  results::ResultTable points{
       "points", "Seconds against size",
       series_columns({label_column("status"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
                       figure_column("tetrahedra"), time_column("seconds", "", "s"), note_column("reason")})};
-  ResultTable lines{"lines",
-                    "Straight lines through the points",
-                    series_columns({figure_column("vertices"), time_column("seconds", "", "s")}),
-                    {},
-                    true};
-  ExperimentResult result{.how = fig8.how, .definitions = definitions()};
+  results::ResultTable lines{"lines",
+                             "Straight lines through the points",
+                             series_columns({figure_column("vertices"), time_column("seconds", "", "s")}),
+                             {},
+                             true};
+  results::ExperimentResult result{.how = fig8.how, .definitions = definitions()};
   for (const Fig8Model& model : fig8.models)
     for (const Fig8Series& series : model.series) {
       add_rows(model.name, series, points, fits, lines);
@@ -265,4 +267,4 @@ ExperimentResult result_of(const Fig8& fig8) {
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

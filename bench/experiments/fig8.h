@@ -6,7 +6,7 @@
 #include "bench/experiments/measured_case.h"
 #include "bench/statistics.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// The exponent that we claim for the growth of the time with the number of vertices; 1 is linear.
 inline constexpr double claimed_exponent = 1.10;
@@ -22,8 +22,8 @@ struct Fig8Fit {
   std::string quantity;  ///< cdt, delaunay, front; mesh: all that another mesher does
   std::size_t points = 0;
   double least_vertices = 0, most_vertices = 0;
-  LineFit line;   ///< seconds over vertices
-  LineFit power;  ///< logarithms of both
+  bench::LineFit line;   ///< seconds over vertices
+  bench::LineFit power;  ///< logarithms of both
 };
 
 struct Fig8Series {
@@ -39,7 +39,7 @@ struct Fig8Model {
 
 /// Fig. 8 of the paper, measured here: time against size at uniform density.
 struct Fig8 {
-  Circumstances how;
+  results::Circumstances how;
   std::vector<Fig8Model> models;
 };
 
@@ -54,6 +54,6 @@ Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress = {
 std::vector<Fig8Fit> fit_series(const Fig8Series& series);
 
 /// As tables, with what they say.
-ExperimentResult result_of(const Fig8& fig8);
+results::ExperimentResult result_of(const Fig8& fig8);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

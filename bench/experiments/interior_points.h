@@ -10,19 +10,20 @@
 #include "bench/experiments/small_plcs/small_plc.h"
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// What one interior point did to small random PLCs of a family that have a constrained Delaunay tetrahedralization.
 struct ExistenceTrials {
   std::string family;
   std::uint64_t cases = 0;
-  std::uint64_t lost = 0;               ///< that have none with the point
-  small::SmallPlc counterexample = {};  ///< of these the first with the fewest vertices; the point is its last vertex
+  std::uint64_t lost = 0;  ///< that have none with the point
+  small_plcs::SmallPlc counterexample =
+      {};  ///< of these the first with the fewest vertices; the point is its last vertex
 };
 
 /// The PLC with a point inside, strictly and in general position; empty if none is found.
 /// \param seed  of the draws
-small::SmallPlc with_interior_point(const small::SmallPlc& plc, std::uint64_t seed);
+small_plcs::SmallPlc with_interior_point(const small_plcs::SmallPlc& plc, std::uint64_t seed);
 
 /// Looks for existence by exhaustion, without and with the point, in so many PLCs of each family in general position.
 std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family);
@@ -51,7 +52,7 @@ struct InteriorCase : CaseOutcome {
 
 /// What became of the interior points of all inputs.
 struct InteriorPoints {
-  Circumstances how;
+  results::Circumstances how;
   std::vector<InteriorCase> cases;
   std::vector<ExistenceTrials> existence;
 };
@@ -72,6 +73,6 @@ InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule
 InteriorPoints measure_interior_points(const ExperimentOptions& options, const Progress& progress = {});
 
 /// As tables, with what they say.
-ExperimentResult result_of(const InteriorPoints& points);
+results::ExperimentResult result_of(const InteriorPoints& points);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

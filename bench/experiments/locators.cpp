@@ -7,7 +7,7 @@
 #include "bench/results/numbers.h"
 #include "engine/io/plc_files.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr std::array all_locators = {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity};
@@ -33,7 +33,7 @@ struct LocatorsGroup {
 LocatorsGroup group_of(const ExperimentOptions& options, const SurfaceFile& surface, SurfaceKind kind,
                        bool face_protection, std::size_t number) {
   LocatorsGroup group;
-  group.result = {surface.name, kind, face_protection, edge_ratio(read_plc(surface.file))};
+  group.result = {surface.name, kind, face_protection, edge_ratio(io::read_plc(surface.file))};
   const std::string check = face_protection ? "on" : "off";
   for (const LocatorKind locator : all_locators) {
     const std::string name(name_of(locator));
@@ -67,10 +67,10 @@ LocatorsCase evaluate(const LocatorsGroup& group) {
     result.rows.push_back({outcome_of(group.cases[i], front_seconds), all_locators[i]});
     if (result.rows.back().ok()) result.counts = result.rows.back().counts;
   }
-  const auto over_grid = [&](const LocatorsRow& row) -> std::optional<Estimate> {
+  const auto over_grid = [&](const LocatorsRow& row) -> std::optional<bench::Estimate> {
     const LocatorsRow& grid = result.rows[0];
-    if (!row.seconds || !grid.seconds || quantile(grid.samples, 0) <= 0) return {};
-    return ratio_of_medians(row.samples, grid.samples);
+    if (!row.seconds || !grid.seconds || bench::quantile(grid.samples, 0) <= 0) return {};
+    return bench::ratio_of_medians(row.samples, grid.samples);
   };
   result.octree_over_grid = over_grid(result.rows[1]);
   result.cavity_over_grid = over_grid(result.rows[2]);
@@ -93,26 +93,27 @@ std::string check_words(const LocatorsCase& c) {
   return c.face_protection ? "on" : "off";
 }
 
-ResultTable table_of(std::string name, std::string title, const std::vector<Column>& more) {
-  ResultTable table{std::move(name),
-                    std::move(title),
-                    {label_column("model"), label_column("kind"), label_column("face_protection", "check")}};
+results::ResultTable table_of(std::string name, std::string title, const std::vector<results::Column>& more) {
+  results::ResultTable table{std::move(name),
+                             std::move(title),
+                             {label_column("model"), label_column("kind"), label_column("face_protection", "check")}};
   append(table.columns, more);
   return table;
 }
 
-std::vector<ResultTable> tables_of(const Locators& locators) {
-  ResultTable front = table_of("front", "Seconds of the front",
-                               {label_column("locator"), label_column("status"), time_column("seconds", "", "s"),
-                                figure_column("front_tetrahedra", "tetrahedra of the front"), note_column("reason")});
-  ResultTable ratios =
+std::vector<results::ResultTable> tables_of(const Locators& locators) {
+  results::ResultTable front =
+      table_of("front", "Seconds of the front",
+               {label_column("locator"), label_column("status"), time_column("seconds", "", "s"),
+                figure_column("front_tetrahedra", "tetrahedra of the front"), note_column("reason")});
+  results::ResultTable ratios =
       table_of("ratios", "Beside the paper's grid", {label_column("ratio"), time_column("value", "here")});
-  ResultTable sizes =
+  results::ResultTable sizes =
       table_of("sizes", "The surfaces",
                {figure_column("edge_ratio", "longest edge over shortest"), figure_column("vertices"),
                 figure_column("faces"), figure_column("undelaunay_faces", "faces that are not Delaunay")});
   for (const LocatorsCase& c : locators.cases) {
-    const auto add = [&](ResultTable& table, const std::vector<std::string>& runs, const auto&... values) {
+    const auto add = [&](results::ResultTable& table, const std::vector<std::string>& runs, const auto&... values) {
       add_row(table, runs, c.name, name_of(c.kind), check_words(c), values...);
     };
     std::vector<std::string> runs;
@@ -135,11 +136,11 @@ std::vector<std::string> findings_of(const Locators& locators) {
     const auto claim = expectation(c);
     if (!claim) continue;
     const bool is_graded = c.kind == SurfaceKind::graded;
-    lines.push_back(c.name + ": that the " +
-                    (is_graded ? "octree is faster than the grid" : "grid is faster than the octree") +
-                    " where edges " + (is_graded ? "differ by a factor of " + rounded(c.edge_ratio) : "are even") +
-                    ": " + choose(*claim, "holds", "undecided", "does not hold") + " (octree / grid " +
-                    with_interval(*c.octree_over_grid) + ")");
+    lines.push_back(
+        c.name + ": that the " + (is_graded ? "octree is faster than the grid" : "grid is faster than the octree") +
+        " where edges " + (is_graded ? "differ by a factor of " + results::rounded(c.edge_ratio) : "are even") + ": " +
+        choose(*claim, "holds", "undecided", "does not hold") + " (octree / grid " +
+        results::with_interval(*c.octree_over_grid) + ")");
   }
   return lines;
 }
@@ -166,11 +167,11 @@ Locators measure_locators(const ExperimentOptions& options, const Progress& prog
   return locators;
 }
 
-ExperimentResult result_of(const Locators& locators) {
-  ExperimentResult result{.how = locators.how,
-                          .definitions = definitions(),
-                          .tables = tables_of(locators),
-                          .findings = findings_of(locators)};
+results::ExperimentResult result_of(const Locators& locators) {
+  results::ExperimentResult result{.how = locators.how,
+                                   .definitions = definitions(),
+                                   .tables = tables_of(locators),
+                                   .findings = findings_of(locators)};
   for (const LocatorsCase& c : locators.cases)
     for (const LocatorsRow& row : c.rows) {
       if (row.ok()) continue;
@@ -181,4 +182,4 @@ ExperimentResult result_of(const Locators& locators) {
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -8,7 +8,7 @@
 #include "bench/experiments/measured_case.h"
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// One locator on one surface. Seconds are of the front.
 struct LocatorsRow : CaseOutcome {
@@ -37,12 +37,12 @@ struct LocatorsCase {
   double edge_ratio = 1;  ///< the longest edge of the surface over the shortest
   MeshCounts counts = {};
   std::vector<LocatorsRow> rows = {};  ///< grid, octree, cavity
-  std::optional<Estimate> octree_over_grid = {}, cavity_over_grid = {};
+  std::optional<bench::Estimate> octree_over_grid = {}, cavity_over_grid = {};
 };
 
 /// How fast the locators find the front's candidates.
 struct Locators {
-  Circumstances how;
+  results::Circumstances how;
   std::vector<LocatorsCase> cases;
 };
 
@@ -58,6 +58,6 @@ std::optional<BoundTest> expectation(const LocatorsCase& locators);
 Locators measure_locators(const ExperimentOptions& options, const Progress& progress = {});
 
 /// As tables, with what they say.
-ExperimentResult result_of(const Locators& locators);
+results::ExperimentResult result_of(const Locators& locators);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -6,7 +6,7 @@
 #include "engine/base/errors.h"
 #include "engine/io/tet_mesh_files.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 /// A file as it is called in its folder; elsewhere by its whole path.
@@ -19,7 +19,7 @@ std::string name_in(const std::filesystem::path& folder, const std::filesystem::
 std::vector<std::string> command_of(const ExperimentOptions& options, const MeshCall& call,
                                     const std::filesystem::path& report) {
   const auto name = [&](const std::filesystem::path& file) { return name_in(options.folder, file); };
-  const std::string mesher = is_mesher_description(call.mesher) ? name(call.mesher) : call.mesher;
+  const std::string mesher = baselines::is_mesher_description(call.mesher) ? name(call.mesher) : call.mesher;
   std::vector<std::string> command = {options.program.string(),
                                       "mesh",
                                       name(call.input),
@@ -34,11 +34,11 @@ std::vector<std::string> command_of(const ExperimentOptions& options, const Mesh
 }
 
 /// The record of a child that ended before it wrote a report.
-RunRecord record_without_report(const MeshCall& call, const std::vector<std::string>& command) {
-  RunRecord record;
-  record.environment = capture_environment();
-  const Mesher& asked = mesher(call.mesher);
-  record.mesher = {asked.name, version_of(asked), asked.name == "ccdt" ? record.environment.revision : ""};
+bench::RunRecord record_without_report(const MeshCall& call, const std::vector<std::string>& command) {
+  bench::RunRecord record;
+  record.environment = bench::capture_environment();
+  const baselines::Mesher& asked = baselines::mesher(call.mesher);
+  record.mesher = {asked.name, baselines::version_of(asked), asked.name == "ccdt" ? record.environment.revision : ""};
   record.command = command;
   record.command.front() = "ccdt";
   record.input.name = command[2];
@@ -54,19 +54,20 @@ std::string run_file(const MeasuredCase& measured, std::size_t number) {
 
 }  // namespace
 
-RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report) {
+bench::RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report) {
   std::filesystem::remove(report);  // or that of an earlier experiment would be taken for this one's
   const std::vector<std::string> command = command_of(options, call, report);
-  const ProcessResult child = run_program(command, {.folder = options.folder, .limits = options.limits});
+  const baselines::ProcessResult child =
+      baselines::run_program(command, {.folder = options.folder, .limits = options.limits});
   const bool wrote_one = std::filesystem::exists(report);
-  RunRecord record = wrote_one ? read_run_record(report) : record_without_report(call, command);
+  bench::RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(call, command);
   // A child that has failed by itself says more in its own record than its last words do; but what it wrote before it
   // crashed says only what it was to do.
-  const bool ended_by_itself = child.status == RunStatus::ok || child.status == RunStatus::failed;
-  if (wrote_one && ended_by_itself && record.status != RunStatus::crashed) return record;
+  const bool ended_by_itself = child.status == baselines::RunStatus::ok || child.status == baselines::RunStatus::failed;
+  if (wrote_one && ended_by_itself && record.status != baselines::RunStatus::crashed) return record;
   record.status = child.status;
   record.reason = child.reason;
-  write_run_record(record, report);
+  bench::write_run_record(record, report);
   return record;
 }
 
@@ -79,8 +80,8 @@ bool is_counted(const ExperimentOptions& options, const MeasuredCase& measured, 
 void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number) {
   if (measured.failed() || !is_counted(options, measured, number)) return;
   const auto report = options.folder / run_file(measured, static_cast<std::size_t>(number));
-  RunRecord record = run_call(options, measured.call, report);
-  if (number > 0 && record.status == RunStatus::ok) {
+  bench::RunRecord record = run_call(options, measured.call, report);
+  if (number > 0 && record.status == baselines::RunStatus::ok) {
     measured.counted.push_back(record);
   } else {
     // A failure counts even if it went well before: a row of fewer samples than the others would not be fair.
@@ -106,9 +107,9 @@ std::vector<std::string> run_files(const MeasuredCase& measured) {
   return files;
 }
 
-KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title) {
+results::KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title) {
   const std::string file = "meshes/" + measured.stem + ".json";
-  write_kept_mesh(read_tet_mesh(measured.call.output), title, options.folder / file);
+  results::write_kept_mesh(io::read_tet_mesh(measured.call.output), title, options.folder / file);
   return {file, title, run_files(measured).front()};
 }
 
@@ -130,7 +131,7 @@ double delaunay_seconds(const StageSeconds& s) {
 
 std::vector<double> samples_of(const MeasuredCase& measured, SecondsOf seconds) {
   std::vector<double> samples;
-  for (const RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));
+  for (const bench::RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));
   return samples;
 }
 
@@ -146,8 +147,8 @@ CaseOutcome outcome_of(const MeasuredCase& measured, SecondsOf seconds) {
   CaseOutcome outcome = outcome_of(measured);
   if (measured.failed()) return outcome;
   outcome.samples = samples_of(measured, seconds);
-  outcome.seconds = median_estimate(outcome.samples);
+  outcome.seconds = bench::median_estimate(outcome.samples);
   return outcome;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -8,7 +8,7 @@
 #include "bench/experiments/experiment.h"
 #include "bench/run_record.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// A call of `ccdt mesh` to measure.
 struct MeshCall {
@@ -23,10 +23,10 @@ struct MeasuredCase {
   std::string name;  ///< within its group
   std::string stem;  ///< of the names of its records: "piston-with_check"
   MeshCall call;
-  std::vector<RunRecord> counted = {};
-  RunRecord first = {};       ///< of the run that is not counted, or of the one that failed
-  std::size_t first_run = 0;  ///< the number of that run
-  bool failed() const { return first.status != RunStatus::ok; }
+  std::vector<bench::RunRecord> counted = {};
+  bench::RunRecord first = {};  ///< of the run that is not counted, or of the one that failed
+  std::size_t first_run = 0;    ///< the number of that run
+  bool failed() const { return first.status != baselines::RunStatus::ok; }
 };
 
 /// Runs a call in a child process of its own and returns its record, which is also written to `report`. A child that
@@ -36,7 +36,7 @@ struct MeasuredCase {
 /// wherever that folder has been moved to.
 ///
 /// \throw OutputError  the record cannot be written
-RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report);
+bench::RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report);
 
 /// Is the run of this number still to be made, now that the case has been run once? Cases of which a run takes long are
 /// counted three times at most. What is long depends on the scale: a second with 10,000 tetrahedra a model.
@@ -60,7 +60,7 @@ std::vector<std::string> run_files(const MeasuredCase& measured);
 /// Keeps the mesh that the case has just made, for pictures: in meshes/STEM.json.
 /// \pre it has not failed, and its mesh is still there
 /// \throw OutputError
-KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title);
+results::KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title);
 
 /// The seconds of a run that are of interest.
 using SecondsOf = double (*)(const StageSeconds&);
@@ -78,13 +78,13 @@ std::vector<double> samples_of(const MeasuredCase& measured, SecondsOf seconds);
 
 /// What the rows of all experiments say of a case.
 struct CaseOutcome {
-  RunStatus status = RunStatus::ok;
+  baselines::RunStatus status = baselines::RunStatus::ok;
   std::string reason = {};             ///< why the status is not ok
   std::vector<std::string> runs = {};  ///< files of the runs
   MeshCounts counts = {};
-  std::vector<double> samples = {};      ///< seconds of the counted runs, in order
-  std::optional<Estimate> seconds = {};  ///< their median; none if a run failed
-  bool ok() const { return status == RunStatus::ok; }
+  std::vector<double> samples = {};             ///< seconds of the counted runs, in order
+  std::optional<bench::Estimate> seconds = {};  ///< their median; none if a run failed
+  bool ok() const { return status == baselines::RunStatus::ok; }
   /// "timeout: limit of 600 s"
   std::string failure() const;
 };
@@ -92,4 +92,4 @@ struct CaseOutcome {
 CaseOutcome outcome_of(const MeasuredCase& measured);
 CaseOutcome outcome_of(const MeasuredCase& measured, SecondsOf seconds);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -9,7 +9,7 @@
 #include "bench/results/numbers.h"
 #include "engine/base/digits.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr std::array all_lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
@@ -25,24 +25,26 @@ std::vector<QualityVariant> mesher_variants(const ExperimentOptions& options) {
   for (const char* name : {"tetgen", "cgal-mesh3", "gmsh-hxt"})
     if (is_measured(options, name)) variants.push_back({name, name, {"--improve", "all"}, {}});
   for (const std::string& file : described_meshers(options))
-    variants.push_back({mesher(file).name, file, {"--improve", "all"}, {}});
-  for (QualityVariant& variant : variants) variant.labels = {mesher(variant.mesher).name, variant.name};
+    variants.push_back({baselines::mesher(file).name, file, {"--improve", "all"}, {}});
+  for (QualityVariant& variant : variants) variant.labels = {baselines::mesher(variant.mesher).name, variant.name};
   return variants;
 }
 
-ResultTable verdicts_table(const MesherQuality& quality) {
-  ResultTable table{"verdicts",
-                    "Better than all others?",
-                    {label_column("model"), label_column("variant"), label_column("criterion", "by"),
-                     figure_column("better", "better than all others"), figure_column("ours"),
-                     figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")}};
+results::ResultTable verdicts_table(const MesherQuality& quality) {
+  results::ResultTable table{
+      "verdicts",
+      "Better than all others?",
+      {label_column("model"), label_column("variant"), label_column("criterion", "by"),
+       figure_column("better", "better than all others"), figure_column("ours"),
+       figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")}};
   for (const QualityCase& c : quality.cases)
     for (const QualityRow& row : c.rows) {
       if (!row.is_ours) continue;
       for (const QualityComparison& v : compare_with_others(c, row)) {
         const bool is_alone = v.best_variant.empty();
-        add_row(table, row.runs, c.name, row.variant, name_of(v.criterion), is_alone ? Cell() : as_cell(v.is_better()),
-                v.ours, is_alone ? Cell() : Cell(v.best), v.best_variant);
+        add_row(table, row.runs, c.name, row.variant, name_of(v.criterion),
+                is_alone ? results::Cell() : as_cell(v.is_better()), v.ours,
+                is_alone ? results::Cell() : results::Cell(v.best), v.best_variant);
       }
     }
   return table;
@@ -105,8 +107,8 @@ void add_case(const QualityCase& c, LatticeClaim& claim) {
 }
 
 /// In how many cases each lattice is the best.
-ResultTable best_lattice_table(const std::vector<LatticeClaim>& claims) {
-  ResultTable table{
+results::ResultTable best_lattice_table(const std::vector<LatticeClaim>& claims) {
+  results::ResultTable table{
       "best",
       "The best lattice",
       {label_column("criterion", "by"), label_column("improved"),
@@ -143,11 +145,11 @@ bool is_best(const QualityCase& c, const QualityRow& row, Criterion criterion) {
 }
 
 /// In how many cases each part is the best, alone or with others.
-ResultTable best_part_table(const ImprovementParts& parts) {
-  ResultTable table{"best",
-                    "The best in so many cases",
-                    {label_column("improve", "improvement"), label_column("criterion", "by"), figure_column("cases"),
-                     figure_column("best", "best in")}};
+results::ResultTable best_part_table(const ImprovementParts& parts) {
+  results::ResultTable table{"best",
+                             "The best in so many cases",
+                             {label_column("improve", "improvement"), label_column("criterion", "by"),
+                              figure_column("cases"), figure_column("best", "best in")}};
   if (parts.cases.empty()) return table;
   for (std::size_t i = 0; i < parts.cases.front().rows.size(); ++i)
     for (const Criterion criterion : judged_criteria) {
@@ -185,7 +187,7 @@ SettingSummary summary_of(const LatticeSetting& setting, std::size_t number,
   const double share = 1 / static_cast<double>(cases.size());
   for (const QualityCase* c : cases) {
     const QualityRow& row = c->rows[number];
-    const Quality& q = row.quality;
+    const bench::Quality& q = row.quality;
     sum.mean_r += share * q.r.mean;
     sum.p99_r += share * q.r.p99;
     sum.worst_r += share * std::log(q.r.max);
@@ -200,8 +202,8 @@ SettingSummary summary_of(const LatticeSetting& setting, std::size_t number,
   return sum;
 }
 
-ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
-  ResultTable table{
+results::ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
+  results::ResultTable table{
       "settings",
       "The settings",
       {label_column("setting"), figure_column("rank"), figure_column("mean_r"),
@@ -210,7 +212,7 @@ ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
        figure_column("least_dihedral", "smallest of all", "degrees"),
        time_column("improve_seconds", "improvement", "s")}};
   for (const SettingSummary& s : summaries)
-    add_row(table, {}, name_of(s.setting), s.rank, s.mean_r, s.p99_r, s.worst_r, s.largest_worst_r, s.smallest_dihedral,
+    add_row(table, {}, text_of(s.setting), s.rank, s.mean_r, s.p99_r, s.worst_r, s.largest_worst_r, s.smallest_dihedral,
             s.least_dihedral, s.improve_seconds);
   return table;
 }
@@ -220,18 +222,19 @@ std::vector<std::string> setting_findings(const std::vector<SettingSummary>& sum
   const auto usual = std::ranges::find(summaries, default_lattice_setting(), &SettingSummary::setting);
   auto best = std::ranges::min_element(summaries, {}, &SettingSummary::rank);
   if (usual->rank <= best->rank) best = usual;  // as good as any
-  std::vector<std::string> lines = {"The best setting is " + name_of(best->setting) + ", with a mean rank of " +
-                                    rounded(best->rank) + " among " + std::to_string(summaries.size())};
+  std::vector<std::string> lines = {"The best setting is " + text_of(best->setting) + ", with a mean rank of " +
+                                    results::rounded(best->rank) + " among " + std::to_string(summaries.size())};
   if (best->setting == usual->setting)
     lines.emplace_back("It is the default");
   else
-    lines.push_back("The default, " + name_of(usual->setting) + ", has a mean rank of " + rounded(usual->rank));
+    lines.push_back("The default, " + text_of(usual->setting) + ", has a mean rank of " +
+                    results::rounded(usual->rank));
   return lines;
 }
 
 }  // namespace
 
-double value_of(const Quality& quality, Criterion criterion) {
+double value_of(const bench::Quality& quality, Criterion criterion) {
   switch (criterion) {
     case Criterion::mean_r:
       return quality.r.mean;
@@ -280,7 +283,7 @@ MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std
   return {measure_study(options, plan, progress)};
 }
 
-ExperimentResult result_of(const MesherQuality& quality) {
+results::ExperimentResult result_of(const MesherQuality& quality) {
   const std::vector<std::string> definitions = {
       "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
       "Rows that are more than 15% away from that number are shown, and not compared with.",
@@ -290,7 +293,7 @@ ExperimentResult result_of(const MesherQuality& quality) {
       "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
       "What takes long has at most three counted runs.",
   };
-  ExperimentResult result = study_result(quality, definitions);
+  results::ExperimentResult result = study_result(quality, definitions);
   result.tables.insert(result.tables.begin() + 1, verdicts_table(quality));
   result.findings = verdict_findings(quality);
   return result;
@@ -317,14 +320,14 @@ Lattices measure_lattices(const ExperimentOptions& options, const Progress& prog
   return {measure_study(options, plan, progress)};
 }
 
-ExperimentResult result_of(const Lattices& lattices) {
+results::ExperimentResult result_of(const Lattices& lattices) {
   const std::vector<std::string> definitions = {
       "The paper, section 3: of a unit cell, the tetrahedra of the FCC lattice are better than others.",
       "All lattices have the same number of vertices per volume, and the same surface.",
       "The claim is confirmed by a measure if FCC alone is the best in every case.",
       "Improvement stops at a target: lattices that all reach it differ in worst values by chance.",
   };
-  ExperimentResult result = study_result(lattices, definitions);
+  results::ExperimentResult result = study_result(lattices, definitions);
   const std::vector<LatticeClaim> claims = lattice_claims(lattices);
   result.tables.insert(result.tables.begin(), best_lattice_table(claims));
   result.findings = lattice_findings(claims);
@@ -341,14 +344,14 @@ ImprovementParts measure_improvement(const ExperimentOptions& options, const Pro
   return {measure_study(options, plan, progress)};
 }
 
-ExperimentResult result_of(const ImprovementParts& parts) {
+results::ExperimentResult result_of(const ImprovementParts& parts) {
   const std::vector<std::string> definitions = {
       "none: the constrained Delaunay tetrahedralization with its FCC lattice.",
       "swap: other tetrahedra of the same vertices. smooth: other places for them.",
       "all: both, and vertices inside are inserted and taken out.",
       "Improve: median seconds of the improvement, which are part of the seconds.",
   };
-  ExperimentResult result = study_result(parts, definitions);
+  results::ExperimentResult result = study_result(parts, definitions);
   result.tables.insert(result.tables.begin(), best_part_table(parts));
   return result;
 }
@@ -366,7 +369,7 @@ std::vector<LatticeSetting> lattice_settings() {
   return settings;
 }
 
-std::string name_of(const LatticeSetting& setting) {
+std::string text_of(const LatticeSetting& setting) {
   return "sphere " + digits(setting.sphere_factor) + ", clearance " + digits(setting.clearance);
 }
 
@@ -387,15 +390,15 @@ LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress&
                  .equal_counts = false,
                  .once = true};
   for (const LatticeSetting& setting : lattice_settings())
-    plan.variants.push_back({name_of(setting),
+    plan.variants.push_back({text_of(setting),
                              "ccdt",
                              {"--lattice", "fcc", "--improve", "all", "--sphere-factor", digits(setting.sphere_factor),
                               "--clearance", digits(setting.clearance)},
-                             {name_of(setting)}});
+                             {text_of(setting)}});
   return {measure_study(options, plan, progress)};
 }
 
-ExperimentResult result_of(const LatticeFit& fit) {
+results::ExperimentResult result_of(const LatticeFit& fit) {
   const std::vector<std::string> definitions = {
       "Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
       "Clearance: none nearer to the surface than --clearance edge lengths.",
@@ -404,11 +407,11 @@ ExperimentResult result_of(const LatticeFit& fit) {
       "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
       "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together.",
   };
-  ExperimentResult result = study_result(fit, definitions);
+  results::ExperimentResult result = study_result(fit, definitions);
   const std::vector<SettingSummary> summaries = summarize(fit);
   result.tables.insert(result.tables.begin(), settings_table(summaries));
   result.findings = setting_findings(summaries);
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

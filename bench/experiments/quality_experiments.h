@@ -7,7 +7,7 @@
 #include "bench/experiments/quality_study.h"
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// The criteria by which a comparison of quality is made.
 enum class Criterion { mean_r, p99_r, worst_r, smallest_dihedral, largest_dihedral };
@@ -19,7 +19,7 @@ constexpr auto names_of(Criterion) {
                                                {Criterion::smallest_dihedral, "smallest dihedral"},
                                                {Criterion::largest_dihedral, "largest dihedral"}});
 }
-double value_of(const Quality& quality, Criterion criterion);
+double value_of(const bench::Quality& quality, Criterion criterion);
 /// Is a strictly better than b?
 bool is_better(Criterion criterion, double a, double b);
 
@@ -36,7 +36,7 @@ struct QualityComparison {
   double ours = 0;
   double best = 0;           ///< of the others
   std::string best_variant;  ///< whose that is; empty if there is no other to compare with
-  bool is_better() const { return !best_variant.empty() && ccdt::is_better(criterion, ours, best); }
+  bool is_better() const { return !best_variant.empty() && experiments::is_better(criterion, ours, best); }
 };
 
 /// By all judged criteria, against the comparable rows of other meshers. None if the row itself failed.
@@ -50,7 +50,7 @@ std::vector<QualityComparison> compare_with_others(const QualityCase& c, const Q
 MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std::string& experiment,
                                      const std::vector<std::string>& models, const Progress& progress = {});
 
-ExperimentResult result_of(const MesherQuality& quality);
+results::ExperimentResult result_of(const MesherQuality& quality);
 
 /// The three lattices, each before and after improvement.
 struct Lattices : QualityStudy {};
@@ -77,7 +77,7 @@ std::vector<LatticeClaim> lattice_claims(const Lattices& lattices);
 /// \throw InputError, OutputError  as `measure_study`
 Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress = {});
 
-ExperimentResult result_of(const Lattices& lattices);
+results::ExperimentResult result_of(const Lattices& lattices);
 
 /// What each part of the improvement does alone: nothing, swaps, smoothing, all.
 struct ImprovementParts : QualityStudy {};
@@ -87,12 +87,12 @@ struct ImprovementParts : QualityStudy {};
 /// \throw InputError, OutputError  as `measure_study`
 ImprovementParts measure_improvement(const ExperimentOptions& options, const Progress& progress = {});
 
-ExperimentResult result_of(const ImprovementParts& parts);
+results::ExperimentResult result_of(const ImprovementParts& parts);
 
 /// How near to the surface lattice points may be.
 struct LatticeSetting {
   double sphere_factor = 1;
-  double clearance = usual_clearance;
+  double clearance = lattice::usual_clearance;
   bool operator==(const LatticeSetting&) const = default;
 };
 
@@ -100,7 +100,7 @@ struct LatticeSetting {
 std::vector<LatticeSetting> lattice_settings();
 LatticeSetting default_lattice_setting();
 /// "sphere 1, clearance 0.55"; the name of the setting's rows.
-std::string name_of(const LatticeSetting& setting);
+std::string text_of(const LatticeSetting& setting);
 
 /// The same surfaces with many settings.
 struct LatticeFit : QualityStudy {};
@@ -124,6 +124,6 @@ std::vector<SettingSummary> summarize(const LatticeFit& fit);
 /// \throw InputError, OutputError  as `measure_study`
 LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress = {});
 
-ExperimentResult result_of(const LatticeFit& fit);
+results::ExperimentResult result_of(const LatticeFit& fit);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

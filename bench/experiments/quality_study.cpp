@@ -13,7 +13,7 @@
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 /// A solid's name or a file, to be read when its turn comes.
@@ -37,7 +37,7 @@ struct SourceStudy {
   const SurfaceSource& source;
   std::string stem;                      ///< of the names of its files
   std::vector<MeasuredCase> cases = {};  ///< one a variant
-  std::vector<KeptMesh> meshes = {};
+  std::vector<results::KeptMesh> meshes = {};
 
   std::filesystem::path mesh() const { return options.folder / "meshes" / (plan.experiment + ".vtu"); }
 
@@ -65,7 +65,7 @@ EvenSurface find_surface(const SourceStudy& study, double wanted) {
     if (measured.failed()) return {};
     return measured.first.counts.tetrahedra;
   };
-  const double regular = std::cbrt(study.source.volume / wanted / regular_tetrahedron_volume(1));
+  const double regular = std::cbrt(study.source.volume / wanted / baselines::regular_tetrahedron_volume(1));
   const auto found = search_edge_length({.wanted = wanted,
                                          .first = regular,
                                          .shortest = study.source.shortest,
@@ -132,7 +132,7 @@ QualityRow row_of(const MeasuredCase& measured, const QualityVariant& variant, c
   row.is_ours = variant.mesher == "ccdt";
   row.edge_length = asked_edge_length(measured);
   if (measured.failed()) return row;
-  row.improve_seconds = median(samples_of(measured, [](const StageSeconds& s) { return s.improve; }));
+  row.improve_seconds = bench::median(samples_of(measured, [](const StageSeconds& s) { return s.improve; }));
   row.quality = measured.first.quality;
   const double ratio =
       static_cast<double>(row.counts.tetrahedra) / static_cast<double>(reference.first.counts.tetrahedra);
@@ -193,33 +193,33 @@ std::vector<std::string> study_definitions() {
 }
 
 /// The columns that tell whose a row is.
-std::vector<Column> label_columns(const QualityStudy& study) {
-  std::vector<Column> columns = {label_column("model")};
+std::vector<results::Column> label_columns(const QualityStudy& study) {
+  std::vector<results::Column> columns = {label_column("model")};
   append(columns, study.labels);
   return columns;
 }
 
-std::vector<Cell> label_cells(const QualityCase& c, const QualityRow& row) {
-  std::vector<Cell> labels = {c.name};
-  append(labels, std::vector<Cell>(row.labels.begin(), row.labels.end()));
+std::vector<results::Cell> label_cells(const QualityCase& c, const QualityRow& row) {
+  std::vector<results::Cell> labels = {c.name};
+  append(labels, std::vector<results::Cell>(row.labels.begin(), row.labels.end()));
   return labels;
 }
 
 /// A single run has no interval.
-Cell seconds_of(const QualityRow& row) {
-  return row.samples.size() > 1 ? Cell(*row.seconds) : Cell(row.seconds->value);
+results::Cell seconds_of(const QualityRow& row) {
+  return row.samples.size() > 1 ? results::Cell(*row.seconds) : results::Cell(row.seconds->value);
 }
 
 /// Million tetrahedra a second, where the clock could tell.
-Cell speed_of(const QualityRow& row) {
+results::Cell speed_of(const QualityRow& row) {
   const double millions = static_cast<double>(row.counts.tetrahedra) / 1e6;
-  return row.seconds->value > 0 ? Cell(millions / row.seconds->value) : Cell();
+  return row.seconds->value > 0 ? results::Cell(millions / row.seconds->value) : results::Cell();
 }
 
-ResultTable quality_table(const QualityStudy& study) {
-  ResultTable table{"quality", "Quality", label_columns(study)};
+results::ResultTable quality_table(const QualityStudy& study) {
+  results::ResultTable table{"quality", "Quality", label_columns(study)};
   append(table.columns,
-         std::vector<Column>{
+         std::vector<results::Column>{
              label_column("status"), figure_column("tetrahedra"), figure_column("mean_r"), figure_column("median_r"),
              figure_column("p99_r", "99% of r below"), figure_column("worst_r"),
              figure_column("smallest_dihedral", "", "degrees"), figure_column("largest_dihedral", "", "degrees"),
@@ -232,9 +232,9 @@ ResultTable quality_table(const QualityStudy& study) {
              time_column("speed", "million tetrahedra a second"), note_column("reason")});
   for (const QualityCase& c : study.cases)
     for (const QualityRow& row : c.rows) {
-      std::vector<Cell> values = label_cells(c, row);
+      std::vector<results::Cell> values = label_cells(c, row);
       values.push_back(as_cell(name_of(row.status)));
-      const Quality& q = row.quality;
+      const bench::Quality& q = row.quality;
       if (row.ok())
         append(values, cells(row.counts.tetrahedra, q.r.mean, q.r.median, q.r.p99, q.r.max, q.dihedral_degrees.min,
                              q.dihedral_degrees.max, q.aspect_ratio.mean, q.aspect_ratio.max, q.radius_edge_ratio.mean,
@@ -249,18 +249,19 @@ ResultTable quality_table(const QualityStudy& study) {
 
 /// A row a bin. The histograms have as many bins as the quality's.
 template <class HistogramOf>
-ResultTable histogram_table(const QualityStudy& study, std::string name, std::string title, const std::string& unit,
-                            HistogramOf histogram_of) {
-  ResultTable table{std::move(name), std::move(title), label_columns(study), {}, true};
-  append(table.columns, std::vector<Column>{figure_column("low", "from", unit), figure_column("high", "to", unit),
-                                            figure_column("count"), figure_column("percent")});
+results::ResultTable histogram_table(const QualityStudy& study, std::string name, std::string title,
+                                     const std::string& unit, HistogramOf histogram_of) {
+  results::ResultTable table{std::move(name), std::move(title), label_columns(study), {}, true};
+  append(table.columns,
+         std::vector<results::Column>{figure_column("low", "from", unit), figure_column("high", "to", unit),
+                                      figure_column("count"), figure_column("percent")});
   for (const QualityCase& c : study.cases)
     for (const QualityRow& row : c.rows) {
       if (!row.ok()) continue;
-      const Histogram& h = histogram_of(row.quality);
+      const bench::Histogram& h = histogram_of(row.quality);
       const auto total = static_cast<double>(std::accumulate(h.counts.begin(), h.counts.end(), std::uint64_t{0}));
       for (std::size_t bin = 0; bin < h.counts.size(); ++bin) {
-        std::vector<Cell> values = label_cells(c, row);
+        std::vector<results::Cell> values = label_cells(c, row);
         const double percent = total > 0 ? 100 * static_cast<double>(h.counts[bin]) / total : 0;
         append(values, cells(h.edges[bin], h.edges[bin + 1], h.counts[bin], percent));
         table.rows.push_back({std::move(values), {row.runs.front()}});
@@ -270,11 +271,11 @@ ResultTable histogram_table(const QualityStudy& study, std::string name, std::st
 }
 
 std::string coordinates(const Point3& p) {
-  return "(" + rounded(p.x, 5) + ", " + rounded(p.y, 5) + ", " + rounded(p.z, 5) + ")";
+  return "(" + results::rounded(p.x, 5) + ", " + results::rounded(p.y, 5) + ", " + results::rounded(p.z, 5) + ")";
 }
 
-ResultTable surfaces_table(const QualityStudy& study) {
-  ResultTable table{
+results::ResultTable surfaces_table(const QualityStudy& study) {
+  results::ResultTable table{
       "surfaces",
       "The surfaces",
       {label_column("model"), figure_column("edge_length"), figure_column("vertices"), figure_column("triangles"),
@@ -294,7 +295,7 @@ ResultTable surfaces_table(const QualityStudy& study) {
 
 /// "piston, 10,000 tetrahedra"
 std::string title_of(const QualityCase& c) {
-  return c.name + ", " + with_separators(c.wanted) + " tetrahedra";
+  return c.name + ", " + results::with_separators(c.wanted) + " tetrahedra";
 }
 
 std::vector<std::string> problems_of(const QualityStudy& study) {
@@ -306,9 +307,9 @@ std::vector<std::string> problems_of(const QualityStudy& study) {
       if (!row.ok())
         lines.push_back(who + row.failure());
       else if (!row.is_comparable)
-        lines.push_back(who + with_separators(row.counts.tetrahedra) +
+        lines.push_back(who + results::with_separators(row.counts.tetrahedra) +
                         " tetrahedra are not comparable: no edge length was found that makes about " +
-                        with_separators(c.rows.front().counts.tetrahedra));
+                        results::with_separators(c.rows.front().counts.tetrahedra));
     }
   }
   return lines;
@@ -325,15 +326,16 @@ QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& pl
   return study;
 }
 
-ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions) {
-  ExperimentResult result{.how = study.how, .definitions = study_definitions()};
+results::ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions) {
+  results::ExperimentResult result{.how = study.how, .definitions = study_definitions()};
   append(result.definitions, definitions);
-  result.tables = {quality_table(study),
-                   histogram_table(study, "r_histogram", "Histogram of r", "",
-                                   [](const Quality& q) -> const Histogram& { return q.r.histogram; }),
-                   histogram_table(study, "dihedral_histogram", "Histogram of the dihedral angles", "degrees",
-                                   [](const Quality& q) -> const Histogram& { return q.dihedral_degrees.histogram; }),
-                   surfaces_table(study)};
+  result.tables = {
+      quality_table(study),
+      histogram_table(study, "r_histogram", "Histogram of r", "",
+                      [](const bench::Quality& q) -> const bench::Histogram& { return q.r.histogram; }),
+      histogram_table(study, "dihedral_histogram", "Histogram of the dihedral angles", "degrees",
+                      [](const bench::Quality& q) -> const bench::Histogram& { return q.dihedral_degrees.histogram; }),
+      surfaces_table(study)};
   result.problems = problems_of(study);
   result.meshes = study.meshes;
   for (const QualityCase& c : study.cases) {
@@ -343,4 +345,4 @@ ExperimentResult study_result(const QualityStudy& study, const std::vector<std::
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

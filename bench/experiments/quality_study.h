@@ -7,7 +7,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/quality.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// How far the numbers of tetrahedra of two meshes may be apart for their quality to be compared, as a fraction.
 inline constexpr double equal_count_tolerance = 0.15;
@@ -26,7 +26,7 @@ struct QualityRow : CaseOutcome {
   std::vector<std::string> labels;
   double edge_length = 0;      ///< that it was asked for
   double improve_seconds = 0;  ///< median; 0 for meshers that do not tell
-  Quality quality = {};
+  bench::Quality quality = {};
   bool is_comparable = false;  ///< about as many tetrahedra as the first row has
   bool is_ours = true;         ///< made by our engine
 };
@@ -41,17 +41,17 @@ struct QualityCase {
 };
 
 struct QualityStudy {
-  Circumstances how;
-  std::vector<Column> labels;  ///< of the variants
+  results::Circumstances how;
+  std::vector<results::Column> labels;  ///< of the variants
   std::vector<QualityCase> cases;
-  std::vector<KeptMesh> meshes = {};
+  std::vector<results::KeptMesh> meshes = {};
 };
 
 /// What is measured on every surface.
 struct StudyPlan {
-  std::string experiment;           ///< begins the names of its files
-  std::vector<std::string> models;  ///< solids; the user's files come after them
-  std::vector<Column> labels;       ///< of the variants
+  std::string experiment;               ///< begins the names of its files
+  std::vector<std::string> models;      ///< solids; the user's files come after them
+  std::vector<results::Column> labels;  ///< of the variants
   std::vector<QualityVariant> variants;
   bool equal_counts = false;  ///< gives each variant the edge length for as many tetrahedra as the first has made
   bool once = false;          ///< the results are always the same and times do not matter: one run of each
@@ -73,6 +73,6 @@ QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& pl
 /// surfaces.
 ///
 /// \param definitions  more of what the rows mean, one sentence each
-ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions);
+results::ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -13,10 +13,10 @@
 #include "bench/experiments/termination.h"
 #include "bench/experiments/theorem1.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
-using Measure = std::function<ExperimentResult(const ExperimentOptions&, const Progress&)>;
+using Measure = std::function<results::ExperimentResult(const ExperimentOptions&, const Progress&)>;
 
 /// Of an experiment that first measures and then says what it found.
 template <class Measured>
@@ -35,14 +35,14 @@ Measure quality_figure(const std::string& name, const std::string& model) {
   };
 }
 
-ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
+results::ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
   return result_of(measure_mesher_quality(options, "quality", names_of_paper_models(), progress));
 }
 
 /// Gives the result the names that all other results of the experiment have.
 Measure named(const KnownExperiment& known) {
   return [known](const ExperimentOptions& options, const Progress& progress) {
-    ExperimentResult result = known.measure(options, progress);
+    results::ExperimentResult result = known.measure(options, progress);
     result.name = known.name;
     result.title = known.title;
     result.section = known.section;
@@ -101,4 +101,4 @@ const KnownExperiment* known_experiment(std::string_view name) {
   return found == known_experiments().end() ? nullptr : &*found;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -15,7 +15,7 @@
 #include "engine/surface/remesh_surface.h"
 #include "models/solids.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -36,9 +36,9 @@ struct EdgeTriangle {
   double angle = 0;           ///< radians, from the first triangle of the edge
 };
 
-std::vector<EdgeTriangle> triangles_at_edges(const Plc& plc) {
+std::vector<EdgeTriangle> triangles_at_edges(const plc::Plc& plc) {
   std::vector<EdgeTriangle> triangles;
-  for (const Facet& facet : plc.facets)
+  for (const plc::Facet& facet : plc.facets)
     for (const auto& triangle : facet.triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const VertexId a = triangle[i], b = triangle[(i + 1) % 3];
@@ -52,7 +52,7 @@ std::vector<EdgeTriangle> triangles_at_edges(const Plc& plc) {
 
 /// Sorts the triangles of one edge counterclockwise.
 template <class Triangles>
-void sort_around(const Plc& plc, Triangles triangles) {
+void sort_around(const plc::Plc& plc, Triangles triangles) {
   const Point3& a = plc.world[triangles[0].edge[0]];
   const Point3 along = plc.world[triangles[0].edge[1]] - a, axis = 1 / std::sqrt(squared_length(along)) * along;
   const Point3 first = cross(axis, plc.world[triangles[0].opposite] - a), turned = cross(axis, first);
@@ -68,7 +68,7 @@ void take_smaller(SurfaceAngle& smallest, double angle, const Point3& at) {
   if (angle < smallest.degrees) smallest = {angle, at};
 }
 
-SurfaceAngle smallest_dihedral(const Plc& plc) {
+SurfaceAngle smallest_dihedral(const plc::Plc& plc) {
   SurfaceAngle smallest;
   std::vector<EdgeTriangle> triangles = triangles_at_edges(plc);
   for (auto begin = triangles.begin(); begin != triangles.end();) {
@@ -86,9 +86,9 @@ SurfaceAngle smallest_dihedral(const Plc& plc) {
   return smallest;
 }
 
-std::vector<double> edge_lengths(const Plc& plc) {
+std::vector<double> edge_lengths(const plc::Plc& plc) {
   std::vector<double> lengths;
-  for (const Facet& facet : plc.facets)
+  for (const plc::Facet& facet : plc.facets)
     for (const auto& t : facet.triangles)
       for (std::size_t i = 0; i < 3; ++i)
         lengths.push_back(std::sqrt(squared_length(plc.world[t[(i + 1) % 3]] - plc.world[t[i]])));
@@ -105,25 +105,25 @@ std::vector<std::string> names_of_paper_models() {
 
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length) {
-  const auto solid = std::ranges::find(solids(), name, &Solid::name);
+  const auto solid = std::ranges::find(models::solids(), name, &models::Solid::name);
   const double scaled = std::clamp(edge_factor(options) * edge_length, solid->finest, solid->coarsest);
   std::ostringstream file;
   file << experiment << "-" << name << "-" << scaled << ".poly";
   SurfaceFile surface{name, options.folder / "models" / file.str(), scaled};
-  write_plc(make_solid(name, scaled), surface.file);
+  io::write_plc(models::make_solid(name, scaled), surface.file);
   return surface;
 }
 
 std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const std::string& experiment,
                                       std::span<const double> coarsenings) {
   std::vector<SurfaceFile> files;
-  for (const Solid& solid : solids()) {
+  for (const models::Solid& solid : models::solids()) {
     if (!is_asked_for(options, solid.name)) continue;
     std::vector<Point3> before;
     for (const double coarsening : coarsenings) {
       const SurfaceFile surface =
           write_solid(options, experiment, std::string(solid.name), coarsening * solid.default_edge_length);
-      std::vector<Point3> vertices = read_plc(surface.file).vertices;
+      std::vector<Point3> vertices = io::read_plc(surface.file).vertices;
       if (vertices == before) continue;
       files.push_back(surface);
       before = std::move(vertices);
@@ -138,7 +138,7 @@ std::vector<SurfaceFile> input_files(const ExperimentOptions& options) {
   return files;
 }
 
-double edge_ratio(const InputPlc& plc) {
+double edge_ratio(const plc::InputPlc& plc) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   const auto add_loop = [&](const auto& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -149,15 +149,15 @@ double edge_ratio(const InputPlc& plc) {
     }
   };
   for (const auto& triangle : plc.triangles) add_loop(triangle);
-  for (const PolygonFacet& facet : plc.polygon_facets)
+  for (const plc::PolygonFacet& facet : plc.polygon_facets)
     for (const auto& polygon : facet.polygons) add_loop(polygon);
   for (const auto& segment : plc.segments) add_loop(segment);
   return longest > 0 ? std::sqrt(longest / shortest) : 1;
 }
 
-SurfaceAngles smallest_angles(const Plc& plc) {
+SurfaceAngles smallest_angles(const plc::Plc& plc) {
   SurfaceAngles angles;
-  for (const Facet& facet : plc.facets)
+  for (const plc::Facet& facet : plc.facets)
     for (const auto& triangle : facet.triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const Point3& corner = plc.world[triangle[i]];
@@ -170,9 +170,9 @@ SurfaceAngles smallest_angles(const Plc& plc) {
   return angles;
 }
 
-double enclosed_volume(const Plc& plc) {
+double enclosed_volume(const plc::Plc& plc) {
   double volume = 0;
-  for (const Facet& facet : plc.facets) {
+  for (const plc::Facet& facet : plc.facets) {
     const int sides = static_cast<int>(plc.regions[facet.below].inside) - plc.regions[facet.above].inside;
     if (sides == 0) continue;
     for (const auto& t : facet.triangles)
@@ -181,26 +181,26 @@ double enclosed_volume(const Plc& plc) {
   return volume;
 }
 
-bool has_even_triangles(const Plc& plc, double edge_length) {
+bool has_even_triangles(const plc::Plc& plc, double edge_length) {
   const std::vector<double> lengths = edge_lengths(plc);
-  const double change = median(lengths) / edge_length;
+  const double change = bench::median(lengths) / edge_length;
   return std::max(change, 1 / change) <= largest_kept_change &&
-         quantile(lengths, 0.95) <= largest_kept_ratio * quantile(lengths, 0.05) &&
+         bench::quantile(lengths, 0.95) <= largest_kept_ratio * bench::quantile(lengths, 0.05) &&
          smallest_angles(plc).planar.degrees >= least_kept_angle;
 }
 
 SurfaceSource solid_source(const std::string& name) {
-  const auto solid = std::ranges::find(solids(), name, &Solid::name);
+  const auto solid = std::ranges::find(models::solids(), name, &models::Solid::name);
   SurfaceSource source{name, true, solid->finest, solid->coarsest, 0, {}};
-  source.volume = enclosed_volume(build_plc(make_solid(name, solid->default_edge_length)));
+  source.volume = enclosed_volume(plc::build_plc(models::make_solid(name, solid->default_edge_length)));
   return source;
 }
 
 SurfaceSource file_source(const std::filesystem::path& file) {
   SurfaceSource source;
   source.name = file.string();
-  source.input = read_plc(file);
-  source.volume = enclosed_volume(build_plc(source.input));
+  source.input = io::read_plc(file);
+  source.volume = enclosed_volume(plc::build_plc(source.input));
   return source;
 }
 
@@ -208,15 +208,15 @@ EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, c
   EvenSurface surface;
   surface.file = file;
   surface.edge_length = edge_length;
-  InputPlc input = source.is_solid ? make_solid(source.name, edge_length) : source.input;
-  surface.remeshed = !has_even_triangles(build_plc(input), edge_length);
-  if (surface.remeshed) input = remesh_surface(input, {.edge_length = edge_length});
-  const Plc plc = build_plc(input);
+  plc::InputPlc input = source.is_solid ? models::make_solid(source.name, edge_length) : source.input;
+  surface.remeshed = !has_even_triangles(plc::build_plc(input), edge_length);
+  if (surface.remeshed) input = surface::remesh_surface(input, {.edge_length = edge_length});
+  const plc::Plc plc = plc::build_plc(input);
   surface.angles = smallest_angles(plc);
   surface.vertices = plc.vertices.size();
-  for (const Facet& facet : plc.facets) surface.triangles += facet.triangles.size();
-  write_plc(input, file);
+  for (const plc::Facet& facet : plc.facets) surface.triangles += facet.triangles.size();
+  io::write_plc(input, file);
   return surface;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

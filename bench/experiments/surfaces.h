@@ -10,7 +10,7 @@
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// A model of the paper, with the edge length (millimetres) that makes about 100,000 tetrahedra.
 struct PaperModel {
@@ -42,7 +42,7 @@ std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const st
 std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
 
 /// The length of the longest edge over that of the shortest; 1 if there is none.
-double edge_ratio(const InputPlc& plc);
+double edge_ratio(const plc::InputPlc& plc);
 
 /// An angle in degrees and a corner at which it is.
 struct SurfaceAngle {
@@ -56,14 +56,14 @@ struct SurfaceAngles {
   SurfaceAngle dihedral;  ///< between two triangles at an edge, where the inside of the domain is between them
 };
 
-SurfaceAngles smallest_angles(const Plc& plc);
+SurfaceAngles smallest_angles(const plc::Plc& plc);
 
 /// The volume of all that is inside, in the units of the input cubed.
-double enclosed_volume(const Plc& plc);
+double enclosed_volume(const plc::Plc& plc);
 
 /// Are the triangles of a surface good enough to be kept? All their angles have 25 degrees or more, nine tenths of the
 /// edges differ by a factor of less than 2, and the median edge is within a quarter of the wanted length.
-bool has_even_triangles(const Plc& plc, double edge_length);
+bool has_even_triangles(const plc::Plc& plc, double edge_length);
 
 /// Where surfaces of any edge length come from: one of our solids, or a file of the user's.
 struct SurfaceSource {
@@ -71,7 +71,7 @@ struct SurfaceSource {
   bool is_solid = false;
   double shortest = 0, longest = 1e300;  ///< edge lengths that it can have
   double volume = 0;                     ///< of what is inside
-  InputPlc input;                        ///< a file's content
+  plc::InputPlc input;                   ///< a file's content
 };
 
 /// \throw InputError  the file cannot be read or is no valid PLC
@@ -93,4 +93,4 @@ struct EvenSurface {
 /// \throw InputError, MeshError  as `remesh_surface`
 EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -10,7 +10,7 @@
 #include "engine/io/tet_mesh_files.h"
 #include "models/solids.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 /// What the paper measured on a model (Table 1; Pentium IV, 2.0 GHz).
@@ -49,16 +49,16 @@ class ModelExperiment {
     return cases;
   }
 
-  void write_surface() const { write_plc(surface(), surface_file()); }
+  void write_surface() const { io::write_plc(surface(), surface_file()); }
 
   /// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and
   /// facets.
   void write_points(const MeasuredCase& with_check) const {
     InputPlc plc = surface();
-    const TetMesh mesh = read_tet_mesh(with_check.call.output);
+    const TetMesh mesh = io::read_tet_mesh(with_check.call.output);
     const auto interior = static_cast<std::ptrdiff_t>(with_check.first.counts.interior_vertices);
     plc.vertices.insert(plc.vertices.end(), mesh.vertices.end() - interior, mesh.vertices.end());
-    write_plc(plc, points_file());
+    io::write_plc(plc, points_file());
   }
 
   Table1Model evaluate(const std::vector<MeasuredCase>& cases) const;
@@ -71,11 +71,11 @@ class ModelExperiment {
   std::filesystem::path points_file() const { return in_folder("models", "-with-interior-vertices.poly"); }
   std::filesystem::path mesh_file(const std::string& name) const { return in_folder("meshes", "-" + name + ".node"); }
 
-  InputPlc surface() const { return make_solid(paper_.model.name, edge_length_); }
+  InputPlc surface() const { return models::make_solid(paper_.model.name, edge_length_); }
 
   bool same_tetrahedra() const {
     const auto sorted = [&](const char* name) {
-      auto tetrahedra = read_tet_mesh(mesh_file(name)).tetrahedra;
+      auto tetrahedra = io::read_tet_mesh(mesh_file(name)).tetrahedra;
       for (auto& t : tetrahedra) std::ranges::sort(t);
       std::ranges::sort(tetrahedra);
       return tetrahedra;
@@ -94,7 +94,7 @@ Table1Ratio ratio_of(const Table1Model& model, std::string id, std::string label
   Table1Ratio ratio{std::move(id), std::move(label)};
   const auto a = row(above), b = row(below);
   if (a == model.rows.end() || b == model.rows.end()) return ratio;
-  if (a->seconds && b->seconds && b->seconds->value > 0) ratio.value = ratio_of_medians(a->samples, b->samples);
+  if (a->seconds && b->seconds && b->seconds->value > 0) ratio.value = bench::ratio_of_medians(a->samples, b->samples);
   ratio.runs = a->runs;
   if (b->runs != a->runs) append(ratio.runs, b->runs);
   if (a->paper_seconds && b->paper_seconds) ratio.paper = *a->paper_seconds / *b->paper_seconds;
@@ -109,13 +109,13 @@ Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperTimes& paper)
                     paper.with_check_seconds / paper.delaunay_seconds,
                     run_files(with_check)};
   const auto in_a_run = [](const StageSeconds& s) { return cdt_seconds(s) / s.delaunay; };
-  if (!with_check.failed()) ratio.value = median_estimate(samples_of(with_check, in_a_run));
+  if (!with_check.failed()) ratio.value = bench::median_estimate(samples_of(with_check, in_a_run));
   return ratio;
 }
 
 Table1Costs costs_of(const MeasuredCase& with_check, const MeasuredCase& without_check) {
   const auto cost = [](const MeasuredCase& measured, SecondsOf seconds, std::uint64_t units) {
-    return 1e6 * median(samples_of(measured, seconds)) / static_cast<double>(units);
+    return 1e6 * bench::median(samples_of(measured, seconds)) / static_cast<double>(units);
   };
   const auto check = [](const StageSeconds& s) { return cdt_seconds(s) - s.delaunay; };
   const std::uint64_t vertices = with_check.first.counts.vertices;
@@ -177,35 +177,36 @@ std::vector<std::string> definitions() {
   };
 }
 
-std::vector<ResultTable> tables_of(const Table1& table) {
-  ResultTable ratios{"ratios",
-                     "Ratios",
-                     {label_column("model"), label_column("ratio"), time_column("value", "here"),
-                      column(ColumnKind::paper, "paper_value", "in the paper")}};
-  ResultTable times{"times",
-                    "Seconds",
-                    {label_column("model"), label_column("what", "what is timed"), label_column("status"),
-                     time_column("seconds", "", "s"), column(ColumnKind::paper, "paper_seconds", "in the paper", "s"),
-                     figure_column("vertices"), figure_column("tetrahedra"), note_column("reason")}};
-  ResultTable sizes{"sizes",
-                    "The meshes",
-                    {label_column("model"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
-                     figure_column("steiner_vertices", "Steiner vertices"), figure_column("interior_vertices"),
-                     figure_column("tetrahedra"), figure_column("faces"),
-                     figure_column("undelaunay_faces", "faces that are not Delaunay"),
-                     figure_column("same_tetrahedra", "same tetrahedra without the check")}};
-  ResultTable costs{"costs",
-                    "What a unit of work costs",
-                    {label_column("model"), time_column("delaunay", "Delaunay, a vertex", "us"),
-                     time_column("check", "face check, front and labels, a vertex", "us"),
-                     time_column("front", "front without the check, a tetrahedron", "us")}};
+std::vector<results::ResultTable> tables_of(const Table1& table) {
+  results::ResultTable ratios{"ratios",
+                              "Ratios",
+                              {label_column("model"), label_column("ratio"), time_column("value", "here"),
+                               column(results::ColumnKind::paper, "paper_value", "in the paper")}};
+  results::ResultTable times{
+      "times",
+      "Seconds",
+      {label_column("model"), label_column("what", "what is timed"), label_column("status"),
+       time_column("seconds", "", "s"), column(results::ColumnKind::paper, "paper_seconds", "in the paper", "s"),
+       figure_column("vertices"), figure_column("tetrahedra"), note_column("reason")}};
+  results::ResultTable sizes{"sizes",
+                             "The meshes",
+                             {label_column("model"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
+                              figure_column("steiner_vertices", "Steiner vertices"), figure_column("interior_vertices"),
+                              figure_column("tetrahedra"), figure_column("faces"),
+                              figure_column("undelaunay_faces", "faces that are not Delaunay"),
+                              figure_column("same_tetrahedra", "same tetrahedra without the check")}};
+  results::ResultTable costs{"costs",
+                             "What a unit of work costs",
+                             {label_column("model"), time_column("delaunay", "Delaunay, a vertex", "us"),
+                              time_column("check", "face check, front and labels, a vertex", "us"),
+                              time_column("front", "front without the check, a tetrahedron", "us")}};
   for (const Table1Model& model : table.models) {
     for (const Table1Ratio& ratio : model.ratios)
       if (ratio.value) add_row(ratios, ratio.runs, model.name, ratio.label, ratio.value, ratio.paper);
     for (const Table1Row& row : model.rows)
       add_row(times, row.runs, model.name, row.label, name_of(row.status), row.seconds, row.paper_seconds,
-              row.seconds ? as_cell(row.counts.vertices) : Cell(),
-              row.seconds ? as_cell(row.counts.tetrahedra) : Cell(), row.reason);
+              row.seconds ? as_cell(row.counts.vertices) : results::Cell(),
+              row.seconds ? as_cell(row.counts.tetrahedra) : results::Cell(), row.reason);
     const Table1Row& row = model.rows.front();
     const MeshCounts& c = row.counts;
     add_row(sizes, row.runs, model.name, model.edge_length, c.vertices, c.steiner_vertices, c.interior_vertices,
@@ -224,7 +225,8 @@ const Table1Ratio* ratio(const Table1Model& model, std::string_view id) {
 
 /// "1.21 [1.20, 1.22] times as long as Delaunay (paper: 1.019): ".
 std::string times_delaunay(const Table1Ratio& ratio) {
-  return with_interval(*ratio.value) + " times as long as Delaunay (paper: " + rounded(*ratio.paper, 4) + "): ";
+  return results::with_interval(*ratio.value) +
+         " times as long as Delaunay (paper: " + results::rounded(*ratio.paper, 4) + "): ";
 }
 
 std::string check_sentence(const Table1Model& model, const Table1Ratio& check) {
@@ -236,21 +238,21 @@ std::string check_sentence(const Table1Model& model, const Table1Ratio& check) {
 std::string front_sentence(const Table1Model& model, const Table1Ratio& front) {
   return model.name + ": without the check, it takes " + times_delaunay(front) +
          choose(is_at_least(*front.value, least_gain), "at least ", "not surely ", "less than ") +
-         rounded(least_gain, 1) + ".";
+         results::rounded(least_gain, 1) + ".";
 }
 
 std::string check_reason(const Table1Model& model) {
   const Table1Costs& costs = *model.costs;
   return model.name + ": the check is one pass over the cells, labelling another; together they take " +
-         rounded(costs.check_per_vertex) +
+         results::rounded(costs.check_per_vertex) +
          " microseconds a vertex. That is linear, but the Delaunay stage that it is compared with takes only " +
-         rounded(costs.delaunay_per_vertex) +
+         results::rounded(costs.delaunay_per_vertex) +
          " microseconds a vertex. (The paper's Delaunay took 26 to 36 s; it does not say for how many vertices.)";
 }
 
 std::string front_reason(const Table1Model& model) {
   return model.name + ": without the check, the front finds each apex in " +
-         rounded(model.costs->front_per_tetrahedron) +
+         results::rounded(model.costs->front_per_tetrahedron) +
          " microseconds a tetrahedron; the cheaper that is, the less there is for the check to save.";
 }
 
@@ -270,7 +272,7 @@ void add_differences(const Table1Model& model, std::vector<std::string>& lines) 
   }
 }
 
-void add_problems(const Table1Model& model, ExperimentResult& result) {
+void add_problems(const Table1Model& model, results::ExperimentResult& result) {
   for (const Table1Row& row : model.rows) {
     if (row.ok()) continue;
     result.problems.push_back(model.name + ", " + row.label + ": " + row.failure());
@@ -310,8 +312,8 @@ Table1 measure_table1(const ExperimentOptions& options, const Progress& progress
   return table;
 }
 
-ExperimentResult result_of(const Table1& table) {
-  ExperimentResult result{.how = table.how, .definitions = definitions()};
+results::ExperimentResult result_of(const Table1& table) {
+  results::ExperimentResult result{.how = table.how, .definitions = definitions()};
   if (table.models.empty()) return result;
   result.tables = tables_of(table);
   for (const Table1Model& model : table.models) {
@@ -321,4 +323,4 @@ ExperimentResult result_of(const Table1& table) {
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

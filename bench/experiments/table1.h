@@ -6,7 +6,7 @@
 
 #include "bench/experiments/measured_case.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// One row of one model: what was timed. The seconds are none if the case failed.
 struct Table1Row : CaseOutcome {
@@ -17,7 +17,7 @@ struct Table1Row : CaseOutcome {
 
 struct Table1Ratio {
   std::string id, label;
-  std::optional<Estimate> value = {};
+  std::optional<bench::Estimate> value = {};
   std::optional<double> paper = {};
   std::vector<std::string> runs = {};  ///< files of all runs that it is made of
 };
@@ -40,7 +40,7 @@ struct Table1Model {
 
 /// Table 1 of the paper, measured here.
 struct Table1 {
-  Circumstances how;
+  results::Circumstances how;
   std::vector<Table1Model> models;
 };
 
@@ -54,6 +54,6 @@ Table1 measure_table1(const ExperimentOptions& options, const Progress& progress
 inline constexpr double least_gain = 8;
 
 /// As tables, with what they say.
-ExperimentResult result_of(const Table1& table);
+results::ExperimentResult result_of(const Table1& table);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -8,27 +8,28 @@
 
 #include "bench/results/result_table.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// A column of the given kind. Without a title, the title is the name with spaces.
-inline Column column(ColumnKind kind, std::string name, std::string title = {}, std::string unit = {}) {
+inline results::Column column(results::ColumnKind kind, std::string name, std::string title = {},
+                              std::string unit = {}) {
   if (title.empty()) {
     title = name;
     std::ranges::replace(title, '_', ' ');
   }
   return {std::move(name), std::move(title), kind, std::move(unit)};
 }
-inline Column label_column(std::string name, std::string title = {}) {
-  return column(ColumnKind::label, std::move(name), std::move(title));
+inline results::Column label_column(std::string name, std::string title = {}) {
+  return column(results::ColumnKind::label, std::move(name), std::move(title));
 }
-inline Column figure_column(std::string name, std::string title = {}, std::string unit = {}) {
-  return column(ColumnKind::figure, std::move(name), std::move(title), std::move(unit));
+inline results::Column figure_column(std::string name, std::string title = {}, std::string unit = {}) {
+  return column(results::ColumnKind::figure, std::move(name), std::move(title), std::move(unit));
 }
-inline Column time_column(std::string name, std::string title = {}, std::string unit = {}) {
-  return column(ColumnKind::time, std::move(name), std::move(title), std::move(unit));
+inline results::Column time_column(std::string name, std::string title = {}, std::string unit = {}) {
+  return column(results::ColumnKind::time, std::move(name), std::move(title), std::move(unit));
 }
-inline Column note_column(std::string name, std::string title = {}) {
-  return column(ColumnKind::note, std::move(name), std::move(title));
+inline results::Column note_column(std::string name, std::string title = {}) {
+  return column(results::ColumnKind::note, std::move(name), std::move(title));
 }
 
 template <class Items>
@@ -37,16 +38,16 @@ void append(std::vector<typename Items::value_type>& to, const Items& more) {
 }
 
 template <class Value>
-Cell as_cell(const Value& value) {
-  if constexpr (std::is_convertible_v<const Value&, Cell>)
+results::Cell as_cell(const Value& value) {
+  if constexpr (std::is_convertible_v<const Value&, results::Cell>)
     return value;
   else
-    return cell_of(value);
+    return results::cell_of(value);
 }
 
 /// Cells of any values: texts, numbers, estimates, yes or no, and those that may be missing.
 template <class... Values>
-std::vector<Cell> cells(const Values&... values) {
+std::vector<results::Cell> cells(const Values&... values) {
   return {as_cell(values)...};
 }
 
@@ -54,8 +55,8 @@ std::vector<Cell> cells(const Values&... values) {
 ///
 /// \param runs  the files of the runs that the row stands on
 template <class... Values>
-void add_row(ResultTable& table, const std::vector<std::string>& runs, const Values&... values) {
+void add_row(results::ResultTable& table, const std::vector<std::string>& runs, const Values&... values) {
   table.rows.push_back({cells(values...), runs});
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -14,7 +14,7 @@
 #include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr double half_cube = 4;
@@ -161,14 +161,14 @@ void add_stars(const ExperimentOptions& options, std::vector<TerminationInput>& 
                                  std::to_string(static_cast<int>(degrees)) + "-" + std::to_string(variant);
         inputs.push_back({std::string(star.name), std::to_string(variant), degrees, stem,
                           options.folder / "models" / (stem + ".poly")});
-        write_plc(star.make(degrees, variant), inputs.back().file);
+        io::write_plc(star.make(degrees, variant), inputs.back().file);
       }
   }
 }
 
 double smallest_angle_of(const std::filesystem::path& file) {
   try {
-    return smallest_angle(build_plc(read_plc(file), {}));
+    return smallest_angle(plc::build_plc(io::read_plc(file), {}));
   } catch (const Error&) {
     return std::nan("");  // the runs say why
   }
@@ -234,8 +234,8 @@ std::vector<std::string> definitions() {
 }
 
 /// Nothing where a run has not come so far.
-Cell number_if(bool is_known, double value) {
-  return is_known && std::isfinite(value) ? Cell(value) : Cell{};
+results::Cell number_if(bool is_known, double value) {
+  return is_known && std::isfinite(value) ? results::Cell(value) : results::Cell{};
 }
 
 std::string case_label(const TerminationCase& c) {
@@ -247,8 +247,8 @@ std::string words_of(const TerminationCase& c) {
 }
 
 /// One row a run.
-ResultTable runs_table(const std::string& name, const std::string& title, const Cases& cases) {
-  ResultTable table{
+results::ResultTable runs_table(const std::string& name, const std::string& title, const Cases& cases) {
+  results::ResultTable table{
       name,
       title,
       {label_column("group", "input"), label_column("case"), label_column("protection"), label_column("status"),
@@ -258,15 +258,15 @@ ResultTable runs_table(const std::string& name, const std::string& title, const 
     const Termination termination = termination_of(*c);
     add_row(table, c->runs, c->group, case_label(*c), name_of(c->protection), name_of(c->status),
             number_if(true, c->smallest_angle),
-            termination == Termination::unknown ? Cell() : as_cell(termination == Termination::ended),
+            termination == Termination::unknown ? results::Cell() : as_cell(termination == Termination::ended),
             number_if(c->ok(), steiner_vertices(*c)), number_if(c->ok(), deepest_level(*c)),
-            c->reason.empty() ? Cell() : Cell(c->reason));
+            c->reason.empty() ? results::Cell() : results::Cell(c->reason));
   }
   return table;
 }
 
 /// One way of protection over all variants of a star at one angle: in how many it ended, and what it took at most.
-std::vector<Cell> summary_of(const Cases& cases) {
+std::vector<results::Cell> summary_of(const Cases& cases) {
   double steiner = 0, deepest = 0;
   for (const TerminationCase* c : cases) {
     steiner = std::max(steiner, steiner_vertices(*c));
@@ -276,8 +276,8 @@ std::vector<Cell> summary_of(const Cases& cases) {
   return cells(ended, number_if(ended > 0, steiner), number_if(ended > 0, deepest));
 }
 
-ResultTable stars_table(std::span<const TerminationCase> cases) {
-  ResultTable table{
+results::ResultTable stars_table(std::span<const TerminationCase> cases) {
+  results::ResultTable table{
       "stars",
       "Segments that meet at small angles",
       {label_column("star"), figure_column("degrees", "angle", "degrees"), figure_column("cases"),
@@ -297,7 +297,7 @@ ResultTable stars_table(std::span<const TerminationCase> cases) {
       });
     };
     const Cases by_midpoint = of(Protection::midpoint), by_shell = of(Protection::shell);
-    ResultRow row{cells(star, degrees, by_midpoint.size())};
+    results::ResultRow row{cells(star, degrees, by_midpoint.size())};
     for (const Cases& all : {by_midpoint, by_shell}) {
       append(row.cells, summary_of(all));
       for (const TerminationCase* c : all) append(row.runs, c->runs);
@@ -354,9 +354,9 @@ std::span<const Star> stars() {
   return all_stars;
 }
 
-double smallest_angle(const Plc& plc) {
+double smallest_angle(const plc::Plc& plc) {
   std::vector<std::vector<Point3>> at(plc.vertices.size());
-  for (const Segment& s : plc.segments)
+  for (const plc::Segment& s : plc.segments)
     for (int i = 0; i < 2; ++i) at[s.ends[i]].push_back(plc.world[s.ends[1 - i]] - plc.world[s.ends[i]]);
   double smallest = 180;
   for (const auto& directions : at)
@@ -369,14 +369,15 @@ double smallest_angle(const Plc& plc) {
 }
 
 Termination termination_of(const TerminationCase& c) {
-  if (c.status == RunStatus::ok) return Termination::ended;
+  if (c.status == baselines::RunStatus::ok) return Termination::ended;
   // The engine's words for its limits; see engine/protection/protect_edges.cpp.
-  const bool is_limit = c.status == RunStatus::failed && c.reason.starts_with("a segment cannot be protected");
+  const bool is_limit =
+      c.status == baselines::RunStatus::failed && c.reason.starts_with("a segment cannot be protected");
   return is_limit ? Termination::stopped : Termination::unknown;
 }
 
-ExperimentResult termination_result(std::span<const TerminationCase> cases) {
-  ExperimentResult result;
+results::ExperimentResult termination_result(std::span<const TerminationCase> cases) {
+  results::ExperimentResult result;
   result.definitions = definitions();
   result.tables = {stars_table(cases),
                    runs_table("solids", "Solids and files", select(cases, [](const auto& c) { return !is_star(c); })),
@@ -391,13 +392,13 @@ ExperimentResult termination_result(std::span<const TerminationCase> cases) {
   return result;
 }
 
-ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress) {
-  Circumstances how = start_experiment(options, 1);
+results::ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress) {
+  results::Circumstances how = start_experiment(options, 1);
   std::vector<TerminationInput> inputs;
   add_stars(options, inputs);
   for (const SurfaceFile& surface : write_solids(options, "termination", coarsenings))
-    inputs.push_back(
-        {"solid", surface.name + " at " + rounded(surface.edge_length), 0, surface.file.stem().string(), surface.file});
+    inputs.push_back({"solid", surface.name + " at " + results::rounded(surface.edge_length), 0,
+                      surface.file.stem().string(), surface.file});
   for (const SurfaceFile& surface : input_files(options))
     inputs.push_back({"file", surface.name, 0, "termination-" + surface.file.filename().string(), surface.file});
   check_something_is_measured(inputs.size(), "termination");
@@ -409,9 +410,9 @@ ExperimentResult measure_termination(const ExperimentOptions& options, const Pro
     for (const Protection protection : {Protection::midpoint, Protection::shell})
       cases.push_back(measure(options, inputs[i], smallest, protection));
   }
-  ExperimentResult result = termination_result(cases);
+  results::ExperimentResult result = termination_result(cases);
   result.how = std::move(how);
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

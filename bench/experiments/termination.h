@@ -8,7 +8,7 @@
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// Segments or fins that meet at one point inside a cube, at a given angle: inputs that are hard to protect.
 struct Star {
@@ -25,7 +25,7 @@ struct Star {
 std::span<const Star> stars();
 
 /// In degrees, of two segments that meet; 180 if there are none.
-double smallest_angle(const Plc& plc);
+double smallest_angle(const plc::Plc& plc);
 
 /// One input whose edges were protected in one way.
 struct TerminationCase : CaseOutcome {
@@ -50,9 +50,9 @@ Termination termination_of(const TerminationCase& c);
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the models that were asked for is part of it
-ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress = {});
+results::ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress = {});
 
 /// The result without its circumstances, and without what every result of the experiment is called.
-ExperimentResult termination_result(std::span<const TerminationCase> cases);
+results::ExperimentResult termination_result(std::span<const TerminationCase> cases);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

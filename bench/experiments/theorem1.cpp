@@ -9,7 +9,7 @@
 #include "bench/results/result_table.h"
 #include "engine/io/plc_files.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 namespace {
 
 constexpr double tetrahedra_per_case = 20;  ///< that a model is to get, for one PLC of each family
@@ -32,12 +32,12 @@ std::string model_file(const FamilyTrials& family) {
   return "models/theorem1-" + name + ".poly";
 }
 
-FamilyTrials measure(const small::Family& family, std::uint64_t cases, StepCounter& steps) {
+FamilyTrials measure(const small_plcs::Family& family, std::uint64_t cases, StepCounter& steps) {
   FamilyTrials trials{.name = std::string(family.name), .is_cospherical = family.is_cospherical};
-  small::Random random(seed);
+  small_plcs::Random random(seed);
   for (std::uint64_t i = 0; i < cases; ++i) {
     steps.next(family.name);
-    add_trial(small::try_plc(small::next_plc(family, random), family.is_cospherical), trials);
+    add_trial(small_plcs::try_plc(small_plcs::next_plc(family, random), family.is_cospherical), trials);
   }
   return trials;
 }
@@ -55,27 +55,29 @@ std::vector<std::string> definitions() {
       "The engine agrees if it adds no Steiner vertex and finds all faces Delaunay exactly where the premise holds,",
       "and if its mesh is the CDT wherever it adds no Steiner vertex.",
   };
-  for (const small::Family& family : small::families())
+  for (const small_plcs::Family& family : small_plcs::families())
     all.push_back(std::string(family.name) + ": " + std::string(family.what));
   return all;
 }
 
-ResultTable families_table(std::span<const FamilyTrials> families) {
-  ResultTable table{"families",
-                    "Small random PLCs held against Theorem 1",
-                    {label_column("family"), label_column("position"), figure_column("cases", "PLCs"),
-                     figure_column("premise", "edges and faces protected"), figure_column("dt", "with a DT"),
-                     figure_column("against_if", "protected, without a DT"),
-                     figure_column("against_only_if", "with a DT, not protected"),
-                     figure_column("edges_alone", "faces protected, an edge not"),
-                     figure_column("edges_alone_loose", "of these, the edge is of no facet"),
-                     figure_column("edge_protected", "edges protected"),
-                     figure_column("edge_protected_without_cdt", "of these, without a CDT"),
-                     figure_column("engine_agrees", "the engine agrees"),
-                     note_column("counterexample", "the smallest counterexample")}};
+results::ResultTable families_table(std::span<const FamilyTrials> families) {
+  results::ResultTable table{"families",
+                             "Small random PLCs held against Theorem 1",
+                             {label_column("family"), label_column("position"), figure_column("cases", "PLCs"),
+                              figure_column("premise", "edges and faces protected"), figure_column("dt", "with a DT"),
+                              figure_column("against_if", "protected, without a DT"),
+                              figure_column("against_only_if", "with a DT, not protected"),
+                              figure_column("edges_alone", "faces protected, an edge not"),
+                              figure_column("edges_alone_loose", "of these, the edge is of no facet"),
+                              figure_column("edge_protected", "edges protected"),
+                              figure_column("edge_protected_without_cdt", "of these, without a CDT"),
+                              figure_column("engine_agrees", "the engine agrees"),
+                              note_column("counterexample", "the smallest counterexample")}};
   for (const FamilyTrials& f : families) {
-    const Cell agreements = f.is_cospherical ? Cell() : as_cell(f.cases - f.disagreements);
-    const Cell note = has_counterexample(f) ? Cell(model_file(f) + ": " + small::in_words(f.counterexample)) : Cell();
+    const results::Cell agreements = f.is_cospherical ? results::Cell() : as_cell(f.cases - f.disagreements);
+    const results::Cell note = has_counterexample(f)
+                                   ? results::Cell(model_file(f) + ": " + small_plcs::in_words(f.counterexample))
+                                   : results::Cell();
     add_row(table, {}, f.name, f.is_cospherical ? "one sphere" : "general", f.cases, f.premise, f.dt, f.against_if,
             f.against_only_if, f.edges_alone, f.edges_alone_loose, f.edge_protected, f.edge_protected_without_cdt,
             agreements, note);
@@ -114,8 +116,8 @@ std::vector<std::string> findings_of(std::span<const FamilyTrials> families) {
 
 }  // namespace
 
-void add_trial(const small::Trial& trial, FamilyTrials& family) {
-  const small::ProtectionState& protection = trial.protection;
+void add_trial(const small_plcs::Trial& trial, FamilyTrials& family) {
+  const small_plcs::ProtectionState& protection = trial.protection;
   const bool premise = protection.premise();
   ++family.cases;
   family.premise += premise;
@@ -125,40 +127,40 @@ void add_trial(const small::Trial& trial, FamilyTrials& family) {
   family.edge_protected += protection.edges;
   family.edge_protected_without_cdt += protection.edges && trial.search.constrained_delaunay == 0;
   if (!trial.disagreement.empty() && family.disagreements++ == 0)
-    family.first_disagreement = trial.disagreement + ": " + small::in_words(trial.plc);
+    family.first_disagreement = trial.disagreement + ": " + small_plcs::in_words(trial.plc);
   if (premise == trial.has_dt) return;
   if (!has_counterexample(family) || trial.plc.vertices.size() < family.counterexample.vertices.size())
     family.counterexample = trial.plc;
   ++(premise ? family.against_if : family.against_only_if);
 }
 
-ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
-  ExperimentResult result;
+results::ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
+  results::ExperimentResult result;
   result.definitions = definitions();
   result.tables = {families_table(families)};
   result.findings = findings_of(families);
   for (const FamilyTrials& family : families) {
     if (family.disagreements == 0) continue;
-    result.problems.push_back(family.name + ": " + with_separators(family.disagreements) +
+    result.problems.push_back(family.name + ": " + results::with_separators(family.disagreements) +
                               " PLCs; the first: " + family.first_disagreement);
     result.is_good = false;
   }
   return result;
 }
 
-ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress) {
-  Circumstances how = start_experiment(options, 1);
+results::ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress) {
+  results::Circumstances how = start_experiment(options, 1);
   const auto cases = static_cast<std::uint64_t>(std::max(1.0, std::round(options.tetrahedra / tetrahedra_per_case)));
   std::vector<FamilyTrials> families;
-  StepCounter steps(progress, cases * small::families().size());
-  for (const small::Family& family : small::families()) {
+  StepCounter steps(progress, cases * small_plcs::families().size());
+  for (const small_plcs::Family& family : small_plcs::families()) {
     families.push_back(measure(family, cases, steps));
     if (has_counterexample(families.back()))
-      write_plc(small::as_input(families.back().counterexample), options.folder / model_file(families.back()));
+      io::write_plc(small_plcs::as_input(families.back().counterexample), options.folder / model_file(families.back()));
   }
-  ExperimentResult result = theorem1_result(families);
+  results::ExperimentResult result = theorem1_result(families);
   result.how = std::move(how);
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

@@ -3,7 +3,7 @@
 #include "bench/experiments/experiment.h"
 #include "bench/experiments/small_plcs/trial.h"
 
-namespace ccdt {
+namespace ccdt::experiments {
 
 /// The counts of the trials of one family of small PLCs.
 struct FamilyTrials {
@@ -18,19 +18,19 @@ struct FamilyTrials {
   std::uint64_t edges_alone_loose = 0;  ///< of these, the ones where only edges of no facet are missing
   std::uint64_t edge_protected = 0;     ///< grazeable edge protected, whatever the faces
   std::uint64_t edge_protected_without_cdt = 0;
-  std::uint64_t disagreements = 0;      ///< between the engine and the exhaustive tests, or among these
-  std::string first_disagreement = {};  ///< with the PLC, in words
-  small::SmallPlc counterexample = {};  ///< of those to either direction the first with the fewest vertices
+  std::uint64_t disagreements = 0;           ///< between the engine and the exhaustive tests, or among these
+  std::string first_disagreement = {};       ///< with the PLC, in words
+  small_plcs::SmallPlc counterexample = {};  ///< of those to either direction the first with the fewest vertices
 };
-void add_trial(const small::Trial& trial, FamilyTrials& family);
+void add_trial(const small_plcs::Trial& trial, FamilyTrials& family);
 
 /// Tests the paper's Theorem 1 (section 5.2), "If and only if a model X is grazeable edge protected and face protected,
 /// X has a DT", in both directions on random small PLCs by exhaustive search, and holds the engine against it.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
-ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress = {});
+results::ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress = {});
 
 /// The result without its circumstances, and without what every result of the experiment is called.
-ExperimentResult theorem1_result(std::span<const FamilyTrials> families);
+results::ExperimentResult theorem1_result(std::span<const FamilyTrials> families);
 
-}  // namespace ccdt
+}  // namespace ccdt::experiments

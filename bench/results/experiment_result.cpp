@@ -5,23 +5,29 @@
 
 #include "bench/json_fields.h"
 
-namespace ccdt {
+namespace ccdt::bench {
 
 template <>
-inline constexpr auto fields<Limits> = std::tuple(field("seconds", &Limits::seconds),
-                                                  field("memory_bytes", &Limits::memory_bytes));
+inline constexpr auto fields<baselines::Limits> = std::tuple(field("seconds", &baselines::Limits::seconds),
+                                                             field("memory_bytes", &baselines::Limits::memory_bytes));
 
 template <>
-inline constexpr auto fields<Column> = std::tuple(field("name", &Column::name), field("title", &Column::title),
-                                                  field("kind", &Column::kind), field("unit", &Column::unit));
+inline constexpr auto fields<results::Column> = std::tuple(field("name", &results::Column::name),
+                                                           field("title", &results::Column::title),
+                                                           field("kind", &results::Column::kind),
+                                                           field("unit", &results::Column::unit));
 
+}  // namespace ccdt::bench
+
+namespace ccdt::results {
 namespace {
 
-constexpr DocumentKind experiment_document = {"ccdt.experiment/1", "no experiment of schema ccdt.experiment/1",
-                                              "give a folder that `ccdt reproduce` has filled"};
+constexpr bench::DocumentKind experiment_document = {"ccdt.experiment/1", "no experiment of schema ccdt.experiment/1",
+                                                     "give a folder that `ccdt reproduce` has filled"};
 
-constexpr auto fields_of_mesh = std::tuple(field("file", &KeptMesh::file), field("title", &KeptMesh::title),
-                                           field("run", &KeptMesh::run), field("figure", &KeptMesh::is_figure));
+constexpr auto fields_of_mesh =
+    std::tuple(bench::field("file", &KeptMesh::file), bench::field("title", &KeptMesh::title),
+               bench::field("run", &KeptMesh::run), bench::field("figure", &KeptMesh::is_figure));
 
 template <class Member>
 constexpr auto circumstance(Member Circumstances::*member) {
@@ -31,43 +37,45 @@ constexpr auto circumstance(Member Circumstances::*member) {
 }
 
 constexpr auto fields_of_result = std::tuple(
-    field("name", &ExperimentResult::name), field("title", &ExperimentResult::title),
-    field("section", &ExperimentResult::section), field("command", circumstance(&Circumstances::command)),
-    field("scale", circumstance(&Circumstances::scale)), field("tetrahedra", circumstance(&Circumstances::tetrahedra)),
-    field("runs", circumstance(&Circumstances::runs)), field("confidence", circumstance(&Circumstances::confidence)),
-    field("limits", circumstance(&Circumstances::limits)), field("good", &ExperimentResult::is_good),
-    field("definitions", &ExperimentResult::definitions), field("findings", &ExperimentResult::findings),
-    field("problems", &ExperimentResult::problems), field("tables", &ExperimentResult::tables),
-    field("meshes", &ExperimentResult::meshes), field("raw_files", &ExperimentResult::raw_files),
-    field("environment", circumstance(&Circumstances::environment)));
+    bench::field("name", &ExperimentResult::name), bench::field("title", &ExperimentResult::title),
+    bench::field("section", &ExperimentResult::section), bench::field("command", circumstance(&Circumstances::command)),
+    bench::field("scale", circumstance(&Circumstances::scale)),
+    bench::field("tetrahedra", circumstance(&Circumstances::tetrahedra)),
+    bench::field("runs", circumstance(&Circumstances::runs)),
+    bench::field("confidence", circumstance(&Circumstances::confidence)),
+    bench::field("limits", circumstance(&Circumstances::limits)), bench::field("good", &ExperimentResult::is_good),
+    bench::field("definitions", &ExperimentResult::definitions), bench::field("findings", &ExperimentResult::findings),
+    bench::field("problems", &ExperimentResult::problems), bench::field("tables", &ExperimentResult::tables),
+    bench::field("meshes", &ExperimentResult::meshes), bench::field("raw_files", &ExperimentResult::raw_files),
+    bench::field("environment", circumstance(&Circumstances::environment)));
 
-Json number_json(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+bench::Json number_json(double value) {
+  return std::isfinite(value) ? bench::Json(value) : bench::Json(nullptr);
 }
 
 /// Whole numbers as such: 12, not 12.0.
-Json plain_number_json(double value) {
+bench::Json plain_number_json(double value) {
   constexpr double largest = 9007199254740992;  // beyond it doubles skip integers
   const bool is_whole = std::abs(value) < largest && value == std::floor(value);
-  return is_whole ? Json(static_cast<std::int64_t>(value)) : number_json(value);
+  return is_whole ? bench::Json(static_cast<std::int64_t>(value)) : number_json(value);
 }
 
-Cell cell_from(const Json& json) {
+Cell cell_from(const bench::Json& json) {
   if (json.is_null()) return {};
   if (json.is_string()) return json.get<std::string>();
   if (json.is_number()) return json.get<double>();
-  return Estimate{json.at("value"), json.at("low"), json.at("high")};
+  return bench::Estimate{json.at("value"), json.at("low"), json.at("high")};
 }
 
-Json json_of(const ExperimentResult& result) {
-  Json json = {{"schema", experiment_document.schema}};
-  write_fields(result, fields_of_result, json);
+bench::Json json_of(const ExperimentResult& result) {
+  bench::Json json = {{"schema", experiment_document.schema}};
+  bench::write_fields(result, fields_of_result, json);
   return json;
 }
 
-ExperimentResult result_from(const Json& json) {
+ExperimentResult result_from(const bench::Json& json) {
   ExperimentResult result;
-  read_fields(json, fields_of_result, result);
+  bench::read_fields(json, fields_of_result, result);
   return result;
 }
 
@@ -78,55 +86,55 @@ const ResultTable* find_table(const ExperimentResult& result, std::string_view n
   return found == result.tables.end() ? nullptr : &*found;
 }
 
-Json cell_json(const Cell& cell) {
+bench::Json cell_json(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* number = std::get_if<double>(&cell)) return plain_number_json(*number);
-  if (const auto* e = std::get_if<Estimate>(&cell))
+  if (const auto* e = std::get_if<bench::Estimate>(&cell))
     return {{"value", number_json(e->value)}, {"low", number_json(e->low)}, {"high", number_json(e->high)}};
   return nullptr;
 }
 
-void to_json(Json& json, const ResultTable& table) {
+void to_json(bench::Json& json, const ResultTable& table) {
   json = {{"name", table.name}, {"title", table.title}, {"data", table.is_data}, {"columns", table.columns}};
-  json["rows"] = Json::array();
+  json["rows"] = bench::Json::array();
   for (const ResultRow& row : table.rows) {
-    Json values = Json::object();
+    bench::Json values = bench::Json::object();
     for (std::size_t c = 0; c < table.columns.size(); ++c) values[table.columns[c].name] = cell_json(row.cells.at(c));
     json["rows"].push_back({{"values", std::move(values)}, {"runs", row.runs}});
   }
 }
 
-void from_json(const Json& json, ResultTable& table) {
+void from_json(const bench::Json& json, ResultTable& table) {
   table = {json.at("name"), json.at("title"), json.at("columns"), {}, json.at("data")};
-  for (const Json& r : json.at("rows")) {
+  for (const bench::Json& r : json.at("rows")) {
     ResultRow row{{}, r.at("runs")};
     for (const Column& column : table.columns) row.cells.push_back(cell_from(r.at("values").at(column.name)));
     table.rows.push_back(std::move(row));
   }
 }
 
-void to_json(Json& json, const KeptMesh& mesh) {
-  write_fields(mesh, fields_of_mesh, json);
+void to_json(bench::Json& json, const KeptMesh& mesh) {
+  bench::write_fields(mesh, fields_of_mesh, json);
 }
 
-void from_json(const Json& json, KeptMesh& mesh) {
-  read_fields(json, fields_of_mesh, mesh);
+void from_json(const bench::Json& json, KeptMesh& mesh) {
+  bench::read_fields(json, fields_of_mesh, mesh);
 }
 
 std::string to_json(const ExperimentResult& result) {
-  return to_text(json_of(result));
+  return bench::to_text(json_of(result));
 }
 
 ExperimentResult experiment_result_from_json(const std::string& text) {
-  return read_document(text, experiment_document, result_from);
+  return bench::read_document(text, experiment_document, result_from);
 }
 
 void write_experiment_result(const ExperimentResult& result, const std::filesystem::path& folder) {
-  write_json(json_of(result), folder / (result.name + ".json"));
+  bench::write_json(json_of(result), folder / (result.name + ".json"));
 }
 
 ExperimentResult read_experiment_result(const std::filesystem::path& file) {
-  return read_document(file, experiment_document, result_from);
+  return bench::read_document(file, experiment_document, result_from);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::results

@@ -10,17 +10,17 @@
 #include "bench/json.h"
 #include "bench/results/result_table.h"
 
-namespace ccdt {
+namespace ccdt::results {
 
 /// Under which circumstances an experiment was made; part of its result.
 struct Circumstances {
-  Environment environment;
+  bench::Environment environment;
   int runs = 0;  ///< counted runs a case, after one that is not counted
   double confidence = 0.95;
-  Limits limits;          ///< of each run
-  double tetrahedra = 0;  ///< about how many a model was given
-  std::string scale;      ///< as it was asked for: "quick", "paper", "large", or that number
-  std::string command;    ///< that repeats the experiment
+  baselines::Limits limits;  ///< of each run
+  double tetrahedra = 0;     ///< about how many a model was given
+  std::string scale;         ///< as it was asked for: "quick", "paper", "large", or that number
+  std::string command;       ///< that repeats the experiment
 };
 
 /// A mesh that is kept for pictures and the viewer.
@@ -50,11 +50,11 @@ struct ExperimentResult {
 const ResultTable* find_table(const ExperimentResult& result, std::string_view name);
 
 /// The parts that other documents have as well.
-Json cell_json(const Cell& cell);
-void to_json(Json& json, const ResultTable& table);
-void from_json(const Json& json, ResultTable& table);
-void to_json(Json& json, const KeptMesh& mesh);
-void from_json(const Json& json, KeptMesh& mesh);
+bench::Json cell_json(const Cell& cell);
+void to_json(bench::Json& json, const ResultTable& table);
+void from_json(const bench::Json& json, ResultTable& table);
+void to_json(bench::Json& json, const KeptMesh& mesh);
+void from_json(const bench::Json& json, KeptMesh& mesh);
 
 /// As JSON of schema `ccdt.experiment/1`, indented. Numbers that are not finite become null.
 std::string to_json(const ExperimentResult& result);
@@ -66,4 +66,4 @@ void write_experiment_result(const ExperimentResult& result, const std::filesyst
 /// \throw InputError  cannot be read, or no JSON of that schema
 ExperimentResult read_experiment_result(const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::results

@@ -9,7 +9,7 @@
 
 #include "bench/json.h"
 
-namespace ccdt {
+namespace ccdt::results {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the arrays of ccdt.mesh/1 are little-endian");
@@ -39,20 +39,20 @@ std::string packed(const void* data, std::size_t size) {
   return base64(deflated(data, size));
 }
 
-void write_kept_mesh(const TetMesh& mesh, const std::string& title, const std::filesystem::path& file) {
+void write_kept_mesh(const mesh::TetMesh& mesh, const std::string& title, const std::filesystem::path& file) {
   std::vector<float> points;
   points.reserve(3 * mesh.vertices.size());
   for (const Point3& p : mesh.vertices)
     for (const double x : {p.x, p.y, p.z}) points.push_back(static_cast<float>(x));
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  const Json json = {{"schema", "ccdt.mesh/1"},
-                     {"title", title},
-                     {"vertices", mesh.vertices.size()},
-                     {"tetrahedra", mesh.tetrahedra.size()},
-                     {"points", packed(points.data(), bytes_of(points))},
-                     {"cells", packed(mesh.tetrahedra.data(), bytes_of(mesh.tetrahedra))},
-                     {"regions", packed(mesh.regions.data(), bytes_of(mesh.regions))}};
-  write_json(json, file);
+  const bench::Json json = {{"schema", "ccdt.mesh/1"},
+                            {"title", title},
+                            {"vertices", mesh.vertices.size()},
+                            {"tetrahedra", mesh.tetrahedra.size()},
+                            {"points", packed(points.data(), bytes_of(points))},
+                            {"cells", packed(mesh.tetrahedra.data(), bytes_of(mesh.tetrahedra))},
+                            {"regions", packed(mesh.regions.data(), bytes_of(mesh.regions))}};
+  bench::write_json(json, file);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::results

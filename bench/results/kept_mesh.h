@@ -6,13 +6,13 @@
 
 #include "engine/mesh/tet_mesh.h"
 
-namespace ccdt {
+namespace ccdt::results {
 
 /// Bytes deflated (zlib format), in base64.
 std::string packed(const void* data, std::size_t size);
 
 /// Writes a mesh as JSON of schema `ccdt.mesh/1`, small enough for a page: single precision, deflated, in base64.
 /// \throw OutputError
-void write_kept_mesh(const TetMesh& mesh, const std::string& title, const std::filesystem::path& file);
+void write_kept_mesh(const mesh::TetMesh& mesh, const std::string& title, const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::results

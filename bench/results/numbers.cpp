@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace ccdt {
+namespace ccdt::results {
 namespace {
 
 /// With that many digits after the point.
@@ -34,7 +34,7 @@ std::string rounded(double value, int digits) {
   return with_decimals(value, decimals_for(value, digits));
 }
 
-std::string with_interval(const Estimate& e) {
+std::string with_interval(const bench::Estimate& e) {
   // Three digits of the value, or two of the interval's width if that takes more, but not more than five of the value.
   const int decimals =
       std::min(std::max(decimals_for(e.value, 3), decimals_for(e.high - e.low, 2)), decimals_for(e.value, 5));
@@ -52,4 +52,4 @@ std::string mebibytes(std::uint64_t bytes) {
   return with_separators((bytes + (1u << 19)) >> 20) + " MiB";
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::results

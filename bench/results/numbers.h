@@ -5,13 +5,13 @@
 
 #include "bench/statistics.h"
 
-namespace ccdt {
+namespace ccdt::results {
 
 /// A number with that many significant digits, without an exponent where it can be avoided.
 std::string rounded(double value, int digits = 3);
 
 /// An estimate with its interval, to as many digits as tell them apart: "1.02 [1.01, 1.03]".
-std::string with_interval(const Estimate& estimate);
+std::string with_interval(const bench::Estimate& estimate);
 
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t count);
@@ -19,4 +19,4 @@ std::string with_separators(std::uint64_t count);
 /// Bytes as "12 MiB".
 std::string mebibytes(std::uint64_t bytes);
 
-}  // namespace ccdt
+}  // namespace ccdt::results

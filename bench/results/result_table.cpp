@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace ccdt {
+namespace ccdt::results {
 
 std::size_t column_of(const ResultTable& table, std::string_view name) {
   const auto found = std::ranges::find(table.columns, name, &Column::name);
@@ -25,8 +25,8 @@ std::string text_in(const ResultTable& table, const ResultRow& row, std::string_
 double number_in(const ResultTable& table, const ResultRow& row, std::string_view column) {
   const Cell& value = cell(table, row, column);
   if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* estimate = std::get_if<Estimate>(&value)) return estimate->value;
+  if (const auto* estimate = std::get_if<bench::Estimate>(&value)) return estimate->value;
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::results

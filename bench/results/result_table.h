@@ -10,7 +10,7 @@
 #include "bench/statistics.h"
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::results {
 
 /// What the values of a column are: how they are shown, filtered and compared with those of another time.
 enum class ColumnKind {
@@ -37,11 +37,11 @@ struct Column {
 };
 
 /// Nothing, a text, a number, or a number with its interval.
-using Cell = std::variant<std::monostate, std::string, double, Estimate>;
+using Cell = std::variant<std::monostate, std::string, double, bench::Estimate>;
 
 /// \name A value as a cell.
 /// @{
-inline Cell cell_of(const std::optional<Estimate>& estimate) {
+inline Cell cell_of(const std::optional<bench::Estimate>& estimate) {
   return estimate ? Cell(*estimate) : Cell();
 }
 
@@ -85,4 +85,4 @@ const Cell& cell(const ResultTable& table, const ResultRow& row, std::string_vie
 std::string text_in(const ResultTable& table, const ResultRow& row, std::string_view column);
 double number_in(const ResultTable& table, const ResultRow& row, std::string_view column);
 
-}  // namespace ccdt
+}  // namespace ccdt::results

@@ -29,7 +29,7 @@ std::vector<Corners> in_order(std::vector<Corners> cells) {
 }
 
 std::vector<Corners> cells_of_ccdt(const std::vector<Point3>& points) {
-  const Delaunay d = build_delaunay(points);
+  const delaunay::Delaunay d = delaunay::build_delaunay(points);
   std::vector<Corners> cells;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c)
     if (d.is_finite(c)) cells.push_back(d.cells[c].vertices);

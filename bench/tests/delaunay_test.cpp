@@ -14,19 +14,19 @@ namespace ccdt {
 namespace {
 
 /// A repetition as Google Benchmark writes it.
-Json repetition(const std::string& name, int family, double milliseconds, double vertices, double cells) {
+bench::Json repetition(const std::string& name, int family, double milliseconds, double vertices, double cells) {
   return {{"name", name},     {"run_name", name},         {"family_index", family}, {"run_type", "iteration"},
           {"real_time", 1e9}, {"cpu_time", milliseconds}, {"time_unit", "ms"},      {"vertices", vertices},
           {"cells", cells}};
 }
 
-void add(Json& runs, const std::string& name, int family, double milliseconds, double vertices, double cells) {
+void add(bench::Json& runs, const std::string& name, int family, double milliseconds, double vertices, double cells) {
   for (const double factor : {1.0, 1.1, 0.9, 1.0, 1.0})
     runs.push_back(repetition(name, family, factor * milliseconds, vertices, cells));
 }
 
-Json good_runs() {
-  Json runs = Json::array();
+bench::Json good_runs() {
+  bench::Json runs = bench::Json::array();
   add(runs, "delaunay/tetgen/random/1000", 3, 20, 1000, 6000);
   add(runs, "delaunay/insert/lattice/300", 4, 1, 300, 1500);
   add(runs, "delaunay/insert/random/1000", 0, 4, 1000, 6000);
@@ -39,43 +39,43 @@ Json good_runs() {
   return runs;
 }
 
-ExperimentResult evaluated(const Json& runs) {
-  ExperimentResult result;
-  evaluate_delaunay(Json{{"context", {}}, {"benchmarks", runs}}.dump(), result);
+results::ExperimentResult evaluated(const bench::Json& runs) {
+  results::ExperimentResult result;
+  experiments::evaluate_delaunay(bench::Json{{"context", {}}, {"benchmarks", runs}}.dump(), result);
   return result;
 }
 
-bool is_found(const ExperimentResult& result, const std::string& words) {
+bool is_found(const results::ExperimentResult& result, const std::string& words) {
   return std::ranges::any_of(result.findings, [&](const std::string& f) { return f.find(words) != std::string::npos; });
 }
 
 TEST(DelaunayExperiment, OrdersPointsAndSizesAndTakesMedians) {
-  const ExperimentResult result = evaluated(good_runs());
-  const ResultTable& times = *find_table(result, "times");
+  const results::ExperimentResult result = evaluated(good_runs());
+  const results::ResultTable& times = *results::find_table(result, "times");
   std::string rows;
-  for (const ResultRow& row : times.rows)
-    rows +=
-        text_in(times, row, "points") + " " + text_in(times, row, "size") + " " + text_in(times, row, "method") + "\n";
+  for (const results::ResultRow& row : times.rows)
+    rows += results::text_in(times, row, "points") + " " + results::text_in(times, row, "size") + " " +
+            results::text_in(times, row, "method") + "\n";
   EXPECT_EQ(rows,
             "uniform random 300 insert\nuniform random 1000 insert\nuniform random 1000 wrap\n"
             "uniform random 1000 CGAL\nuniform random 1000 TetGen\nFCC lattice 300 insert\nFCC lattice 300 CGAL\n"
             "part.off  insert\n");
-  const ResultRow& insert = times.rows[1];
-  EXPECT_EQ(text_in(times, insert, "status"), "ok");
-  EXPECT_DOUBLE_EQ(number_in(times, insert, "seconds"), 0.004);
-  EXPECT_DOUBLE_EQ(number_in(times, insert, "microseconds_per_vertex"), 4);
-  EXPECT_EQ(number_in(times, insert, "vertices"), 1000);
-  EXPECT_EQ(number_in(times, insert, "tetrahedra"), 6000);
+  const results::ResultRow& insert = times.rows[1];
+  EXPECT_EQ(results::text_in(times, insert, "status"), "ok");
+  EXPECT_DOUBLE_EQ(results::number_in(times, insert, "seconds"), 0.004);
+  EXPECT_DOUBLE_EQ(results::number_in(times, insert, "microseconds_per_vertex"), 4);
+  EXPECT_EQ(results::number_in(times, insert, "vertices"), 1000);
+  EXPECT_EQ(results::number_in(times, insert, "tetrahedra"), 6000);
 }
 
 TEST(DelaunayExperiment, ComparesTheMethodsOnTheSamePoints) {
-  const ExperimentResult result = evaluated(good_runs());
-  const ResultTable& ratios = *find_table(result, "ratios");
+  const results::ExperimentResult result = evaluated(good_runs());
+  const results::ResultTable& ratios = *results::find_table(result, "ratios");
   ASSERT_EQ(ratios.rows.size(), 4u);
-  EXPECT_DOUBLE_EQ(number_in(ratios, ratios.rows[1], "insert_over_cgal"), 0.5);
-  EXPECT_DOUBLE_EQ(number_in(ratios, ratios.rows[1], "wrap_over_insert"), 3);
-  EXPECT_DOUBLE_EQ(number_in(ratios, ratios.rows[1], "tetgen_over_insert"), 5);
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(cell(ratios, ratios.rows[0], "insert_over_cgal")));
+  EXPECT_DOUBLE_EQ(results::number_in(ratios, ratios.rows[1], "insert_over_cgal"), 0.5);
+  EXPECT_DOUBLE_EQ(results::number_in(ratios, ratios.rows[1], "wrap_over_insert"), 3);
+  EXPECT_DOUBLE_EQ(results::number_in(ratios, ratios.rows[1], "tetgen_over_insert"), 5);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(results::cell(ratios, ratios.rows[0], "insert_over_cgal")));
   EXPECT_TRUE(is_found(result, "uniform random, 1,000 points: insert takes 0.50"));
   EXPECT_TRUE(is_found(result, "times as long as CGAL: it is faster."));
   EXPECT_TRUE(is_found(result, "times as long as insert: it is slower."));
@@ -85,33 +85,33 @@ TEST(DelaunayExperiment, ComparesTheMethodsOnTheSamePoints) {
 }
 
 TEST(DelaunayExperiment, WantsEqualNumbersWhereTheyMustBeEqual) {
-  Json runs = good_runs();
-  for (Json& run : runs)
+  bench::Json runs = good_runs();
+  for (bench::Json& run : runs)
     if (run["run_name"] == "delaunay/cgal/random/1000") run["cells"] = 5999;
-  const ExperimentResult theirs = evaluated(runs);
+  const results::ExperimentResult theirs = evaluated(runs);
   EXPECT_EQ(theirs.problems.size(), 1u);
   EXPECT_TRUE(theirs.is_good);
-  for (Json& run : runs)
+  for (bench::Json& run : runs)
     if (run["run_name"] == "delaunay/wrap/random/1000") run["cells"] = 5999;
   EXPECT_FALSE(evaluated(runs).is_good);
 }
 
 TEST(DelaunayExperiment, MakesARowOfAFault) {
   for (const std::string method : {"tetgen", "wrap"}) {
-    Json runs = good_runs();
-    for (Json& run : runs)
+    bench::Json runs = good_runs();
+    for (bench::Json& run : runs)
       if (run["run_name"] == "delaunay/" + method + "/random/1000")
         run = {{"run_name", run["run_name"]},
                {"run_type", "iteration"},
                {"family_index", 3},
                {"error_occurred", true},
                {"error_message", "too bad"}};
-    const ExperimentResult result = evaluated(runs);
-    const ResultTable& times = *find_table(result, "times");
+    const results::ExperimentResult result = evaluated(runs);
+    const results::ResultTable& times = *results::find_table(result, "times");
     EXPECT_EQ(std::ranges::count_if(times.rows,
-                                    [&](const ResultRow& row) {
-                                      return text_in(times, row, "status") == "failed" &&
-                                             text_in(times, row, "reason") == "too bad";
+                                    [&](const results::ResultRow& row) {
+                                      return results::text_in(times, row, "status") == "failed" &&
+                                             results::text_in(times, row, "reason") == "too bad";
                                     }),
               1);
     EXPECT_EQ(result.is_good, method == "tetgen");
@@ -120,15 +120,15 @@ TEST(DelaunayExperiment, MakesARowOfAFault) {
 }
 
 TEST(DelaunayExperiment, RefusesOtherJson) {
-  ExperimentResult result;
+  results::ExperimentResult result;
   for (const char* text : {"", "{\"benchmarks\": [", "[]", R"({"benchmarks": [{"run_type": "iteration"}]})"})
-    EXPECT_THROW(evaluate_delaunay(text, result), InputError) << text;
+    EXPECT_THROW(experiments::evaluate_delaunay(text, result), InputError) << text;
 }
 
 class DelaunayRuns : public testing::Test {
  protected:
-  ExperimentOptions options() const {
-    ExperimentOptions options;
+  experiments::ExperimentOptions options() const {
+    experiments::ExperimentOptions options;
     options.program = folder_.path() / "bin" / "ccdt";
     options.folder = folder_.path() / "report";
     options.tetrahedra = 1000;
@@ -144,72 +144,72 @@ class DelaunayRuns : public testing::Test {
   }
 
  private:
-  TemporaryFolder folder_;
+  baselines::TemporaryFolder folder_;
 };
 
 TEST_F(DelaunayRuns, WithoutTheProgramSayHowToBuildIt) {
-  const ExperimentResult result = measure_delaunay(options());
+  const results::ExperimentResult result = experiments::measure_delaunay(options());
   EXPECT_TRUE(result.is_good);
   ASSERT_EQ(result.problems.size(), 1u);
   EXPECT_NE(result.problems[0].find("cmake --build"), std::string::npos);
-  ASSERT_NE(find_table(result, "times"), nullptr);
-  EXPECT_TRUE(find_table(result, "times")->rows.empty());
+  ASSERT_NE(results::find_table(result, "times"), nullptr);
+  EXPECT_TRUE(results::find_table(result, "times")->rows.empty());
   EXPECT_TRUE(result.raw_files.empty());
 }
 
 TEST_F(DelaunayRuns, KeepTheJsonAsItWasWritten) {
-  const std::string text = Json{{"benchmarks", good_runs()}}.dump();
+  const std::string text = bench::Json{{"benchmarks", good_runs()}}.dump();
   std::ofstream(options().program.parent_path() / "said.json") << text;
   script(R"(for word; do case $word in --benchmark_out=*) out=${word#*=};; esac; done
     cp "$(dirname "$0")/said.json" "$out"; exit 1)");
-  const ExperimentResult result = measure_delaunay(options());
+  const results::ExperimentResult result = experiments::measure_delaunay(options());
   EXPECT_EQ(result.raw_files, std::vector<std::string>{"benchmarks/bench_delaunay.json"});
   EXPECT_EQ(io::read_whole_file(options().folder / result.raw_files.at(0)).bytes, text);
-  EXPECT_EQ(find_table(result, "times")->rows.size(), 8u);
+  EXPECT_EQ(results::find_table(result, "times")->rows.size(), 8u);
 }
 
 TEST_F(DelaunayRuns, ThatCrashAreRowsWithTheReason) {
   script(R"(for word; do case $word in --benchmark_out=*) echo '{"benchmarks": [' > "${word#*=}";; esac; done
     kill -SEGV $$)");
-  const ExperimentResult result = measure_delaunay(options());
+  const results::ExperimentResult result = experiments::measure_delaunay(options());
   EXPECT_FALSE(result.is_good);
   EXPECT_TRUE(result.raw_files.empty());
-  const ResultTable& times = *find_table(result, "times");
+  const results::ResultTable& times = *results::find_table(result, "times");
   ASSERT_FALSE(times.rows.empty());
-  for (const ResultRow& row : times.rows) {
-    EXPECT_EQ(text_in(times, row, "status"), "crashed");
-    EXPECT_NE(text_in(times, row, "reason").find("SIGSEGV"), std::string::npos);
+  for (const results::ResultRow& row : times.rows) {
+    EXPECT_EQ(results::text_in(times, row, "status"), "crashed");
+    EXPECT_NE(results::text_in(times, row, "reason").find("SIGSEGV"), std::string::npos);
   }
 }
 
 TEST_F(DelaunayRuns, MeasureWhatIsAskedFor) {
-  ExperimentOptions asked = options();
-  const auto filter = [&] { return bench_delaunay_command("bench_delaunay", asked, "out.json").at(4); };
+  experiments::ExperimentOptions asked = options();
+  const auto filter = [&] { return experiments::bench_delaunay_command("bench_delaunay", asked, "out.json").at(4); };
   asked.beside = std::vector<std::string>{};
   EXPECT_EQ(filter(), "--benchmark_filter=^delaunay/(insert|wrap)/(random|lattice|piston)(/[0-9]+)?$");
   asked.models = {"bracket"};
   asked.beside = std::vector<std::string>{"tetgen"};
   EXPECT_EQ(filter(), "--benchmark_filter=^delaunay/(insert|wrap|tetgen)/(random|lattice|bracket)(/[0-9]+)?$");
   asked.models = {"none"};
-  EXPECT_THROW(measure_delaunay(asked), InputError);
+  EXPECT_THROW(experiments::measure_delaunay(asked), InputError);
   asked.inputs = {"parts/a+b.off"};
   EXPECT_EQ(filter(), "--benchmark_filter=^delaunay/(insert|wrap|tetgen)/(a\\+b\\.off)(/[0-9]+)?$");
 }
 
 #ifdef BENCH_DELAUNAY
 TEST_F(DelaunayRuns, OfTheProgramMeasureRandomPointsAndALattice) {
-  ExperimentOptions real = options();
+  experiments::ExperimentOptions real = options();
   real.program = std::filesystem::path(BENCH_DELAUNAY).parent_path() / "ccdt";
-  const ExperimentResult result = measure_delaunay(real);
+  const results::ExperimentResult result = experiments::measure_delaunay(real);
   EXPECT_TRUE(result.is_good);
   EXPECT_TRUE(result.problems.empty());
-  const ResultTable& times = *find_table(result, "times");
+  const results::ResultTable& times = *results::find_table(result, "times");
   ASSERT_GE(times.rows.size(), 4u);
-  for (const ResultRow& row : times.rows) {
-    EXPECT_EQ(text_in(times, row, "status"), "ok") << text_in(times, row, "reason");
-    EXPECT_EQ(number_in(times, row, "vertices"), 1000);
+  for (const results::ResultRow& row : times.rows) {
+    EXPECT_EQ(results::text_in(times, row, "status"), "ok") << results::text_in(times, row, "reason");
+    EXPECT_EQ(results::number_in(times, row, "vertices"), 1000);
   }
-  EXPECT_EQ(find_table(result, "ratios")->rows.size(), 2u);
+  EXPECT_EQ(results::find_table(result, "ratios")->rows.size(), 2u);
 }
 #endif
 

@@ -16,103 +16,105 @@ bool say(const std::vector<std::string>& lines, const std::string& words) {
   return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
-Fig8 fig8_with_exponent(double exponent) {
-  Fig8Series series{"insert", "with check", "ccdt"};
+experiments::Fig8 fig8_with_exponent(double exponent) {
+  experiments::Fig8Series series{"insert", "with check", "ccdt"};
   for (const std::uint64_t n : {10000, 20000, 40000}) {
-    Fig8Point point;
+    experiments::Fig8Point point;
     point.counts.vertices = n;
     StageSeconds seconds;
     seconds.delaunay = 1e-5 * std::pow(static_cast<double>(n), exponent);
     point.stages.assign(5, seconds);
-    point.seconds = Estimate{seconds.delaunay, seconds.delaunay, seconds.delaunay};
+    point.seconds = bench::Estimate{seconds.delaunay, seconds.delaunay, seconds.delaunay};
     series.points.push_back(point);
   }
-  series.fits = fit_series(series);
-  Fig8 fig8;
+  series.fits = experiments::fit_series(series);
+  experiments::Fig8 fig8;
   fig8.models.push_back({"piston", {series}});
   return fig8;
 }
 
 TEST(Fig8Findings, SayWhetherTheExponentIsAsClaimed) {
-  EXPECT_TRUE(say(result_of(fig8_with_exponent(1.0)).findings, "is at most 1.10: holds"));
-  EXPECT_TRUE(say(result_of(fig8_with_exponent(1.3)).findings, "is at most 1.10: does not hold"));
-  Fig8 unfitted = fig8_with_exponent(1);
+  EXPECT_TRUE(say(experiments::result_of(fig8_with_exponent(1.0)).findings, "is at most 1.10: holds"));
+  EXPECT_TRUE(say(experiments::result_of(fig8_with_exponent(1.3)).findings, "is at most 1.10: does not hold"));
+  experiments::Fig8 unfitted = fig8_with_exponent(1);
   unfitted.models[0].series[0].fits.clear();
-  EXPECT_TRUE(say(result_of(unfitted).findings, "too few sizes"));
+  EXPECT_TRUE(say(experiments::result_of(unfitted).findings, "too few sizes"));
 }
 
 TEST(Fig8Findings, AreNotGoodWhereARunOfOursFailed) {
-  Fig8 fig8 = fig8_with_exponent(1);
-  EXPECT_TRUE(result_of(fig8).is_good);
-  Fig8Point& point = fig8.models[0].series[0].points[1];
+  experiments::Fig8 fig8 = fig8_with_exponent(1);
+  EXPECT_TRUE(experiments::result_of(fig8).is_good);
+  experiments::Fig8Point& point = fig8.models[0].series[0].points[1];
   point.seconds = {};
-  point.status = RunStatus::timeout;
+  point.status = baselines::RunStatus::timeout;
   point.reason = "limit of 600 s";
-  EXPECT_FALSE(result_of(fig8).is_good);
-  EXPECT_TRUE(say(result_of(fig8).problems, "timeout: limit of 600 s"));
+  EXPECT_FALSE(experiments::result_of(fig8).is_good);
+  EXPECT_TRUE(say(experiments::result_of(fig8).problems, "timeout: limit of 600 s"));
   fig8.models[0].series[0].mesher = "tetgen";
-  EXPECT_TRUE(result_of(fig8).is_good);
+  EXPECT_TRUE(experiments::result_of(fig8).is_good);
 }
 
-ExperimentResult locators_result(SurfaceKind kind, const Estimate& ratio, const LocatorsRow& last) {
-  LocatorsCase c;
+results::ExperimentResult locators_result(experiments::SurfaceKind kind, const bench::Estimate& ratio,
+                                          const experiments::LocatorsRow& last) {
+  experiments::LocatorsCase c;
   c.name = "part";
   c.kind = kind;
   c.edge_ratio = 181;
   for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree})
-    c.rows.push_back({{.samples = {2, 2}, .seconds = Estimate{2, 2, 2}}, locator});
+    c.rows.push_back({{.samples = {2, 2}, .seconds = bench::Estimate{2, 2, 2}}, locator});
   c.rows.push_back(last);
   c.octree_over_grid = ratio;
-  Locators locators;
+  experiments::Locators locators;
   locators.cases.push_back(c);
-  return result_of(locators);
+  return experiments::result_of(locators);
 }
 
 TEST(LocatorsFindings, JudgeByTheRatioThatWasMeasured) {
-  const LocatorsRow good{{.samples = {2, 2}, .seconds = Estimate{2, 2, 2}}, LocatorKind::cavity};
-  const auto findings = [&](SurfaceKind kind, const Estimate& ratio) {
+  const experiments::LocatorsRow good{{.samples = {2, 2}, .seconds = bench::Estimate{2, 2, 2}}, LocatorKind::cavity};
+  const auto findings = [&](experiments::SurfaceKind kind, const bench::Estimate& ratio) {
     return locators_result(kind, ratio, good).findings;
   };
-  EXPECT_TRUE(say(findings(SurfaceKind::graded, {0.5, 0.4, 0.6}),
+  EXPECT_TRUE(say(findings(experiments::SurfaceKind::graded, {0.5, 0.4, 0.6}),
                   "octree is faster than the grid where edges differ by a factor of 181: holds (octree / grid 0.5"));
-  EXPECT_TRUE(say(findings(SurfaceKind::graded, {1.5, 1.4, 1.6}), "181: does not hold"));
-  EXPECT_TRUE(say(findings(SurfaceKind::uniform, {1.5, 1.4, 1.6}),
+  EXPECT_TRUE(say(findings(experiments::SurfaceKind::graded, {1.5, 1.4, 1.6}), "181: does not hold"));
+  EXPECT_TRUE(say(findings(experiments::SurfaceKind::uniform, {1.5, 1.4, 1.6}),
                   "grid is faster than the octree where edges are even: holds"));
-  EXPECT_TRUE(say(findings(SurfaceKind::uniform, {1, 0.9, 1.1}), "even: undecided"));
-  EXPECT_TRUE(findings(SurfaceKind::input, {1, 0.9, 1.1}).empty());
+  EXPECT_TRUE(say(findings(experiments::SurfaceKind::uniform, {1, 0.9, 1.1}), "even: undecided"));
+  EXPECT_TRUE(findings(experiments::SurfaceKind::input, {1, 0.9, 1.1}).empty());
 }
 
 TEST(LocatorsFindings, GiveAFailedRowItsReason) {
-  const LocatorsRow bad{{RunStatus::crashed, "ended by signal SIGSEGV"}, LocatorKind::cavity};
-  const ExperimentResult result = locators_result(SurfaceKind::rough, {1, 1, 1}, bad);
+  const experiments::LocatorsRow bad{{baselines::RunStatus::crashed, "ended by signal SIGSEGV"}, LocatorKind::cavity};
+  const results::ExperimentResult result = locators_result(experiments::SurfaceKind::rough, {1, 1, 1}, bad);
   EXPECT_TRUE(say(result.problems, "part, check off, cavity: crashed: ended by signal SIGSEGV"));
   EXPECT_FALSE(result.is_good);
 }
 
 TEST(InteriorPointsFindings, CountTheHarm) {
-  InteriorPoints points;
-  points.cases = {{{}, "cube", 0.5, Lattice::fcc, InteriorRule::paper},
-                  {{}, "cube", 0.5, Lattice::fcc, InteriorRule::no_spheres},
-                  {{RunStatus::failed, "it is open"}, "part.off", 0, Lattice::sc, InteriorRule::paper}};
+  experiments::InteriorPoints points;
+  points.cases = {
+      {{}, "cube", 0.5, Lattice::fcc, experiments::InteriorRule::paper},
+      {{}, "cube", 0.5, Lattice::fcc, experiments::InteriorRule::no_spheres},
+      {{baselines::RunStatus::failed, "it is open"}, "part.off", 0, Lattice::sc, experiments::InteriorRule::paper}};
   points.cases[0].counts.interior_vertices = 1000;
   points.cases[1].counts.interior_vertices = 1200;
   points.cases[1].counts.dropped_interior_vertices = 3;
   points.existence = {{"segments", 40, 7, {}}};
-  const ExperimentResult result = result_of(points);
+  const results::ExperimentResult result = experiments::result_of(points);
   EXPECT_TRUE(say(result.findings, "7 of 40 small PLCs"));
   EXPECT_TRUE(say(result.findings, "Rule \"paper\": no point did harm in 1 cases with 1,000 interior vertices"));
   EXPECT_TRUE(say(result.findings, "Rule \"no spheres\": points do harm: 3 points of 1,203"));
   EXPECT_TRUE(say(result.findings, "Rule \"no distances\": no case to judge by"));
   EXPECT_TRUE(say(result.problems, "part.off, sc, paper: failed: it is open"));
-  EXPECT_EQ(find_table(result, "cases")->rows.size(), 3u);
+  EXPECT_EQ(results::find_table(result, "cases")->rows.size(), 3u);
 }
 
-QualityRow row(const std::string& variant, double mean_r, double worst_r, double dihedral) {
-  QualityRow made;
+experiments::QualityRow row(const std::string& variant, double mean_r, double worst_r, double dihedral) {
+  experiments::QualityRow made;
   made.variant = variant;
   made.is_ours = !variant.starts_with("tetgen") && !variant.starts_with("gmsh");
   made.samples = {0.01, 0.01, 0.01};
-  made.seconds = Estimate{0.01, 0.01, 0.01};
+  made.seconds = bench::Estimate{0.01, 0.01, 0.01};
   made.counts.tetrahedra = 10000;
   made.quality.r = {1, mean_r, mean_r, 2, worst_r, {{1, 1.1, 1.2, 1000}, {9000, 999, 1}}};
   made.quality.dihedral_degrees = {dihedral, 150, {{0, 5, 10, 180}, {0, 6, 59994}}};
@@ -122,9 +124,9 @@ QualityRow row(const std::string& variant, double mean_r, double worst_r, double
 }
 
 template <class Study>
-Study study_of(const std::vector<QualityRow>& rows) {
+Study study_of(const std::vector<experiments::QualityRow>& rows) {
   Study study;
-  QualityCase c;
+  experiments::QualityCase c;
   c.name = "part.off";
   c.wanted = 10000;
   c.surface.angles = {{31, {7, 8, 9}}, {12, {1, 2.5, -3}}};
@@ -133,32 +135,32 @@ Study study_of(const std::vector<QualityRow>& rows) {
   return study;
 }
 
-MesherQuality quality_with(double dihedral) {
-  return study_of<MesherQuality>(
+experiments::MesherQuality quality_with(double dihedral) {
+  return study_of<experiments::MesherQuality>(
       {row("ccdt fcc", 1.15, 2.5, dihedral), row("tetgen", 1.5, 8, 10), row("gmsh-hxt", 1.4, 4, 17)});
 }
 
 TEST(MesherQualityFindings, SayInWhatWeAreBetterThanAllOthers) {
-  const ExperimentResult result = result_of(quality_with(16));
+  const results::ExperimentResult result = experiments::result_of(quality_with(16));
   EXPECT_TRUE(say(result.findings, "mean r in 1 of 1"));
   EXPECT_TRUE(say(result.findings, "smallest dihedral in 0 of 1 cases"));
-  const ResultTable& verdicts = *find_table(result, "verdicts");
+  const results::ResultTable& verdicts = *results::find_table(result, "verdicts");
   ASSERT_EQ(verdicts.rows.size(), 4u);
-  EXPECT_EQ(text_in(verdicts, verdicts.rows[0], "better"), "yes");
-  EXPECT_EQ(text_in(verdicts, verdicts.rows[3], "better"), "no");
-  EXPECT_EQ(text_in(verdicts, verdicts.rows[3], "best_other_variant"), "gmsh-hxt");
+  EXPECT_EQ(results::text_in(verdicts, verdicts.rows[0], "better"), "yes");
+  EXPECT_EQ(results::text_in(verdicts, verdicts.rows[3], "better"), "no");
+  EXPECT_EQ(results::text_in(verdicts, verdicts.rows[3], "best_other_variant"), "gmsh-hxt");
 }
 
 TEST(MesherQualityFindings, NameFailuresAndUnequalCountsWithTheirReasons) {
-  MesherQuality quality = quality_with(19);
-  quality.cases[0].rows[1].status = RunStatus::crashed;
+  experiments::MesherQuality quality = quality_with(19);
+  quality.cases[0].rows[1].status = baselines::RunStatus::crashed;
   quality.cases[0].rows[1].reason = "ended by signal SIGSEGV";
   quality.cases[0].rows[2].is_comparable = false;
-  EXPECT_TRUE(result_of(quality).is_good);
+  EXPECT_TRUE(experiments::result_of(quality).is_good);
   quality.cases.emplace_back();
   quality.cases[1].name = "open.off";
   quality.cases[1].reason = "the surface is open";
-  const ExperimentResult result = result_of(quality);
+  const results::ExperimentResult result = experiments::result_of(quality);
   EXPECT_FALSE(result.is_good);
   EXPECT_TRUE(say(result.problems, "tetgen: crashed: ended by signal SIGSEGV"));
   EXPECT_TRUE(say(result.problems, "gmsh-hxt: 10,000 tetrahedra are not comparable"));
@@ -166,22 +168,22 @@ TEST(MesherQualityFindings, NameFailuresAndUnequalCountsWithTheirReasons) {
 }
 
 TEST(MesherQualityFindings, HaveTheHistogramsInPercent) {
-  const ExperimentResult result = result_of(quality_with(19));
-  const ResultTable& bins = *find_table(result, "r_histogram");
+  const results::ExperimentResult result = experiments::result_of(quality_with(19));
+  const results::ResultTable& bins = *results::find_table(result, "r_histogram");
   ASSERT_EQ(bins.rows.size(), 9u);
-  EXPECT_EQ(number_in(bins, bins.rows[0], "percent"), 90);
-  EXPECT_EQ(number_in(bins, bins.rows[0], "high"), 1.1);
+  EXPECT_EQ(results::number_in(bins, bins.rows[0], "percent"), 90);
+  EXPECT_EQ(results::number_in(bins, bins.rows[0], "high"), 1.1);
 }
 
 TEST(LatticesFindings, StateThePapersClaimByEachMeasure) {
   const auto findings = [](double fcc_mean) {
-    std::vector<QualityRow> rows;
+    std::vector<experiments::QualityRow> rows;
     for (const std::string suffix : {"", " improved"}) {
       rows.push_back(row("fcc" + suffix, fcc_mean, 3, 20));
       rows.push_back(row("bcc" + suffix, 1.15, 4, 19));
       rows.push_back(row("sc" + suffix, 1.3, 5, 10));
     }
-    return result_of(study_of<Lattices>(rows)).findings;
+    return experiments::result_of(study_of<experiments::Lattices>(rows)).findings;
   };
   EXPECT_TRUE(say(findings(1.2), "That FCC is best is confirmed after improvement by: worst r, smallest dihedral"));
   EXPECT_TRUE(say(findings(1.2), "That FCC is best is not confirmed before improvement by: mean r"));
@@ -189,28 +191,31 @@ TEST(LatticesFindings, StateThePapersClaimByEachMeasure) {
 }
 
 TEST(ImprovementFindings, CountInHowManyCasesEachIsBest) {
-  const ExperimentResult result =
-      result_of(study_of<ImprovementParts>({row("none", 1.3, 50, 1), row("swap", 1.2, 9, 5), row("all", 1.2, 3, 18)}));
-  const ResultTable& best = *find_table(result, "best");
+  const results::ExperimentResult result = experiments::result_of(study_of<experiments::ImprovementParts>(
+      {row("none", 1.3, 50, 1), row("swap", 1.2, 9, 5), row("all", 1.2, 3, 18)}));
+  const results::ResultTable& best = *results::find_table(result, "best");
   std::vector<double> counts;
-  for (const ResultRow& r : best.rows) counts.push_back(number_in(best, r, "best"));
+  for (const results::ResultRow& r : best.rows) counts.push_back(results::number_in(best, r, "best"));
   EXPECT_EQ(counts, (std::vector<double>{0, 1, 0, 0, 1, 1, 0, 0, 1, 1, 1, 1}));
 }
 
 TEST(LatticeFitFindings, NameTheBestSettingAndWhetherItIsTheDefault) {
-  const auto findings = [](const LatticeSetting& best) {
-    std::vector<QualityRow> rows;
-    for (const LatticeSetting& setting : lattice_settings())
-      rows.push_back(row(name_of(setting), 1.2, setting == best ? 2 : 5, 15));
-    return result_of(study_of<LatticeFit>(rows)).findings;
+  const auto findings = [](const experiments::LatticeSetting& best) {
+    std::vector<experiments::QualityRow> rows;
+    for (const experiments::LatticeSetting& setting : experiments::lattice_settings())
+      rows.push_back(row(experiments::text_of(setting), 1.2, setting == best ? 2 : 5, 15));
+    return experiments::result_of(study_of<experiments::LatticeFit>(rows)).findings;
   };
-  EXPECT_TRUE(say(findings(default_lattice_setting()), "The best setting is " + name_of(default_lattice_setting())));
-  EXPECT_TRUE(say(findings(default_lattice_setting()), "It is the default"));
-  const LatticeSetting other = lattice_settings().front();
-  ASSERT_FALSE(other == default_lattice_setting());
-  EXPECT_TRUE(say(findings(other), "The best setting is " + name_of(other)));
-  EXPECT_TRUE(say(findings(other), "The default, " + name_of(default_lattice_setting()) + ", has a mean rank of"));
-  EXPECT_TRUE(say(result_of(LatticeFit()).findings, "no surface on which every setting went well"));
+  EXPECT_TRUE(say(findings(experiments::default_lattice_setting()),
+                  "The best setting is " + experiments::text_of(experiments::default_lattice_setting())));
+  EXPECT_TRUE(say(findings(experiments::default_lattice_setting()), "It is the default"));
+  const experiments::LatticeSetting other = experiments::lattice_settings().front();
+  ASSERT_FALSE(other == experiments::default_lattice_setting());
+  EXPECT_TRUE(say(findings(other), "The best setting is " + experiments::text_of(other)));
+  EXPECT_TRUE(say(findings(other), "The default, " + experiments::text_of(experiments::default_lattice_setting()) +
+                                       ", has a mean rank of"));
+  EXPECT_TRUE(
+      say(experiments::result_of(experiments::LatticeFit()).findings, "no surface on which every setting went well"));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace ccdt {
 
 /// A mesh with the input that it belongs to.
 struct MeshedInput {
-  InputPlc input;
-  TetMesh mesh;
+  plc::InputPlc input;
+  mesh::TetMesh mesh;
 };
 
 /// Region of the unit cube with a lowest corner, or `outside`.

@@ -11,63 +11,63 @@ namespace {
 const std::array<Point3, 4> regular = {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 const std::array<Point3, 4> corner = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-TetMesh mesh_of(const std::array<Point3, 4>& tetrahedron) {
-  TetMesh mesh;
+mesh::TetMesh mesh_of(const std::array<Point3, 4>& tetrahedron) {
+  mesh::TetMesh mesh;
   mesh.vertices.assign(tetrahedron.begin(), tetrahedron.end());
   mesh.tetrahedra = {{0, 1, 2, 3}};
   return mesh;
 }
 
 TEST(Quality, RegularTetrahedronHasMeasureOneAndItsDihedralAngle) {
-  EXPECT_NEAR(shape_measure(regular), 1, 1e-14);
-  for (const double angle : dihedral_angles(regular)) EXPECT_NEAR(angle, 70.528779365509308, 1e-12);
+  EXPECT_NEAR(bench::shape_measure(regular), 1, 1e-14);
+  for (const double angle : bench::dihedral_angles(regular)) EXPECT_NEAR(angle, 70.528779365509308, 1e-12);
 }
 
 TEST(Quality, CornerOfACubeHasThePapersMeasure) {
   // Squared edges 1, 1, 1, 2, 2, 2 and volume 1/6: 1.5^1.5 * 6 / 8.48528.
-  EXPECT_NEAR(shape_measure(corner), 1.299038, 1e-6);
-  const auto angles = dihedral_angles(corner);
+  EXPECT_NEAR(bench::shape_measure(corner), 1.299038, 1e-6);
+  const auto angles = bench::dihedral_angles(corner);
   EXPECT_NEAR(angles[0], 90, 1e-12);
   EXPECT_NEAR(angles[5], std::acos(1 / std::sqrt(3.0)) * 57.295779513082323, 1e-12);
 }
 
 TEST(Quality, FlatTetrahedronIsInfinitelyBad) {
-  for (const auto measure : {shape_measure, aspect_ratio, radius_edge_ratio})
+  for (const auto measure : {bench::shape_measure, bench::aspect_ratio, bench::radius_edge_ratio})
     EXPECT_TRUE(std::isinf(measure({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}})));
 }
 
 TEST(Quality, AspectRatioIsThatOfVtk) {
-  EXPECT_NEAR(aspect_ratio(regular), 1, 1e-14);
+  EXPECT_NEAR(bench::aspect_ratio(regular), 1, 1e-14);
   // Longest edge sqrt(2); the inscribed sphere's radius is 3 V / area = 1 / (3 + sqrt(3)).
-  EXPECT_NEAR(aspect_ratio(corner), std::sqrt(2.0) * (3 + std::sqrt(3.0)) / (2 * std::sqrt(6.0)), 1e-14);
+  EXPECT_NEAR(bench::aspect_ratio(corner), std::sqrt(2.0) * (3 + std::sqrt(3.0)) / (2 * std::sqrt(6.0)), 1e-14);
 }
 
 TEST(Quality, RadiusEdgeRatioIsThatOfTetGen) {
-  EXPECT_NEAR(radius_edge_ratio(regular), std::sqrt(6.0) / 4, 1e-14);
-  EXPECT_NEAR(radius_edge_ratio(corner), std::sqrt(3.0) / 2, 1e-14);  // of the cube around it
+  EXPECT_NEAR(bench::radius_edge_ratio(regular), std::sqrt(6.0) / 4, 1e-14);
+  EXPECT_NEAR(bench::radius_edge_ratio(corner), std::sqrt(3.0) / 2, 1e-14);  // of the cube around it
 }
 
 TEST(Quality, RadiusEdgeRatioDoesNotSeeASliverButTheOthersDo) {
   const std::array<Point3, 4> sliver = {{{1, 0, 1e-3}, {-1, 0, 1e-3}, {0, 1, -1e-3}, {0, -1, -1e-3}}};
-  EXPECT_LT(radius_edge_ratio(sliver), 0.8);
-  EXPECT_GT(aspect_ratio(sliver), 100);
-  EXPECT_GT(shape_measure(sliver), 100);
+  EXPECT_LT(bench::radius_edge_ratio(sliver), 0.8);
+  EXPECT_GT(bench::aspect_ratio(sliver), 100);
+  EXPECT_GT(bench::shape_measure(sliver), 100);
 }
 
 TEST(Quality, SizeAndPlaceDoNotMatter) {
   std::array<Point3, 4> moved = corner;
   for (Point3& p : moved) p = 1e-3 * p + Point3{5, 6, 7};
-  for (const auto measure : {shape_measure, aspect_ratio, radius_edge_ratio})
+  for (const auto measure : {bench::shape_measure, bench::aspect_ratio, bench::radius_edge_ratio})
     EXPECT_NEAR(measure(moved), measure(corner), 1e-9);
 }
 
 TEST(Quality, HistogramsCountEveryTetrahedronAndEveryAngle) {
-  TetMesh mesh = mesh_of(corner);
+  mesh::TetMesh mesh = mesh_of(corner);
   for (const Point3& p : regular) mesh.vertices.push_back(p);
   mesh.tetrahedra.push_back({4, 5, 6, 7});
-  const Quality quality = measure_quality(mesh);
-  const auto sum = [](const Histogram& h) { return std::accumulate(h.counts.begin(), h.counts.end(), 0ull); };
-  for (const Quality::Measure& measure : {quality.r, quality.aspect_ratio, quality.radius_edge_ratio})
+  const bench::Quality quality = bench::measure_quality(mesh);
+  const auto sum = [](const bench::Histogram& h) { return std::accumulate(h.counts.begin(), h.counts.end(), 0ull); };
+  for (const bench::Quality::Measure& measure : {quality.r, quality.aspect_ratio, quality.radius_edge_ratio})
     EXPECT_EQ(sum(measure.histogram), 2u);
   EXPECT_EQ(sum(quality.dihedral_degrees.histogram), 12u);
   EXPECT_EQ(quality.r.histogram.edges.size(), quality.r.histogram.counts.size() + 1);
@@ -75,17 +75,17 @@ TEST(Quality, HistogramsCountEveryTetrahedronAndEveryAngle) {
 }
 
 TEST(Quality, OfAMeshSummarizesItsTetrahedra) {
-  const Quality quality = measure_quality(mesh_of(corner));
+  const bench::Quality quality = bench::measure_quality(mesh_of(corner));
   EXPECT_EQ(quality.r.min, quality.r.max);
-  EXPECT_NEAR(quality.r.mean, shape_measure(corner), 1e-15);
-  EXPECT_EQ(quality.aspect_ratio.max, aspect_ratio(corner));
-  EXPECT_EQ(quality.radius_edge_ratio.median, radius_edge_ratio(corner));
+  EXPECT_NEAR(quality.r.mean, bench::shape_measure(corner), 1e-15);
+  EXPECT_EQ(quality.aspect_ratio.max, bench::aspect_ratio(corner));
+  EXPECT_EQ(quality.radius_edge_ratio.median, bench::radius_edge_ratio(corner));
   EXPECT_NEAR(quality.dihedral_degrees.max, 90, 1e-12);
   EXPECT_NEAR(quality.volume, 1.0 / 6, 1e-15);
 }
 
 TEST(Quality, OfAnEmptyMeshIsZero) {
-  const Quality quality = measure_quality({});
+  const bench::Quality quality = bench::measure_quality({});
   EXPECT_EQ(quality.r.max, 0);
   EXPECT_EQ(quality.volume, 0);
 }

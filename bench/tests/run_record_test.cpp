@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-RunRecord example() {
-  RunRecord record;
+bench::RunRecord example() {
+  bench::RunRecord record;
   record.mesher = {"ccdt", "0.1.0", "abc"};
   record.input = {"cube.off", std::string(64, '0'), 8, 12, 0};
   record.options = {{"face_protection", true}, {"lattice", std::string("fcc")}, {"edge_length", 0.25}};
@@ -39,7 +39,7 @@ RunRecord example() {
 }
 
 TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
-  const Json json = Json::parse(to_json(example()));
+  const Json json = Json::parse(bench::to_json(example()));
   EXPECT_EQ(json["schema"], "ccdt.run/1");
   for (const char* pointer : {"/mesher/name",
                               "/mesher/version",
@@ -97,54 +97,54 @@ TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
 }
 
 TEST(RunRecord, ReadsBackBitForBit) {
-  const std::string text = to_json(example());
-  const RunRecord back = run_record_from_json(text);
-  EXPECT_EQ(to_json(back), text);
+  const std::string text = bench::to_json(example());
+  const bench::RunRecord back = bench::run_record_from_json(text);
+  EXPECT_EQ(bench::to_json(back), text);
   EXPECT_EQ(back.quality.volume, 1.0 / 3);
   EXPECT_TRUE(std::isinf(back.quality.r.max));
   EXPECT_EQ(back.samples.at("mesh").size(), 2u);
 }
 
 TEST(RunRecord, KeepsTheSplitsOfEachLevelAndTheDroppedPoints) {
-  const RunRecord back = run_record_from_json(to_json(example()));
+  const bench::RunRecord back = bench::run_record_from_json(bench::to_json(example()));
   EXPECT_EQ(back.counts.splits_by_level, (std::vector<std::uint64_t>{2, 1}));
   EXPECT_EQ(back.counts.dropped_interior_vertices, 4u);
 }
 
 TEST(RunRecord, OfOlderProgramsMayLackTheCountsOfSplits) {
-  Json json = Json::parse(to_json(example()));
+  Json json = Json::parse(bench::to_json(example()));
   json["counts"].erase("splits_by_level");
   json["counts"].erase("dropped_interior_vertices");
-  EXPECT_TRUE(run_record_from_json(json.dump()).counts.splits_by_level.empty());
+  EXPECT_TRUE(bench::run_record_from_json(json.dump()).counts.splits_by_level.empty());
 }
 
 TEST(RunRecord, OfOlderProgramsMayLackTheRatiosOfOtherTools) {
-  Json json = Json::parse(to_json(example()));
+  Json json = Json::parse(bench::to_json(example()));
   json["quality"].erase("aspect_ratio");
   json["quality"].erase("radius_edge_ratio");
-  EXPECT_EQ(run_record_from_json(json.dump()).quality.aspect_ratio.max, 0);
+  EXPECT_EQ(bench::run_record_from_json(json.dump()).quality.aspect_ratio.max, 0);
 }
 
 TEST(RunRecord, OfAFailureKeepsStatusAndReason) {
-  RunRecord record = example();
-  record.status = RunStatus::timeout;
+  bench::RunRecord record = example();
+  record.status = baselines::RunStatus::timeout;
   record.reason = "stopped at the limit of 5 s";
-  const RunRecord back = run_record_from_json(to_json(record));
-  EXPECT_EQ(back.status, RunStatus::timeout);
+  const bench::RunRecord back = bench::run_record_from_json(bench::to_json(record));
+  EXPECT_EQ(back.status, baselines::RunStatus::timeout);
   EXPECT_EQ(back.reason, record.reason);
 }
 
 TEST(RunRecord, SurvivesFileNamesThatAreNoUtf8) {
-  RunRecord record = example();
+  bench::RunRecord record = example();
   record.input.name = "caf\xe9.stl";
-  EXPECT_TRUE(Json::accept(to_json(record)));
+  EXPECT_TRUE(Json::accept(bench::to_json(record)));
 }
 
 TEST(RunRecord, RefusesOtherJson) {
-  EXPECT_THROW(run_record_from_json("{}"), InputError);
-  EXPECT_THROW(run_record_from_json("[1, 2"), InputError);
-  EXPECT_THROW(run_record_from_json(R"({"schema": "ccdt.run/1"})"), InputError);
-  EXPECT_THROW(run_record_from_json(R"({"schema": "ccdt.run/2"})"), InputError);
+  EXPECT_THROW(bench::run_record_from_json("{}"), InputError);
+  EXPECT_THROW(bench::run_record_from_json("[1, 2"), InputError);
+  EXPECT_THROW(bench::run_record_from_json(R"({"schema": "ccdt.run/1"})"), InputError);
+  EXPECT_THROW(bench::run_record_from_json(R"({"schema": "ccdt.run/2"})"), InputError);
 }
 
 }  // namespace

@@ -10,23 +10,23 @@ namespace ccdt {
 namespace {
 
 TEST(Statistics, MedianOfOddAndEvenCounts) {
-  EXPECT_EQ(median(std::vector{3.0, 1.0, 2.0}), 2);
-  EXPECT_EQ(median(std::vector{4.0, 1.0, 3.0, 2.0}), 2.5);
-  EXPECT_EQ(median(std::vector{7.0}), 7);
+  EXPECT_EQ(bench::median(std::vector{3.0, 1.0, 2.0}), 2);
+  EXPECT_EQ(bench::median(std::vector{4.0, 1.0, 3.0, 2.0}), 2.5);
+  EXPECT_EQ(bench::median(std::vector{7.0}), 7);
 }
 
 TEST(Statistics, QuantilesInterpolateAsTypeSevenOfHyndmanAndFan) {
   // R: quantile(c(1, 2, 4, 8, 16), c(0, .1, .25, .9, 1)) is 1.0 1.4 2.0 12.8 16.0
   const std::vector<double> samples = {16, 1, 8, 2, 4};
-  EXPECT_DOUBLE_EQ(quantile(samples, 0), 1);
-  EXPECT_DOUBLE_EQ(quantile(samples, 0.1), 1.4);
-  EXPECT_DOUBLE_EQ(quantile(samples, 0.25), 2);
-  EXPECT_DOUBLE_EQ(quantile(samples, 0.9), 12.8);
-  EXPECT_DOUBLE_EQ(quantile(samples, 1), 16);
+  EXPECT_DOUBLE_EQ(bench::quantile(samples, 0), 1);
+  EXPECT_DOUBLE_EQ(bench::quantile(samples, 0.1), 1.4);
+  EXPECT_DOUBLE_EQ(bench::quantile(samples, 0.25), 2);
+  EXPECT_DOUBLE_EQ(bench::quantile(samples, 0.9), 12.8);
+  EXPECT_DOUBLE_EQ(bench::quantile(samples, 1), 16);
 }
 
 TEST(Statistics, EqualSamplesHaveAnIntervalOfNoWidth) {
-  const Estimate estimate = median_estimate(std::vector<double>(5, 2.5));
+  const bench::Estimate estimate = bench::median_estimate(std::vector<double>(5, 2.5));
   EXPECT_EQ(estimate.value, 2.5);
   EXPECT_EQ(estimate.low, 2.5);
   EXPECT_EQ(estimate.high, 2.5);
@@ -34,7 +34,7 @@ TEST(Statistics, EqualSamplesHaveAnIntervalOfNoWidth) {
 
 TEST(Statistics, IntervalOfTheMedianContainsItAndStaysWithinTheSamples) {
   const std::vector<double> samples = {1.0, 1.1, 1.2, 1.3, 9.0};
-  const Estimate estimate = median_estimate(samples);
+  const bench::Estimate estimate = bench::median_estimate(samples);
   EXPECT_EQ(estimate.value, 1.2);
   EXPECT_LE(estimate.low, 1.2);
   EXPECT_GE(estimate.high, 1.2);
@@ -44,7 +44,7 @@ TEST(Statistics, IntervalOfTheMedianContainsItAndStaysWithinTheSamples) {
 
 TEST(Statistics, SameSamplesAlwaysGiveTheSameInterval) {
   const std::vector<double> samples = {3, 1, 4, 1, 5, 9, 2, 6};
-  const Estimate a = median_estimate(samples), b = median_estimate(samples);
+  const bench::Estimate a = bench::median_estimate(samples), b = bench::median_estimate(samples);
   EXPECT_EQ(a.low, b.low);
   EXPECT_EQ(a.high, b.high);
 }
@@ -57,7 +57,7 @@ TEST(Statistics, NinetyFivePercentIntervalCoversTheTrueMedianAboutThatOften) {
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<double> samples(25);
     for (double& sample : samples) sample = normal(random);
-    const Estimate estimate = median_estimate(samples, {.resamples = 500});
+    const bench::Estimate estimate = bench::median_estimate(samples, {.resamples = 500});
     covered += estimate.low <= 10 && 10 <= estimate.high;
   }
   EXPECT_GE(covered, trials * 90 / 100);
@@ -68,7 +68,7 @@ TEST(Statistics, RatioOfMediansOfScaledSamplesIsTheScale) {
   const std::vector<double> samples = {1.0, 1.02, 0.98, 1.01, 0.99};
   std::vector<double> scaled;
   for (const double sample : samples) scaled.push_back(16 * sample);
-  const Estimate ratio = ratio_of_medians(scaled, samples);
+  const bench::Estimate ratio = bench::ratio_of_medians(scaled, samples);
   EXPECT_DOUBLE_EQ(ratio.value, 16);
   EXPECT_LT(ratio.low, 16);
   EXPECT_GT(ratio.high, 16);
@@ -80,7 +80,7 @@ TEST(Regression, FitsAnscombesFirstSetAsRDoes) {
   // Anscombe 1973. R: summary(lm(y1 ~ x1, anscombe)), confint(lm(y1 ~ x1, anscombe))
   const std::vector<double> x = {10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
   const std::vector<double> y = {8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68};
-  const LineFit fit = fit_line(x, y);
+  const bench::LineFit fit = bench::fit_line(x, y);
   EXPECT_NEAR(fit.slope.value, 0.5000909, 1e-7);
   EXPECT_NEAR(fit.slope.low, 0.2333701, 1e-6);
   EXPECT_NEAR(fit.slope.high, 0.7668117, 1e-6);
@@ -90,7 +90,7 @@ TEST(Regression, FitsAnscombesFirstSetAsRDoes) {
 
 TEST(Regression, APointOffALineOfThreeGivesTheIntervalOfOneDegreeOfFreedom) {
   // Residuals 1/6, -1/3, 1/6; half width = t(1, 0.975) * sqrt(1/6 / 2) with t = tan(0.475 pi) = 12.7062
-  const LineFit fit = fit_line(std::vector{0.0, 1.0, 2.0}, std::vector{0.0, 0.0, 1.0});
+  const bench::LineFit fit = bench::fit_line(std::vector{0.0, 1.0, 2.0}, std::vector{0.0, 0.0, 1.0});
   EXPECT_NEAR(fit.slope.value, 0.5, 1e-15);
   EXPECT_NEAR(fit.slope.high - fit.slope.value, 12.706204736 * std::sqrt(1.0 / 12), 1e-8);
   EXPECT_NEAR(fit.r_squared, 0.75, 1e-12);
@@ -103,7 +103,7 @@ TEST(Regression, PowerLawsHaveTheirExponentAndAnIntervalOfNoWidth) {
       x.push_back(n);
       y.push_back(3e-6 * std::pow(n, exponent));
     }
-    const LineFit fit = fit_power(x, y);
+    const bench::LineFit fit = bench::fit_power(x, y);
     EXPECT_NEAR(fit.slope.value, exponent, 1e-12);
     EXPECT_NEAR(fit.slope.high, fit.slope.low, 1e-9);
     EXPECT_NEAR(std::exp(fit.intercept), 3e-6, 1e-15);
@@ -113,7 +113,7 @@ TEST(Regression, PowerLawsHaveTheirExponentAndAnIntervalOfNoWidth) {
 
 TEST(Regression, MoreConfidenceNeedsAWiderInterval) {
   const std::vector<double> x = {1, 2, 3, 4}, y = {1, 2.2, 2.9, 4.1};
-  const LineFit narrow = fit_line(x, y, 0.5), wide = fit_line(x, y, 0.99);
+  const bench::LineFit narrow = bench::fit_line(x, y, 0.5), wide = bench::fit_line(x, y, 0.99);
   EXPECT_GT(narrow.slope.low, wide.slope.low);
   EXPECT_LT(narrow.slope.high, wide.slope.high);
   EXPECT_EQ(narrow.slope.value, wide.slope.value);

@@ -10,8 +10,8 @@
 namespace ccdt {
 namespace {
 
-const Star& star(std::string_view name) {
-  for (const Star& s : stars())
+const experiments::Star& star(std::string_view name) {
+  for (const experiments::Star& s : experiments::stars())
     if (s.name == name) return s;
   throw std::out_of_range("no such star");
 }
@@ -28,14 +28,15 @@ TEST(Stars, HaveTheAngleThatIsAskedFor) {
   for (const std::string_view name : {"two segments", "three segments", "bundle", "wheel"})
     for (const double degrees : {60.0, 20.0, 5.0})
       for (const std::uint64_t variant : {0u, 3u})
-        EXPECT_NEAR(smallest_angle(build_plc(star(name).make(degrees, variant), {})), degrees, 1e-6) << name;
+        EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(star(name).make(degrees, variant), {})), degrees, 1e-6)
+            << name;
   // About as wanted, to the nearest of an even distribution; and fins at this dihedral angle.
-  EXPECT_NEAR(smallest_angle(build_plc(star("urchin").make(20, 0), {})), 20, 4);
-  EXPECT_NEAR(smallest_angle(build_plc(star("fins").make(10, 0), {})), 10 * std::sqrt(3) / 2, 0.1);
+  EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(star("urchin").make(20, 0), {})), 20, 4);
+  EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(star("fins").make(10, 0), {})), 10 * std::sqrt(3) / 2, 0.1);
 }
 
 TEST(Stars, AreTheSameEachTimeAndDifferByVariant) {
-  for (const Star& s : stars()) {
+  for (const experiments::Star& s : experiments::stars()) {
     EXPECT_EQ(s.make(30, 1).vertices, s.make(30, 1).vertices);
     EXPECT_NE(s.make(30, 1).vertices, s.make(30, 2).vertices);
   }
@@ -64,7 +65,7 @@ TEST(MidpointSplitting, EndsForAFewSegmentsOrFinsEvenAtOneDegree) {
 }
 
 TEST(ShellSplitting, EndsForAllStars) {
-  for (const Star& s : stars())
+  for (const experiments::Star& s : experiments::stars())
     for (const double degrees : {36.0, 10.0})
       for (const std::uint64_t variant : {0u, 1u})
         EXPECT_NO_THROW(protect(s.make(degrees, variant), Protection::shell)) << s.name << " " << degrees;
@@ -74,11 +75,11 @@ TEST(SmallestAngle, IsOfSegmentsThatMeet) {
   InputPlc tetrahedron;
   tetrahedron.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  EXPECT_NEAR(smallest_angle(build_plc(tetrahedron, {})), 45, 1e-9);
+  EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(tetrahedron, {})), 45, 1e-9);
 }
 
-TerminationCase stopped(const char* group, double degrees) {
-  return {{.status = RunStatus::failed,
+experiments::TerminationCase stopped(const char* group, double degrees) {
+  return {{.status = baselines::RunStatus::failed,
            .reason = "a segment cannot be protected: it would have to be split into more than 2^20 pieces",
            .runs = {"runs/stopped.json"}},
           group,
@@ -88,44 +89,44 @@ TerminationCase stopped(const char* group, double degrees) {
 }
 
 TEST(Termination, TellsTheLimitFromOtherFailures) {
-  TerminationCase c = stopped("wheel", 30);
-  EXPECT_EQ(termination_of(c), Termination::stopped);
+  experiments::TerminationCase c = stopped("wheel", 30);
+  EXPECT_EQ(experiments::termination_of(c), experiments::Termination::stopped);
   c.reason = "the facets enclose nothing";
-  EXPECT_EQ(termination_of(c), Termination::unknown);
+  EXPECT_EQ(experiments::termination_of(c), experiments::Termination::unknown);
   c = stopped("wheel", 30);
-  c.status = RunStatus::timeout;
-  EXPECT_EQ(termination_of(c), Termination::unknown);
-  c.status = RunStatus::ok;
-  EXPECT_EQ(termination_of(c), Termination::ended);
+  c.status = baselines::RunStatus::timeout;
+  EXPECT_EQ(experiments::termination_of(c), experiments::Termination::unknown);
+  c.status = baselines::RunStatus::ok;
+  EXPECT_EQ(experiments::termination_of(c), experiments::Termination::ended);
 }
 
 TEST(Termination, ResultSaysAtWhichAnglesMidpointsEnded) {
-  TerminationCase ended = stopped("wheel", 60);
-  ended.status = RunStatus::ok;
+  experiments::TerminationCase ended = stopped("wheel", 60);
+  ended.status = baselines::RunStatus::ok;
   ended.reason.clear();
   ended.counts.steiner_vertices = 7;
   ended.counts.splits_by_level = {4, 3};
-  TerminationCase shell = stopped("wheel", 30);
-  shell.status = RunStatus::ok;
+  experiments::TerminationCase shell = stopped("wheel", 30);
+  shell.status = baselines::RunStatus::ok;
   shell.protection = Protection::shell;
-  TerminationCase bad = stopped("file", 0);
+  experiments::TerminationCase bad = stopped("file", 0);
   bad.input = "open.off";
   bad.reason = "the surface is open";
-  const ExperimentResult result =
-      termination_result(std::vector{ended, stopped("wheel", 30), stopped("wheel", 20), shell, bad});
+  const results::ExperimentResult result =
+      experiments::termination_result(std::vector{ended, stopped("wheel", 30), stopped("wheel", 20), shell, bad});
   EXPECT_EQ(
       result.findings.at(0),
       "Midpoint, wheel: ended in 1 of 3 cases; from 60 degrees up it always ended; it did not at 30 to 20 degrees");
   EXPECT_EQ(result.findings.back(), "Shell on stars ended in 1 of 1 cases");
-  const ResultTable& table = *find_table(result, "stars");
+  const results::ResultTable& table = *results::find_table(result, "stars");
   ASSERT_EQ(table.rows.size(), 3u);
-  EXPECT_EQ(number_in(table, table.rows[0], "midpoint_ended"), 1);
-  EXPECT_EQ(number_in(table, table.rows[0], "midpoint_steiner_vertices"), 7);
-  EXPECT_EQ(number_in(table, table.rows[1], "midpoint_ended"), 0);
-  EXPECT_TRUE(std::isnan(number_in(table, table.rows[1], "midpoint_steiner_vertices")));
-  EXPECT_EQ(number_in(table, table.rows[1], "shell_ended"), 1);
-  const ResultTable& files = *find_table(result, "solids");
-  EXPECT_EQ(text_in(files, files.rows.at(0), "reason"), "the surface is open");
+  EXPECT_EQ(results::number_in(table, table.rows[0], "midpoint_ended"), 1);
+  EXPECT_EQ(results::number_in(table, table.rows[0], "midpoint_steiner_vertices"), 7);
+  EXPECT_EQ(results::number_in(table, table.rows[1], "midpoint_ended"), 0);
+  EXPECT_TRUE(std::isnan(results::number_in(table, table.rows[1], "midpoint_steiner_vertices")));
+  EXPECT_EQ(results::number_in(table, table.rows[1], "shell_ended"), 1);
+  const results::ResultTable& files = *results::find_table(result, "solids");
+  EXPECT_EQ(results::text_in(files, files.rows.at(0), "reason"), "the surface is open");
   EXPECT_EQ(result.problems.size(), 1u);
   EXPECT_TRUE(result.is_good);  // the user's file is not our fault
 }

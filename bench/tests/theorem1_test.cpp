@@ -9,7 +9,7 @@
 namespace ccdt {
 namespace {
 
-using namespace small;
+using namespace small_plcs;
 
 SmallPlc tetrahedron() {
   return {{{0, 0, 0}, {50, 3, 1}, {7, 60, 2}, {11, 13, 55}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
@@ -257,8 +257,8 @@ TEST(Theorem1, ResultNamesCounterexamplesAndDisagreements) {
   against.protection.edges = false;
   Trial broken = sound;
   broken.disagreement = "two answers";
-  FamilyTrials family{.name = "test"};
-  for (const Trial& trial : {sound, against, sound, broken}) add_trial(trial, family);
+  experiments::FamilyTrials family{.name = "test"};
+  for (const Trial& trial : {sound, against, sound, broken}) experiments::add_trial(trial, family);
   EXPECT_EQ(family.cases, 4u);
   EXPECT_EQ(family.premise, 3u);
   EXPECT_EQ(family.dt, 4u);
@@ -266,13 +266,13 @@ TEST(Theorem1, ResultNamesCounterexamplesAndDisagreements) {
   EXPECT_EQ(family.against_if, 0u);
   EXPECT_EQ(family.edges_alone, 1u);
 
-  const ExperimentResult result = theorem1_result(std::vector{family});
+  const results::ExperimentResult result = experiments::theorem1_result(std::vector{family});
   EXPECT_FALSE(result.is_good);
   ASSERT_EQ(result.problems.size(), 1u);
   EXPECT_NE(result.problems[0].find("two answers: vertices (0 0 0)"), std::string::npos);
-  const ResultTable& table = result.tables.front();
-  EXPECT_NE(text_in(table, table.rows[0], "counterexample").find("(-50 -31 1)"), std::string::npos);
-  EXPECT_EQ(number_in(table, table.rows[0], "engine_agrees"), 3);
+  const results::ResultTable& table = result.tables.front();
+  EXPECT_NE(results::text_in(table, table.rows[0], "counterexample").find("(-50 -31 1)"), std::string::npos);
+  EXPECT_EQ(results::number_in(table, table.rows[0], "engine_agrees"), 3);
   EXPECT_EQ(result.findings[0].find("If: 3 of 3 "), 0u);
   EXPECT_EQ(result.findings[1].find("Only if: 3 of 4 "), 0u);
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-
 namespace ccdt {
 
 namespace {
@@ -16,28 +15,28 @@ int left_and_right(int i, int, int) {
 
 }  // namespace
 
-std::string all_lines(const Verification& verification) {
+std::string all_lines(const verify::Verification& verification) {
   std::string s;
-  for (const std::string& line : describe(verification)) s += line + "\n";
+  for (const std::string& line : verify::describe(verification)) s += line + "\n";
   return s;
 }
 
-const Check& check_named(const Verification& verification, const std::string& name) {
+const verify::Check& check_named(const verify::Verification& verification, const std::string& name) {
   const auto found = std::find_if(verification.checks.begin(), verification.checks.end(),
-                                  [&](const Check& c) { return c.name == name; });
+                                  [&](const verify::Check& c) { return c.name == name; });
   if (found == verification.checks.end()) throw std::runtime_error("no check is called " + name);
   return *found;
 }
 
-void expect_ok(const MeshedInput& m, const VerifyOptions& options) {
-  const Verification v = verify(m.input, m.mesh, options);
+void expect_ok(const MeshedInput& m, const verify::VerifyOptions& options) {
+  const verify::Verification v = verify::verify(m.input, m.mesh, options);
   EXPECT_TRUE(v.ok()) << all_lines(v);
 }
 
-void expect_failure(const MeshedInput& m, const std::string& name, const VerifyOptions& options) {
-  const Verification v = verify(m.input, m.mesh, options);
+void expect_failure(const MeshedInput& m, const std::string& name, const verify::VerifyOptions& options) {
+  const verify::Verification v = verify::verify(m.input, m.mesh, options);
   EXPECT_FALSE(v.ok());
-  const Check& check = check_named(v, name);
+  const verify::Check& check = check_named(v, name);
   EXPECT_GT(check.failed, 0u) << all_lines(v);
   EXPECT_FALSE(check.examples.empty());
 }
@@ -55,22 +54,22 @@ MeshedInput cube() {
 
 MeshedInput two_regions(bool turned, const Transform& transform) {
   MeshedInput m = make_grid_mesh({4, 3, 3}, left_and_right, turned, transform);
-  m.input.inside = InputPlc::Inside::seeds;
+  m.input.inside = plc::InputPlc::Inside::seeds;
   m.input.regions = {{transform({0.4, 0.3, 0.6}), 1, 0}, {transform({3.4, 0.3, 0.6}), 2, 0}};
   return m;
 }
 
-std::uint32_t vertex_at(const TetMesh& mesh, const Point3& p) {
+std::uint32_t vertex_at(const mesh::TetMesh& mesh, const Point3& p) {
   const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), p);
   return static_cast<std::uint32_t>(found - mesh.vertices.begin());
 }
 
-InputPlc unit_cube() {
-  InputPlc input;
+plc::InputPlc unit_cube() {
+  plc::InputPlc input;
   for (int i = 0; i < 8; ++i) input.vertices.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
   for (const auto& q : std::vector<std::vector<std::uint32_t>>{
            {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
-    PolygonFacet facet;
+    plc::PolygonFacet facet;
     facet.polygons = {q};
     facet.number = static_cast<std::uint32_t>(input.polygon_facets.size());
     input.polygon_facets.push_back(facet);
@@ -103,10 +102,10 @@ MeshedInput bipyramid(bool delaunay) {
 MeshedInput plate() {
   MeshedInput m = make_grid_mesh(
       {3, 3, 1}, [](int i, int j, int) { return i == 1 && j == 1 ? outside : 0; }, false, unmoved);
-  m.input.inside = InputPlc::Inside::seeds;
+  m.input.inside = plc::InputPlc::Inside::seeds;
   m.input.triangles.clear();
   const auto facet = [&](std::vector<std::vector<Point3>> loops, std::vector<Point3> holes) {
-    PolygonFacet f;
+    plc::PolygonFacet f;
     for (const auto& loop : loops) {
       f.polygons.emplace_back();
       for (const Point3& p : loop) f.polygons.back().push_back(vertex_at(m.mesh, p));

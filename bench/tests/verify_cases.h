@@ -7,12 +7,12 @@
 
 namespace ccdt {
 
-std::string all_lines(const Verification& verification);
-const Check& check_named(const Verification& verification, const std::string& name);
+std::string all_lines(const verify::Verification& verification);
+const verify::Check& check_named(const verify::Verification& verification, const std::string& name);
 
-void expect_ok(const MeshedInput& m, const VerifyOptions& options = {});
+void expect_ok(const MeshedInput& m, const verify::VerifyOptions& options = {});
 /// The check of that name fails, and says where.
-void expect_failure(const MeshedInput& m, const std::string& name, const VerifyOptions& options = {});
+void expect_failure(const MeshedInput& m, const std::string& name, const verify::VerifyOptions& options = {});
 
 int everywhere(int, int, int);
 int around_a_hole(int i, int j, int k);
@@ -22,13 +22,13 @@ MeshedInput cube();
 /// 4 x 3 x 3 unit cubes; those with x < 2 have region 1, the others 2.
 MeshedInput two_regions(bool turned_diagonals = false, const Transform& transform = unmoved);
 /// The unit cube as six quadrilaterals.
-InputPlc unit_cube();
+plc::InputPlc unit_cube();
 MeshedInput cube_in_five();
 /// A triangle and two points far above and below it: two tetrahedra are Delaunay, three around the axis are not.
 MeshedInput bipyramid(bool delaunay);
 /// A plate with a square hole through it; its top and bottom are polygons with holes.
 MeshedInput plate();
 
-std::uint32_t vertex_at(const TetMesh& mesh, const Point3& p);
+std::uint32_t vertex_at(const mesh::TetMesh& mesh, const Point3& p);
 
 }  // namespace ccdt

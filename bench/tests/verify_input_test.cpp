@@ -11,7 +11,7 @@ namespace {
 TEST(Verify, ACubeInFiveTetrahedraIsRight) {
   const MeshedInput m = cube_in_five();
   expect_ok(m);
-  const Verification v = verify(m.input, m.mesh);
+  const verify::Verification v = verify::verify(m.input, m.mesh);
   EXPECT_DOUBLE_EQ(v.mesh_volume, 1);
   EXPECT_DOUBLE_EQ(v.input_volume, 1);
   EXPECT_EQ(check_named(v, "input segments").checked, 12u);
@@ -48,7 +48,7 @@ TEST(Verify, NestedShellsAlternate) {
 
 TEST(Verify, CubesThatShareAFaceOfASurfaceAreBothInside) {
   MeshedInput m = two_regions(true, rotated);
-  m.input.inside = InputPlc::Inside::even_odd;
+  m.input.inside = plc::InputPlc::Inside::even_odd;
   m.input.regions.clear();
   expect_ok(m);
 }
@@ -105,7 +105,7 @@ TEST(Verify, AFilledHoleIsFound) {
   m.input = hollow.input;
   expect_failure(m, "tetrahedra in the domain");
   expect_failure(m, "volume");
-  m.input.inside = InputPlc::Inside::seeds;
+  m.input.inside = plc::InputPlc::Inside::seeds;
   expect_ok(m);
   m.input.holes = {{1.5, 1.4, 1.3}};
   expect_failure(m, "holes");
@@ -150,7 +150,7 @@ TEST(Verify, APlateWithItsHoleClosedAtBothEndsIsAnotherDomain) {
 /// between the two tetrahedra above one of its diagonals and the two below the other.
 MeshedInput octahedron_with_flat_tetrahedron(double thickness) {
   MeshedInput m;
-  m.input.inside = InputPlc::Inside::seeds;
+  m.input.inside = plc::InputPlc::Inside::seeds;
   m.input.vertices = {{1, 0, thickness}, {0, 1, 0}, {-1, 0, thickness}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (std::uint32_t i = 0; i < 4; ++i) {
     m.input.triangles.push_back({i, (i + 1) % 4, 4});

@@ -8,9 +8,9 @@
 namespace ccdt {
 namespace {
 
-VerifyOptions sliding() {
-  VerifyOptions options;
-  options.boundary = VerifyOptions::Boundary::slide;
+verify::VerifyOptions sliding() {
+  verify::VerifyOptions options;
+  options.boundary = verify::VerifyOptions::Boundary::slide;
   return options;
 }
 
@@ -135,7 +135,7 @@ TEST(VerifySlide, AChangeOfMarkersIsAnEdge) {
 MeshedInput cube_with_line(const Point3& bend = {0, 0, 0}) {
   MeshedInput m = make_grid_mesh({4, 4, 4}, everywhere, false, unmoved);
   const auto at = [&](double x) { return vertex_at(m.mesh, {x, 2, 2}); };
-  m.input.inside = InputPlc::Inside::seeds;
+  m.input.inside = plc::InputPlc::Inside::seeds;
   m.input.segments = {{at(1), at(2)}, {at(2), at(3)}};
   const std::uint32_t middle = at(2);
   m.input.vertices[middle] = m.mesh.vertices[middle] = Point3{2, 2, 2} + bend;

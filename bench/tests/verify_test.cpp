@@ -115,8 +115,8 @@ TEST(Verify, ANonDelaunayFlipIsFound) {
   MeshedInput m = bipyramid(false);
   m.mesh.constrained_delaunay = false;
   expect_ok(m);
-  VerifyOptions options;
-  options.delaunay = VerifyOptions::Delaunay::yes;
+  verify::VerifyOptions options;
+  options.delaunay = verify::VerifyOptions::Delaunay::yes;
   expect_failure(m, "locally Delaunay faces", options);
   // A face that is asked for need not be Delaunay; one that is in the way of the other mesh need not either.
   m = bipyramid(true);
@@ -132,7 +132,7 @@ TEST(Verify, WhatRoundingExplainsIsNotHeldAgainstTheMesh) {
       make_grid_mesh({3, 3, 3}, everywhere, false, rotated);  // five cospherical points, but for the last bits
   m.mesh.constrained_delaunay = true;
   expect_ok(m);
-  const Verification v = verify(m.input, m.mesh);
+  const verify::Verification v = verify::verify(m.input, m.mesh);
   EXPECT_GT(check_named(v, "locally Delaunay without rounding").failed, 0u);
   const std::uint32_t inner = vertex_at(m.mesh, rotated({1, 1, 1}));
   m.mesh.vertices[inner].x += 1e-6;
@@ -178,9 +178,9 @@ TEST(Verify, TwoVerticesInOnePlaceAreFound) {
 
 TEST(Verify, TheDescriptionSaysWhatFailedAndWhere) {
   MeshedInput m = cube();
-  EXPECT_EQ(describe(verify(m.input, m.mesh)).back(), "the mesh is right");
+  EXPECT_EQ(verify::describe(verify::verify(m.input, m.mesh)).back(), "the mesh is right");
   std::swap(m.mesh.tetrahedra[0][0], m.mesh.tetrahedra[0][1]);
-  const std::string lines = all_lines(verify(m.input, m.mesh));
+  const std::string lines = all_lines(verify::verify(m.input, m.mesh));
   EXPECT_NE(lines.find("FAILED  positive orientation"), std::string::npos) << lines;
   EXPECT_NE(lines.find("tetrahedron 0: (1, 0, 0) (0, 0, 0)"), std::string::npos) << lines;
   EXPECT_NE(lines.find("the mesh is WRONG"), std::string::npos) << lines;

@@ -174,7 +174,7 @@ TEST(VerifyTouching, ABoxMayUseAPartOfAFacetAsItsBottom) {
     expect_failure({input, m.mesh}, "input facets");
     m = mesh_with_engine(input);
     expect_ok(m);
-    EXPECT_NEAR(verify(m.input, m.mesh).input_volume, 26, 1e-12);
+    EXPECT_NEAR(verify::verify(m.input, m.mesh).input_volume, 26, 1e-12);
   }
 }
 

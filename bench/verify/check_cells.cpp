@@ -4,7 +4,7 @@
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -30,7 +30,7 @@ void check_elements(Check& check, const char* what, const Elements& elements, st
 
 }  // namespace
 
-Check check_coordinates(const TetMesh& mesh) {
+Check check_coordinates(const mesh::TetMesh& mesh) {
   Check check = make_check("finite coordinates");
   check.checked = mesh.vertices.size();
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -41,7 +41,7 @@ Check check_coordinates(const TetMesh& mesh) {
   return check;
 }
 
-Check check_indices(const TetMesh& mesh) {
+Check check_indices(const mesh::TetMesh& mesh) {
   Check check = make_check("valid elements");
   if (mesh.tetrahedra.empty()) fail(check, [] { return std::string("the mesh has no tetrahedra"); });
   check_elements(check, "tetrahedron", mesh.tetrahedra, mesh.vertices.size());
@@ -53,7 +53,7 @@ Check check_indices(const TetMesh& mesh) {
   return check;
 }
 
-Check check_orientation(const TetMesh& mesh, const Progress& progress) {
+Check check_orientation(const mesh::TetMesh& mesh, const Progress& progress) {
   Check check = make_check("positive orientation");
   check.checked = mesh.tetrahedra.size();
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
@@ -65,7 +65,7 @@ Check check_orientation(const TetMesh& mesh, const Progress& progress) {
   return check;
 }
 
-Check check_distinct_vertices(const TetMesh& mesh, const Topology& topology) {
+Check check_distinct_vertices(const mesh::TetMesh& mesh, const Topology& topology) {
   Check check = make_check("distinct vertices");
   std::vector<std::uint32_t> order;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
@@ -83,7 +83,7 @@ Check check_distinct_vertices(const TetMesh& mesh, const Topology& topology) {
   return check;
 }
 
-Check check_used_vertices(const TetMesh& mesh, const Topology& topology) {
+Check check_used_vertices(const mesh::TetMesh& mesh, const Topology& topology) {
   Check check = make_check("vertices in use", false);
   check.checked = mesh.vertices.size();
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -93,7 +93,7 @@ Check check_used_vertices(const TetMesh& mesh, const Topology& topology) {
   return check;
 }
 
-Check check_shared_faces(const TetMesh& mesh, const Topology& topology) {
+Check check_shared_faces(const mesh::TetMesh& mesh, const Topology& topology) {
   Check check = make_check("faces of one or two tetrahedra");
   check.checked = topology.faces.size();
   for (const std::uint32_t f : topology.bad_faces) {
@@ -104,4 +104,4 @@ Check check_shared_faces(const TetMesh& mesh, const Topology& topology) {
   return check;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

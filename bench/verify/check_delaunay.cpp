@@ -4,7 +4,7 @@
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -55,14 +55,15 @@ Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
   return {value, change + norm1(of_origin), 2880 * largest * largest * largest};
 }
 
-std::string describe(const TetMesh& mesh, const Face& face, std::uint32_t before, std::uint32_t behind, double ratio) {
+std::string describe(const mesh::TetMesh& mesh, const Face& face, std::uint32_t before, std::uint32_t behind,
+                     double ratio) {
   return "the face" + text(mesh.vertices, face) + " between " + text(mesh.vertices[before]) + " and " +
          text(mesh.vertices[behind]) + ", " + std::to_string(ratio) + " times what rounding explains";
 }
 
 }  // namespace
 
-DelaunayChecks check_delaunay(const TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
+DelaunayChecks check_delaunay(const mesh::TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
                               double rounding, bool required, const Progress& progress) {
   DelaunayChecks checks{
       make_check(required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", required),
@@ -86,4 +87,4 @@ DelaunayChecks check_delaunay(const TetMesh& mesh, const Topology& topology, con
   return checks;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

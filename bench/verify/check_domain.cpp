@@ -5,7 +5,7 @@
 #include "bench/verify/checks.h"
 #include "bench/verify/findings.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -23,19 +23,19 @@ class Sum {
   double sum_ = 0, lost_ = 0;
 };
 
-std::string text_of_tetrahedron(const TetMesh& mesh, std::size_t t) {
+std::string text_of_tetrahedron(const mesh::TetMesh& mesh, std::size_t t) {
   Point3 center;
   for (const std::uint32_t v : mesh.tetrahedra[t]) center = center + 0.25 * mesh.vertices[v];
   return "tetrahedron " + std::to_string(t) + " around " + text(center);
 }
 
-int attribute_of(const TetMesh& mesh, std::size_t t) {
+int attribute_of(const mesh::TetMesh& mesh, std::size_t t) {
   return mesh.regions.empty() ? 0 : mesh.regions[t];
 }
 
 /// The attributes that tetrahedra of each region may have: where there is no seed, that of the first one. (A region
 /// of tetrahedra within facets alone has none.)
-std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Regions& regions,
+std::vector<std::vector<int>> wanted_regions(const mesh::TetMesh& mesh, const Regions& regions,
                                              const RegionsOfTetrahedra& assigned) {
   auto wanted = regions.attributes;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
@@ -50,7 +50,7 @@ std::vector<std::vector<int>> wanted_regions(const TetMesh& mesh, const Regions&
 /// the sheet that was taken and near its plane, that a way through such connects with it.
 class FlatTetrahedra {
  public:
-  FlatTetrahedra(const TetMesh& mesh, const Topology& topology, const Regions& regions, double flat,
+  FlatTetrahedra(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions, double flat,
                  RegionsOfTetrahedra& assigned)
       : mesh_(mesh), topology_(topology), regions_(regions), flat_(flat), assigned_(assigned) {}
 
@@ -87,7 +87,7 @@ class FlatTetrahedra {
     });
   }
 
-  const TetMesh& mesh_;
+  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Regions& regions_;
   double flat_;
@@ -97,7 +97,7 @@ class FlatTetrahedra {
 
 }  // namespace
 
-RegionsOfTetrahedra assign_regions(const TetMesh& mesh, const Topology& topology, const Regions& regions,
+RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions,
                                    const FacetMatches& matches, double flat) {
   RegionsOfTetrahedra assigned;
   assigned.region.assign(mesh.tetrahedra.size(), none);
@@ -142,7 +142,7 @@ void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions) {
     if (regions.inside[c] == Inside::unknown) regions.inside[c] = filled[c] ? Inside::yes : Inside::no;
 }
 
-Check check_domain(const TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
+Check check_domain(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check = make_check("tetrahedra in the domain");
   check.checked = mesh.tetrahedra.size();
   for (const std::uint32_t t : assigned.conflicts)
@@ -157,7 +157,7 @@ Check check_domain(const TetMesh& mesh, const Regions& regions, const RegionsOfT
   return check;
 }
 
-Check check_regions(const TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
+Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check = make_check("regions");
   check.checked = mesh.tetrahedra.size();
   const auto wanted = wanted_regions(mesh, regions, assigned);
@@ -178,7 +178,7 @@ Check check_regions(const TetMesh& mesh, const Regions& regions, const RegionsOf
   return check;
 }
 
-Check check_holes(const InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
+Check check_holes(const plc::InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check = make_check("holes");
   check.checked = input.holes.size();
   std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
@@ -191,7 +191,7 @@ Check check_holes(const InputPlc& input, const Regions& regions, const RegionsOf
   return check;
 }
 
-double mesh_volume(const TetMesh& mesh) {
+double mesh_volume(const mesh::TetMesh& mesh) {
   Sum sum;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
     const Point3& o = mesh.vertices[a];
@@ -228,4 +228,4 @@ Check check_volume(const Surface& surface, const Regions& regions, double of_mes
   return check;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -1,7 +1,7 @@
 #include "bench/verify/checks.h"
 #include "bench/verify/findings.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -11,7 +11,8 @@ bool any_inside(const Regions& regions, const std::vector<std::uint32_t>& which)
 
 }  // namespace
 
-Check check_vertices(const InputPlc& input, const Surface& surface, const Regions& regions, const RayShooter& rays) {
+Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions,
+                     const RayShooter& rays) {
   Check check = make_check(surface.slides.empty() ? "input vertices" : "input vertices that may not slide");
   std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
@@ -78,7 +79,7 @@ Check check_facets(const Surface& surface, const FacetMatches& matches, const Re
   return check;
 }
 
-Check check_boundary(const TetMesh& mesh, const Topology& topology, const FacetMatches& matches) {
+Check check_boundary(const mesh::TetMesh& mesh, const Topology& topology, const FacetMatches& matches) {
   Check check = make_check("boundary faces on input facets");
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) check.checked += topology.on_boundary(f);
   for (const std::uint32_t f : matches.stray_faces) {
@@ -88,4 +89,4 @@ Check check_boundary(const TetMesh& mesh, const Topology& topology, const FacetM
   return check;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

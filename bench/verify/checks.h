@@ -7,35 +7,36 @@
 #include "bench/verify/verify.h"
 
 /// The checks, each with what must hold.
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// \name The tetrahedra by themselves (check_cells.cpp).
 /// @{
 
 /// Coordinates are finite.
-Check check_coordinates(const TetMesh& mesh);
+Check check_coordinates(const mesh::TetMesh& mesh);
 
 /// Every tetrahedron has four different vertices that exist, and attribute arrays have one entry an element.
-Check check_indices(const TetMesh& mesh);
+Check check_indices(const mesh::TetMesh& mesh);
 
 /// Every tetrahedron is positively oriented, exactly.
-Check check_orientation(const TetMesh& mesh, const Progress& progress);
+Check check_orientation(const mesh::TetMesh& mesh, const Progress& progress);
 
 /// No two vertices that tetrahedra use are in one place.
-Check check_distinct_vertices(const TetMesh& mesh, const Topology& topology);
+Check check_distinct_vertices(const mesh::TetMesh& mesh, const Topology& topology);
 
 /// Every vertex is used by a tetrahedron (not required).
-Check check_used_vertices(const TetMesh& mesh, const Topology& topology);
+Check check_used_vertices(const mesh::TetMesh& mesh, const Topology& topology);
 
 /// Every face is of one tetrahedron, or of two on opposite sides.
-Check check_shared_faces(const TetMesh& mesh, const Topology& topology);
+Check check_shared_faces(const mesh::TetMesh& mesh, const Topology& topology);
 
 /// @}
 /// \name The facets of the input in the mesh (check_facets.cpp).
 /// @{
 
 /// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
-Check check_vertices(const InputPlc& input, const Surface& surface, const Regions& regions, const RayShooter& rays);
+Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions,
+                     const RayShooter& rays);
 
 /// Every segment and every feature edge in or on the domain is a chain of mesh edges.
 Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
@@ -45,7 +46,7 @@ Check check_segments(const Surface& surface, const Chains& edges, const Chains& 
 Check check_facets(const Surface& surface, const FacetMatches& matches, const Regions& regions);
 
 /// Every boundary face of the mesh stands for an input facet.
-Check check_boundary(const TetMesh& mesh, const Topology& topology, const FacetMatches& matches);
+Check check_boundary(const mesh::TetMesh& mesh, const Topology& topology, const FacetMatches& matches);
 
 /// @}
 /// \name The domain and its regions (check_domain.cpp).
@@ -62,23 +63,23 @@ struct RegionsOfTetrahedra {
 
 /// Floods the mesh from the faces that stand for facets.
 /// \param flat  how far from its plane an interior facet reaches
-RegionsOfTetrahedra assign_regions(const TetMesh& mesh, const Topology& topology, const Regions& regions,
+RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions,
                                    const FacetMatches& matches, double flat);
 
 /// Decides the regions of which the input does not tell whether they are inside, by whether the mesh fills them.
 void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions);
 
 /// Every tetrahedron is in one region, and that is inside.
-Check check_domain(const TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned);
+Check check_domain(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned);
 
 /// A tetrahedron has the attribute of the region seed in its region; without a seed, the same as all in the region.
 /// One that lies within an interior facet may have the attribute of either side.
-Check check_regions(const TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned);
+Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned);
 
 /// No tetrahedron is in a region with a hole's point.
-Check check_holes(const InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned);
+Check check_holes(const plc::InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned);
 
-double mesh_volume(const TetMesh& mesh);
+double mesh_volume(const mesh::TetMesh& mesh);
 double input_volume(const Surface& surface, const Regions& regions);
 
 /// The volumes are equal to 1e-9, and what moving the surface within the tolerance can change.
@@ -101,9 +102,9 @@ struct DelaunayChecks {
 /// explained by that if moving each coordinate by `rounding` can change the sign of the determinant (to first order).
 ///
 /// \param constrained  of each face: does it stand for a facet?
-DelaunayChecks check_delaunay(const TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
+DelaunayChecks check_delaunay(const mesh::TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
                               double rounding, bool required, const Progress& progress);
 
 /// @}
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -7,7 +7,7 @@
 #include "bench/verify/patches.h"
 #include "bench/verify/polygon_cells.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -195,4 +195,4 @@ void embed_lines(Surface& surface) {
   if (!drawings.lines.empty()) divide_patches(drawings, surface);
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

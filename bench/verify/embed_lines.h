@@ -5,7 +5,7 @@
 
 #include "bench/verify/surface.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// The pieces by their bounding boxes.
 class PieceTree {
@@ -45,4 +45,4 @@ PointOnPiece locate_on_piece(const Surface& surface, std::uint32_t piece, const 
 /// within it. Edges of the input that cross each other without a common vertex are left as they are.
 void embed_lines(Surface& surface);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -2,7 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -22,4 +22,4 @@ int side_of_sphere(const Point3& a, const Point3& b, const Point3& c, const Poin
   return static_cast<int>(CGAL::side_of_oriented_sphere(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d), to_cgal(e)));
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -5,7 +5,7 @@
 
 #include "bench/verify/verify.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// A check that has looked at nothing yet.
 inline Check make_check(std::string name, bool required = true) {
@@ -38,4 +38,4 @@ std::string text(const std::vector<Point3>& points, const Vertices& vertices) {
   return s;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

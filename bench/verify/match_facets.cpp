@@ -5,7 +5,7 @@
 
 #include "engine/base/union_find.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -28,7 +28,7 @@ struct Boundary {
   std::vector<EdgeEntry> at_edges;  ///< each edge with the faces at it, sorted
 };
 
-Boundary find_boundary(const TetMesh& mesh, const Topology& topology) {
+Boundary find_boundary(const mesh::TetMesh& mesh, const Topology& topology) {
   Boundary boundary;
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
     if (!topology.on_boundary(f)) continue;
@@ -69,7 +69,7 @@ struct BoundaryPart {
 
 class BoundaryMatcher {
  public:
-  BoundaryMatcher(const TetMesh& mesh, const Topology& topology, const Surface& surface, const Chains& chains,
+  BoundaryMatcher(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, const Chains& chains,
                   FacetMatches& matches)
       : mesh_(mesh),
         topology_(topology),
@@ -166,7 +166,7 @@ class BoundaryMatcher {
     }
   }
 
-  const TetMesh& mesh_;
+  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Surface& surface_;
   FacetMatches& matches_;
@@ -182,7 +182,7 @@ class BoundaryMatcher {
 /// sheet.
 class Sheet {
  public:
-  Sheet(const TetMesh& mesh, const Topology& topology, const Surface& surface, const Patches& patches,
+  Sheet(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, const Patches& patches,
         std::uint32_t patch)
       : mesh_(mesh),
         topology_(topology),
@@ -260,7 +260,7 @@ class Sheet {
     return true;
   }
 
-  const TetMesh& mesh_;
+  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Patches& patches_;
   std::uint32_t patch_;
@@ -271,7 +271,7 @@ class Sheet {
 
 class InteriorMatcher {
  public:
-  InteriorMatcher(const TetMesh& mesh, const Topology& topology, const Surface& surface, FacetMatches& matches)
+  InteriorMatcher(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, FacetMatches& matches)
       : mesh_(mesh), topology_(topology), surface_(surface), matches_(matches) {}
 
   /// Matches what is left of the pieces patch by patch.
@@ -334,7 +334,7 @@ class InteriorMatcher {
     matches_.faces.insert(matches_.faces.end(), faces.begin(), faces.end());
   }
 
-  const TetMesh& mesh_;
+  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Surface& surface_;
   FacetMatches& matches_;
@@ -356,8 +356,8 @@ void match_interior(InteriorMatcher& interior, const Surface& surface, const Cha
 
 }  // namespace
 
-FacetMatches match_facets(const TetMesh& mesh, const Topology& topology, const Surface& surface, const Chains& chains,
-                          const std::vector<bool>& features) {
+FacetMatches match_facets(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
+                          const Chains& chains, const std::vector<bool>& features) {
   FacetMatches matches;
   matches.found.assign(surface.pieces(), FoundAs::nothing);
   matches.problem.resize(surface.pieces());
@@ -371,4 +371,4 @@ FacetMatches match_facets(const TetMesh& mesh, const Topology& topology, const S
   return matches;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -6,7 +6,7 @@
 #include "bench/verify/findings.h"
 #include "engine/base/union_find.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -48,7 +48,7 @@ bool folds_back(const Surface& surface, std::uint32_t edge) {
 /// Walks from one end of an edge to the other over mesh edges that lie along it.
 class EdgeWalk {
  public:
-  EdgeWalk(const TetMesh& mesh, const Topology& topology, const Surface& surface, Edge ends)
+  EdgeWalk(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, Edge ends)
       : mesh_(mesh),
         topology_(topology),
         ends_(ends),
@@ -98,7 +98,7 @@ class EdgeWalk {
     return ahead;
   }
 
-  const TetMesh& mesh_;
+  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   Edge ends_;
   Point3 origin_, axis_;
@@ -192,7 +192,8 @@ std::vector<bool> find_features(const Surface& surface) {
   return features;
 }
 
-Chains find_chains(const TetMesh& mesh, const Topology& topology, const Surface& surface, std::span<const Edge> edges) {
+Chains find_chains(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
+                   std::span<const Edge> edges) {
   Chains chains;
   chains.first.reserve(edges.size() + 1);
   chains.first.push_back(0);
@@ -223,8 +224,8 @@ Patches group_pieces(const Surface& surface, const std::vector<bool>& joined) {
   return group_pieces(surface, no_chains, joined);
 }
 
-std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, const Patches& patches, std::uint32_t patch,
-                               std::span<const Face> faces) {
+std::string compare_with_patch(const mesh::TetMesh& mesh, const Surface& surface, const Patches& patches,
+                               std::uint32_t patch, std::span<const Face> faces) {
   const auto pieces = patches.pieces.of(patch);
   if (pieces.size() == 1 && surface.is_triangle(pieces[0]) && faces.size() == 1)
     return {};  // the links are the whole triangle
@@ -259,4 +260,4 @@ std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, cons
   return {};
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -4,7 +4,7 @@
 
 #include "bench/verify/surface.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// Is the edge one that a mesh must have: not between two facets in one plane with one marker?
 std::vector<bool> find_features(const Surface& surface);
@@ -16,7 +16,8 @@ struct Chains : IndexLists {
 };
 
 /// A vertex is on an edge if it is within `tolerances.place` of it.
-Chains find_chains(const TetMesh& mesh, const Topology& topology, const Surface& surface, std::span<const Edge> edges);
+Chains find_chains(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
+                   std::span<const Edge> edges);
 
 /// Sets of pieces that the mesh may triangulate as it likes, because their common edges are not in the mesh or need not
 /// be.
@@ -50,7 +51,7 @@ Patches group_pieces(const Surface& surface, const std::vector<bool>& joined);
 ///
 /// \param faces  oriented like the patch
 /// \return       what is wrong; empty if nothing is
-std::string compare_with_patch(const TetMesh& mesh, const Surface& surface, const Patches& patches, std::uint32_t patch,
-                               std::span<const Face> faces);
+std::string compare_with_patch(const mesh::TetMesh& mesh, const Surface& surface, const Patches& patches,
+                               std::uint32_t patch, std::span<const Face> faces);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -136,7 +136,7 @@ bool encloses(const Point3& normal, std::span<const Edge> loop, std::span<const 
   return contains(drawing, loop, drawing.at(point));
 }
 
-PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
+PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
                                 std::span<const Point3> position) {
   PolygonCells result;
   std::vector<PolygonCell> polygons;
@@ -171,4 +171,4 @@ PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::
   return result;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

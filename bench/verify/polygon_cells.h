@@ -6,7 +6,7 @@
 #include "bench/verify/topology.h"
 #include "engine/plc/input.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// A part of a facet without inner edges: the directed edges of its outer loop and of the loops of what is cut out of
 /// it, with the cell to their left.
@@ -34,7 +34,7 @@ struct PolygonCells {
 /// The cells into which the polygons of a facet divide their plane, without those that hold a hole's point.
 ///
 /// \param site_of_input  names of the input's vertices
-PolygonCells find_polygon_cells(const PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
+PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
                                 std::span<const Point3> position);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

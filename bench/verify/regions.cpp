@@ -7,7 +7,7 @@
 #include "bench/verify/exact.h"
 #include "engine/base/union_find.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -207,7 +207,7 @@ std::vector<std::uint32_t> depth_by_shells(const Regions& regions, const Shells&
   return depth;
 }
 
-void place_seeds(const InputPlc& input, const Surface& surface, const RayShooter& rays, Regions& regions) {
+void place_seeds(const plc::InputPlc& input, const Surface& surface, const RayShooter& rays, Regions& regions) {
   for (const auto& region : input.regions)
     for (const std::uint32_t c : regions_at(surface, regions, rays, region.seed))
       regions.attributes[c].push_back(region.attribute);
@@ -248,14 +248,14 @@ std::optional<std::vector<Hit>> RayShooter::shoot(const Point3& start, int attem
   return hits;
 }
 
-Regions find_regions(const InputPlc& input, const Surface& surface) {
+Regions find_regions(const plc::InputPlc& input, const Surface& surface) {
   const RayShooter rays(surface);
   UnionFind sides = glue_sides(surface);
   Shells shells = find_shells(surface);
   nest_shells(surface, rays, shells, sides);
   Regions regions;
   number_regions(surface, sides, regions);
-  if (input.inside == InputPlc::Inside::even_odd) {
+  if (input.inside == plc::InputPlc::Inside::even_odd) {
     const auto by_pieces = depth_by_pieces(regions), by_shells = depth_by_shells(regions, shells);
     for (std::uint32_t c = 0; c < regions.count(); ++c) {
       const bool odd = by_shells[c] % 2 == 1;
@@ -288,4 +288,4 @@ std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& reg
   return {};
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

@@ -4,7 +4,7 @@
 
 #include "bench/verify/surface.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// Where a ray meets a piece of the surface.
 struct Hit {
@@ -55,11 +55,11 @@ struct Regions {
 /// is inside if an odd number of shells, or of pieces on the shortest way to infinity, is around it. Where the two
 /// differ, which takes regions that share pieces and of which one is enclosed by others, either is right:
 /// `Inside::unknown`.
-Regions find_regions(const InputPlc& input, const Surface& surface);
+Regions find_regions(const plc::InputPlc& input, const Surface& surface);
 
 /// The regions that a point is in, or borders on if it lies on the surface. Empty if the surface there is too crooked
 /// to tell.
 std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& regions, const RayShooter& rays,
                                       const Point3& point);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

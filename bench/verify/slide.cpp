@@ -7,7 +7,7 @@
 #include "bench/verify/embed_lines.h"
 #include "bench/verify/patches.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -294,4 +294,4 @@ void let_vertices_slide(Surface& surface, Regions& regions) {
       surface.slides[site] = was_used[site] || (!surface.sites.in_mesh(site) && is_on_something(site));
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

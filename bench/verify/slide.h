@@ -2,7 +2,7 @@
 
 #include "bench/verify/regions.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// Makes the surface what a mesh must have whose boundary vertices were allowed to slide: the pieces of a flat facet
 /// become one, and straight chains of edges or of segments become one edge or segment. What is curved stays as it is,
@@ -15,4 +15,4 @@ namespace ccdt::verification {
 /// \param regions  of the surface; as before, for the new pieces
 void let_vertices_slide(Surface& surface, Regions& regions);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

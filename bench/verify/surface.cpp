@@ -8,7 +8,7 @@
 
 #include "bench/verify/polygon_cells.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -85,7 +85,7 @@ void add_piece(PolygonCell cell, int marker, std::uint32_t number, Pieces& piece
   if (!is_empty(cell)) pieces.add(cell, marker, number);
 }
 
-Pieces find_pieces(const InputPlc& input, Surface& surface) {
+Pieces find_pieces(const plc::InputPlc& input, Surface& surface) {
   const auto& site = surface.sites.of_input;
   Pieces pieces;
   for (std::size_t i = 0; i < input.triangles.size(); ++i) {
@@ -94,7 +94,7 @@ Pieces find_pieces(const InputPlc& input, Surface& surface) {
               input.triangle_markers.empty() ? 0 : input.triangle_markers[i],
               input.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : input.triangle_numbers[i], pieces);
   }
-  for (const PolygonFacet& facet : input.polygon_facets) {
+  for (const plc::PolygonFacet& facet : input.polygon_facets) {
     PolygonCells cells = find_polygon_cells(facet, site, surface.sites.position);
     for (PolygonCell& cell : cells.cells) add_piece(std::move(cell), facet.marker, facet.number, pieces);
     surface.segments.insert(surface.segments.end(), cells.segments.begin(), cells.segments.end());
@@ -160,7 +160,7 @@ void split_edges(Surface& surface) {
 
 }  // namespace
 
-Sites match_sites(const InputPlc& input, const TetMesh& mesh, const Topology& topology, double tolerance) {
+Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology, double tolerance) {
   Sites sites;
   sites.mesh_vertices = static_cast<std::uint32_t>(mesh.vertices.size());
   sites.position = mesh.vertices;
@@ -196,7 +196,7 @@ Sites match_sites(const InputPlc& input, const TetMesh& mesh, const Topology& to
   return sites;
 }
 
-Tolerances find_tolerances(const InputPlc& input, double flatness) {
+Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
   const Box bounds = bounding_box(input.vertices);
   const Point3 extent = bounds.high - bounds.low;
   const double box = input.vertices.empty() ? 0 : std::max({extent.x, extent.y, extent.z});
@@ -265,7 +265,7 @@ std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edg
   return within;
 }
 
-Surface find_surface(const InputPlc& input, Sites sites, const Tolerances& tolerances) {
+Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& tolerances) {
   Surface surface;
   surface.sites = std::move(sites);
   surface.tolerances = tolerances;
@@ -274,4 +274,4 @@ Surface find_surface(const InputPlc& input, Sites sites, const Tolerances& toler
   return surface;
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

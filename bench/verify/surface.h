@@ -8,7 +8,7 @@
 #include "engine/base/box.h"
 #include "engine/plc/input.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 /// Lengths within which things count as equal.
 struct Tolerances {
@@ -17,7 +17,7 @@ struct Tolerances {
   double flat;   ///< a patch is flat
 };
 
-Tolerances find_tolerances(const InputPlc& input, double flatness);
+Tolerances find_tolerances(const plc::InputPlc& input, double flatness);
 
 /// The places of the input's vertices, named by the mesh's vertices that are there, so that the input can be compared
 /// with the mesh by indices. A place where the mesh has no vertex gets a number behind those of the mesh.
@@ -30,7 +30,7 @@ struct Sites {
 };
 
 /// Matches exact coordinates first, then the nearest vertex in use within `tolerance`.
-Sites match_sites(const InputPlc& input, const TetMesh& mesh, const Topology& topology, double tolerance);
+Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology, double tolerance);
 
 /// Parts of the input's facets that are bounded by directed edges between sites: triangles, and cells of polygons with
 /// holes. A piece is seen from *above* where its outer loop is counterclockwise.
@@ -84,6 +84,6 @@ void split_directed(const std::function<std::vector<std::uint32_t>(std::uint32_t
 std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edge,
                                          std::span<const std::uint32_t> sites);
 
-Surface find_surface(const InputPlc& input, Sites sites, const Tolerances& tolerances);
+Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& tolerances);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

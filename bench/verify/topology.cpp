@@ -1,6 +1,6 @@
 #include "bench/verify/topology.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 namespace {
 
@@ -11,14 +11,14 @@ bool is_even(const Face& v) {
 
 }  // namespace
 
-Face outward(const TetMesh& mesh, std::uint32_t half_face) {
+Face outward(const mesh::TetMesh& mesh, std::uint32_t half_face) {
   constexpr std::uint8_t corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // opposite to each corner
   const auto& tet = mesh.tetrahedra[half_face / 4];
   const auto& corner = corners[half_face % 4];
   return {tet[corner[0]], tet[corner[1]], tet[corner[2]]};
 }
 
-Topology find_topology(const TetMesh& mesh) {
+Topology find_topology(const mesh::TetMesh& mesh) {
   const std::size_t vertices = mesh.vertices.size();
   const auto half_faces = static_cast<std::uint32_t>(4 * mesh.tetrahedra.size());
   Topology topology;
@@ -63,10 +63,10 @@ std::uint32_t find_face(const Topology& topology, const Face& vertices) {
   return static_cast<std::uint32_t>(found - topology.faces.begin());
 }
 
-bool has_edge(const TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b) {
+bool has_edge(const mesh::TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b) {
   return std::ranges::any_of(topology.stars.of(a), [&](std::uint32_t t) {
     return std::ranges::find(mesh.tetrahedra[t], b) != mesh.tetrahedra[t].end();
   });
 }
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

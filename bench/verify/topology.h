@@ -8,7 +8,7 @@
 #include "engine/base/index_lists.h"
 #include "engine/mesh/tet_mesh.h"
 
-namespace ccdt::verification {
+namespace ccdt::verify {
 
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -52,14 +52,14 @@ struct Topology {
 };
 
 /// \pre all indices are in range
-Topology find_topology(const TetMesh& mesh);
+Topology find_topology(const mesh::TetMesh& mesh);
 
 /// The vertices of a half-face, counterclockwise seen from outside its tetrahedron if that is positively oriented.
-Face outward(const TetMesh& mesh, std::uint32_t half_face);
+Face outward(const mesh::TetMesh& mesh, std::uint32_t half_face);
 
 /// The face with these vertices, in any order, or `none`.
 std::uint32_t find_face(const Topology& topology, const Face& vertices);
 
-bool has_edge(const TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b);
+bool has_edge(const mesh::TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b);
 
-}  // namespace ccdt::verification
+}  // namespace ccdt::verify

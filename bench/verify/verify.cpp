@@ -19,26 +19,26 @@
 // tetrahedra fill the domain and do not overlap. Facets within the domain are spanned by inner faces in the same sense;
 // that no tetrahedron is reached from two regions shows once more that none is pierced.
 
-namespace ccdt {
+namespace ccdt::verify {
 
-using namespace verification;
+using namespace verify;
 
 namespace {
 
 /// The engine rounds to 2^-33 of the next power of two above the box; and the coordinates in the file are rounded to
 /// doubles.
-double largest_rounding(const InputPlc& input, const Tolerances& tolerances) {
+double largest_rounding(const plc::InputPlc& input, const Tolerances& tolerances) {
   double largest = 0;
   for (const Point3& p : input.vertices) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   return std::ldexp(tolerances.box, -32) + std::numeric_limits<double>::epsilon() * largest;
 }
 
-bool wants_delaunay(const VerifyOptions& options, const TetMesh& mesh) {
+bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {
   if (options.delaunay == VerifyOptions::Delaunay::claimed) return mesh.constrained_delaunay;
   return options.delaunay == VerifyOptions::Delaunay::yes;
 }
 
-void check_against_input(const InputPlc& input, const TetMesh& mesh, const Topology& topology,
+void check_against_input(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
                          const VerifyOptions& options, const Progress& progress, Verification& result) {
   const Tolerances tolerances = find_tolerances(input, options.flatness);
   report(progress, "verify facets", 0, 0);
@@ -87,7 +87,7 @@ std::string line_of(const Check& check, std::size_t width) {
 
 }  // namespace
 
-Verification verify(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options,
+Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options,
                     const Progress& progress) {
   Verification result;
   auto& checks = result.checks;
@@ -122,4 +122,4 @@ std::vector<std::string> describe(const Verification& verification) {
   return lines;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::verify

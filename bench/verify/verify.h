@@ -10,7 +10,7 @@
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 
-namespace ccdt {
+namespace ccdt::verify {
 
 struct VerifyOptions {
   /// What counts as flat, as a fraction of the input's bounding box: four times this, because a mesher may measure
@@ -58,11 +58,11 @@ struct Verification {
 
 /// An exact check of a mesh against its input, by CGAL's exact kernel; shares no predicate with the engine. Works on
 /// any mesher's output.
-Verification verify(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options = {},
+Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 
 /// A verification as lines for a terminal: one a check with its name and how many things were checked and failed, below
 /// it the first failures; then the volumes and the verdict.
 std::vector<std::string> describe(const Verification& verification);
 
-}  // namespace ccdt
+}  // namespace ccdt::verify

@@ -4,7 +4,7 @@
 
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 namespace {
 
 /// The place of v among the vertices of the cell, 4 if it is not there.
@@ -51,8 +51,8 @@ bool CellStar::has_edge(std::uint32_t a, std::uint32_t b) {
     for (std::uint32_t f = 0; f < 4 && exit == 4; ++f) {
       if (cell.vertices[f] == a || cell.neighbors[f] == from) continue;
       const auto& corner = face_corners[f];
-      if (orient3d(d_.point(cell.vertices[corner[0]]), d_.point(cell.vertices[corner[1]]),
-                   d_.point(cell.vertices[corner[2]]), p) < 0)
+      if (numbers::orient3d(d_.point(cell.vertices[corner[0]]), d_.point(cell.vertices[corner[1]]),
+                            d_.point(cell.vertices[corner[2]]), p) < 0)
         exit = f;
     }
     if (exit == 4) return false;
@@ -75,4 +75,4 @@ std::uint32_t CellStar::find_face(std::uint32_t a, std::uint32_t b, std::uint32_
   return no_neighbor;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

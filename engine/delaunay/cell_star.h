@@ -6,7 +6,7 @@
 
 #include "engine/delaunay/delaunay.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// Walks the cells around vertices; owns the marks that this takes, so it is made once and used often.
 class CellStar {
@@ -29,4 +29,4 @@ class CellStar {
   std::vector<std::uint32_t> cells_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

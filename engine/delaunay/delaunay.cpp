@@ -6,7 +6,7 @@
 #include "engine/delaunay/insertion.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 namespace {
 
 /// Puts four points that are not in one plane first in `order`, positively oriented.
@@ -24,9 +24,9 @@ void put_simplex_first(std::span<const Point3> points, std::vector<std::uint32_t
   const auto at = [&](std::size_t i) -> const Point3& { return points[order[i]]; };
   bring(0, [](const Point3&) { return true; });
   bring(1, [&](const Point3& p) { return !(p == at(0)); });
-  bring(2, [&](const Point3& p) { return !collinear(at(0), at(1), p); });
-  bring(3, [&](const Point3& p) { return orient3d(at(0), at(1), at(2), p) != 0; });
-  if (orient3d(at(0), at(1), at(2), at(3)) < 0) std::swap(order[0], order[1]);
+  bring(2, [&](const Point3& p) { return !numbers::collinear(at(0), at(1), p); });
+  bring(3, [&](const Point3& p) { return numbers::orient3d(at(0), at(1), at(2), p) != 0; });
+  if (numbers::orient3d(at(0), at(1), at(2), at(3)) < 0) std::swap(order[0], order[1]);
 }
 
 /// The indices of the points in the order of insertion.
@@ -100,4 +100,4 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   return d;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

@@ -9,7 +9,7 @@
 #include "engine/base/point.h"
 #include "engine/base/progress.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// A vertex of the tetrahedralization. Its rank, its place in the order of insertion, is given once and decides ties.
 struct DelaunayVertex {
@@ -73,4 +73,4 @@ std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points);
 /// Throws what `build_delaunay` throws for points without a body.
 [[noreturn]] void refuse_flat_points();
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

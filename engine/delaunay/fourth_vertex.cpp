@@ -6,7 +6,7 @@
 
 #include "engine/base/box.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 namespace {
 
 void add_block(VertexGrid& g, const UniformGrid::CellIndex& from) {
@@ -321,4 +321,4 @@ std::uint32_t FourthVertexSearch::find(const Face& face, std::uint32_t candidate
   return ApexSearch(grid_, tops_, batch_, face).run(candidate, reach);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

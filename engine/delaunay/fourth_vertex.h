@@ -10,7 +10,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/sphere_pencil.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// A cube of cells that has vertices.
 struct GridBlock {
@@ -83,4 +83,4 @@ class FourthVertexSearch {
   VertexBatch batch_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

@@ -10,7 +10,7 @@
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 namespace {
 
 constexpr int bits_per_axis = 20;
@@ -168,8 +168,8 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
       const std::uint32_t f = (turn_ + k) & 3;
       if (cell.neighbors[f] == from) continue;
       const auto& corner = face_corners[f];
-      if (orient3d(d_.point(cell.vertices[corner[0]]), d_.point(cell.vertices[corner[1]]),
-                   d_.point(cell.vertices[corner[2]]), p) < 0)
+      if (numbers::orient3d(d_.point(cell.vertices[corner[0]]), d_.point(cell.vertices[corner[1]]),
+                            d_.point(cell.vertices[corner[2]]), p) < 0)
         exit = f;
     }
     if (exit == 4) return here;
@@ -182,24 +182,25 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
 CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
   if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
   const auto& v = cell.vertices;
-  const Sign sign = insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
-  return sign == Sign::unknown ? conflicts_exactly(cell) : sign == Sign::plus;
+  const numbers::Sign sign =
+      numbers::insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
+  return sign == numbers::Sign::unknown ? conflicts_exactly(cell) : sign == numbers::Sign::plus;
 }
 
 bool Insertion::conflicts_exactly(const Cell& cell) const {
   const auto& v = cell.vertices;
-  return insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_) > 0;
+  return numbers::insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.
 bool Insertion::ghost_conflicts(const Cell& ghost) const {
   const Point3 &a = d_.point(ghost.vertices[0]), &b = d_.point(ghost.vertices[1]), &c = d_.point(ghost.vertices[2]);
-  const int side = orient3d(a, b, c, p_);
+  const int side = numbers::orient3d(a, b, c, p_);
   if (side != 0) return side > 0;
   const std::uint32_t inner = ghost.neighbors[3];
   const Point3& apex = d_.point(d_.cells[cell_of(inner)].vertices[face_of(inner)]);
   // The apex is below the ghost's triangle: seen from it the triangle is a, c, b.
-  return insphere(a, c, b, apex, p_) > 0;
+  return numbers::insphere(a, c, b, apex, p_) > 0;
 }
 
 /// The cells of the cavity give their places to the new ones; more are taken from dead cells and from the end.
@@ -313,4 +314,4 @@ void Insertion::connect_by_search() {
   }
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

@@ -6,7 +6,7 @@
 
 #include "engine/delaunay/delaunay.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// The order in which points are inserted: a few rounds of growing size (a biased randomized insertion order, Amenta,
 /// Choi and Rote 2003), each along a Hilbert curve, so that a point is near the one before it.
@@ -87,4 +87,4 @@ class Insertion {
   std::uint64_t insertions_ = 0;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

@@ -4,7 +4,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// How the Delaunay tetrahedralization is made; the result is the same.
 enum class DelaunayMethod {
@@ -18,4 +18,4 @@ constexpr auto names_of(DelaunayMethod) {
        {DelaunayMethod::wrap, "wrap", "face by face in a uniform grid, as in the paper"}});
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

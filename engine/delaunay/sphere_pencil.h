@@ -10,7 +10,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/numbers/filters.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// A vertex as the searches in the grid see it.
 struct GridVertex {
@@ -97,4 +97,4 @@ class SpherePencil {
   double volume_ = 0, weight_error_ = 0, volume_error_ = 0;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

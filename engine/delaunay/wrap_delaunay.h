@@ -4,7 +4,7 @@
 
 #include "engine/delaunay/delaunay.h"
 
-namespace ccdt {
+namespace ccdt::delaunay {
 
 /// Tetrahedralizes points face by face, as the paper does (sections 4 and 5: the uniform grid construction of Fang and
 /// Piegl 1993, in space): starting with a face of the hull, the tetrahedron on the open side of each face is found by a
@@ -22,4 +22,4 @@ namespace ccdt {
 /// \throw MeshError  as build_delaunay
 Delaunay wrap_delaunay(std::vector<DelaunayVertex> vertices, double grid_scale = 1, const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::delaunay

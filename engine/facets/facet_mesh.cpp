@@ -11,7 +11,7 @@
 #include "engine/planar/triangulation.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::facets {
 namespace {
 
 using Triangle = std::array<VertexId, 3>;
@@ -23,22 +23,23 @@ using Triangle = std::array<VertexId, 3>;
 /// true distances and rounded to the grid, which gives points that are exactly in one plane.
 class FacetPlane {
  public:
-  FacetPlane(const std::vector<DelaunayVertex>& vertices, const Point3& apex) : vertices_(vertices), apex_(apex) {}
+  FacetPlane(const std::vector<delaunay::DelaunayVertex>& vertices, const Point3& apex)
+      : vertices_(vertices), apex_(apex) {}
   /// \param flattened  by vertex; only those of the facet are read
-  FacetPlane(const std::vector<DelaunayVertex>& vertices, const std::vector<Point3>& flattened)
+  FacetPlane(const std::vector<delaunay::DelaunayVertex>& vertices, const std::vector<Point3>& flattened)
       : vertices_(vertices), flattened_(&flattened), apex_{0, 0, 0x1p50} {}
 
-  int orient(VertexId a, VertexId b, VertexId c) const { return orient3d(at(a), at(b), at(c), apex_); }
+  int orient(VertexId a, VertexId b, VertexId c) const { return numbers::orient3d(at(a), at(b), at(c), apex_); }
 
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
-    return incircle_perturbed(at(a), at(b), at(c), apex_, at(d),
-                              {vertices_[a].rank, vertices_[b].rank, vertices_[c].rank, vertices_[d].rank});
+    return numbers::incircle_perturbed(at(a), at(b), at(c), apex_, at(d),
+                                       {vertices_[a].rank, vertices_[b].rank, vertices_[c].rank, vertices_[d].rank});
   }
 
  private:
   const Point3& at(VertexId v) const { return flattened_ ? (*flattened_)[v] : vertices_[v].point; }
 
-  const std::vector<DelaunayVertex>& vertices_;
+  const std::vector<delaunay::DelaunayVertex>& vertices_;
   const std::vector<Point3>* flattened_ = nullptr;
   Point3 apex_;
 };
@@ -49,20 +50,21 @@ class FacetPlane {
 class BentPlane {
  public:
   /// \param domain_side  +1: the domain is above the facet, -1: below
-  BentPlane(const FacetPlane& plane, const std::vector<DelaunayVertex>& vertices, int domain_side)
+  BentPlane(const FacetPlane& plane, const std::vector<delaunay::DelaunayVertex>& vertices, int domain_side)
       : plane_(plane), vertices_(vertices), domain_side_(domain_side) {}
 
   int orient(VertexId a, VertexId b, VertexId c) const { return plane_.orient(a, b, c); }
 
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
     const int above =
-        orient3d(vertices_[a].point, vertices_[b].point, vertices_[c].point, vertices_[d].point) * domain_side_;
+        numbers::orient3d(vertices_[a].point, vertices_[b].point, vertices_[c].point, vertices_[d].point) *
+        domain_side_;
     return above != 0 ? -above : plane_.incircle(a, b, c, d);
   }
 
  private:
   const FacetPlane& plane_;
-  const std::vector<DelaunayVertex>& vertices_;
+  const std::vector<delaunay::DelaunayVertex>& vertices_;
   int domain_side_;
 };
 
@@ -73,7 +75,7 @@ struct FacetFrame {
   double scale;  ///< extent of the facet
 };
 
-FacetFrame frame_of(const Facet& facet, const std::vector<DelaunayVertex>& vertices) {
+FacetFrame frame_of(const plc::Facet& facet, const std::vector<delaunay::DelaunayVertex>& vertices) {
   Point3 normal;
   const Point3& base = vertices[facet.triangles[0][0]].point;
   double scale = 1;
@@ -83,10 +85,10 @@ FacetFrame frame_of(const Facet& facet, const std::vector<DelaunayVertex>& verti
     scale = std::max(scale, squared_length(vertices[t[0]].point - base));
   }
   normal = (1 / std::sqrt(squared_length(normal))) * normal;
-  return {normal, dominant_axis(normal), std::sqrt(scale)};
+  return {normal, plc::dominant_axis(normal), std::sqrt(scale)};
 }
 
-FacetPlane exact_plane(const Facet& facet, const std::vector<DelaunayVertex>& vertices) {
+FacetPlane exact_plane(const plc::Facet& facet, const std::vector<delaunay::DelaunayVertex>& vertices) {
   const FacetFrame frame = frame_of(facet, vertices);
   const double up = std::exp2(std::ceil(std::log2(frame.scale)));
   Point3 apex = vertices[facet.triangles[0][0]].point;
@@ -98,16 +100,16 @@ FacetPlane exact_plane(const Facet& facet, const std::vector<DelaunayVertex>& ve
 /// Works through the facets of one PLC; holds what they share.
 class FacetMesher {
  public:
-  FacetMesher(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay)
+  FacetMesher(const plc::Plc& plc, const protection::SegmentChains& chains, const delaunay::Delaunay& delaunay)
       : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
     std::vector<std::array<VertexId, 2>> edges;
     edges.reserve(plc.segments.size());
-    for (const Segment& s : plc.segments) edges.push_back(s.ends);
+    for (const plc::Segment& s : plc.segments) edges.push_back(s.ends);
     segment_of_edge_ = EdgeMap(edges, plc.vertices.size());
   }
 
   void triangulate(FacetId id, FacetMesh& result) {
-    const Facet& facet = plc_.facets[id];
+    const plc::Facet& facet = plc_.facets[id];
     const std::vector<FacetSegment> segments = segments_of(facet);
     const bool unsplit = std::all_of(segments.begin(), segments.end(),
                                      [&](const FacetSegment& s) { return chains_[s.segment].size() == 2; });
@@ -117,20 +119,21 @@ class FacetMesher {
       return;
     }
     const FacetPlane plane = facet.exactly_flat ? exact_plane(facet, d_.vertices) : flatten(facet, segments);
-    PlanarTriangulation t = split_triangulation(facet, plane, segments);
+    planar::Triangulation t = split_triangulation(facet, plane, segments);
     if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
     result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
     result.facet.resize(result.triangles.size(), id);
   }
 
   /// Are these triangles of a facet Delaunay faces that bound no flat cell towards the domain?
-  bool face_domain(const Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes) {
-    if (std::ranges::find(codes, no_neighbor) != codes.end()) return false;
+  bool face_domain(const plc::Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes) {
+    if (std::ranges::find(codes, delaunay::no_neighbor) != codes.end()) return false;
     enter(facet, triangles);
     std::optional<FacetPlane> plane;  // hardly ever needed
     return std::ranges::none_of(codes, [&](std::uint32_t code) {
       const std::uint32_t cell =
-          domain_side_ > 0 ? cell_of(code) : cell_of(d_.cells[cell_of(code)].neighbors[face_of(code)]);
+          domain_side_ > 0 ? delaunay::cell_of(code)
+                           : delaunay::cell_of(d_.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]);
       if (!has_all_vertices_here(cell)) return false;
       if (!plane) plane.emplace(flatten(facet, segments_of(facet)));
       return is_flat_cell(cell, *plane);
@@ -143,7 +146,7 @@ class FacetMesher {
     std::uint32_t segment;
   };
 
-  std::vector<FacetSegment> segments_of(const Facet& facet) {
+  std::vector<FacetSegment> segments_of(const plc::Facet& facet) {
     std::vector<FacetSegment> segments;
     for (const Triangle& t : facet.triangles) {
       for (int i = 0; i < 3; ++i) {
@@ -162,7 +165,7 @@ class FacetMesher {
   /// Sees the vertices along the frame's axis and stretches what is seen to true distances: with the other two
   /// coordinates (s, t) and the heights that the plane has there, the distances are those of a linear image of (s, t),
   /// which loses no orientation.
-  FacetPlane flatten(const Facet& facet, const std::vector<FacetSegment>& segments) {
+  FacetPlane flatten(const plc::Facet& facet, const std::vector<FacetSegment>& segments) {
     const FacetFrame frame = frame_of(facet, d_.vertices);
     flattened_.resize(d_.vertices.size());
     const auto pick = [&](const Point3& p) {  // the axis last, turning the other two so that above stays above
@@ -177,25 +180,26 @@ class FacetMesher {
     const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
     const auto flatten_vertex = [&](VertexId v) {
       const Point3 p = pick(d_.point(v)) - base;
-      flattened_[v] = {round_to_unit(0.25 * (first * p.x + shear * p.y)), round_to_unit(0.25 * turn * second * p.y), 0};
+      flattened_[v] = {numbers::round_to_unit(0.25 * (first * p.x + shear * p.y)),
+                       numbers::round_to_unit(0.25 * turn * second * p.y), 0};
     };
     for (const Triangle& t : facet.triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
     for (const FacetSegment& s : segments)
-      for (const ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);
+      for (const protection::ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);
     return FacetPlane(d_.vertices, flattened_);
   }
 
-  PlanarTriangulation split_triangulation(const Facet& facet, const FacetPlane& plane,
-                                          const std::vector<FacetSegment>& segments) const {
-    std::vector<PlanarEdge> constrained;
+  planar::Triangulation split_triangulation(const plc::Facet& facet, const FacetPlane& plane,
+                                            const std::vector<FacetSegment>& segments) const {
+    std::vector<planar::Edge> constrained;
     constrained.reserve(segments.size());
     for (const FacetSegment& s : segments) constrained.push_back({s.a, s.b});
-    PlanarTriangulation t = planar_from_triangles(facet.triangles, constrained);
-    planar_legalize(t, plane);
+    planar::Triangulation t = planar::from_triangles(facet.triangles, constrained);
+    planar::legalize(t, plane);
     for (const FacetSegment& s : segments) {
       const auto& chain = chains_[s.segment];
       for (std::size_t i = 1; i + 1 < chain.size(); ++i)
-        planar_split_edge(t, chain[i - 1].vertex, chain.back().vertex, chain[i].vertex, plane);
+        planar::split_edge(t, chain[i - 1].vertex, chain.back().vertex, chain[i].vertex, plane);
     }
     return t;
   }
@@ -210,7 +214,7 @@ class FacetMesher {
   /// Has the cell all vertices in the facet at hand?
   bool has_all_vertices_here(std::uint32_t cell) const {
     return std::ranges::all_of(d_.cells[cell].vertices,
-                               [&](std::uint32_t u) { return u != ghost_vertex && in_facet_[u] == here_; });
+                               [&](std::uint32_t u) { return u != delaunay::ghost_vertex && in_facet_[u] == here_; });
   }
 
   /// Has the cell all vertices in the facet at hand, and may it be left out? Not if it is all that joins the middle one
@@ -218,14 +222,14 @@ class FacetMesher {
   bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
     if (!has_all_vertices_here(cell)) return false;
     const auto& v = d_.cells[cell].vertices;
-    for (const auto& corner : face_corners) {
+    for (const auto& corner : delaunay::face_corners) {
       for (int i = 0; i < 3; ++i) {
         const std::uint32_t middle = v[corner[i]], a = v[corner[(i + 1) % 3]], b = v[corner[(i + 2) % 3]];
         if (!is_chain(a, middle, b) || dot(d_.point(a) - d_.point(middle), d_.point(b) - d_.point(middle)) > 0)
           continue;
         const std::uint32_t apex = v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b ^ middle;
         const int turn = plane.orient(VertexId(a), VertexId(middle), VertexId(apex));
-        return turn * domain_side_ * orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) <= 0;
+        return turn * domain_side_ * numbers::orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) <= 0;
       }
     }
     return true;
@@ -239,25 +243,25 @@ class FacetMesher {
   /// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
   std::uint32_t cell_on_domain_side(const Triangle& triangle) {
     const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
-    if (code == no_neighbor) return no_neighbor;
-    const std::uint32_t cell = cell_of(code);
-    return domain_side_ > 0 ? cell : cell_of(d_.cells[cell].neighbors[face_of(code)]);
+    if (code == delaunay::no_neighbor) return delaunay::no_neighbor;
+    const std::uint32_t cell = delaunay::cell_of(code);
+    return domain_side_ > 0 ? cell : delaunay::cell_of(d_.cells[cell].neighbors[delaunay::face_of(code)]);
   }
 
   /// The edges of the Delaunay faces of the facet that have no flat cell towards the domain.
-  std::vector<PlanarEdge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices) {
-    std::vector<PlanarEdge> edges;
+  std::vector<planar::Edge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices) {
+    std::vector<planar::Edge> edges;
     for (const VertexId v : vertices) {
       for (const std::uint32_t c : star_.around(v)) {
         if (d_.is_ghost(c) || is_flat_cell(c, plane)) continue;
         for (std::uint32_t f = 0; f < 4; ++f) {
-          const auto& corner = face_corners[f];
+          const auto& corner = delaunay::face_corners[f];
           Triangle face;
           for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
           if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
           if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
           if (plane.orient(face[0], face[1], face[2]) != domain_side_ || is_chain(face[0], face[1], face[2])) continue;
-          if (is_kept_cell(cell_of(d_.cells[c].neighbors[f]), plane)) continue;
+          if (is_kept_cell(delaunay::cell_of(d_.cells[c].neighbors[f]), plane)) continue;
           for (int i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
         }
       }
@@ -266,7 +270,7 @@ class FacetMesher {
   }
 
   /// Makes the facet the one at hand. \return its vertices
-  std::vector<VertexId> enter(const Facet& facet, std::span<const Triangle> triangles) {
+  std::vector<VertexId> enter(const plc::Facet& facet, std::span<const Triangle> triangles) {
     ++here_;
     domain_side_ = plc_.regions[facet.above].inside ? 1 : -1;
     std::vector<VertexId> vertices;
@@ -280,26 +284,26 @@ class FacetMesher {
   }
 
   /// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
-  void take_faces_on_domain_side(const Facet& facet, const FacetPlane& plane, PlanarTriangulation& t) {
+  void take_faces_on_domain_side(const plc::Facet& facet, const FacetPlane& plane, planar::Triangulation& t) {
     const std::vector<VertexId> vertices = enter(facet, t.triangles);
     const auto is_right = [&](const Triangle& triangle) {
       const std::uint32_t cell = cell_on_domain_side(triangle);
-      return cell != no_neighbor && !is_flat_cell(cell, plane);
+      return cell != delaunay::no_neighbor && !is_flat_cell(cell, plane);
     };
     if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
-    for (const PlanarEdge& edge : edges_towards_domain(plane, vertices)) {
-      const auto side = planar_find_edge(t, edge[0], edge[1]);
-      if (!side || !t.constrained[side->triangle][side->corner]) planar_insert_constraint(t, edge[0], edge[1], plane);
+    for (const planar::Edge& edge : edges_towards_domain(plane, vertices)) {
+      const auto side = planar::find_edge(t, edge[0], edge[1]);
+      if (!side || !t.constrained[side->triangle][side->corner]) planar::insert_constraint(t, edge[0], edge[1], plane);
     }
     // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
     const bool on_both_sides = plc_.regions[facet.above].inside && plc_.regions[facet.below].inside;
-    if (!on_both_sides) planar_legalize(t, BentPlane(plane, d_.vertices, domain_side_));
+    if (!on_both_sides) planar::legalize(t, BentPlane(plane, d_.vertices, domain_side_));
   }
 
-  const Plc& plc_;
-  const SegmentChains& chains_;
-  const Delaunay& d_;
-  CellStar star_;
+  const plc::Plc& plc_;
+  const protection::SegmentChains& chains_;
+  const delaunay::Delaunay& d_;
+  delaunay::CellStar star_;
   EdgeMap segment_of_edge_;
   std::vector<Point3> flattened_;        // by vertex, of the facet at hand
   std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
@@ -309,8 +313,8 @@ class FacetMesher {
 
 }  // namespace
 
-FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
-                             const Progress& progress) {
+FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
+                             const delaunay::Delaunay& delaunay, const Progress& progress) {
   FacetMesher mesher(plc, chains, delaunay);
   FacetMesh result;
   for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
@@ -320,9 +324,10 @@ FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const 
   return result;
 }
 
-bool follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
-                              const std::vector<std::uint32_t>& codes, FacetMesh& facets) {
-  if (std::ranges::all_of(plc.facets, &Facet::exactly_flat)) return false;
+bool follow_interior_vertices(const plc::Plc& plc, const protection::SegmentChains& chains,
+                              const delaunay::Delaunay& delaunay, const std::vector<std::uint32_t>& codes,
+                              FacetMesh& facets) {
+  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return false;
   FacetMesher mesher(plc, chains, delaunay);
   const FacetMesh old = std::move(facets);
   facets = {};
@@ -331,7 +336,7 @@ bool follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const
     const FacetId id = old.facet[first];
     while (end < old.facet.size() && old.facet[end] == id) ++end;
     const auto triangles = std::span(old.triangles).subspan(first, end - first);
-    const Facet& facet = plc.facets[id];
+    const plc::Facet& facet = plc.facets[id];
     if (facet.exactly_flat || mesher.face_domain(facet, triangles, std::span(codes).subspan(first, end - first))) {
       facets.triangles.insert(facets.triangles.end(), triangles.begin(), triangles.end());
       facets.facet.resize(facets.triangles.size(), id);
@@ -343,4 +348,4 @@ bool follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const
   return changed;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::facets

@@ -9,7 +9,7 @@
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
-namespace ccdt {
+namespace ccdt::facets {
 
 /// The faces that the mesh must contain.
 struct FacetMesh {
@@ -24,8 +24,8 @@ struct FacetMesh {
 /// with all vertices in the facet, of almost no volume, whose two sides are two triangulations of the same patch. Of
 /// these the facet takes the one on the side of the domain, so that the flat tetrahedra are left outside; where the
 /// domain is on both sides, the upper one.
-FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
-                             const Progress& progress = {});
+FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
+                             const delaunay::Delaunay& delaunay, const Progress& progress = {});
 
 /// Brings the triangulation up to date when interior vertices have joined the tetrahedralization. A facet that is
 /// exactly flat stays as it is: its triangulation depends on its own vertices alone. One that is flat within the
@@ -33,7 +33,8 @@ FacetMesh triangulate_facets(const Plc& plc, const SegmentChains& chains, const 
 ///
 /// \param codes  for every triangle its code in the cell above it, `no_neighbor` if it is no Delaunay face
 /// \return       has any triangle changed?
-bool follow_interior_vertices(const Plc& plc, const SegmentChains& chains, const Delaunay& delaunay,
-                              const std::vector<std::uint32_t>& codes, FacetMesh& facets);
+bool follow_interior_vertices(const plc::Plc& plc, const protection::SegmentChains& chains,
+                              const delaunay::Delaunay& delaunay, const std::vector<std::uint32_t>& codes,
+                              FacetMesh& facets);
 
-}  // namespace ccdt
+}  // namespace ccdt::facets

@@ -12,12 +12,12 @@
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
 
-namespace ccdt {
+namespace ccdt::front {
 namespace {
 
 /// For tables.
 struct OrientedFaceTraits {
-  static OrientedFace none() { return {ghost_vertex, ghost_vertex, ghost_vertex}; }
+  static OrientedFace none() { return {delaunay::ghost_vertex, delaunay::ghost_vertex, delaunay::ghost_vertex}; }
   static std::size_t hash(const OrientedFace& f) {
     std::uint64_t h =
         f.corners[0] * 0x9E3779B97F4A7C15u ^ f.corners[1] * 0xC2B2AE3D27D4EB4Fu ^ f.corners[2] * 0x165667B19E3779F9u;
@@ -28,7 +28,7 @@ struct OrientedFaceTraits {
 };
 
 /// The numbers of all faces of the PLC.
-std::vector<std::uint32_t> all_triangles(const FacetMesh& facets) {
+std::vector<std::uint32_t> all_triangles(const facets::FacetMesh& facets) {
   std::vector<std::uint32_t> all(facets.triangles.size());
   std::iota(all.begin(), all.end(), 0u);
   return all;
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> all_triangles(const FacetMesh& facets) {
 template <class Locator>
 class WholeModelFinder {
  public:
-  WholeModelFinder(const FacetMesh& facets, const Delaunay& delaunay, const Locator& locator)
+  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator)
       : facets_(facets), d_(delaunay), locator_(locator) {}
 
   /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
@@ -47,14 +47,14 @@ class WholeModelFinder {
     return find_apex(locator_, facets_, d_, face);
   }
 
-  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return CavityLocator::no_cavity; }
+  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return locate::CavityLocator::no_cavity; }
 
   /// The triangles that the front can meet.
   std::vector<std::uint32_t> triangles() const { return all_triangles(facets_); }
 
  private:
-  const FacetMesh& facets_;
-  const Delaunay& d_;
+  const facets::FacetMesh& facets_;
+  const delaunay::Delaunay& d_;
   Locator locator_;
 };
 
@@ -62,19 +62,19 @@ class WholeModelFinder {
 class CavityFinder {
  public:
   /// \param all_faces  may the front hold Delaunay faces, outside of the cavities too?
-  CavityFinder(const FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool all_faces,
-               const Delaunay& delaunay, CellStar& star)
+  CavityFinder(const facets::FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool all_faces,
+               const delaunay::Delaunay& delaunay, delaunay::CellStar& star)
       : facets_(facets), d_(delaunay), star_(star), all_faces_(all_faces), locator_(facets, codes, delaunay, star) {}
 
   std::optional<std::uint32_t> find(const OrientedFace& face, std::uint32_t& cavity) {
     if (all_faces_) {
       const auto& [a, b, c] = face.corners;
-      if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
-        cavity = locator_.cavity_of_cell(cell_of(code));
-        if (cavity == CavityLocator::no_cavity) return apex_of_cell(code);
+      if (const std::uint32_t code = star_.find_face(a, b, c); code != delaunay::no_neighbor) {
+        cavity = locator_.cavity_of_cell(delaunay::cell_of(code));
+        if (cavity == locate::CavityLocator::no_cavity) return apex_of_cell(code);
       }
     }
-    if (cavity == CavityLocator::no_cavity) return std::nullopt;
+    if (cavity == locate::CavityLocator::no_cavity) return std::nullopt;
     return find_apex(locator_.cavity(cavity), facets_, d_, face);
   }
 
@@ -84,32 +84,34 @@ class CavityFinder {
 
  private:
   std::optional<std::uint32_t> apex_of_cell(std::uint32_t code) const {
-    if (d_.is_ghost(cell_of(code))) return std::nullopt;
-    return d_.cells[cell_of(code)].vertices[face_of(code)];
+    if (d_.is_ghost(delaunay::cell_of(code))) return std::nullopt;
+    return d_.cells[delaunay::cell_of(code)].vertices[delaunay::face_of(code)];
   }
 
-  const FacetMesh& facets_;
-  const Delaunay& d_;
-  CellStar& star_;
+  const facets::FacetMesh& facets_;
+  const delaunay::Delaunay& d_;
+  delaunay::CellStar& star_;
   bool all_faces_;
-  CavityLocator locator_;
+  locate::CavityLocator locator_;
 };
 
 enum Side : std::size_t { above = 0, below = 1 };
 
 /// What is above a side (2 * triangle + Side) of a face of the PLC.
 FrontFace state_of(const FrontInput& in, std::size_t side) {
-  const Facet& facet = in.plc.facets[in.facets.facet[side / 2]];
+  const plc::Facet& facet = in.plc.facets[in.facets.facet[side / 2]];
   const std::uint32_t code = in.codes[side / 2];
   if (side % 2 == above) return {facet.above, code};
-  return {facet.below, code == no_neighbor ? no_neighbor : in.delaunay.cells[cell_of(code)].neighbors[face_of(code)]};
+  return {facet.below, code == delaunay::no_neighbor
+                           ? delaunay::no_neighbor
+                           : in.delaunay.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]};
 }
 
 /// The sides of the PLC's faces that the domain is on.
 std::vector<std::uint8_t> sides_within(const FrontInput& in) {
   std::vector<std::uint8_t> is_within(2 * in.facets.triangles.size());
   for (std::size_t i = 0; i < in.facets.triangles.size(); ++i) {
-    const Facet& facet = in.plc.facets[in.facets.facet[i]];
+    const plc::Facet& facet = in.plc.facets[in.facets.facet[i]];
     is_within[2 * i + above] = in.plc.regions[facet.above].inside;
     is_within[2 * i + below] = in.plc.regions[facet.below].inside;
   }
@@ -120,7 +122,7 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 /// those that the front may meet and for the faces that it makes.
 class Front {
  public:
-  Front(const FrontInput& input, bool face_protection, CellStar& star)
+  Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
       : in_(input), face_protection_(face_protection), star_(star), plc_open_(sides_within(input)) {}
 
   template <class Finder>
@@ -132,8 +134,8 @@ class Front {
 
   struct State {
     FrontFace face;
-    std::uint32_t cavity = CavityLocator::no_cavity;  // of the tetrahedron below, or of the missing face
-    std::uint32_t side = no_side;                     // of the PLC, if any: such entries stay when they are closed
+    std::uint32_t cavity = locate::CavityLocator::no_cavity;  // of the tetrahedron below, or of the missing face
+    std::uint32_t side = no_side;  // of the PLC, if any: such entries stay when they are closed
   };
 
   void fail(const OrientedFace& face, const char* what);
@@ -145,7 +147,7 @@ class Front {
 
   const FrontInput& in_;
   const bool face_protection_;
-  CellStar& star_;
+  delaunay::CellStar& star_;
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
   std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
@@ -174,7 +176,7 @@ void Front::add_plc_faces(const Finder& finder) {
       const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
       const auto number = static_cast<std::uint32_t>(2 * i + side);
       faces_.insert(face, {state_of(in_, number), cavity, number});
-      if (plc_open_[number] && in_.codes[i] == no_neighbor) undelaunay_.push_back(face);
+      if (plc_open_[number] && in_.codes[i] == delaunay::no_neighbor) undelaunay_.push_back(face);
     }
   }
   result_.undelaunay_faces = undelaunay_.size();
@@ -224,10 +226,10 @@ void Front::pass(const OrientedFace& inner, const State& state) {
   if (waiting != nullptr) return fail(inner, "the front passed a facet");
   const OrientedFace outer = inner.reversed();
   const std::uint32_t code =
-      face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
+      face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : delaunay::no_neighbor;
   if (!faces_.insert(outer, {{state.face.region, code}, state.cavity, no_side}).second)
     return fail(outer, "two tetrahedra of the front overlap");
-  if (code != no_neighbor) return;
+  if (code != delaunay::no_neighbor) return;
   undelaunay_.push_back(outer);
   ++result_.undelaunay_faces;
 }
@@ -256,23 +258,24 @@ FrontResult standing_front(const FrontInput& in) {
 
 FrontResult advance_front(const FrontInput& in, const FrontOptions& options, const Progress& progress) {
   const auto& [plc, facets, codes, delaunay] = in;
-  if (std::ranges::find(codes, no_neighbor) == codes.end()) return standing_front(in);
-  CellStar star(delaunay);
+  if (std::ranges::find(codes, delaunay::no_neighbor) == codes.end()) return standing_front(in);
+  delaunay::CellStar star(delaunay);
   Front front(in, options.face_protection, star);
   switch (options.locator) {
-    case LocatorKind::grid:
-      front.advance(
-          WholeModelFinder(facets, delaunay, GridLocator(delaunay.vertices, facets.triangles, options.grid_scale)),
-          progress);
+    case locate::LocatorKind::grid:
+      front.advance(WholeModelFinder(facets, delaunay,
+                                     locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale)),
+                    progress);
       break;
-    case LocatorKind::octree:
-      front.advance(WholeModelFinder(facets, delaunay, OctreeLocator(delaunay.vertices, facets.triangles)), progress);
+    case locate::LocatorKind::octree:
+      front.advance(WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles)),
+                    progress);
       break;
-    case LocatorKind::cavity:
+    case locate::LocatorKind::cavity:
       front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star), progress);
       break;
   }
   return front.finish();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::front

@@ -12,12 +12,13 @@
 #include "engine/locate/options.h"
 #include "engine/plc/plc.h"
 
-namespace ccdt {
+namespace ccdt::front {
 
 /// The state of one face of the front.
 struct FrontFace {
-  RegionId region;                   ///< the part of the domain above it
-  std::uint32_t code = no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
+  RegionId region;  ///< the part of the domain above it
+  std::uint32_t code =
+      delaunay::no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
 };
 
 /// What the front has built, and where it stopped.
@@ -34,14 +35,14 @@ struct FrontResult {
 
 /// What the front works on; all of it must outlive the stage.
 struct FrontInput {
-  const Plc& plc;
-  const FacetMesh& facets;
+  const plc::Plc& plc;
+  const facets::FacetMesh& facets;
   const std::vector<std::uint32_t>& codes;  ///< of `find_delaunay_faces`; all `no_neighbor`: every face is undelaunay
-  const Delaunay& delaunay;
+  const delaunay::Delaunay& delaunay;
 };
 
 struct FrontOptions {
-  LocatorKind locator = LocatorKind::grid;
+  locate::LocatorKind locator = locate::LocatorKind::grid;
   double grid_scale = 1;        ///< of the grid: factor of the paper's cell size
   bool face_protection = true;  ///< are new faces looked up in the tetrahedralization?
 };
@@ -53,4 +54,4 @@ struct FrontOptions {
 /// from every point of the face (Shewchuk 2008).
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::front

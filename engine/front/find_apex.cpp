@@ -8,7 +8,7 @@
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::front {
 namespace {
 
 /// A triangle that may be in the way.
@@ -18,29 +18,32 @@ using Occluder = std::array<const Point3*, 3>;
 /// tried are passed by widely, and signs that take exact arithmetic, of coplanar points, need not be known then.
 bool surely_passes_by(const Occluder& t, const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
   int turns_seen = 0;  // a bit for each sign
-  const auto add = [&](Sign turn) { turns_seen |= turn == Sign::plus ? 1 : turn == Sign::minus ? 2 : 0; };
-  add(orient3d_centroid_filter(p, *t[0], *t[1], a, b, c));
-  add(orient3d_centroid_filter(p, *t[1], *t[2], a, b, c));
+  const auto add = [&](numbers::Sign turn) {
+    turns_seen |= turn == numbers::Sign::plus ? 1 : turn == numbers::Sign::minus ? 2 : 0;
+  };
+  add(numbers::orient3d_centroid_filter(p, *t[0], *t[1], a, b, c));
+  add(numbers::orient3d_centroid_filter(p, *t[1], *t[2], a, b, c));
   if (turns_seen == 3) return true;
-  add(orient3d_centroid_filter(p, *t[2], *t[0], a, b, c));
+  add(numbers::orient3d_centroid_filter(p, *t[2], *t[0], a, b, c));
   if (turns_seen == 3) return true;
-  const Sign side_of_p = orient3d_filter(*t[0], *t[1], *t[2], p);
-  return side_of_p == Sign::zero ||
-         (side_of_p != Sign::unknown && side_of_p == orient3d_centroid_filter(*t[0], *t[1], *t[2], a, b, c));
+  const numbers::Sign side_of_p = numbers::orient3d_filter(*t[0], *t[1], *t[2], p);
+  return side_of_p == numbers::Sign::zero ||
+         (side_of_p != numbers::Sign::unknown &&
+          side_of_p == numbers::orient3d_centroid_filter(*t[0], *t[1], *t[2], a, b, c));
 }
 
 /// Does the triangle t hide the point p from the (generically moved) centroid of the triangle abc? Exactly: touching is
 /// not crossing.
 bool hides(const Occluder& t, const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
   if (surely_passes_by(t, p, a, b, c)) return false;
-  const int side_of_p = orient3d(*t[0], *t[1], *t[2], p);
+  const int side_of_p = numbers::orient3d(*t[0], *t[1], *t[2], p);
   if (side_of_p == 0) return false;
-  const int side_of_face = orient3d_centroid(*t[0], *t[1], *t[2], a, b, c);
+  const int side_of_face = numbers::orient3d_centroid(*t[0], *t[1], *t[2], a, b, c);
   if (side_of_face != -side_of_p) return false;
   // The line of sight passes the three edges on the same side.
-  const int turn = orient3d_centroid(p, *t[0], *t[1], a, b, c);
-  return turn != 0 && orient3d_centroid(p, *t[1], *t[2], a, b, c) == turn &&
-         orient3d_centroid(p, *t[2], *t[0], a, b, c) == turn;
+  const int turn = numbers::orient3d_centroid(p, *t[0], *t[1], a, b, c);
+  return turn != 0 && numbers::orient3d_centroid(p, *t[1], *t[2], a, b, c) == turn &&
+         numbers::orient3d_centroid(p, *t[2], *t[0], a, b, c) == turn;
 }
 
 /// The centroid in floating point, for boxes and cells.
@@ -50,7 +53,7 @@ Point3 approximate_centroid(const Point3& a, const Point3& b, const Point3& c) {
 
 /// The circumsphere in floating point, a little too large; the cap stays as it is where the four points are too flat to
 /// tell.
-void shrink(Cap& cap, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+void shrink(locate::Cap& cap, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
   const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
   const Point3 uv = cross(u, v);
@@ -64,7 +67,8 @@ void shrink(Cap& cap, const Point3& a, const Point3& b, const Point3& c, const P
 template <class Locator>
 class ApexSearch {
  public:
-  ApexSearch(const Locator& locator, const FacetMesh& facets, const Delaunay& d, const OrientedFace& face)
+  ApexSearch(const Locator& locator, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
+             const OrientedFace& face)
       : locator_(locator),
         facets_(facets),
         d_(d),
@@ -74,25 +78,26 @@ class ApexSearch {
         c_(d.vertices[face_[2]]) {}
 
   std::optional<std::uint32_t> find() {
-    const LocatedVertex any = best([](const LocatedVertex&) { return true; });
-    if (any.id == ghost_vertex) return std::nullopt;
+    const locate::LocatedVertex any = best([](const locate::LocatedVertex&) { return true; });
+    if (any.id == delaunay::ghost_vertex) return std::nullopt;
     if (is_visible(any)) return any.id;
-    const LocatedVertex seen = best([&](const LocatedVertex& v) { return v.id != any.id && is_visible(v); });
-    if (seen.id == ghost_vertex) return std::nullopt;
+    const locate::LocatedVertex seen =
+        best([&](const locate::LocatedVertex& v) { return v.id != any.id && is_visible(v); });
+    if (seen.id == delaunay::ghost_vertex) return std::nullopt;
     return seen.id;
   }
 
  private:
   /// The vertex above the face with the emptiest sphere among those that satisfy; `ghost_vertex` if there is none.
   template <class Satisfies>
-  LocatedVertex best(const Satisfies& satisfies) {
+  locate::LocatedVertex best(const Satisfies& satisfies) {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
-    Cap cap(a, b, c);
-    LocatedVertex best{{}, 0, ghost_vertex};
+    locate::Cap cap(a, b, c);
+    locate::LocatedVertex best{{}, 0, delaunay::ghost_vertex};
     // What is above the face and in a later, smaller sphere is in the earlier one too: one search is enough.
-    locator_.visit_nearest_first(approximate_centroid(a, b, c), cap, [&](const LocatedVertex& v) {
+    locator_.visit_nearest_first(approximate_centroid(a, b, c), cap, [&](const locate::LocatedVertex& v) {
       if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2]) return;
-      if (!is_above(v.point) || (best.id != ghost_vertex && !is_in_sphere(best, v)) || !satisfies(v)) return;
+      if (!is_above(v.point) || (best.id != delaunay::ghost_vertex && !is_in_sphere(best, v)) || !satisfies(v)) return;
       best = v;
       shrink(cap, a, b, c, v.point);
     });
@@ -100,19 +105,20 @@ class ApexSearch {
   }
 
   bool is_above(const Point3& p) const {
-    const Sign sign = orient3d_filter(a_.point, b_.point, c_.point, p);
-    return sign == Sign::unknown ? orient3d(a_.point, b_.point, c_.point, p) > 0 : sign == Sign::plus;
+    const numbers::Sign sign = numbers::orient3d_filter(a_.point, b_.point, c_.point, p);
+    return sign == numbers::Sign::unknown ? numbers::orient3d(a_.point, b_.point, c_.point, p) > 0
+                                          : sign == numbers::Sign::plus;
   }
 
   /// Is v in the sphere of the face and the best vertex so far?
-  bool is_in_sphere(const LocatedVertex& best, const LocatedVertex& v) const {
-    const Sign sign = insphere_filter(a_.point, b_.point, c_.point, best.point, v.point);
-    if (sign == Sign::plus || sign == Sign::minus) return sign == Sign::plus;
-    return insphere_perturbed(a_.point, b_.point, c_.point, best.point, v.point,
-                              {a_.rank, b_.rank, c_.rank, best.rank, v.rank}) > 0;
+  bool is_in_sphere(const locate::LocatedVertex& best, const locate::LocatedVertex& v) const {
+    const numbers::Sign sign = numbers::insphere_filter(a_.point, b_.point, c_.point, best.point, v.point);
+    if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
+    return numbers::insphere_perturbed(a_.point, b_.point, c_.point, best.point, v.point,
+                                       {a_.rank, b_.rank, c_.rank, best.rank, v.rank}) > 0;
   }
 
-  bool is_visible(const LocatedVertex& v) {
+  bool is_visible(const locate::LocatedVertex& v) {
     // What hid the last vertex is likely to hide this one.
     if (last_occluder_ != none && is_hidden_by(last_occluder_, v)) return false;
     return !locator_.any_near_edge(approximate_centroid(a_.point, b_.point, c_.point), v.point, [&](std::uint32_t f) {
@@ -122,7 +128,7 @@ class ApexSearch {
     });
   }
 
-  bool is_hidden_by(std::uint32_t f, const LocatedVertex& v) const {
+  bool is_hidden_by(std::uint32_t f, const locate::LocatedVertex& v) const {
     const auto& t = facets_.triangles[f];
     if (t[0] == v.id || t[1] == v.id || t[2] == v.id) return false;
     return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, v.point, a_.point, b_.point, c_.point);
@@ -131,24 +137,24 @@ class ApexSearch {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
   const Locator& locator_;
-  const FacetMesh& facets_;
-  const Delaunay& d_;
+  const facets::FacetMesh& facets_;
+  const delaunay::Delaunay& d_;
   const std::array<std::uint32_t, 3>& face_;
-  const DelaunayVertex &a_, &b_, &c_;
+  const delaunay::DelaunayVertex &a_, &b_, &c_;
   std::uint32_t last_occluder_ = none;
 };
 
 }  // namespace
 
 template <class Locator>
-std::optional<std::uint32_t> find_apex(const Locator& locator, const FacetMesh& facets, const Delaunay& delaunay,
-                                       const OrientedFace& face) {
+std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
+                                       const delaunay::Delaunay& delaunay, const OrientedFace& face) {
   return ApexSearch<Locator>(locator, facets, delaunay, face).find();
 }
 
-template std::optional<std::uint32_t> find_apex(const GridLocator&, const FacetMesh&, const Delaunay&,
-                                                const OrientedFace&);
-template std::optional<std::uint32_t> find_apex(const OctreeLocator&, const FacetMesh&, const Delaunay&,
-                                                const OrientedFace&);
+template std::optional<std::uint32_t> find_apex(const locate::GridLocator&, const facets::FacetMesh&,
+                                                const delaunay::Delaunay&, const OrientedFace&);
+template std::optional<std::uint32_t> find_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
+                                                const delaunay::Delaunay&, const OrientedFace&);
 
-}  // namespace ccdt
+}  // namespace ccdt::front

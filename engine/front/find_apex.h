@@ -7,7 +7,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 
-namespace ccdt {
+namespace ccdt::front {
 
 /// An oriented face by its corners, the smallest first. What is above it waits to be filled.
 struct OrientedFace {
@@ -34,7 +34,7 @@ struct OrientedFace {
 /// \tparam Locator  `GridLocator` or `OctreeLocator`, of all that may be near
 /// \return  nothing if no vertex above the face can be seen from it
 template <class Locator>
-std::optional<std::uint32_t> find_apex(const Locator& locator, const FacetMesh& facets, const Delaunay& delaunay,
-                                       const OrientedFace& face);
+std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
+                                       const delaunay::Delaunay& delaunay, const OrientedFace& face);
 
-}  // namespace ccdt
+}  // namespace ccdt::front

@@ -5,7 +5,7 @@
 
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 /// A face of a cell, or a face of the mesh on a facet, among those with the same least corner.
@@ -25,12 +25,12 @@ FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   return face_key(a, b, c);
 }
 
-FaceBuckets sort_faces(const std::vector<Cell>& cells, const std::vector<std::array<std::uint32_t, 3>>& faces,
+FaceBuckets sort_faces(const std::vector<delaunay::Cell>& cells, const std::vector<std::array<std::uint32_t, 3>>& faces,
                        std::size_t vertices) {
   const auto visit_faces = [&](const auto& visit) {
     for (std::uint32_t c = 0; c < cells.size(); ++c)
-      for (std::uint32_t f = 0; f < 4; ++f) visit(key_of_face(cells[c].vertices, f), face_code(c, f));
-    for (const auto& face : faces) visit(face_key(face[0], face[1], face[2]), no_neighbor);
+      for (std::uint32_t f = 0; f < 4; ++f) visit(key_of_face(cells[c].vertices, f), delaunay::face_code(c, f));
+    for (const auto& face : faces) visit(face_key(face[0], face[1], face[2]), delaunay::no_neighbor);
   };
   FaceBuckets buckets;
   buckets.begin.assign(vertices + 2, 0);
@@ -57,12 +57,13 @@ void Change::clear() {
   new_vertex.reset();
 }
 
-CellComplex::CellComplex(const TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
-                         std::uint32_t first_interior, const QualityGoal& goal)
+CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
+                         std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior,
+                         const QualityGoal& goal)
     : goal_(goal),
       points_(std::move(points)),
       first_interior_(first_interior),
-      cell_at_(points_.size(), no_neighbor),
+      cell_at_(points_.size(), delaunay::no_neighbor),
       changed_at_(points_.size(), 0),
       cells_(mesh.tetrahedra.size()),
       walls_(cells_.size(), 0),
@@ -72,7 +73,8 @@ CellComplex::CellComplex(const TetMesh& mesh, std::vector<Point3> points, std::v
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
   for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-    cells_[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
+    cells_[c] = {mesh.tetrahedra[c],
+                 {delaunay::no_neighbor, delaunay::no_neighbor, delaunay::no_neighbor, delaunay::no_neighbor}};
     qualities_[c] = quality_of(mesh.tetrahedra[c]);
     for (const std::uint32_t v : mesh.tetrahedra[c]) cell_at_[v] = c;
   }
@@ -85,7 +87,8 @@ CellComplex::CellComplex(const TetMesh& mesh, std::vector<Point3> points, std::v
 }
 
 void CellComplex::set_wall(std::uint32_t code) {
-  walls_[cell_of(code)] = static_cast<std::uint8_t>(walls_[cell_of(code)] | 1u << face_of(code));
+  walls_[delaunay::cell_of(code)] =
+      static_cast<std::uint8_t>(walls_[delaunay::cell_of(code)] | 1u << delaunay::face_of(code));
 }
 
 /// Joins the entries that are the same face: two cells at most, and a face on a facet.
@@ -97,18 +100,18 @@ void CellComplex::find_neighbors() {
       for (std::size_t j = i + 1; j < buckets.begin[v + 1]; ++j) {
         if (entries[i].rest != entries[j].rest) continue;
         const std::uint32_t a = entries[i].code, b = entries[j].code;
-        if (a != no_neighbor && b != no_neighbor) {
-          cells_[cell_of(a)].neighbors[face_of(a)] = b;
-          cells_[cell_of(b)].neighbors[face_of(b)] = a;
-        } else if (a != no_neighbor || b != no_neighbor) {
-          set_wall(a != no_neighbor ? a : b);
+        if (a != delaunay::no_neighbor && b != delaunay::no_neighbor) {
+          cells_[delaunay::cell_of(a)].neighbors[delaunay::face_of(a)] = b;
+          cells_[delaunay::cell_of(b)].neighbors[delaunay::face_of(b)] = a;
+        } else if (a != delaunay::no_neighbor || b != delaunay::no_neighbor) {
+          set_wall(a != delaunay::no_neighbor ? a : b);
         }
       }
     }
   }
   for (std::uint32_t c = 0; c < cells_.size(); ++c)
     for (std::uint32_t f = 0; f < 4; ++f)
-      if (cells_[c].neighbors[f] == no_neighbor) set_wall(face_code(c, f));
+      if (cells_[c].neighbors[f] == delaunay::no_neighbor) set_wall(delaunay::face_code(c, f));
 }
 
 double CellComplex::worst_of(std::span<const std::uint32_t> cells) const {
@@ -123,7 +126,7 @@ bool CellComplex::all_positive(const Change& change) const {
   };
   return std::ranges::all_of(change.new_cells, [&](const NewCell& cell) {
     const auto& v = cell.vertices;
-    return orient3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0;
+    return numbers::orient3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0;
   });
 }
 
@@ -134,16 +137,16 @@ void CellComplex::open_hull(const Change& change, CellMarks& marks) {
   for (const std::uint32_t c : change.old_cells) {
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t outside = cells_[c].neighbors[f];
-      if (outside != no_neighbor && marks.is_marked(cell_of(outside))) continue;
-      open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
+      if (outside != delaunay::no_neighbor && marks.is_marked(delaunay::cell_of(outside))) continue;
+      open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(delaunay::face_code(c, f))});
     }
   }
 }
 
 void CellComplex::free_cells(const std::vector<std::uint32_t>& cells) {
   for (const std::uint32_t c : cells) {
-    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = no_neighbor;
-    cells_[c].vertices[0] = ghost_vertex;
+    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = delaunay::no_neighbor;
+    cells_[c].vertices[0] = delaunay::ghost_vertex;
     ++generations_[c];
     free_.push_back(c);
   }
@@ -166,18 +169,19 @@ std::uint32_t CellComplex::take_place() {
 
 /// Joins a face of a new cell to what waits for it, or lets it wait.
 void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flips) {
-  const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
+  const FaceKey key = key_of_face(cells_[delaunay::cell_of(code)].vertices, delaunay::face_of(code));
   const bool becomes_wall = !flips.empty() && is_new_wall(flips, key);
   for (OpenFace& face : open_) {
     if (face.key != key) continue;
-    cells_[cell_of(code)].neighbors[face_of(code)] = face.code;
-    if (face.code != no_neighbor) cells_[cell_of(face.code)].neighbors[face_of(face.code)] = code;
+    cells_[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)] = face.code;
+    if (face.code != delaunay::no_neighbor)
+      cells_[delaunay::cell_of(face.code)].neighbors[delaunay::face_of(face.code)] = code;
     if (face.is_wall || becomes_wall) set_wall(code);
     face = open_.back();
     open_.pop_back();
     return;
   }
-  cells_[cell_of(code)].neighbors[face_of(code)] = no_neighbor;
+  cells_[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)] = delaunay::no_neighbor;
   if (becomes_wall) set_wall(code);
   open_.push_back({key, code, becomes_wall});
 }
@@ -199,7 +203,7 @@ void CellComplex::flip_walls(const FacetFlip& flip) {
 void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made) {
   if (change.new_vertex) {
     points_.push_back(*change.new_vertex);
-    cell_at_.push_back(no_neighbor);
+    cell_at_.push_back(delaunay::no_neighbor);
     changed_at_.push_back(0);
   }
   open_hull(change, marks);
@@ -212,7 +216,7 @@ void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std:
     walls_[c] = 0;
     regions_[c] = cell.region;
     qualities_[c] = cell.quality;
-    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.flips);
+    for (std::uint32_t f = 0; f < 4; ++f) connect(delaunay::face_code(c, f), change.flips);
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
   }
   // What a flip has left open on a boundary facet: its two old triangles are gone, the two new ones are walls already.
@@ -231,13 +235,13 @@ void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<co
   }
 }
 
-std::vector<Point3> CellComplex::take_mesh(TetMesh& mesh) && {
+std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
   points.reserve(points_.size());
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
     number[v] = static_cast<std::uint32_t>(points.size());
-    if (!is_interior(v) || cell_at_[v] != no_neighbor) points.push_back(points_[v]);
+    if (!is_interior(v) || cell_at_[v] != delaunay::no_neighbor) points.push_back(points_[v]);
   }
   mesh.tetrahedra.clear();
   mesh.regions.clear();
@@ -251,4 +255,4 @@ std::vector<Point3> CellComplex::take_mesh(TetMesh& mesh) && {
   return points;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

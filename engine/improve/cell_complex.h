@@ -12,7 +12,7 @@
 #include "engine/improve/cell_quality.h"
 #include "engine/mesh/tet_mesh.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// A cell to be made.
 struct NewCell {
@@ -63,7 +63,7 @@ class CellComplex {
   /// \param points          its vertices in grid units
   /// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
-  CellComplex(const TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
+  CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
               std::uint32_t first_interior, const QualityGoal& goal);
 
   const QualityGoal& goal() const { return goal_; }
@@ -80,8 +80,8 @@ class CellComplex {
   /// Dead cells included, whose places wait to be used again.
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t dead_count() const { return free_.size(); }
-  const Cell& cell(std::uint32_t c) const { return cells_[c]; }
-  bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
+  const delaunay::Cell& cell(std::uint32_t c) const { return cells_[c]; }
+  bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == delaunay::ghost_vertex; }
   int region(std::uint32_t c) const { return regions_[c]; }
   double quality(std::uint32_t c) const { return qualities_[c]; }
   /// How often the place of the cell was given to another one.
@@ -91,7 +91,9 @@ class CellComplex {
     const auto& all = cells_[c].vertices;
     return all[0] == v ? 0 : all[1] == v ? 1 : all[2] == v ? 2 : 3;
   }
-  bool is_wall(std::uint32_t code) const { return (walls_[cell_of(code)] >> face_of(code) & 1) != 0; }
+  bool is_wall(std::uint32_t code) const {
+    return (walls_[delaunay::cell_of(code)] >> delaunay::face_of(code) & 1) != 0;
+  }
 
   /// The faces on facets, and the facet of each.
   const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
@@ -126,7 +128,7 @@ class CellComplex {
 
   /// Puts what became of the mesh back: tetrahedra, regions and faces. Interior vertices that are gone leave no gaps.
   /// \return the vertices of the mesh, in grid units
-  std::vector<Point3> take_mesh(TetMesh& mesh) &&;
+  std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
  private:
   /// A face that waits for the cell on its other side.
@@ -154,7 +156,7 @@ class CellComplex {
   std::vector<std::uint64_t> changed_at_;
 
   // By cell.
-  std::vector<Cell> cells_;
+  std::vector<delaunay::Cell> cells_;
   std::vector<std::uint8_t> walls_;  // bit f is set if face f is a wall
   std::vector<int> regions_;
   std::vector<double> qualities_;
@@ -172,8 +174,8 @@ class CellComplex {
 
 /// The corners of face f of a cell with these vertices.
 inline std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
-  const auto& corner = face_corners[f];
+  const auto& corner = delaunay::face_corners[f];
   return {v[corner[0]], v[corner[1]], v[corner[2]]};
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

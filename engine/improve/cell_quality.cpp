@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ccdt {
+namespace ccdt::improve {
 
 QualityGoal goal_of(const ImproveOptions& options) {
   return {options.objective, 1 / options.target_r, std::sin(options.target_dihedral * std::numbers::pi / 180)};
@@ -41,4 +41,4 @@ double goal_quality(const QualityGoal& goal) {
   return goal.objective == Objective::dihedral ? goal.sine : 1 + goal.sine;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

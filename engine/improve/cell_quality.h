@@ -5,7 +5,7 @@
 #include "engine/base/point.h"
 #include "engine/improve/options.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// What is good enough, as numbers that can be compared with 1 / r and the least sine.
 struct QualityGoal {
@@ -34,4 +34,4 @@ double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, c
 /// The quality from which a tetrahedron is good enough.
 double goal_quality(const QualityGoal& goal);
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -5,7 +5,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// Why improvement came to an end.
 enum class ImproveStop {
@@ -35,4 +35,4 @@ struct ImproveCounts {
   ImproveStop stop = ImproveStop::none;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

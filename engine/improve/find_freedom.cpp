@@ -9,7 +9,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
@@ -59,7 +59,7 @@ struct VertexSurroundings {
 
 class FreedomFinder {
  public:
-  FreedomFinder(const Plc& plc, const SegmentChains& chains)
+  FreedomFinder(const plc::Plc& plc, const protection::SegmentChains& chains)
       : plc_(plc), chains_(chains), around_(plc.vertices.size()), flat_segment_(plc.segments.size(), true) {
     look_at_segments();
     look_at_facets();
@@ -99,7 +99,7 @@ class FreedomFinder {
 
   void look_at_facets() {
     for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
-      const Facet& facet = plc_.facets[f];
+      const plc::Facet& facet = plc_.facets[f];
       for (std::uint32_t t = 0; t < facet.triangles.size(); ++t)
         for (const VertexId v : facet.triangles[t]) look_at(f, t, v);
       if (facet.exactly_flat) continue;
@@ -124,7 +124,7 @@ class FreedomFinder {
     if (around.segment_count != 2) return;
     const auto [a, b, c] = plc_.facets[facet].triangles[triangle];
     for (const std::uint32_t s : around.segments)
-      if (orient3d(point(a), point(b), point(c), point(other_end(s, v))) != 0) around.crossed = true;
+      if (numbers::orient3d(point(a), point(b), point(c), point(other_end(s, v))) != 0) around.crossed = true;
   }
 
   Freedom of_vertex(std::uint32_t v) const {
@@ -141,11 +141,11 @@ class FreedomFinder {
     const auto [s, t] = around.segments;
     if (around.crossed || plc_.segments[s].marker != plc_.segments[t].marker) return fixed;
     const std::uint32_t before = other_end(s, v), after = other_end(t, v);
-    return collinear(point(before), point(v), point(after)) ? along_line(point(v), point(after)) : fixed;
+    return numbers::collinear(point(before), point(v), point(after)) ? along_line(point(v), point(after)) : fixed;
   }
 
-  const Plc& plc_;
-  const SegmentChains& chains_;
+  const plc::Plc& plc_;
+  const protection::SegmentChains& chains_;
   std::vector<VertexSurroundings> around_;
   std::vector<char> flat_segment_;  // are all facets at the segment exactly flat?
   HashTable<std::uint64_t, std::uint32_t> segment_of_edge_;
@@ -153,8 +153,8 @@ class FreedomFinder {
 
 }  // namespace
 
-std::vector<Freedom> find_freedom(const Plc& plc, const SegmentChains& chains, std::size_t vertices) {
+std::vector<Freedom> find_freedom(const plc::Plc& plc, const protection::SegmentChains& chains, std::size_t vertices) {
   return FreedomFinder(plc, chains).find(vertices);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

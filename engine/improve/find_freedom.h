@@ -7,7 +7,7 @@
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// Where the vertices of a mesh may go without a change of any facet or segment (`BoundaryRule::slide`):
 ///
@@ -21,6 +21,6 @@ namespace ccdt {
 /// by `DyadicGrid::quantum` of the differences between them have integer coordinates: such are the steps.
 ///
 /// \param vertices  how many vertices the mesh has: those of the PLC, Steiner vertices, then interior vertices
-std::vector<Freedom> find_freedom(const Plc& plc, const SegmentChains& chains, std::size_t vertices);
+std::vector<Freedom> find_freedom(const plc::Plc& plc, const protection::SegmentChains& chains, std::size_t vertices);
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

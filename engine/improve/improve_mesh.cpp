@@ -8,7 +8,7 @@
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/topological_changes.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -240,8 +240,8 @@ Tetrahedron in_order(Tetrahedron t) {
 /// Brings the tetrahedra, with their regions, and the corners of each into an order that depends on nothing but the set
 /// of tetrahedra: what is done cell by cell has the same result whatever strategy made the mesh. Neighbors in space
 /// are mostly near to each other in it, as interior vertices are numbered along a space-filling curve.
-void sort_cells(TetMesh& mesh);
-void sort_cells(TetMesh& mesh) {
+void sort_cells(mesh::TetMesh& mesh);
+void sort_cells(mesh::TetMesh& mesh) {
   // A counting sort by the first vertex leaves a few cells a bucket.
   std::vector<std::uint32_t> begin;
   for (Tetrahedron& t : mesh.tetrahedra) {
@@ -274,9 +274,10 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
   return Improver(complex, freedom, options).run(progress);
 }
 
-ImproveCounts improve_mesh(const Plc& plc, const SegmentChains& chains, std::vector<std::uint32_t> facet_of_face,
-                           std::size_t first_interior, const ImproveOptions& options, std::vector<Point3>& points,
-                           TetMesh& mesh, const Progress& progress) {
+ImproveCounts improve_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
+                           std::vector<std::uint32_t> facet_of_face, std::size_t first_interior,
+                           const ImproveOptions& options, std::vector<Point3>& points, mesh::TetMesh& mesh,
+                           const Progress& progress) {
   std::vector<Freedom> freedom;
   if (options.boundary == BoundaryRule::slide) freedom = find_freedom(plc, chains, points.size());
   sort_cells(mesh);
@@ -288,4 +289,4 @@ ImproveCounts improve_mesh(const Plc& plc, const SegmentChains& chains, std::vec
   return counts;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -13,7 +13,7 @@
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// Improves the cells that are not good enough, the worst first: by swaps, by moving vertices, and where both are stuck
 /// by inserting and removing interior vertices. What a change makes is always better than what it replaces, the
@@ -30,8 +30,9 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 /// \param facet_of_face  the facet of each of the mesh's faces
 /// \param points         the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
 /// \param mesh           without coordinates
-ImproveCounts improve_mesh(const Plc& plc, const SegmentChains& chains, std::vector<std::uint32_t> facet_of_face,
-                           std::size_t first_interior, const ImproveOptions& options, std::vector<Point3>& points,
-                           TetMesh& mesh, const Progress& progress = {});
+ImproveCounts improve_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
+                           std::vector<std::uint32_t> facet_of_face, std::size_t first_interior,
+                           const ImproveOptions& options, std::vector<Point3>& points, mesh::TetMesh& mesh,
+                           const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

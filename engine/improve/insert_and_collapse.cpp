@@ -3,7 +3,7 @@
 
 #include "engine/improve/topological_changes.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 constexpr std::size_t most_cells = 40;  ///< in a cavity
@@ -14,9 +14,9 @@ void find_hull(const CellComplex& x, const CellMarks& in_cavity, VertexCavity& c
   cavity.hull.clear();
   cavity.faces.clear();
   for (const std::uint32_t c : cavity.cells) {
-    const Cell& cell = x.cell(c);
+    const delaunay::Cell& cell = x.cell(c);
     for (std::uint32_t f = 0; f < 4; ++f) {
-      if (!x.is_wall(face_code(c, f)) && in_cavity.is_marked(cell_of(cell.neighbors[f]))) continue;
+      if (!x.is_wall(delaunay::face_code(c, f)) && in_cavity.is_marked(delaunay::cell_of(cell.neighbors[f]))) continue;
       const auto face = corners_of_face(cell.vertices, f);
       cavity.hull.push_back(face);
       cavity.faces.push_back({x.point(face[0]), x.point(face[1]), x.point(face[2])});
@@ -30,10 +30,10 @@ bool grow(const CellComplex& x, double wanted, const Point3& apex, CellMarks& in
   // Cells that join the cavity are met later in the same loop.
   for (std::size_t i = 0; i < cavity.cells.size(); ++i) {
     const std::uint32_t c = cavity.cells[i];
-    const Cell& cell = x.cell(c);
+    const delaunay::Cell& cell = x.cell(c);
     for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t next = cell_of(cell.neighbors[f]);
-      if (x.is_wall(face_code(c, f)) || in_cavity.is_marked(next)) continue;
+      const std::uint32_t next = delaunay::cell_of(cell.neighbors[f]);
+      if (x.is_wall(delaunay::face_code(c, f)) || in_cavity.is_marked(next)) continue;
       const auto [p, q, r] = corners_of_face(cell.vertices, f);
       if (cell_quality(x.goal(), x.point(p), x.point(q), x.point(r), apex) >= wanted) continue;
       if (cavity.cells.size() >= most_cells) return false;
@@ -154,4 +154,4 @@ bool plan_collapse(const CellComplex& x, std::uint32_t cell, double least, PlanS
   return is_planned;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -5,7 +5,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// What improvement may do.
 enum class Improvement {
@@ -55,4 +55,4 @@ struct ImproveOptions {
   double time = 0;              ///< seconds after which improvement stops; 0: no limit
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -6,7 +6,7 @@
 
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 // Lengths are in units of the mean edge from the apex to its star.
@@ -62,7 +62,8 @@ std::optional<Point3> round_move(const Freedom& freedom, const Point3& move) {
 }
 
 bool all_positive(std::span<const StarFace> faces, const Point3& apex) {
-  return std::all_of(faces.begin(), faces.end(), [&](const StarFace& f) { return orient3d(f.a, f.b, f.c, apex) > 0; });
+  return std::all_of(faces.begin(), faces.end(),
+                     [&](const StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, apex) > 0; });
 }
 
 std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
@@ -121,12 +122,13 @@ void gather_cells(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, 
   marks.mark(first);
   cells.push_back(first);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& cell = x.cell(cells[i]);
+    const delaunay::Cell& cell = x.cell(cells[i]);
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t next = cell.neighbors[f];
-      if (cell.vertices[f] == vertex || next == no_neighbor || marks.is_marked(cell_of(next))) continue;
-      marks.mark(cell_of(next));
-      cells.push_back(cell_of(next));
+      if (cell.vertices[f] == vertex || next == delaunay::no_neighbor || marks.is_marked(delaunay::cell_of(next)))
+        continue;
+      marks.mark(delaunay::cell_of(next));
+      cells.push_back(delaunay::cell_of(next));
     }
   }
 }
@@ -172,4 +174,4 @@ double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const
   return there;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

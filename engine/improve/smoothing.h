@@ -7,7 +7,7 @@
 #include "engine/improve/cell_complex.h"
 #include "engine/improve/star_functions.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// The cells around a vertex, and the faces opposite to it, as it sees them.
 struct VertexStar {
@@ -48,4 +48,4 @@ struct MoveScratch {
 double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const Freedom& freedom, double worst,
                  MoveScratch& scratch, Point3& apex);
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 /// How much more the quality of the star may grow than a 1 / r above its goal shrinks.
@@ -285,4 +285,4 @@ ProximalStep proximal_step(const LinearModels& models, double length) {
   return found;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -6,7 +6,7 @@
 
 #include "engine/improve/cell_quality.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 
 /// A face that the apex of a star sees: the tetrahedron a b c apex is positive.
 struct StarFace {
@@ -77,4 +77,4 @@ struct ProximalStep {
 /// \param models  at least one
 ProximalStep proximal_step(const LinearModels& models, double length);
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -4,7 +4,7 @@
 
 #include "engine/improve/topological_changes.h"
 
-namespace ccdt {
+namespace ccdt::improve {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -31,15 +31,15 @@ template <class Visit>
 std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t cell,
                           std::uint32_t from, const Visit& visit) {
   while (true) {
-    const std::uint32_t leaving = face_code(cell, x.place(cell, from));
+    const std::uint32_t leaving = delaunay::face_code(cell, x.place(cell, from));
     if (x.is_wall(leaving)) return leaving;
     const auto& here = x.cell(cell).vertices;
     std::uint32_t shared = 0;
     for (const std::uint32_t v : here)
       if (v != a && v != b && v != from) shared = v;
-    const std::uint32_t entered = x.cell(cell).neighbors[face_of(leaving)];
-    cell = cell_of(entered);
-    if (!visit(cell, x.cell(cell).vertices[face_of(entered)])) return no_neighbor;
+    const std::uint32_t entered = x.cell(cell).neighbors[delaunay::face_of(leaving)];
+    cell = delaunay::cell_of(entered);
+    if (!visit(cell, x.cell(cell).vertices[delaunay::face_of(entered)])) return delaunay::no_neighbor;
     from = shared;
   }
 }
@@ -149,18 +149,19 @@ bool add_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring
 
 std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const auto face = x.find_face(a, b, c);
-  return face ? x.facet_of_face()[*face] : no_neighbor;
+  return face ? x.facet_of_face()[*face] : delaunay::no_neighbor;
 }
 
 /// The cells on the other side of the facet that the ring ends at, from its last wall to its first.
 /// \return false: what is there forbids to exchange the diagonal
 bool find_other_side(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, Ring& other) {
   other.size = 0;
-  const std::uint32_t behind_begin = x.cell(cell_of(ring.begin_wall)).neighbors[face_of(ring.begin_wall)];
-  const std::uint32_t behind_end = x.cell(cell_of(ring.end_wall)).neighbors[face_of(ring.end_wall)];
-  if (behind_begin == no_neighbor || behind_end == no_neighbor) return behind_begin == behind_end;
-  const std::uint32_t first = ring.vertices[ring.size], cell = cell_of(behind_end);
-  const std::uint32_t second = x.cell(cell).vertices[face_of(behind_end)];
+  const std::uint32_t behind_begin =
+      x.cell(delaunay::cell_of(ring.begin_wall)).neighbors[delaunay::face_of(ring.begin_wall)];
+  const std::uint32_t behind_end = x.cell(delaunay::cell_of(ring.end_wall)).neighbors[delaunay::face_of(ring.end_wall)];
+  if (behind_begin == delaunay::no_neighbor || behind_end == delaunay::no_neighbor) return behind_begin == behind_end;
+  const std::uint32_t first = ring.vertices[ring.size], cell = delaunay::cell_of(behind_end);
+  const std::uint32_t second = x.cell(cell).vertices[delaunay::face_of(behind_end)];
   return find_ring(x, a, b, cell, first, second, other) && !other.is_closed && other.vertices[0] == first &&
          other.vertices[other.size] == ring.vertices[0];
 }
@@ -169,7 +170,7 @@ bool find_other_side(const CellComplex& x, std::uint32_t a, std::uint32_t b, con
 bool plan_flip(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least, Change& change) {
   const std::uint32_t first = ring.vertices[0], last = ring.vertices[ring.size];
   const std::uint32_t facet = facet_at(x, a, b, first);
-  if (facet == no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
+  if (facet == delaunay::no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
   Ring other;
   if (!find_other_side(x, a, b, ring, other)) return false;
   if (!add_ring(x, a, b, ring, least, change)) return false;
@@ -217,14 +218,15 @@ class SandwichedFaces {
   /// \return the quality that crossing the edge gives; nothing if the next face is not between the same vertices
   double cross(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
     if (change_.old_cells.size() >= std::size_t{2} * most_faces) return -1;
-    const std::uint32_t up = face_code(upper, x_.place(upper, w)), down = face_code(lower, x_.place(lower, w));
+    const std::uint32_t up = delaunay::face_code(upper, x_.place(upper, w)),
+                        down = delaunay::face_code(lower, x_.place(lower, w));
     if (x_.is_wall(up) || x_.is_wall(down)) return -1;
-    const std::uint32_t up_code = x_.cell(upper).neighbors[face_of(up)];
-    const std::uint32_t down_code = x_.cell(lower).neighbors[face_of(down)];
-    const std::uint32_t next_upper = cell_of(up_code), next_lower = cell_of(down_code);
-    const std::uint32_t next = x_.cell(next_upper).vertices[face_of(up_code)];
-    if (next == below_ || next != x_.cell(next_lower).vertices[face_of(down_code)]) return -1;
-    if (x_.is_wall(face_code(next_upper, x_.place(next_upper, above_)))) return -1;
+    const std::uint32_t up_code = x_.cell(upper).neighbors[delaunay::face_of(up)];
+    const std::uint32_t down_code = x_.cell(lower).neighbors[delaunay::face_of(down)];
+    const std::uint32_t next_upper = delaunay::cell_of(up_code), next_lower = delaunay::cell_of(down_code);
+    const std::uint32_t next = x_.cell(next_upper).vertices[delaunay::face_of(up_code)];
+    if (next == below_ || next != x_.cell(next_lower).vertices[delaunay::face_of(down_code)]) return -1;
+    if (x_.is_wall(delaunay::face_code(next_upper, x_.place(next_upper, above_)))) return -1;
     if (std::ranges::find(change_.old_cells, next_upper) != change_.old_cells.end()) return -1;
     // The corner across the edge comes first: its two edges are those that are not the one we came by.
     return add_face(next_upper, next_lower, {u, next, v}, 2);
@@ -256,14 +258,15 @@ bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t e
 
 bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t face, double least, Change& change) {
   change.clear();
-  const std::uint32_t code = face_code(cell, face);
+  const std::uint32_t code = delaunay::face_code(cell, face);
   if (x.is_wall(code)) return false;
   const std::uint32_t other_side = x.cell(cell).neighbors[face];
   const auto& v = x.cell(cell).vertices;
-  const std::uint32_t above = v[face], below = x.cell(cell_of(other_side)).vertices[face_of(other_side)];
+  const std::uint32_t above = v[face],
+                      below = x.cell(delaunay::cell_of(other_side)).vertices[delaunay::face_of(other_side)];
   SandwichedFaces faces(x, above, below, change);
-  const auto& corner = face_corners[face];
-  return faces.add_face(cell, cell_of(other_side), {v[corner[0]], v[corner[1]], v[corner[2]]}, 3) > least;
+  const auto& corner = delaunay::face_corners[face];
+  return faces.add_face(cell, delaunay::cell_of(other_side), {v[corner[0]], v[corner[1]], v[corner[2]]}, 3) > least;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -10,7 +10,7 @@
 /// find into `change`. The quality of the worst new cell must be greater than `least`, which is no less than that of
 /// `cell`. They return whether there is such a change. Whether the new cells are exactly positive is not yet known,
 /// except after `plan_insertion`.
-namespace ccdt {
+namespace ccdt::improve {
 
 /// Cells that a new vertex is to replace, marked, and their hull.
 struct VertexCavity {
@@ -60,4 +60,4 @@ bool plan_collapse(const CellComplex& complex, std::uint32_t cell, double least,
 /// cavity is gone.
 bool plan_insertion(const CellComplex& complex, std::uint32_t cell, double least, PlanScratch& scratch, Change& change);
 
-}  // namespace ccdt
+}  // namespace ccdt::improve

@@ -18,53 +18,53 @@ namespace ccdt::io {
 /// gets, non-manifold or not. (OpenMesh's readers drop faces that do not fit a half-edge mesh, take coordinates in
 /// single precision and are silent about truncation and NaN; so they serve as the independent cross-reader of our
 /// tests, not here.) The readers fill all of an `InputPlc` but its name. All throw InputError as `read_plc` says.
-InputPlc read_stl(const FileBytes& file);
-InputPlc read_off(const FileBytes& file);
-InputPlc read_obj(const FileBytes& file);
-InputPlc read_ply(const FileBytes& file);
-InputPlc read_poly(const FileBytes& file);
-InputPlc read_smesh(const FileBytes& file);
-InputPlc read_node(const FileBytes& file);
-InputPlc read_medit_plc(const FileBytes& file);
+plc::InputPlc read_stl(const FileBytes& file);
+plc::InputPlc read_off(const FileBytes& file);
+plc::InputPlc read_obj(const FileBytes& file);
+plc::InputPlc read_ply(const FileBytes& file);
+plc::InputPlc read_poly(const FileBytes& file);
+plc::InputPlc read_smesh(const FileBytes& file);
+plc::InputPlc read_node(const FileBytes& file);
+plc::InputPlc read_medit_plc(const FileBytes& file);
 
 /// The writers expect what `write_plc` has checked.
-void write_stl(const InputPlc& plc, OutputFile& out);
-void write_off(const InputPlc& plc, OutputFile& out);
-void write_obj(const InputPlc& plc, OutputFile& out);
-void write_ply(const InputPlc& plc, OutputFile& out);
-void write_poly(const InputPlc& plc, OutputFile& out);
-void write_smesh(const InputPlc& plc, OutputFile& out);
-void write_medit_plc(const InputPlc& plc, OutputFile& out);
+void write_stl(const plc::InputPlc& plc, OutputFile& out);
+void write_off(const plc::InputPlc& plc, OutputFile& out);
+void write_obj(const plc::InputPlc& plc, OutputFile& out);
+void write_ply(const plc::InputPlc& plc, OutputFile& out);
+void write_poly(const plc::InputPlc& plc, OutputFile& out);
+void write_smesh(const plc::InputPlc& plc, OutputFile& out);
+void write_medit_plc(const plc::InputPlc& plc, OutputFile& out);
 
 /// Tetrahedral meshes.
-TetMesh read_medit_mesh(const FileBytes& file);
-TetMesh read_vtu(const FileBytes& file);
-TetMesh read_gmsh(const FileBytes& file);
+mesh::TetMesh read_medit_mesh(const FileBytes& file);
+mesh::TetMesh read_vtu(const FileBytes& file);
+mesh::TetMesh read_gmsh(const FileBytes& file);
 /// Reads .node and .ele, and .face and .edge where they are, given the path of one of the first three.
-TetMesh read_tetgen_mesh(const std::filesystem::path& file);
+mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file);
 
-void write_medit_mesh(const TetMesh& mesh, OutputFile& out);
-void write_vtu(const TetMesh& mesh, OutputFile& out);
-void write_gmsh(const TetMesh& mesh, OutputFile& out);
+void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out);
+void write_vtu(const mesh::TetMesh& mesh, OutputFile& out);
+void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out);
 /// Writes .node, .ele, .face and .edge (also empty ones, so that none is left of an older mesh).
-void write_tetgen_mesh(const TetMesh& mesh, const std::filesystem::path& file);
+void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
 /// Adds a facet with one loop: a triangle, a polygon, or, of two corners, a segment. Less is nothing.
-void add_facet(InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t number);
+void add_facet(plc::InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t number);
 
 /// To be called when all facets are in: numbers that equal the indices are not kept, nor are markers that are all 0.
-void finish_facets(InputPlc& plc);
+void finish_facets(plc::InputPlc& plc);
 
 /// One facet with one loop, wherever the PLC holds it.
 struct FacetLoop {
   std::span<const std::uint32_t> corners;
   int marker = 0;
-  const PolygonFacet* polygon = nullptr;  ///< null for a triangle
-  std::uint32_t number = 0;               ///< in the file
+  const plc::PolygonFacet* polygon = nullptr;  ///< null for a triangle
+  std::uint32_t number = 0;                    ///< in the file
 };
 
 /// All facets, in the order of their numbers in the file that they came from.
-std::vector<FacetLoop> facets_in_order(const InputPlc& plc);
+std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc);
 
 /// Our writers leave this comment in the formats that are read with seeds when the PLC goes by even and odd.
 inline constexpr std::string_view even_odd_claim = "# ccdt inside even_odd";
@@ -75,8 +75,8 @@ inline constexpr std::string_view constrained_delaunay_claim = "ccdt constrained
 inline bool has_claim(const FileBytes& file, std::string_view claim) {
   return std::string_view(file.bytes).substr(0, 1024).find(claim) != std::string_view::npos;
 }
-inline InputPlc::Inside inside_claimed(const FileBytes& file) {
-  return has_claim(file, even_odd_claim) ? InputPlc::Inside::even_odd : InputPlc::Inside::seeds;
+inline plc::InputPlc::Inside inside_claimed(const FileBytes& file) {
+  return has_claim(file, even_odd_claim) ? plc::InputPlc::Inside::even_odd : plc::InputPlc::Inside::seeds;
 }
 
 /// The i-th of the attributes, which may be missing as a whole.

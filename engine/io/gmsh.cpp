@@ -19,7 +19,7 @@ class GmshReader {
  public:
   explicit GmshReader(const FileBytes& file) : in_(file, TextScanner::no_comments) {}
 
-  TetMesh read() {
+  mesh::TetMesh read() {
     int version = 0;
     bool has_elements = false;
     while (!in_.at_end()) {
@@ -197,7 +197,7 @@ class GmshReader {
   }
 
   TextScanner in_;
-  TetMesh mesh_;
+  mesh::TetMesh mesh_;
   std::size_t consecutive_tags_ = 0;  ///< the node with index i < consecutive_tags_ has the tag i + 1
   std::unordered_map<std::int64_t, std::uint32_t> other_tags_;
   /// The first physical tag of an entity, by its dimension and tag; missing if it has none.
@@ -221,14 +221,14 @@ void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& eleme
 
 }  // namespace
 
-TetMesh read_gmsh(const FileBytes& file) {
-  TetMesh mesh = GmshReader(file).read();
+mesh::TetMesh read_gmsh(const FileBytes& file) {
+  mesh::TetMesh mesh = GmshReader(file).read();
   mesh.constrained_delaunay = has_claim(file, constrained_delaunay_claim);
   return mesh;
 }
 
 /// Version 2.2, which most programs read.
-void write_gmsh(const TetMesh& mesh, OutputFile& out) {
+void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out) {
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
   out << "$Nodes\n" << mesh.vertices.size() << '\n';

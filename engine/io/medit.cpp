@@ -7,7 +7,7 @@ namespace {
 
 /// Medit's text format holds surfaces and tetrahedral meshes alike. Each element has a "reference".
 struct MeditFile {
-  TetMesh mesh;
+  mesh::TetMesh mesh;
   std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
   std::vector<int> quadrilateral_references;
   std::size_t first_triangle = 0, first_quadrilateral = 0;  ///< how many facets came before them in the file
@@ -43,7 +43,7 @@ void read_elements(TextScanner& in, Item item, std::size_t vertices,
 /// \param with_tetrahedra  false: they are skipped as every section that is not listed above
 MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   MeditFile medit;
-  TetMesh& mesh = medit.mesh;
+  mesh::TetMesh& mesh = medit.mesh;
   TextScanner in(file);
   in.expect("header", "MeshVersionFormatted", "check that this is a Medit text file");
   in.integer("MeshVersionFormatted");
@@ -98,10 +98,10 @@ void write_elements(const char* keyword, std::span<const std::array<std::uint32_
 
 }  // namespace
 
-InputPlc read_medit_plc(const FileBytes& file) {
+plc::InputPlc read_medit_plc(const FileBytes& file) {
   MeditFile medit = read_medit(file, false);
-  const TetMesh& mesh = medit.mesh;
-  InputPlc plc;
+  const mesh::TetMesh& mesh = medit.mesh;
+  plc::InputPlc plc;
   plc.inside = inside_claimed(file);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i)
     add_facet(plc, mesh.faces[i], mesh.face_markers[i], medit.first_triangle + i);
@@ -113,13 +113,13 @@ InputPlc read_medit_plc(const FileBytes& file) {
   return plc;
 }
 
-TetMesh read_medit_mesh(const FileBytes& file) {
-  TetMesh mesh = read_medit(file, true).mesh;
+mesh::TetMesh read_medit_mesh(const FileBytes& file) {
+  mesh::TetMesh mesh = read_medit(file, true).mesh;
   mesh.constrained_delaunay = has_claim(file, constrained_delaunay_claim);
   return mesh;
 }
 
-void write_medit_plc(const InputPlc& plc, OutputFile& out) {
+void write_medit_plc(const plc::InputPlc& plc, OutputFile& out) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
   std::vector<int> triangle_references, quadrilateral_references;
@@ -133,14 +133,14 @@ void write_medit_plc(const InputPlc& plc, OutputFile& out) {
       quadrilateral_references.push_back(facet.marker);
     }
   }
-  write_head(plc.inside == InputPlc::Inside::even_odd ? even_odd_claim : "", plc.vertices, out);
+  write_head(plc.inside == plc::InputPlc::Inside::even_odd ? even_odd_claim : "", plc.vertices, out);
   write_elements<2>("Edges", plc.segments, plc.segment_markers, out);
   write_elements<3>("Triangles", triangles, triangle_references, out);
   write_elements<4>("Quadrilaterals", quadrilaterals, quadrilateral_references, out);
   out << "\nEnd\n";
 }
 
-void write_medit_mesh(const TetMesh& mesh, OutputFile& out) {
+void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out) {
   const std::string claim = mesh.constrained_delaunay ? "# " + std::string(constrained_delaunay_claim) : "";
   write_head(claim, mesh.vertices, out);
   write_elements<2>("Edges", mesh.edges, mesh.edge_markers, out);

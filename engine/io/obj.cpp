@@ -59,8 +59,8 @@ class Groups {
 
 }  // namespace
 
-InputPlc read_obj(const FileBytes& file) {
-  InputPlc plc;
+plc::InputPlc read_obj(const FileBytes& file) {
+  plc::InputPlc plc;
   Groups groups;
   TextScanner in(file);
   in.join_lines_at_backslash();
@@ -86,12 +86,12 @@ InputPlc read_obj(const FileBytes& file) {
   }
   const std::vector<int> markers = groups.markers();
   for (int& group : plc.triangle_markers) group = markers[static_cast<std::size_t>(group)];
-  for (PolygonFacet& facet : plc.polygon_facets) facet.marker = markers[static_cast<std::size_t>(facet.marker)];
+  for (plc::PolygonFacet& facet : plc.polygon_facets) facet.marker = markers[static_cast<std::size_t>(facet.marker)];
   finish_facets(plc);
   return plc;
 }
 
-void write_obj(const InputPlc& plc, OutputFile& out) {
+void write_obj(const plc::InputPlc& plc, OutputFile& out) {
   for (const Point3& p : plc.vertices) out << "v " << p << '\n';
   int group = 0;
   for (const FacetLoop& facet : facets_in_order(plc)) {

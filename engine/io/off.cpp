@@ -29,8 +29,8 @@ void read_keyword(TextScanner& in) {
 
 }  // namespace
 
-InputPlc read_off(const FileBytes& file) {
-  InputPlc plc;
+plc::InputPlc read_off(const FileBytes& file) {
+  plc::InputPlc plc;
   TextScanner in(file);
   read_keyword(in);
   const std::size_t vertices = in.count({"number of vertices"}, 6), faces = in.count({"number of facets"}, 4);
@@ -60,7 +60,7 @@ InputPlc read_off(const FileBytes& file) {
   return plc;
 }
 
-void write_off(const InputPlc& plc, OutputFile& out) {
+void write_off(const plc::InputPlc& plc, OutputFile& out) {
   out << "OFF\n" << plc.vertices.size() << ' ' << plc.facet_count() << " 0\n";
   for (const Point3& p : plc.vertices) out << p << '\n';
   for (const FacetLoop& facet : facets_in_order(plc)) {

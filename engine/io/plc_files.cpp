@@ -6,11 +6,9 @@
 #include "engine/base/errors.h"
 #include "engine/io/formats.h"
 
-namespace ccdt {
+namespace ccdt::io {
 
-namespace io {
-
-void add_facet(InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t facet_number) {
+void add_facet(plc::InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t facet_number) {
   const std::uint32_t number = static_cast<std::uint32_t>(facet_number);
   if (corners.size() == 3) {
     plc.triangles.push_back({corners[0], corners[1], corners[2]});
@@ -24,20 +22,20 @@ void add_facet(InputPlc& plc, std::span<const std::uint32_t> corners, int marker
   }
 }
 
-void finish_facets(InputPlc& plc) {
+void finish_facets(plc::InputPlc& plc) {
   for (std::vector<int>* markers : {&plc.triangle_markers, &plc.segment_markers})
     if (std::ranges::all_of(*markers, [](int m) { return m == 0; })) markers->clear();
   const auto indices = std::views::iota(std::size_t{0}, plc.triangle_numbers.size());
   if (std::ranges::equal(plc.triangle_numbers, indices)) plc.triangle_numbers.clear();
 }
 
-std::vector<FacetLoop> facets_in_order(const InputPlc& plc) {
+std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc) {
   std::vector<FacetLoop> loops;
   loops.reserve(plc.facet_count());
   for (std::size_t i = 0; i < plc.triangles.size(); ++i)
     loops.push_back({plc.triangles[i], attribute_of(plc.triangle_markers, i), nullptr,
                      plc.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : plc.triangle_numbers[i]});
-  for (const PolygonFacet& facet : plc.polygon_facets) {
+  for (const plc::PolygonFacet& facet : plc.polygon_facets) {
     const bool none = facet.polygons.empty();
     loops.push_back({none ? std::span<const std::uint32_t>() : facet.polygons[0], facet.marker, &facet, facet.number});
   }
@@ -46,11 +44,7 @@ std::vector<FacetLoop> facets_in_order(const InputPlc& plc) {
   return loops;
 }
 
-}  // namespace io
-
 namespace {
-
-using namespace io;
 
 struct FormatLimits {
   std::size_t most_corners = 0xFFFFFFFFu;  ///< of a facet
@@ -60,8 +54,8 @@ struct FormatLimits {
 /// Who reads and writes a format, and what it can hold.
 struct PlcFormat {
   std::string_view ending, name;
-  InputPlc (*read)(const FileBytes&);
-  void (*write)(const InputPlc&, OutputFile&) = nullptr;  ///< null: not written
+  plc::InputPlc (*read)(const FileBytes&);
+  void (*write)(const plc::InputPlc&, OutputFile&) = nullptr;  ///< null: not written
   FormatLimits limits = {};
 };
 
@@ -76,18 +70,18 @@ constexpr PlcFormat formats[] = {
     {".mesh", "Medit .mesh", read_medit_plc, write_medit_plc, {.most_corners = 4, .segments = true}},
 };
 
-bool has_loose_vertex(const InputPlc& plc) {
+bool has_loose_vertex(const plc::InputPlc& plc) {
   std::vector<bool> used(plc.vertices.size(), false);
   for (const auto& triangle : plc.triangles)
     for (const std::uint32_t v : triangle) used[v] = true;
-  for (const PolygonFacet& facet : plc.polygon_facets)
+  for (const plc::PolygonFacet& facet : plc.polygon_facets)
     for (const auto& polygon : facet.polygons)
       for (const std::uint32_t v : polygon) used[v] = true;
   return std::find(used.begin(), used.end(), false) != used.end();
 }
 
 /// Why the format cannot hold a facet of polygons; empty if it can.
-std::string objection(const PolygonFacet& facet, const PlcFormat& format) {
+std::string objection(const plc::PolygonFacet& facet, const PlcFormat& format) {
   if (!format.limits.several_polygons && (facet.polygons.size() != 1 || !facet.holes.empty()))
     return "facets with holes or of several polygons";
   for (const auto& polygon : facet.polygons) {
@@ -99,7 +93,7 @@ std::string objection(const PolygonFacet& facet, const PlcFormat& format) {
 }
 
 /// \throw OutputError  the PLC has what the format cannot hold, or no vertices
-void check_format_holds(const InputPlc& plc, const PlcFormat& format, const std::string& file) {
+void check_format_holds(const plc::InputPlc& plc, const PlcFormat& format, const std::string& file) {
   const auto refuse_if = [&](bool condition, const std::string& what, const std::string& where = {}) {
     if (condition)
       throw OutputError(where + std::string(format.name) + " cannot hold " + what, place_in(file),
@@ -110,7 +104,7 @@ void check_format_holds(const InputPlc& plc, const PlcFormat& format, const std:
   refuse_if(!format.limits.segments && !plc.segments.empty(), "segments");
   refuse_if(!format.limits.seeds && !plc.holes.empty(), "seeds of holes");
   refuse_if(!format.limits.seeds && !plc.regions.empty(), "seeds of regions");
-  for (const PolygonFacet& facet : plc.polygon_facets)
+  for (const plc::PolygonFacet& facet : plc.polygon_facets)
     if (const std::string what = objection(facet, format); !what.empty())
       refuse_if(true, what, "facet " + std::to_string(facet.number) + ": ");
   refuse_if(!format.limits.loose_vertices && has_loose_vertex(plc), "vertices that no facet has");
@@ -118,19 +112,19 @@ void check_format_holds(const InputPlc& plc, const PlcFormat& format, const std:
 
 }  // namespace
 
-InputPlc read_plc(const std::filesystem::path& file) {
+plc::InputPlc read_plc(const std::filesystem::path& file) {
   const auto format = std::ranges::find(formats, lower_ending(file), &PlcFormat::ending);
   if (format == std::end(formats)) {
     check_is_file(file);  // no such file is the better message
     throw InputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
                      "known are .stl, .off, .obj, .ply, .poly, .smesh, .node and .mesh: convert or rename the file");
   }
-  InputPlc plc = format->read(read_whole_file(file));
+  plc::InputPlc plc = format->read(read_whole_file(file));
   plc.name = file.string();
   return plc;
 }
 
-void write_plc(const InputPlc& plc, const std::filesystem::path& file) {
+void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {
   const auto format = std::ranges::find(formats, lower_ending(file), &PlcFormat::ending);
   if (format == std::end(formats) || !format->write)
     throw OutputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
@@ -141,4 +135,4 @@ void write_plc(const InputPlc& plc, const std::filesystem::path& file) {
   out.commit();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::io

@@ -199,7 +199,7 @@ void skip_property(Values& values, const Property& property, const Item& item) {
   for (std::size_t k = 0; k < length; ++k) values.skip(*property.type, item);
 }
 
-void read_vertex(Values& values, const Element& element, const Item& item, InputPlc& plc) {
+void read_vertex(Values& values, const Element& element, const Item& item, plc::InputPlc& plc) {
   std::array<double, 3> xyz{};
   for (const Property& property : element.properties) {
     const std::string& name = property.name;
@@ -215,7 +215,7 @@ bool is_corner_list(const Property& property) {
   return property.list_count && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void read_face(Values& values, const Element& element, const Item& facet, std::size_t vertices, InputPlc& plc,
+void read_face(Values& values, const Element& element, const Item& facet, std::size_t vertices, plc::InputPlc& plc,
                std::vector<std::uint32_t>& corners) {
   int marker = 0;
   for (const Property& property : element.properties) {
@@ -255,10 +255,10 @@ void check_properties(const FileBytes& file, const Element& element) {
 
 }  // namespace
 
-InputPlc read_ply(const FileBytes& file) {
+plc::InputPlc read_ply(const FileBytes& file) {
   const Header header = read_header(file);
   check_counts(file, header);
-  InputPlc plc;
+  plc::InputPlc plc;
   Values values(file, header);
   std::vector<std::uint32_t> corners;
   for (const Element& element : header.elements) {
@@ -279,7 +279,7 @@ InputPlc read_ply(const FileBytes& file) {
   return plc;
 }
 
-void write_ply(const InputPlc& plc, OutputFile& out) {
+void write_ply(const plc::InputPlc& plc, OutputFile& out) {
   const std::vector<FacetLoop> facets = facets_in_order(plc);
   bool short_lists = true, markers = false;
   for (const FacetLoop& facet : facets) {

@@ -3,11 +3,9 @@
 #include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
 
-namespace ccdt {
+namespace ccdt::io {
 
 namespace {
-
-using namespace io;
 
 constexpr const char* scalar_remedy = "write one size a vertex, the target edge length there";
 
@@ -21,7 +19,7 @@ std::filesystem::path background_of(const std::filesystem::path& file, std::init
 }
 
 /// Reads how many sizes there are: as many as vertices.
-void read_count(TextScanner& in, const BackgroundSizes& background) {
+void read_count(TextScanner& in, const lattice::BackgroundSizes& background) {
   const Item item = "number of sizes";
   const std::size_t count = in.count(item, 2), vertices = background.vertices.size();
   if (count != vertices)
@@ -32,7 +30,7 @@ void read_count(TextScanner& in, const BackgroundSizes& background) {
   if (count == 0) in.fail(item, "there is none", "give the size function at one vertex at least");
 }
 
-void read_values(TextScanner& in, BackgroundSizes& background) {
+void read_values(TextScanner& in, lattice::BackgroundSizes& background) {
   background.sizes.reserve(background.vertices.size());
   for (std::size_t i = 0; i < background.vertices.size(); ++i) {
     const Item item{"size of vertex", i};
@@ -64,11 +62,11 @@ void check_scalar(TextScanner& in) {
   in.fail("type of the field", "it is " + std::to_string(type) + name + ", not 1 (a scalar)", scalar_remedy);
 }
 
-BackgroundSizes read_sol(const std::filesystem::path& file) {
+lattice::BackgroundSizes read_sol(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
   const std::filesystem::path beside = background_of(file, {".mesh"}, ".mesh");
-  TetMesh mesh = read_medit_mesh(read_whole_file(beside));
-  BackgroundSizes result;
+  mesh::TetMesh mesh = read_medit_mesh(read_whole_file(beside));
+  lattice::BackgroundSizes result;
   result.mesh_name = beside.string();
   result.vertices = std::move(mesh.vertices);
   result.tetrahedra = std::move(mesh.tetrahedra);
@@ -80,14 +78,14 @@ BackgroundSizes read_sol(const std::filesystem::path& file) {
   return result;
 }
 
-BackgroundSizes read_mtr(const std::filesystem::path& file) {
+lattice::BackgroundSizes read_mtr(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
   const auto beside = background_of(file, {".node", ".poly", ".smesh"}, ".node, .poly or .smesh");
   const std::filesystem::path cells = sibling(file, ".ele");
-  BackgroundSizes result;
+  lattice::BackgroundSizes result;
   result.mesh_name = beside.string();
   if (beside.extension() == ".node" && is_there(cells)) {
-    TetMesh mesh = read_tetgen_mesh(cells);
+    mesh::TetMesh mesh = read_tetgen_mesh(cells);
     result.vertices = std::move(mesh.vertices);
     result.tetrahedra = std::move(mesh.tetrahedra);
   } else {
@@ -103,14 +101,14 @@ BackgroundSizes read_mtr(const std::filesystem::path& file) {
 
 }  // namespace
 
-BackgroundSizes read_sizes(const std::filesystem::path& file) {
+lattice::BackgroundSizes read_sizes(const std::filesystem::path& file) {
   const std::string ending = lower_ending(file);
   check_is_file(file);
   if (ending != ".sol" && ending != ".mtr")
     throw InputError("no format of size functions has this ending", place_in(file.string()), "use one of .sol .mtr");
-  BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
+  lattice::BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
   sizes.name = file.string();
   return sizes;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::io

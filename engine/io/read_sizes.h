@@ -4,7 +4,7 @@
 
 #include "engine/lattice/options.h"
 
-namespace ccdt {
+namespace ccdt::io {
 
 /// Reads a size function: the target edge length at each vertex of a background, which stands beside it under the same
 /// name but for the ending.
@@ -16,6 +16,6 @@ namespace ccdt {
 /// \throw InputError  unknown ending, unreadable, no background beside it, another number of vertices than that has,
 ///                    not one scalar a vertex, a size that is not a number > 0; with file and line
 /// \throw LimitError  it does not fit into memory
-BackgroundSizes read_sizes(const std::filesystem::path& file);
+lattice::BackgroundSizes read_sizes(const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::io

@@ -51,9 +51,9 @@ bool has_binary_size(const FileBytes& file) {
   fail_at_byte(file, needed, claim + ": the rest would be lost", remedy);
 }
 
-InputPlc read_binary(const FileBytes& file) {
+plc::InputPlc read_binary(const FileBytes& file) {
   const std::size_t count = claimed_facets(file);
-  InputPlc plc;
+  plc::InputPlc plc;
   plc.triangles.reserve(count);
   VertexMerger merger(plc.vertices);
   for (std::size_t i = 0; i < count; ++i) {
@@ -78,8 +78,8 @@ void expect(TextScanner& in, const Item& facet, std::string_view keyword) {
     in.fail(facet, "expected '" + std::string(keyword) + "', found " + in_quotes(found));
 }
 
-InputPlc read_text(const FileBytes& file) {
-  InputPlc plc;
+plc::InputPlc read_text(const FileBytes& file) {
+  plc::InputPlc plc;
   VertexMerger merger(plc.vertices);
   TextScanner in(file, TextScanner::no_comments);
   while (!in.at_end()) {
@@ -115,13 +115,13 @@ Point3 unit_normal(const Point3& a, const Point3& b, const Point3& c) {
 
 }  // namespace
 
-InputPlc read_stl(const FileBytes& file) {
+plc::InputPlc read_stl(const FileBytes& file) {
   if (has_binary_size(file)) return read_binary(file);  // also when its header begins with `solid`
   if (looks_like_text(file)) return read_text(file);
   fail_for_size(file);
 }
 
-void write_stl(const InputPlc& plc, OutputFile& out) {
+void write_stl(const plc::InputPlc& plc, OutputFile& out) {
   for (const Point3& p : plc.vertices)
     if (std::fabs(p.x) > FLT_MAX || std::fabs(p.y) > FLT_MAX || std::fabs(p.z) > FLT_MAX) {
       Place place;

@@ -3,16 +3,14 @@
 #include "engine/base/errors.h"
 #include "engine/io/formats.h"
 
-namespace ccdt {
+namespace ccdt::io {
 
 namespace {
 
-using namespace io;
-
 struct TetMeshFormat {
   std::string_view ending;
-  TetMesh (*read)(const FileBytes&) = nullptr;  ///< null: TetGen's, of several files
-  void (*write)(const TetMesh&, OutputFile&) = nullptr;
+  mesh::TetMesh (*read)(const FileBytes&) = nullptr;  ///< null: TetGen's, of several files
+  void (*write)(const mesh::TetMesh&, OutputFile&) = nullptr;
 };
 
 constexpr TetMeshFormat formats[] = {
@@ -37,7 +35,7 @@ bool is_tet_mesh_file(const std::filesystem::path& file) {
   return format_of(file) != nullptr;
 }
 
-void write_tet_mesh(const TetMesh& mesh, const std::filesystem::path& file) {
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
   const TetMeshFormat* format = format_of(file);
   if (!format)
     throw OutputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
@@ -48,7 +46,7 @@ void write_tet_mesh(const TetMesh& mesh, const std::filesystem::path& file) {
   out.commit();
 }
 
-TetMesh read_tet_mesh(const std::filesystem::path& file) {
+mesh::TetMesh read_tet_mesh(const std::filesystem::path& file) {
   if (const TetMeshFormat* format = format_of(file))
     return format->read ? format->read(read_whole_file(file)) : read_tetgen_mesh(file);
   check_is_file(file);  // no such file is the better message
@@ -56,4 +54,4 @@ TetMesh read_tet_mesh(const std::filesystem::path& file) {
                    std::string("known are ") + known_endings + ": convert or rename the file");
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::io

@@ -4,7 +4,7 @@
 
 #include "engine/mesh/tet_mesh.h"
 
-namespace ccdt {
+namespace ccdt::io {
 
 /// Is the ending one that `write_tet_mesh` knows? To be asked before hours of work.
 bool is_tet_mesh_file(const std::filesystem::path& file);
@@ -14,7 +14,7 @@ bool is_tet_mesh_file(const std::filesystem::path& file);
 /// and edge markers go through. The file appears whole or not at all.
 ///
 /// \throw OutputError  cannot be written, unknown ending
-void write_tet_mesh(const TetMesh& mesh, const std::filesystem::path& file);
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
 /// Reads a mesh that any mesher wrote in one of these formats: Medit ASCII, .vtu uncompressed, .msh 2.x and 4.1 ASCII.
 /// Of TetGen's files .node and .ele must be there, .face and .edge may. Tetrahedra keep the order of their corners,
@@ -22,6 +22,6 @@ void write_tet_mesh(const TetMesh& mesh, const std::filesystem::path& file);
 /// only if our own writer left that claim in the file.
 ///
 /// \throw InputError  as `read_plc`
-TetMesh read_tet_mesh(const std::filesystem::path& file);
+mesh::TetMesh read_tet_mesh(const std::filesystem::path& file);
 
-}  // namespace ccdt
+}  // namespace ccdt::io

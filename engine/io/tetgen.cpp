@@ -59,8 +59,9 @@ std::vector<std::uint32_t> read_polygon(TextScanner& in, const Item& facet, cons
 }
 
 /// A facet of .poly: a line "polygons holes marker", the polygons, the holes.
-void read_poly_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers, const Item& item, InputPlc& plc) {
-  PolygonFacet facet;
+void read_poly_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers, const Item& item,
+                     plc::InputPlc& plc) {
+  plc::PolygonFacet facet;
   facet.number = static_cast<std::uint32_t>(item.number);
   const std::size_t polygons = in.count(item, 4);
   const std::size_t holes = in.at_line_end() ? 0 : in.count(item, 8);
@@ -85,7 +86,8 @@ void read_poly_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers
 }
 
 /// A facet of .smesh: "corners c1 c2 ... marker".
-void read_smesh_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers, const Item& item, InputPlc& plc) {
+void read_smesh_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers, const Item& item,
+                      plc::InputPlc& plc) {
   const std::vector<std::uint32_t> corners = read_polygon(in, item, nodes);
   add_facet(plc, corners, read_marker(in, item, has_markers), static_cast<std::size_t>(item.number));
   in.skip_line();
@@ -105,10 +107,10 @@ void read_seeds(TextScanner& in, std::string_view kind, std::size_t least_bytes_
   }
 }
 
-using FacetReader = void (*)(TextScanner&, const TetgenNodes&, bool, const Item&, InputPlc&);
+using FacetReader = void (*)(TextScanner&, const TetgenNodes&, bool, const Item&, plc::InputPlc&);
 
-InputPlc read_tetgen_plc(const FileBytes& file, FacetReader read_facet) {
-  InputPlc plc;
+plc::InputPlc read_tetgen_plc(const FileBytes& file, FacetReader read_facet) {
+  plc::InputPlc plc;
   plc.inside = inside_claimed(file);
   TextScanner in(file);
   TetgenNodes nodes = read_nodes_here_or_beside(file, in);
@@ -152,8 +154,8 @@ void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {
   write_numbered(vertices, out);
 }
 
-void write_head(const InputPlc& plc, OutputFile& out) {
-  if (plc.inside == InputPlc::Inside::even_odd) out << even_odd_claim << '\n';
+void write_head(const plc::InputPlc& plc, OutputFile& out) {
+  if (plc.inside == plc::InputPlc::Inside::even_odd) out << even_odd_claim << '\n';
   write_nodes(plc.vertices, out);
   out << plc.facet_count() + plc.segments.size() << " 1\n";
 }
@@ -164,12 +166,12 @@ void write_polygon(std::span<const std::uint32_t> corners, OutputFile& out) {
   write_corners(corners, out);
 }
 
-void write_seeds(const InputPlc& plc, OutputFile& out) {
+void write_seeds(const plc::InputPlc& plc, OutputFile& out) {
   out << plc.holes.size() << '\n';
   write_numbered(plc.holes, out);
   out << plc.regions.size() << '\n';
   for (std::size_t i = 0; i < plc.regions.size(); ++i) {
-    const InputPlc::RegionSeed& region = plc.regions[i];
+    const plc::InputPlc::RegionSeed& region = plc.regions[i];
     out << i + 1 << ' ' << region.seed << ' ' << region.attribute << ' ';
     if (region.max_volume > 0)
       out << region.max_volume;
@@ -191,21 +193,21 @@ void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& eleme
 
 }  // namespace
 
-InputPlc read_poly(const FileBytes& file) {
+plc::InputPlc read_poly(const FileBytes& file) {
   return read_tetgen_plc(file, read_poly_facet);
 }
-InputPlc read_smesh(const FileBytes& file) {
+plc::InputPlc read_smesh(const FileBytes& file) {
   return read_tetgen_plc(file, read_smesh_facet);
 }
 
-InputPlc read_node(const FileBytes& file) {
-  InputPlc plc;
-  plc.inside = InputPlc::Inside::seeds;
+plc::InputPlc read_node(const FileBytes& file) {
+  plc::InputPlc plc;
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.vertices = read_nodes(file).vertices;
   return plc;
 }
 
-void write_poly(const InputPlc& plc, OutputFile& out) {
+void write_poly(const plc::InputPlc& plc, OutputFile& out) {
   write_head(plc, out);
   const auto write_simple_facet = [&](std::span<const std::uint32_t> corners, int marker) {
     out << "1 0 " << marker << '\n';
@@ -229,7 +231,7 @@ void write_poly(const InputPlc& plc, OutputFile& out) {
   write_seeds(plc, out);
 }
 
-void write_smesh(const InputPlc& plc, OutputFile& out) {
+void write_smesh(const plc::InputPlc& plc, OutputFile& out) {
   write_head(plc, out);
   const auto write_facet = [&](std::span<const std::uint32_t> corners, int marker) {
     write_polygon(corners, out);
@@ -241,11 +243,11 @@ void write_smesh(const InputPlc& plc, OutputFile& out) {
   write_seeds(plc, out);
 }
 
-TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
+mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
   check_is_file(file);  // the message should name what the user named
   TetgenNodes nodes = read_nodes(read_whole_file(sibling(file, ".node")));
   const FileBytes ele_file = read_whole_file(sibling(file, ".ele"));
-  TetMesh mesh;
+  mesh::TetMesh mesh;
   read_elements(ele_file, "tetrahedron", nodes, mesh.tetrahedra, mesh.regions);
   if (const auto face_file = sibling(file, ".face"); is_there(face_file))
     read_elements(read_whole_file(face_file), "face", nodes, mesh.faces, mesh.face_markers);
@@ -256,7 +258,7 @@ TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
   return mesh;
 }
 
-void write_tetgen_mesh(const TetMesh& mesh, const std::filesystem::path& file) {
+void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
   OutputFile node(sibling(file, ".node")), ele(sibling(file, ".ele")), face(sibling(file, ".face")),
       edge(sibling(file, ".edge"));
   write_nodes(mesh.vertices, node);

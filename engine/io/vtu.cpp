@@ -411,7 +411,7 @@ VtuCells read_cells(const VtuArrays& arrays, std::size_t vertices) {
 }
 
 /// Declares the arrays, which are appended behind the XML, each with its length in bytes before it.
-void write_outline(const TetMesh& mesh, std::size_t cells, std::size_t corners, OutputFile& out) {
+void write_outline(const mesh::TetMesh& mesh, std::size_t cells, std::size_t corners, OutputFile& out) {
   std::size_t offset = 0;
   const auto declare = [&](const char* type, const char* name, std::size_t bytes, const char* more = "") {
     out << "        <DataArray type=\"" << type << "\" Name=\"" << name << "\"" << more
@@ -436,9 +436,9 @@ void write_outline(const TetMesh& mesh, std::size_t cells, std::size_t corners, 
 
 }  // namespace
 
-TetMesh read_vtu(const FileBytes& file) {
+mesh::TetMesh read_vtu(const FileBytes& file) {
   const VtuArrays arrays(file);
-  TetMesh mesh;
+  mesh::TetMesh mesh;
   mesh.vertices = read_points(arrays);
   const VtuCells cells = read_cells(arrays, mesh.vertices.size());
   for (std::size_t i = 0; i < cells.types.size(); ++i) {
@@ -460,7 +460,7 @@ TetMesh read_vtu(const FileBytes& file) {
 
 /// Tetrahedra come first, then the faces and edges on facets and segments. `region` is of the tetrahedra, `marker` of
 /// the others; each is 0 where the other one counts.
-void write_vtu(const TetMesh& mesh, OutputFile& out) {
+void write_vtu(const mesh::TetMesh& mesh, OutputFile& out) {
   const std::size_t tetrahedra = mesh.tetrahedra.size(), faces = mesh.faces.size(), edges = mesh.edges.size();
   const std::size_t cells = tetrahedra + faces + edges, corners = 4 * tetrahedra + 3 * faces + 2 * edges;
   const auto begin_array = [&](std::size_t bytes) { out.raw(static_cast<std::uint64_t>(bytes)); };

@@ -9,7 +9,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
 
-namespace ccdt {
+namespace ccdt::label {
 
 /// Which cells belong to the domain.
 struct CellLabels {
@@ -18,12 +18,12 @@ struct CellLabels {
   std::optional<MeshError> stuck = {};
 };
 
-/// Labels the Delaunay cells of the domain with their region (paper, section 5.2, step 5): all that are connected to the
-/// open faces of the front, on the upper side, without crossing a face of the front or of the PLC. Holes, regions and
-/// slits need no more care: they follow from the regions of the facets' sides.
+/// Labels the Delaunay cells of the domain with their region (paper, section 5.2, step 5): all that are connected to
+/// the open faces of the front, on the upper side, without crossing a face of the front or of the PLC. Holes, regions
+/// and slits need no more care: they follow from the regions of the facets' sides.
 ///
 /// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are skipped
-CellLabels label_cells(const Plc& plc, const Delaunay& delaunay, const std::vector<FrontFace>& open,
-                       const std::vector<std::uint32_t>& wall_codes);
+CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& delaunay,
+                       const std::vector<front::FrontFace>& open, const std::vector<std::uint32_t>& wall_codes);
 
-}  // namespace ccdt
+}  // namespace ccdt::label

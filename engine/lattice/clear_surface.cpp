@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 // The usual clearance was measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of
 // 5120 triangles, uniform; in per cent the cells with a dihedral angle below 20 degrees, and the mean of the paper's r:
@@ -100,7 +100,7 @@ class TriangleDistance {
     constexpr double margin = 1.01;
     const double height = dot(p - corners_[0], normal_);
     if (height * height > margin * squared_radius * squared_area_) return false;
-    return squared_distance(corners_, p) <= squared_radius;
+    return lattice::squared_distance(corners_, p) <= squared_radius;
   }
 
  private:
@@ -336,4 +336,4 @@ std::vector<bool> find_clear_sites(const Octree& tree, const DomainSurface& surf
   return Clearing(tree, surface, sites, options).clear();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

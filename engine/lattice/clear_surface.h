@@ -5,7 +5,7 @@
 
 #include "engine/lattice/octree.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// A ball that must hold no lattice point.
 struct Ball {
@@ -31,4 +31,4 @@ double squared_distance(const TrianglePoints& triangle, const Point3& p);
 std::vector<bool> find_clear_sites(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
                                    const LatticeOptions& options);
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

@@ -7,7 +7,7 @@
 #include "engine/base/index.h"
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// A triangle of a facet, counterclockwise seen from above, and what is on its two sides.
 struct SurfaceTriangle {
@@ -30,4 +30,4 @@ struct DomainSurface {
   }
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

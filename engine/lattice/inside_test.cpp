@@ -6,7 +6,7 @@
 
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 namespace {
 
@@ -106,11 +106,11 @@ Hit locate_hit(const Ray& ray, const TrianglePoints& corners, const SurfaceTrian
 
 RayMeetsTriangle meet(const Ray& ray, const TrianglePoints& corners, const SurfaceTriangle& triangle, Hit& hit) {
   const auto& [a, b, c] = corners;
-  const int start_side = orient3d(a, b, c, ray.start), end_side = orient3d(a, b, c, ray.end);
+  const int start_side = numbers::orient3d(a, b, c, ray.start), end_side = numbers::orient3d(a, b, c, ray.end);
   if (start_side == 0 && end_side == 0) return RayMeetsTriangle::unclear;
   if (start_side == end_side) return RayMeetsTriangle::none;
-  const int turns[] = {orient3d(ray.start, ray.end, a, b), orient3d(ray.start, ray.end, b, c),
-                       orient3d(ray.start, ray.end, c, a)};
+  const int turns[] = {numbers::orient3d(ray.start, ray.end, a, b), numbers::orient3d(ray.start, ray.end, b, c),
+                       numbers::orient3d(ray.start, ray.end, c, a)};
   const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
   if (least < 0 && most > 0) return RayMeetsTriangle::none;
   if (start_side == 0) return RayMeetsTriangle::start_on_triangle;
@@ -188,4 +188,4 @@ std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const Dom
   return std::nullopt;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

@@ -7,7 +7,7 @@
 #include "engine/base/box.h"
 #include "engine/lattice/domain_surface.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// Is the point strictly inside the domain?
 ///
@@ -25,4 +25,4 @@ std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const Dom
 /// A point within the part of the triangle that lies in the box, up to rounding; false if there is no such part.
 bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point);
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

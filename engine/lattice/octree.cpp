@@ -10,7 +10,7 @@
 #include "engine/base/errors.h"
 #include "engine/lattice/inside_test.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 namespace {
 
@@ -349,4 +349,4 @@ std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
   return sites;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

@@ -10,7 +10,7 @@
 #include "engine/lattice/options.h"
 #include "engine/lattice/size_field.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// The side of the cubic cell of a lattice for a target edge length.
 ///
@@ -104,4 +104,4 @@ inline std::array<std::uint32_t, 3> coordinates_of(Site site) {
 /// the surface. Those of leaves on the surface may be outside of the domain.
 std::vector<Site> list_sites(const Octree& tree, Lattice kind);
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

@@ -8,7 +8,7 @@
 #include "engine/base/enum_names.h"
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// The crystal whose points fill the inside.
 enum class Lattice { none, fcc, bcc, sc };
@@ -47,4 +47,4 @@ struct LatticeOptions {
   const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

@@ -6,7 +6,7 @@
 #include "engine/lattice/clear_surface.h"
 #include "engine/lattice/size_field.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::vector<Point3> place_lattice_points(const DomainSurface& surface, const Lat
   return points;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

@@ -7,7 +7,7 @@
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
 /// pairwise different, strictly inside the domain, outside the smallest sphere through any surface triangle and any
@@ -28,4 +28,4 @@ namespace ccdt {
 std::vector<Point3> place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
                                          const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

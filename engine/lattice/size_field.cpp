@@ -4,7 +4,7 @@
 
 #include "engine/base/morton.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 namespace {
 
@@ -273,4 +273,4 @@ bool SizeField::is_below(const Box& box, double bound) const {
   return samples_.any(bound, reach, [](const SizeTree::Item&) { return true; });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

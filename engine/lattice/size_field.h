@@ -11,7 +11,7 @@
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
 
-namespace ccdt {
+namespace ccdt::lattice {
 
 /// Things in space that have a size, in Morton order as the leaves of a complete binary tree of boxes, in an array: the
 /// children of group g are 2g+1 and 2g+2.
@@ -128,4 +128,4 @@ class SizeField {
   std::optional<InterpolatedSizes> interpolated_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::lattice

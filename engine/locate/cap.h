@@ -8,7 +8,7 @@
 #include "engine/base/box_tree.h"
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 
 /// A vertex as a locator holds it: copied, so that those near each other are near each other in memory.
 struct LocatedVertex {
@@ -57,4 +57,4 @@ class Cap {
   double radius_ = std::numeric_limits<double>::infinity(), squared_radius_ = radius_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

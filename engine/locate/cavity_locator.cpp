@@ -6,7 +6,7 @@
 #include "engine/base/union_find.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -15,7 +15,8 @@ using CellVertices = std::array<std::uint32_t, 4>;
 /// The exact test whether a triangle and a cell, both closed, intersect; vertices by id.
 class TriangleCellTest {
  public:
-  TriangleCellTest(const Delaunay& d, const Triangle& t, const CellVertices& cell) : d_(d), t_(t), cell_(cell) {
+  TriangleCellTest(const delaunay::Delaunay& d, const Triangle& t, const CellVertices& cell)
+      : d_(d), t_(t), cell_(cell) {
     for (int i = 0; i < 4; ++i) {
       side_[i] = orient(t[0], t[1], t[2], cell[i]);
       ++(side_[i] > 0 ? above_ : side_[i] < 0 ? below_ : on_);
@@ -36,12 +37,12 @@ class TriangleCellTest {
   int orient(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
     // Cells and triangles share many corners.
     if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
-    return orient3d(d_.point(a), d_.point(b), d_.point(c), d_.point(d));
+    return numbers::orient3d(d_.point(a), d_.point(b), d_.point(c), d_.point(d));
   }
 
   /// Is the triangle on the outer side of a face of the cell, or on the face's plane in part?
   bool is_outside_a_face() const {
-    return std::any_of(face_corners.begin(), face_corners.end(), [&](const auto& f) {
+    return std::any_of(delaunay::face_corners.begin(), delaunay::face_corners.end(), [&](const auto& f) {
       int outside = 0;
       for (const std::uint32_t v : t_) {
         const int side = orient(cell_[f[0]], cell_[f[1]], cell_[f[2]], v);
@@ -64,7 +65,7 @@ class TriangleCellTest {
     return true;
   }
 
-  const Delaunay& d_;
+  const delaunay::Delaunay& d_;
   const Triangle& t_;
   const CellVertices& cell_;
   std::array<int, 4> side_{};  // of the corners of the cell to the plane of the triangle
@@ -73,14 +74,15 @@ class TriangleCellTest {
 
 class PiercedCellSearch {
  public:
-  PiercedCellSearch(const FacetMesh& facets, std::span<const std::uint32_t> missing, const Delaunay& d, CellStar& star)
+  PiercedCellSearch(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
+                    const delaunay::Delaunay& d, delaunay::CellStar& star)
       : facets_(facets), missing_(missing), d_(d), star_(star), parts_(missing.size()) {}
 
   PiercedCells find() {
     for (std::uint32_t i = 0; i < missing_.size(); ++i) flood(i);
     for (const auto& [cell, owner] : owned_)
       for (const std::uint32_t code : d_.cells[cell].neighbors)
-        if (const Visit* next = visits_.find(cell_of(code)); next != nullptr && next->owner != none)
+        if (const Visit* next = visits_.find(delaunay::cell_of(code)); next != nullptr && next->owner != none)
           parts_.join(owner, next->owner);
     return number_parts();
   }
@@ -102,7 +104,7 @@ class PiercedCellSearch {
     while (!stack_.empty()) {
       const std::uint32_t cell = stack_.back();
       stack_.pop_back();
-      for (const std::uint32_t code : d_.cells[cell].neighbors) visit_cell(cell_of(code), i, t);
+      for (const std::uint32_t code : d_.cells[cell].neighbors) visit_cell(delaunay::cell_of(code), i, t);
     }
   }
 
@@ -140,10 +142,10 @@ class PiercedCellSearch {
     return result;
   }
 
-  const FacetMesh& facets_;
+  const facets::FacetMesh& facets_;
   std::span<const std::uint32_t> missing_;
-  const Delaunay& d_;
-  CellStar& star_;
+  const delaunay::Delaunay& d_;
+  delaunay::CellStar& star_;
   HashTable<std::uint32_t, Visit> visits_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owned_;  // cells and their owners
   UnionFind parts_;                                             // of missing faces
@@ -154,12 +156,12 @@ class PiercedCellSearch {
 /// an edge or a face within its plane. They are connected, so each face has one part.
 ///
 /// \param missing  numbers of triangles of `facets` that are no Delaunay faces
-PiercedCells find_pierced_cells(const FacetMesh& facets, std::span<const std::uint32_t> missing,
-                                const Delaunay& delaunay, CellStar& star) {
+PiercedCells find_pierced_cells(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
+                                const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
   return PiercedCellSearch(facets, missing, delaunay, star).find();
 }
 
-std::vector<std::uint32_t> vertices_of(const Delaunay& d, const std::vector<std::uint32_t>& cells) {
+std::vector<std::uint32_t> vertices_of(const delaunay::Delaunay& d, const std::vector<std::uint32_t>& cells) {
   std::vector<std::uint32_t> vertices;
   vertices.reserve(4 * cells.size());
   for (const std::uint32_t cell : cells)
@@ -171,14 +173,14 @@ std::vector<std::uint32_t> vertices_of(const Delaunay& d, const std::vector<std:
 
 }  // namespace
 
-CavityLocator::CavityLocator(const FacetMesh& facets, std::span<const std::uint32_t> codes, const Delaunay& delaunay,
-                             CellStar& star) {
+CavityLocator::CavityLocator(const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
+                             const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // Delaunay faces that have no code yet
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
-    if (codes[i] != no_neighbor) continue;
+    if (codes[i] != delaunay::no_neighbor) continue;
     const auto& [a, b, c] = facets.triangles[i];
     const std::uint32_t code = star.find_face(a, b, c);
-    if (code == no_neighbor) {
+    if (code == delaunay::no_neighbor) {
       missing_.push_back(i);
     } else {
       found.emplace_back(i, code);
@@ -190,15 +192,16 @@ CavityLocator::CavityLocator(const FacetMesh& facets, std::span<const std::uint3
   for (std::size_t i = 0; i < missing_.size(); ++i) faces[pierced_.part_of_face[i]].push_back(missing_[i]);
   triangles_ = missing_;
   const auto add_delaunay_face = [&](std::uint32_t triangle, std::uint32_t code) {
-    const std::uint32_t above = cavity_of_cell(cell_of(code)),
-                        below = cavity_of_cell(cell_of(delaunay.cells[cell_of(code)].neighbors[face_of(code)]));
+    const std::uint32_t above = cavity_of_cell(delaunay::cell_of(code)),
+                        below = cavity_of_cell(delaunay::cell_of(
+                            delaunay.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]));
     if (above != no_cavity) faces[above].push_back(triangle);
     if (below != no_cavity && below != above) faces[below].push_back(triangle);
     if (above != no_cavity || below != no_cavity) triangles_.push_back(triangle);
   };
   if (!missing_.empty()) {
     for (std::uint32_t i = 0; i < codes.size(); ++i)
-      if (codes[i] != no_neighbor) add_delaunay_face(i, codes[i]);
+      if (codes[i] != delaunay::no_neighbor) add_delaunay_face(i, codes[i]);
     for (const auto& [triangle, code] : found) add_delaunay_face(triangle, code);
   }
   cavities_.reserve(faces.size());
@@ -216,4 +219,4 @@ std::uint32_t CavityLocator::cavity_of_triangle(std::uint32_t triangle) const {
   return found == missing_.end() || *found != triangle ? no_cavity : pierced_.part_of_face[found - missing_.begin()];
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

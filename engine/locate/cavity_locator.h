@@ -10,7 +10,7 @@
 #include "engine/facets/facet_mesh.h"
 #include "engine/locate/octree_locator.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 
 /// The Delaunay cells that missing faces go through, in parts that are connected through their faces.
 struct PiercedCells {
@@ -36,8 +36,8 @@ class CavityLocator {
   static constexpr std::uint32_t no_cavity = 0xFFFFFFFFu;
 
   /// \param codes  the Delaunay faces as the cell above calls them; what is `no_neighbor` there is looked for again
-  CavityLocator(const FacetMesh& facets, std::span<const std::uint32_t> codes, const Delaunay& delaunay,
-                CellStar& star);
+  CavityLocator(const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
+                const delaunay::Delaunay& delaunay, delaunay::CellStar& star);
 
   /// By its number.
   const OctreeLocator& cavity(std::uint32_t number) const { return cavities_[number]; }
@@ -58,4 +58,4 @@ class CavityLocator {
   std::vector<OctreeLocator> cavities_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ccdt {
+namespace ccdt::locate {
 namespace {
 
-UniformGrid grid_of(std::span<const DelaunayVertex> vertices, std::size_t faces, double scale) {
+UniformGrid grid_of(std::span<const delaunay::DelaunayVertex> vertices, std::size_t faces, double scale) {
   Box box = empty_box;
-  for (const DelaunayVertex& v : vertices) box = hull(box, box_of(v.point));
+  for (const delaunay::DelaunayVertex& v : vertices) box = hull(box, box_of(v.point));
   return make_uniform_grid(box, std::max(vertices.size(), faces), scale);
 }
 
@@ -29,8 +29,8 @@ void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const P
 
 }  // namespace
 
-GridLocator::GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
-                         double scale)
+GridLocator::GridLocator(std::span<const delaunay::DelaunayVertex> vertices,
+                         std::span<const std::array<VertexId, 3>> faces, double scale)
     : grid_(grid_of(vertices, faces.size(), scale)) {
   IndexLists by_cell = make_index_lists(grid_.size(), [&](const auto& emit) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(grid_.number(grid_.cell_at(vertices[v].point)), v);
@@ -44,4 +44,4 @@ GridLocator::GridLocator(std::span<const DelaunayVertex> vertices, std::span<con
   });
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

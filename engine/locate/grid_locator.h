@@ -12,14 +12,14 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/locate/cap.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 
 /// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4). Good where the density
 /// is even.
 class GridLocator {
  public:
   /// \param scale  factor of the paper's cell size
-  GridLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
+  GridLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
               double scale = 1);
 
   /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, in growing distance from
@@ -107,4 +107,4 @@ bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& v
   return false;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

@@ -7,7 +7,7 @@
 
 #include "engine/base/morton.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 namespace {
 
 /// The numbers of the boxes' middles in a cube around all of them.
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> all_numbers(std::size_t count) {
   return numbers;
 }
 
-std::vector<Box> boxes_of_vertices(std::span<const DelaunayVertex> vertices,
+std::vector<Box> boxes_of_vertices(std::span<const delaunay::DelaunayVertex> vertices,
                                    std::span<const std::uint32_t> some_vertices) {
   std::vector<Box> boxes;
   boxes.reserve(some_vertices.size());
@@ -40,7 +40,7 @@ std::vector<Box> boxes_of_vertices(std::span<const DelaunayVertex> vertices,
   return boxes;
 }
 
-std::vector<Box> boxes_of_faces(std::span<const DelaunayVertex> vertices,
+std::vector<Box> boxes_of_faces(std::span<const delaunay::DelaunayVertex> vertices,
                                 std::span<const std::array<VertexId, 3>> faces,
                                 std::span<const std::uint32_t> some_faces) {
   std::vector<Box> boxes;
@@ -107,10 +107,12 @@ void BoxOctree::split(std::uint32_t node, const std::vector<std::uint64_t>& keys
   }
 }
 
-OctreeLocator::OctreeLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces)
+OctreeLocator::OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices,
+                             std::span<const std::array<VertexId, 3>> faces)
     : OctreeLocator(vertices, all_numbers(vertices.size()), faces, all_numbers(faces.size())) {}
 
-OctreeLocator::OctreeLocator(std::span<const DelaunayVertex> vertices, std::span<const std::uint32_t> some_vertices,
+OctreeLocator::OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices,
+                             std::span<const std::uint32_t> some_vertices,
                              std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces)
     : vertex_tree_(boxes_of_vertices(vertices, some_vertices), vertices_of_leaf),
       face_tree_(boxes_of_faces(vertices, faces, some_faces), faces_of_leaf) {
@@ -124,4 +126,4 @@ OctreeLocator::OctreeLocator(std::span<const DelaunayVertex> vertices, std::span
   face_boxes_ = boxes_of_faces(vertices, faces, faces_);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

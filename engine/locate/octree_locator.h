@@ -10,7 +10,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/locate/cap.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 
 /// The straight edge between two points, and whether it meets boxes: by projection to their axes and to the products of
 /// these with the edge. A little too wide, never too narrow.
@@ -124,10 +124,10 @@ bool BoxOctree::any_leaf_at(const EdgeProbe& probe, const Visit& visit) const {
 class OctreeLocator {
  public:
   /// Of all vertices and all faces.
-  OctreeLocator(std::span<const DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
+  OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
 
   /// Of some vertices and some faces, by their numbers.
-  OctreeLocator(std::span<const DelaunayVertex> vertices, std::span<const std::uint32_t> some_vertices,
+  OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::uint32_t> some_vertices,
                 std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces);
 
   /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, roughly in growing distance
@@ -161,4 +161,4 @@ class OctreeLocator {
   std::vector<Box> face_boxes_;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

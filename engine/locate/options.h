@@ -4,7 +4,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::locate {
 
 /// What finds the vertices near a face and the faces near an edge, for the front.
 enum class LocatorKind {
@@ -19,4 +19,4 @@ constexpr auto names_of(LocatorKind) {
                                                  {LocatorKind::grid, "grid", "the paper's uniform grid"}});
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::locate

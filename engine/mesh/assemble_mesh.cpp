@@ -6,7 +6,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 
-namespace ccdt {
+namespace ccdt::mesh {
 namespace {
 
 double determinant(const Point3& a, const Point3& b, const Point3& c) {
@@ -14,10 +14,10 @@ double determinant(const Point3& a, const Point3& b, const Point3& c) {
 }
 
 /// Six times the volume that the facets enclose, by the divergence theorem.
-double volume_within(const Plc& plc, const FacetMesh& facets, const Delaunay& d) {
+double volume_within(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d) {
   double volume = 0;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    const Facet& facet = plc.facets[facets.facet[i]];
+    const plc::Facet& facet = plc.facets[facets.facet[i]];
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     const auto& t = facets.triangles[i];
     if (outward != 0) volume += outward * determinant(d.point(t[0]), d.point(t[1]), d.point(t[2]));
@@ -29,7 +29,7 @@ FaceKey key_of(const std::array<VertexId, 3>& t) {
   return face_key(t[0], t[1], t[2]);
 }
 
-bool is_bent_boundary(const Plc& plc, const Facet& facet) {
+bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
   return !facet.exactly_flat && plc.regions[facet.above].inside != plc.regions[facet.below].inside;
 }
 
@@ -38,7 +38,8 @@ bool is_bent_boundary(const Plc& plc, const Facet& facet) {
 /// not exactly have such. A tetrahedron whose removal would take a vertex or a segment from its facet stays.
 class FlatTetrahedronPeeler {
  public:
-  FlatTetrahedronPeeler(const Plc& plc, const SegmentChains& chains, FacetMesh& facets, TetMesh& mesh);
+  FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
+                        TetMesh& mesh);
 
   void peel();
 
@@ -46,16 +47,16 @@ class FlatTetrahedronPeeler {
   bool lies_within_facet(const std::array<std::uint32_t, 4>& t) const;
   bool try_to_peel(const std::array<std::uint32_t, 4>& t);
 
-  const Plc& plc_;
-  FacetMesh& facets_;
+  const plc::Plc& plc_;
+  facets::FacetMesh& facets_;
   TetMesh& mesh_;
   HashTable<FaceKey, std::size_t> triangle_of_;               // of those facets
   HashTable<std::uint32_t, std::vector<FacetId>> facets_of_;  // by vertex, each once
   HashSet<std::uint64_t> segment_edges_;
 };
 
-FlatTetrahedronPeeler::FlatTetrahedronPeeler(const Plc& plc, const SegmentChains& chains, FacetMesh& facets,
-                                             TetMesh& mesh)
+FlatTetrahedronPeeler::FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains,
+                                             facets::FacetMesh& facets, TetMesh& mesh)
     : plc_(plc), facets_(facets), mesh_(mesh) {
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     if (!is_bent_boundary(plc, plc.facets[facets.facet[i]])) continue;
@@ -86,7 +87,7 @@ bool FlatTetrahedronPeeler::try_to_peel(const std::array<std::uint32_t, 4>& t) {
   std::array<std::size_t, 2> triangles{};
   int outers = 0, inners = 0;
   for (std::uint32_t f = 0; f < 4; ++f) {
-    const auto& c = face_corners[f];
+    const auto& c = delaunay::face_corners[f];
     const std::size_t* const found = triangle_of_.find(face_key(t[c[0]], t[c[1]], t[c[2]]));
     if (found != nullptr && outers < 2)
       triangles[outers++] = *found;
@@ -96,11 +97,11 @@ bool FlatTetrahedronPeeler::try_to_peel(const std::array<std::uint32_t, 4>& t) {
   if (outers != 2 || inners != 2 || facets_.facet[triangles[0]] != facets_.facet[triangles[1]]) return false;
   // The outer faces meet in the edge between the corners that the inner faces are opposite to.
   if (segment_edges_.contains(edge_key(t[inner[0]], t[inner[1]]))) return false;
-  const Facet& facet = plc_.facets[facets_.facet[triangles[0]]];
+  const plc::Facet& facet = plc_.facets[facets_.facet[triangles[0]]];
   for (const std::size_t i : triangles) triangle_of_.erase(triangle_of_.find(key_of(facets_.triangles[i])));
   for (int i = 0; i < 2; ++i) {
     // Face corners see the tetrahedron above them; the facet's triangles have the domain above or below.
-    const auto& c = face_corners[inner[i]];
+    const auto& c = delaunay::face_corners[inner[i]];
     std::array<VertexId, 3> corners{VertexId(t[c[0]]), VertexId(t[c[1]]), VertexId(t[c[2]])};
     if (plc_.regions[facet.above].inside) std::swap(corners[0], corners[1]);
     facets_.triangles[triangles[i]] = corners;
@@ -140,11 +141,11 @@ void FlatTetrahedronPeeler::peel() {
 }
 
 /// \return the facet of each face
-std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChains& chains, const FacetMesh& facets,
-                                               TetMesh& mesh) {
+std::vector<std::uint32_t> add_faces_and_edges(const plc::Plc& plc, const protection::SegmentChains& chains,
+                                               const facets::FacetMesh& facets, TetMesh& mesh) {
   std::vector<std::uint32_t> facet_of_face;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    const Facet& facet = plc.facets[facets.facet[i]];
+    const plc::Facet& facet = plc.facets[facets.facet[i]];
     if (!plc.regions[facet.above].inside && !plc.regions[facet.below].inside) continue;
     const auto& t = facets.triangles[i];
     mesh.faces.push_back({t[0], t[1], t[2]});
@@ -162,7 +163,8 @@ std::vector<std::uint32_t> add_faces_and_edges(const Plc& plc, const SegmentChai
 
 }  // namespace
 
-std::optional<MeshError> check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& d, const TetMesh& mesh) {
+std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
+                                      const TetMesh& mesh) {
   double filled = 0;
   for (const auto& t : mesh.tetrahedra) {
     const Point3& a = d.point(t[0]);
@@ -176,8 +178,8 @@ std::optional<MeshError> check_volume(const Plc& plc, const FacetMesh& facets, c
                    "some facets are almost but not quite flat: try another --flatness");
 }
 
-TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
-                           const Delaunay& delaunay) {
+TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
+                           const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay) {
   TetMesh mesh;
   const auto outside = std::ranges::count(region_of_cell, RegionId());
   const std::size_t size = front.tetrahedra.size() + region_of_cell.size() - static_cast<std::size_t>(outside);
@@ -193,10 +195,11 @@ TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::
   return mesh;
 }
 
-std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, TetMesh& mesh) {
+std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
+                                       facets::FacetMesh facets, TetMesh& mesh) {
   FlatTetrahedronPeeler(plc, chains, facets, mesh).peel();
   mesh.constrained_delaunay = true;
   return add_faces_and_edges(plc, chains, facets, mesh);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::mesh

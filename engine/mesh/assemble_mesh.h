@@ -10,22 +10,23 @@
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
-namespace ccdt {
+namespace ccdt::mesh {
 
 /// The tetrahedra of the front and the labeled cells, with their regions: the constrained Delaunay tetrahedralization.
 /// The mesh has nothing else yet.
-TetMesh collect_tetrahedra(const Plc& plc, const FrontResult& front, const std::vector<RegionId>& region_of_cell,
-                           const Delaunay& delaunay);
+TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
+                           const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay);
 
 /// Why the tetrahedra are no mesh of the domain: their volume is not that within the facets. All cells are positive and
 /// share their faces; if they have that volume too, they fill the domain once, and there is no error.
-std::optional<MeshError> check_volume(const Plc& plc, const FacetMesh& facets, const Delaunay& delaunay,
-                                      const TetMesh& mesh);
+std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                      const delaunay::Delaunay& delaunay, const TetMesh& mesh);
 
 /// Makes the mesh whole but for its coordinates: takes the flat tetrahedra on its boundary off, gives it the faces of
 /// the facets and the edges of the segments.
 ///
 /// \return the facet of each of the mesh's faces
-std::vector<std::uint32_t> finish_mesh(const Plc& plc, const SegmentChains& chains, FacetMesh facets, TetMesh& mesh);
+std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
+                                       facets::FacetMesh facets, TetMesh& mesh);
 
-}  // namespace ccdt
+}  // namespace ccdt::mesh

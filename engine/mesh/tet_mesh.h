@@ -6,7 +6,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::mesh {
 
 /// A tetrahedral mesh, in the units of the input. All arrays are indexed alike by plain integers; an attribute array
 /// has one entry an element.
@@ -22,4 +22,4 @@ struct TetMesh {
       false;  ///< the mesh claims to be the constrained Delaunay tetrahedralization of its vertices
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::mesh

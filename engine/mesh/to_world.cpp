@@ -6,7 +6,7 @@
 
 #include "engine/base/errors.h"
 
-namespace ccdt {
+namespace ccdt::mesh {
 namespace {
 
 using Tetrahedron = std::array<std::uint32_t, 4>;
@@ -37,7 +37,7 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
   return is_positive_exactly({&world[t[0]], &world[t[1]], &world[t[2]], &world[t[3]]});
 }
 
-[[noreturn]] void refuse_rounding(const Plc& plc, const std::vector<Point3>& world, const Tetrahedron& t) {
+[[noreturn]] void refuse_rounding(const plc::Plc& plc, const std::vector<Point3>& world, const Tetrahedron& t) {
   Place place;
   place.file = plc.name;
   for (const std::uint32_t v : t) place.points.push_back(as_array(world[v]));
@@ -47,7 +47,8 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
 
 }  // namespace
 
-std::vector<Point3> to_world(const Plc& plc, std::span<const Point3> points, std::span<const Tetrahedron> tetrahedra) {
+std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points,
+                             std::span<const Tetrahedron> tetrahedra) {
   std::vector<Point3> world(points.size());
   for (std::size_t v = 0; v < world.size(); ++v)
     world[v] = v < plc.world.size() && points[v] == plc.vertices[v] ? plc.world[v] : plc.grid.to_world(points[v]);
@@ -71,4 +72,4 @@ std::vector<Point3> to_world(const Plc& plc, std::span<const Point3> points, std
   }
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::mesh

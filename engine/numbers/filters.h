@@ -7,7 +7,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::numbers {
 
 /// The floating-point stage in front of the exact predicates, inline for the inner loops.
 ///
@@ -168,4 +168,4 @@ inline Sign orient3d_centroid_filter(const Point3& p, const Point3& q, const Poi
   return det > 0 ? Sign::plus : Sign::minus;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::numbers

@@ -6,7 +6,7 @@
 
 #include "engine/base/box.h"
 
-namespace ccdt {
+namespace ccdt::numbers {
 
 double round_to_unit(double grid) {
   return std::nearbyint(grid);
@@ -44,4 +44,4 @@ DyadicGrid make_grid(std::span<const Point3> world) {
   return grid;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::numbers

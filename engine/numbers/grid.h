@@ -4,7 +4,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::numbers {
 
 /// The dyadic grid on which all coordinates of the engine live.
 ///
@@ -31,4 +31,4 @@ DyadicGrid make_grid(std::span<const Point3> world);
 /// Rounds a coordinate in grid units to the nearest grid unit.
 double round_to_unit(double grid);
 
-}  // namespace ccdt
+}  // namespace ccdt::numbers

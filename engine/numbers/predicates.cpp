@@ -6,7 +6,7 @@
 
 #include "engine/numbers/filters.h"
 
-namespace ccdt {
+namespace ccdt::numbers {
 namespace {
 
 // Fixed-size integers without allocation. The widest insphere needs 5 * 53 + 7 bits.
@@ -224,4 +224,4 @@ bool collinear(const Point3& a, const Point3& b, const Point3& c) {
   return parallel(0, 1) && parallel(1, 2) && parallel(2, 0);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::numbers

@@ -5,7 +5,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::numbers {
 
 /// Exact signs of determinants of points on the dyadic grid (grid.h). A sign is -1, 0 or +1.
 ///
@@ -48,4 +48,4 @@ int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const P
 /// Exact: are the three points on one line (or equal)?
 bool collinear(const Point3& a, const Point3& b, const Point3& c);
 
-}  // namespace ccdt
+}  // namespace ccdt::numbers

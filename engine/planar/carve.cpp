@@ -10,7 +10,7 @@ namespace {
 /// Spreads from the triangles in `stack`, which are marked, over all that are unmarked and not behind a constraint;
 /// returns the unmarked triangles behind constraints.
 template <class IsMarked, class Mark>
-std::vector<std::uint32_t> flood(const PlanarTriangulation& t, std::vector<std::uint32_t> stack, IsMarked is_marked,
+std::vector<std::uint32_t> flood(const Triangulation& t, std::vector<std::uint32_t> stack, IsMarked is_marked,
                                  Mark mark) {
   std::vector<std::uint32_t> behind;
   while (!stack.empty()) {
@@ -31,15 +31,15 @@ std::vector<std::uint32_t> flood(const PlanarTriangulation& t, std::vector<std::
 }
 
 /// For each triangle how many constraints at least are between it and the outside.
-std::vector<std::uint32_t> nesting_depths(const PlanarTriangulation& t) {
+std::vector<std::uint32_t> nesting_depths(const Triangulation& t) {
   std::vector<std::uint32_t> depths(t.triangles.size(), none);
   std::uint32_t depth = 0;
   const auto is_marked = [&](std::uint32_t triangle) { return depths[triangle] != none; };
   const auto mark = [&](std::uint32_t triangle) { depths[triangle] = depth; };
 
   std::vector<std::uint32_t> here, behind;
-  for (const PlanarEdge& edge : planar_border_edges(t)) {
-    const PlanarSide s = unpack(t.fixed_edges.get(edge_key(edge[0], edge[1]), none));
+  for (const Edge& edge : border_edges(t)) {
+    const Side s = unpack(t.fixed_edges.get(edge_key(edge[0], edge[1]), none));
     (is_constrained(t, s) ? behind : here).push_back(s.triangle);
   }
   while (!here.empty() || !behind.empty()) {
@@ -56,17 +56,17 @@ std::vector<std::uint32_t> nesting_depths(const PlanarTriangulation& t) {
 
 }  // namespace
 
-std::vector<bool> choose_inside(const PlanarTriangulation& t, PlanarCarving::Outside outside) {
+std::vector<bool> choose_inside(const Triangulation& t, Carving::Outside outside) {
   std::vector<bool> keep(t.triangles.size(), true);
-  if (outside == PlanarCarving::Outside::keep) return keep;
+  if (outside == Carving::Outside::keep) return keep;
   const std::vector<std::uint32_t> depths = nesting_depths(t);
   for (std::size_t i = 0; i < keep.size(); ++i) {
-    keep[i] = outside == PlanarCarving::Outside::remove ? depths[i] > 0 : depths[i] % 2 == 1;
+    keep[i] = outside == Carving::Outside::remove ? depths[i] > 0 : depths[i] % 2 == 1;
   }
   return keep;
 }
 
-void flood_hole(const PlanarTriangulation& t, std::uint32_t seed, std::vector<bool>& keep) {
+void flood_hole(const Triangulation& t, std::uint32_t seed, std::vector<bool>& keep) {
   std::vector<bool> reached(t.triangles.size(), false);
   const auto mark = [&](std::uint32_t triangle) {
     reached[triangle] = true;
@@ -77,18 +77,18 @@ void flood_hole(const PlanarTriangulation& t, std::uint32_t seed, std::vector<bo
       t, {seed}, [&](std::uint32_t triangle) { return reached[triangle]; }, mark);
 }
 
-PlanarTriangulation keep_triangles(const PlanarTriangulation& t, const std::vector<bool>& keep) {
+Triangulation keep_triangles(const Triangulation& t, const std::vector<bool>& keep) {
   std::vector<std::array<VertexId, 3>> triangles;
-  std::vector<PlanarEdge> constrained;
+  std::vector<Edge> constrained;
   for (std::uint32_t triangle = 0; triangle < t.triangles.size(); ++triangle) {
     if (!keep[triangle]) continue;
     triangles.push_back(t.triangles[triangle]);
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      const PlanarSide s{triangle, corner};
+      const Side s{triangle, corner};
       if (is_constrained(t, s)) constrained.push_back({edge_start(t, s), edge_end(t, s)});
     }
   }
-  return planar_from_triangles(triangles, constrained);
+  return from_triangles(triangles, constrained);
 }
 
 }  // namespace ccdt::planar

@@ -6,16 +6,14 @@
 #include "engine/planar/topology.h"
 #include "engine/planar/triangulation.h"
 
-namespace ccdt {
-namespace planar {
-
+namespace ccdt::planar {
 /// Flips from the given sides on until all of them, and all that the flips change, are locally Delaunay. A side in the
 /// stack stands for whatever edge is there when its turn comes; a flip enters anew all edges that it moves.
-template <PlanarPredicates P>
-std::size_t legalize_from(PlanarTriangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
+template <Predicates P>
+std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
   std::size_t flips = 0;
   while (!stack.empty()) {
-    const PlanarSide s = unpack(stack.back());
+    const Side s = unpack(stack.back());
     stack.pop_back();
     if (is_constrained(t, s) || neighbor(t, s) == none) continue;
     const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, other_side(t, s));
@@ -23,17 +21,17 @@ std::size_t legalize_from(PlanarTriangulation& t, std::vector<std::uint32_t>& st
     // Exact predicates of one plane imply this; it keeps the triangles valid where the caller's plane is only nearly
     // one.
     if (predicates.orient(c, a, d) <= 0 || predicates.orient(d, b, c) <= 0) continue;
-    for (PlanarSide outer : flip(t, s)) stack.push_back(pack(outer));
+    for (Side outer : flip(t, s)) stack.push_back(pack(outer));
     ++flips;
   }
   return flips;
 }
 
 /// Splits the edge at v into two (at the border) or four triangles and legalizes around v.
-template <PlanarPredicates P>
-void split_side(PlanarTriangulation& t, PlanarSide s, VertexId v, const P& predicates) {
+template <Predicates P>
+void split_side(Triangulation& t, Side s, VertexId v, const P& predicates) {
   const bool inner = neighbor(t, s) != none;
-  const PlanarSide o = inner ? other_side(t, s) : PlanarSide{};
+  const Side o = inner ? other_side(t, s) : Side{};
   const bool constrained = is_constrained(t, s);
   const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s);
   const Adjacency bc = adjacency_at(t, {s.triangle, next_corner(s.corner)});
@@ -66,9 +64,8 @@ void split_side(PlanarTriangulation& t, PlanarSide s, VertexId v, const P& predi
 }
 
 /// The signs of v against the three edges of a triangle; none is negative if v is in it or on its border.
-template <PlanarPredicates P>
-std::array<int, 3> signs_at_edges(const PlanarTriangulation& t, std::uint32_t triangle, VertexId v,
-                                  const P& predicates) {
+template <Predicates P>
+std::array<int, 3> signs_at_edges(const Triangulation& t, std::uint32_t triangle, VertexId v, const P& predicates) {
   const auto& [a, b, c] = t.triangles[triangle];
   return {predicates.orient(b, c, v), predicates.orient(c, a, v), predicates.orient(a, b, v)};
 }
@@ -79,8 +76,8 @@ inline bool is_within(const std::array<int, 3>& signs) {
 
 /// A triangle that holds v, or none. Walks; if the walk meets a border or goes on for too long, all triangles are
 /// searched.
-template <PlanarPredicates P>
-std::uint32_t locate(const PlanarTriangulation& t, VertexId v, const P& predicates) {
+template <Predicates P>
+std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
   std::uint32_t triangle = 0;
   for (std::size_t steps = 0; triangle != none && steps < t.triangles.size(); ++steps) {
     const std::array<int, 3> signs = signs_at_edges(t, triangle, v, predicates);
@@ -100,12 +97,12 @@ std::uint32_t locate(const PlanarTriangulation& t, VertexId v, const P& predicat
 /// How the ray from a vertex a towards b leaves the triangles around a.
 struct RayExit {
   enum class Kind { nowhere, along_edge, through_edge } kind = Kind::nowhere;
-  PlanarSide side;  ///< the edge that it runs along, or through which it leaves (seen from inside)
-  VertexId end;     ///< the far end of the edge that it runs along
+  Side side;     ///< the edge that it runs along, or through which it leaves (seen from inside)
+  VertexId end;  ///< the far end of the edge that it runs along
 };
 
-template <PlanarPredicates P>
-RayExit find_ray_exit(const PlanarTriangulation& t, VertexId a, VertexId b, const P& predicates) {
+template <Predicates P>
+RayExit find_ray_exit(const Triangulation& t, VertexId a, VertexId b, const P& predicates) {
   RayExit exit;
   visit_star(t, a, [&](std::uint32_t triangle, std::uint32_t corner) {
     const VertexId right = t.triangles[triangle][next_corner(corner)];
@@ -128,13 +125,13 @@ RayExit find_ray_exit(const PlanarTriangulation& t, VertexId a, VertexId b, cons
 struct Channel {
   std::vector<std::uint32_t> triangles;  ///< from start to end
   /// The edges of these triangles that are not crossed, from start to end, seen from inside.
-  std::vector<PlanarSide> left, right;
-  VertexId end;         ///< the vertex on the line where the channel ends; none: there is an obstacle
-  PlanarSide obstacle;  ///< a constrained or border edge that is crossed
+  std::vector<Side> left, right;
+  VertexId end;   ///< the vertex on the line where the channel ends; none: there is an obstacle
+  Side obstacle;  ///< a constrained or border edge that is crossed
 };
 
-template <PlanarPredicates P>
-Channel walk_channel(const PlanarTriangulation& t, VertexId a, VertexId b, PlanarSide crossed, const P& predicates) {
+template <Predicates P>
+Channel walk_channel(const Triangulation& t, VertexId a, VertexId b, Side crossed, const P& predicates) {
   Channel channel;
   channel.triangles.push_back(crossed.triangle);
   channel.right.push_back({crossed.triangle, previous_corner(crossed.corner)});
@@ -144,10 +141,10 @@ Channel walk_channel(const PlanarTriangulation& t, VertexId a, VertexId b, Plana
       channel.obstacle = crossed;
       return channel;
     }
-    const PlanarSide entry = other_side(t, crossed);  // runs from left to right as seen along ab
+    const Side entry = other_side(t, crossed);  // runs from left to right as seen along ab
     const VertexId v = apex(t, entry);
-    const PlanarSide right_edge{entry.triangle, next_corner(entry.corner)};
-    const PlanarSide left_edge{entry.triangle, previous_corner(entry.corner)};
+    const Side right_edge{entry.triangle, next_corner(entry.corner)};
+    const Side left_edge{entry.triangle, previous_corner(entry.corner)};
     channel.triangles.push_back(entry.triangle);
     const int side = v == b ? 0 : predicates.orient(a, b, v);
     if (side <= 0) channel.right.push_back(right_edge);
@@ -164,7 +161,7 @@ Channel walk_channel(const PlanarTriangulation& t, VertexId a, VertexId b, Plana
 /// the chain: whenever the last two edges of the chain so far turn towards the line, their triangle is cut off
 /// (Toussaint & Avis 1982 on polygons that are visible from an edge). `turn` is +1 for a chain on the right of the
 /// line, -1 on the left.
-template <PlanarPredicates P>
+template <Predicates P>
 void triangulate_beside(const std::vector<VertexId>& chain, int turn, const P& predicates,
                         std::vector<std::array<VertexId, 3>>& triangles) {
   std::vector<VertexId> stack;
@@ -185,29 +182,29 @@ void triangulate_beside(const std::vector<VertexId>& chain, int turn, const P& p
 
 /// Clears the channel for the edge from its start to its end: afterwards that is an edge, and the triangles on both
 /// sides are some triangulation.
-template <PlanarPredicates P>
-void cut_through(PlanarTriangulation& t, VertexId a, const Channel& channel, const P& predicates) {
+template <Predicates P>
+void cut_through(Triangulation& t, VertexId a, const Channel& channel, const P& predicates) {
   std::vector<std::array<VertexId, 3>> triangles;
   std::vector<VertexId> chain{a};
-  for (PlanarSide s : channel.right) chain.push_back(edge_end(t, s));
+  for (Side s : channel.right) chain.push_back(edge_end(t, s));
   triangulate_beside(chain, +1, predicates, triangles);
   chain = {a};
-  for (PlanarSide s : channel.left) chain.push_back(edge_start(t, s));
+  for (Side s : channel.left) chain.push_back(edge_start(t, s));
   triangulate_beside(chain, -1, predicates, triangles);
 
-  std::vector<PlanarSide> border = channel.right;
+  std::vector<Side> border = channel.right;
   border.insert(border.end(), channel.left.begin(), channel.left.end());
   replace_channel(t, channel.triangles, border, triangles);
 }
 
 /// An edge of the triangulation and the number of the edge of the input that it is a part of.
 struct NumberedPart {
-  PlanarEdge edge;
+  Edge edge;
   std::size_t number;
 };
 
-inline std::size_t number_of_part(const std::vector<NumberedPart>& parts, PlanarEdge edge) {
-  const PlanarEdge reversed{edge[1], edge[0]};
+inline std::size_t number_of_part(const std::vector<NumberedPart>& parts, Edge edge) {
+  const Edge reversed{edge[1], edge[0]};
   for (const NumberedPart& part : parts) {
     if (part.edge == edge || part.edge == reversed) return part.number;
   }
@@ -215,54 +212,52 @@ inline std::size_t number_of_part(const std::vector<NumberedPart>& parts, Planar
 }
 
 /// Inserts all edges; on a crossing the result says so and has no triangulation.
-template <PlanarPredicates P>
-void insert_edges(PlanarTriangulationResult& result, std::span<const PlanarEdge> edges, const P& predicates) {
+template <Predicates P>
+void insert_edges(TriangulationResult& result, std::span<const Edge> edges, const P& predicates) {
   std::vector<NumberedPart> parts;
   for (std::size_t number = 0; number < edges.size(); ++number) {
     const auto& [a, b] = edges[number];
-    if (!planar_has_vertex(result.triangulation, a) || !planar_has_vertex(result.triangulation, b)) {
+    if (!has_vertex(result.triangulation, a) || !has_vertex(result.triangulation, b)) {
       throw std::invalid_argument("an edge to be triangulated ends in a vertex that is not among the vertices");
     }
-    const PlanarConstraintResult inserted = planar_insert_constraint(result.triangulation, a, b, predicates);
+    const ConstraintResult inserted = insert_constraint(result.triangulation, a, b, predicates);
     if (!inserted) {
-      result.status = PlanarTriangulationResult::Status::crossing;
+      result.status = TriangulationResult::Status::crossing;
       result.crossing = {number_of_part(parts, inserted.obstacle), number};
       result.triangulation = {};
       return;
     }
-    for (const PlanarEdge& part : inserted.parts) parts.push_back({part, number});
+    for (const Edge& part : inserted.parts) parts.push_back({part, number});
   }
 }
 
-}  // namespace planar
-
-template <PlanarPredicates P>
-std::size_t planar_legalize(PlanarTriangulation& t, const P& predicates) {
+template <Predicates P>
+std::size_t legalize(Triangulation& t, const P& predicates) {
   std::vector<std::uint32_t> stack;
   for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
-    const PlanarSide s = planar::unpack(packed);
+    const Side s = planar::unpack(packed);
     const std::uint32_t other = planar::neighbor(t, s);
     if (other != planar::none && s.triangle < other) stack.push_back(packed);
   }
   return planar::legalize_from(t, stack, predicates);
 }
 
-template <PlanarPredicates P>
-bool planar_split_edge(PlanarTriangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates) {
-  const std::optional<PlanarSide> side = planar_find_edge(t, a, b);
+template <Predicates P>
+bool split_edge(Triangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates) {
+  const std::optional<Side> side = find_edge(t, a, b);
   if (!side) return false;
   planar::split_side(t, *side, v, predicates);
   return true;
 }
 
-template <PlanarPredicates P>
-PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId a, VertexId b, const P& predicates) {
+template <Predicates P>
+ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, const P& predicates) {
   using planar::RayExit;
-  PlanarConstraintResult result;
+  ConstraintResult result;
   while (a != b) {
     RayExit exit = planar::find_ray_exit(t, a, b, predicates);
     if (exit.kind == RayExit::Kind::nowhere) {
-      result.status = PlanarConstraintResult::Status::outside;
+      result.status = ConstraintResult::Status::outside;
       result.obstacle = {a, a};
       return result;
     }
@@ -272,8 +267,8 @@ PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId
       if (channel.end.is_none()) {
         const bool constrained = planar::is_constrained(t, channel.obstacle);
         result.status = constrained && planar::neighbor(t, channel.obstacle) != planar::none
-                            ? PlanarConstraintResult::Status::crossing
-                            : PlanarConstraintResult::Status::outside;
+                            ? ConstraintResult::Status::crossing
+                            : ConstraintResult::Status::outside;
         result.obstacle = {planar::edge_start(t, channel.obstacle), planar::edge_end(t, channel.obstacle)};
         return result;
       }
@@ -281,10 +276,10 @@ PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId
       for (std::uint32_t triangle : channel.triangles) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) to_check.push_back(planar::pack({triangle, corner}));
       }
-      exit.side = *planar_find_edge(t, a, channel.end);
+      exit.side = *find_edge(t, a, channel.end);
       exit.end = channel.end;
     }
-    planar_set_constrained(t, exit.side, true);
+    set_constrained(t, exit.side, true);
     planar::legalize_from(t, to_check, predicates);
     result.parts.push_back({a, exit.end});
     a = exit.end;
@@ -292,15 +287,15 @@ PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId
   return result;
 }
 
-template <PlanarPredicates P>
-PlanarTriangulationResult planar_triangulate(std::span<const VertexId> vertices, std::span<const PlanarEdge> edges,
-                                             const P& predicates, const PlanarCarving& carving) {
-  PlanarTriangulationResult result = planar_delaunay(vertices, predicates);
+template <Predicates P>
+TriangulationResult triangulate(std::span<const VertexId> vertices, std::span<const Edge> edges, const P& predicates,
+                                const Carving& carving) {
+  TriangulationResult result = delaunay(vertices, predicates);
   if (!result) return result;
   planar::insert_edges(result, edges, predicates);
   if (!result) return result;
 
-  PlanarTriangulation& t = result.triangulation;
+  Triangulation& t = result.triangulation;
   std::vector<bool> keep = planar::choose_inside(t, carving.outside);
   for (VertexId seed : carving.hole_seeds) {
     const std::uint32_t triangle = planar::locate(t, seed, predicates);
@@ -312,9 +307,9 @@ PlanarTriangulationResult planar_triangulate(std::span<const VertexId> vertices,
   }
   if (std::find(keep.begin(), keep.end(), false) != keep.end()) t = planar::keep_triangles(t, keep);
   for (VertexId v : vertices) {
-    if (!planar_has_vertex(t, v)) result.unused.push_back(v);
+    if (!has_vertex(t, v)) result.unused.push_back(v);
   }
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::planar

@@ -7,24 +7,22 @@
 #include "engine/planar/topology.h"
 #include "engine/planar/triangulation.h"
 
-namespace ccdt {
-namespace planar {
-
+namespace ccdt::planar {
 /// The vertices in the order in which a line sweeps over them that turns counterclockwise around a corner of their
 /// convex hull, the *pole*. A projective map that sends the pole to infinity makes it the order from left to right, and
 /// among vertices on one ray from bottom (far from the pole) to top. Such a map keeps the signs of `orient`, so
 /// whatever needs vertices sorted by coordinates and separated by vertical lines can do with this order and without
 /// coordinates.
 struct SweepOrder {
-  PlanarTriangulationResult::Status status = PlanarTriangulationResult::Status::ok;
+  TriangulationResult::Status status = TriangulationResult::Status::ok;
   VertexId pole;
-  std::vector<VertexId> swept;         ///< all but the pole
-  std::vector<PlanarEdge> duplicates;  ///< vertices at the same place
+  std::vector<VertexId> swept;   ///< all but the pole
+  std::vector<Edge> duplicates;  ///< vertices at the same place
 };
 
 /// Three vertices that are not collinear, or nothing if there are none. (If the first vertices are all at one place,
 /// only so many are tried as the second: then `nothing` may be wrong.)
-template <PlanarPredicates P>
+template <Predicates P>
 std::optional<std::array<VertexId, 3>> find_triangle(std::span<const VertexId> vertices, const P& predicates) {
   constexpr std::size_t most_tries = 16;
   for (std::size_t second = 1; second < std::min(vertices.size(), most_tries); ++second) {
@@ -38,7 +36,7 @@ std::optional<std::array<VertexId, 3>> find_triangle(std::span<const VertexId> v
 }
 
 /// Of the vertices on the line through from and to, the last one in the direction from `to` to `from`.
-template <PlanarPredicates P>
+template <Predicates P>
 VertexId last_on_line(std::span<const VertexId> vertices, VertexId from, VertexId to, VertexId off_line,
                       const P& predicates) {
   const int side = predicates.orient(off_line, to, from);
@@ -51,7 +49,7 @@ VertexId last_on_line(std::span<const VertexId> vertices, VertexId from, VertexI
 
 /// A corner of the convex hull. The vertices are cut by the line ab; the bridge over that line, the edge of the hull
 /// that crosses it, is found by raising its two ends in turn.
-template <PlanarPredicates P>
+template <Predicates P>
 VertexId find_pole(std::span<const VertexId> vertices, const std::array<VertexId, 3>& triangle, const P& predicates) {
   const auto [a, b, c] = triangle;
   std::vector<VertexId> left, right;  // the line itself counts as right
@@ -85,7 +83,7 @@ VertexId find_pole(std::span<const VertexId> vertices, const std::array<VertexId
 }
 
 /// Less-than of the sweep order.
-template <PlanarPredicates P>
+template <Predicates P>
 struct SweptBefore {
   const P& predicates;
   VertexId pole;
@@ -105,9 +103,9 @@ struct SweptBefore {
   }
 };
 
-template <PlanarPredicates P>
+template <Predicates P>
 SweepOrder sweep_order(std::span<const VertexId> vertices, const P& predicates) {
-  using Status = PlanarTriangulationResult::Status;
+  using Status = TriangulationResult::Status;
   SweepOrder order;
   const auto triangle = find_triangle(vertices, predicates);
   if (!triangle) {
@@ -192,7 +190,7 @@ struct EdgeRings {
 };
 
 /// The Delaunay triangulation of vertices in the sweep order (see `SweepOrder`), by divide and conquer.
-template <PlanarPredicates P>
+template <Predicates P>
 class DivideAndConquer {
  public:
   DivideAndConquer(std::span<const VertexId> swept, const P& predicates) : swept_(swept), predicates_(predicates) {
@@ -313,19 +311,17 @@ class DivideAndConquer {
   EdgeRings rings_;
 };
 
-}  // namespace planar
-
-template <PlanarPredicates P>
-PlanarTriangulationResult planar_delaunay(std::span<const VertexId> vertices, const P& predicates) {
-  PlanarTriangulationResult result;
+template <Predicates P>
+TriangulationResult delaunay(std::span<const VertexId> vertices, const P& predicates) {
+  TriangulationResult result;
   const planar::SweepOrder order = planar::sweep_order(vertices, predicates);
   result.status = order.status;
   result.duplicates = order.duplicates;
   if (!result) return result;
   const auto triangles = planar::DivideAndConquer<P>(order.swept, predicates).triangles_with_pole(order.pole);
-  result.triangulation = planar_from_triangles(triangles);
-  planar_legalize(result.triangulation, predicates);
+  result.triangulation = from_triangles(triangles);
+  legalize(result.triangulation, predicates);
   return result;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::planar

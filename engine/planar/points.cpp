@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace ccdt {
+namespace ccdt::planar {
 namespace {
 
 __extension__ typedef __int128 Wide;  // no name of ISO C++: __extension__ silences pedantic compilers
@@ -16,7 +16,7 @@ int sign(Wide value) {
 
 }  // namespace
 
-PlanarPoints::PlanarPoints(std::span<const Point2> points) {
+Points::Points(std::span<const Point2> points) {
   if (points.empty()) return;
   Point2 low = points[0], high = points[0];
   for (const Point2& p : points) {
@@ -32,14 +32,14 @@ PlanarPoints::PlanarPoints(std::span<const Point2> points) {
   }
 }
 
-int PlanarPoints::orient(VertexId a, VertexId b, VertexId c) const {
+int Points::orient(VertexId a, VertexId b, VertexId c) const {
   const GridPoint &p = grid_[a], &q = grid_[b], &r = grid_[c];
   // Coordinates of 26 bits: products of 52 bits.
   const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
   return (area > 0) - (area < 0);
 }
 
-int PlanarPoints::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+int Points::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
   const GridPoint& o = grid_[d];
   std::array<std::int64_t, 3> x, y, height;
   const std::array<VertexId, 3> others{a, b, c};
@@ -66,4 +66,4 @@ int PlanarPoints::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const
   return 0;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::planar

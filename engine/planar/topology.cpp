@@ -5,12 +5,11 @@
 
 #include "engine/planar/triangulation.h"
 
-namespace ccdt {
-namespace planar {
+namespace ccdt::planar {
 namespace {
 
 /// Enters a constrained or border edge into the table where it is found without a search.
-void register_edge(PlanarTriangulation& t, PlanarSide s) {
+void register_edge(Triangulation& t, Side s) {
   if (is_constrained(t, s) || neighbor(t, s) == none) {
     t.fixed_edges.set(edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
   }
@@ -19,18 +18,18 @@ void register_edge(PlanarTriangulation& t, PlanarSide s) {
 /// The sides of some triangles, found by direction.
 class SidesByDirection {
  public:
-  SidesByDirection(const PlanarTriangulation& t, const std::vector<std::uint32_t>& triangles) {
+  SidesByDirection(const Triangulation& t, const std::vector<std::uint32_t>& triangles) {
     sides_.reserve(3 * triangles.size());
     for (std::uint32_t triangle : triangles) {
       for (std::uint32_t corner = 0; corner < 3; ++corner) {
-        const PlanarSide s{triangle, corner};
+        const Side s{triangle, corner};
         sides_.emplace_back(directed_key(edge_start(t, s), edge_end(t, s)), pack(s));
       }
     }
     std::sort(sides_.begin(), sides_.end());
   }
 
-  std::optional<PlanarSide> find(VertexId from, VertexId to) const {
+  std::optional<Side> find(VertexId from, VertexId to) const {
     const std::uint64_t key = directed_key(from, to);
     const auto at = std::lower_bound(sides_.begin(), sides_.end(), std::pair(key, std::uint32_t{0}));
     if (at == sides_.end() || at->first != key) return std::nullopt;
@@ -48,24 +47,24 @@ struct BorderEdge {
 
 }  // namespace
 
-std::uint32_t corner_of(const PlanarTriangulation& t, std::uint32_t triangle, VertexId v) {
+std::uint32_t corner_of(const Triangulation& t, std::uint32_t triangle, VertexId v) {
   const std::array<VertexId, 3>& corners = t.triangles[triangle];
   return corners[0] == v ? 0 : corners[1] == v ? 1 : corners[2] == v ? 2 : 3;
 }
 
-PlanarSide other_side(const PlanarTriangulation& t, PlanarSide s) {
+Side other_side(const Triangulation& t, Side s) {
   const std::uint32_t triangle = neighbor(t, s);
   return {triangle, next_corner(corner_of(t, triangle, edge_start(t, s)))};
 }
 
-Adjacency adjacency_at(const PlanarTriangulation& t, PlanarSide s) {
+Adjacency adjacency_at(const Triangulation& t, Side s) {
   const bool constrained = is_constrained(t, s);
   if (neighbor(t, s) == none) return {none, 0, constrained};
-  const PlanarSide other = other_side(t, s);
+  const Side other = other_side(t, s);
   return {other.triangle, other.corner, constrained};
 }
 
-void attach(PlanarTriangulation& t, PlanarSide s, const Adjacency& across) {
+void attach(Triangulation& t, Side s, const Adjacency& across) {
   t.neighbors[s.triangle][s.corner] = across.neighbor;
   t.constrained[s.triangle][s.corner] = across.constrained;
   if (across.neighbor != none) {
@@ -75,11 +74,11 @@ void attach(PlanarTriangulation& t, PlanarSide s, const Adjacency& across) {
   register_edge(t, s);
 }
 
-void join(PlanarTriangulation& t, PlanarSide s, PlanarSide other, bool constrained) {
+void join(Triangulation& t, Side s, Side other, bool constrained) {
   attach(t, s, {other.triangle, other.corner, constrained});
 }
 
-std::uint32_t append_triangle(PlanarTriangulation& t, VertexId a, VertexId b, VertexId c) {
+std::uint32_t append_triangle(Triangulation& t, VertexId a, VertexId b, VertexId c) {
   const auto triangle = static_cast<std::uint32_t>(t.triangles.size());
   t.triangles.emplace_back();
   t.neighbors.push_back({none, none, none});
@@ -88,13 +87,13 @@ std::uint32_t append_triangle(PlanarTriangulation& t, VertexId a, VertexId b, Ve
   return triangle;
 }
 
-void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c) {
+void set_corners(Triangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c) {
   t.triangles[triangle] = {a, b, c};
   for (VertexId v : {a, b, c}) t.triangle_of_vertex.set(v, triangle);
 }
 
-std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
-  const PlanarSide o = other_side(t, s);
+std::array<Side, 4> flip(Triangulation& t, Side s) {
+  const Side o = other_side(t, s);
   const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, o);
   const Adjacency bc = adjacency_at(t, {s.triangle, next_corner(s.corner)});
   const Adjacency ca = adjacency_at(t, {s.triangle, previous_corner(s.corner)});
@@ -112,14 +111,14 @@ std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s) {
   attach(t, {o.triangle, 2}, db);
   attach(t, {o.triangle, 0}, bc);
   join(t, {s.triangle, 1}, {o.triangle, 1}, false);
-  return {PlanarSide{s.triangle, 0}, {s.triangle, 2}, {o.triangle, 0}, {o.triangle, 2}};
+  return {Side{s.triangle, 0}, {s.triangle, 2}, {o.triangle, 0}, {o.triangle, 2}};
 }
 
-void replace_channel(PlanarTriangulation& t, const std::vector<std::uint32_t>& channel,
-                     const std::vector<PlanarSide>& border, const std::vector<std::array<VertexId, 3>>& triangles) {
+void replace_channel(Triangulation& t, const std::vector<std::uint32_t>& channel, const std::vector<Side>& border,
+                     const std::vector<std::array<VertexId, 3>>& triangles) {
   std::vector<BorderEdge> edges;
   edges.reserve(border.size());
-  for (PlanarSide s : border) edges.push_back({edge_start(t, s), edge_end(t, s), adjacency_at(t, s)});
+  for (Side s : border) edges.push_back({edge_start(t, s), edge_end(t, s), adjacency_at(t, s)});
 
   for (std::size_t i = 0; i < channel.size(); ++i) {
     set_corners(t, channel[i], triangles[i][0], triangles[i][1], triangles[i][2]);
@@ -127,49 +126,45 @@ void replace_channel(PlanarTriangulation& t, const std::vector<std::uint32_t>& c
   const SidesByDirection sides(t, channel);
   for (std::uint32_t triangle : channel) {
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      const PlanarSide s{triangle, corner};
-      const std::optional<PlanarSide> other = sides.find(edge_end(t, s), edge_start(t, s));
+      const Side s{triangle, corner};
+      const std::optional<Side> other = sides.find(edge_end(t, s), edge_start(t, s));
       if (other) join(t, s, *other, false);
     }
   }
   for (const BorderEdge& edge : edges) {
-    const PlanarSide s = *sides.find(edge.from, edge.to);
+    const Side s = *sides.find(edge.from, edge.to);
     if (sides.find(edge.to, edge.from)) {
       // A spike: an edge that is not crossed but has the channel on both its sides. Only its constraint must be kept.
-      planar_set_constrained(t, s, edge.across.constrained);
+      set_constrained(t, s, edge.across.constrained);
     } else {
       attach(t, s, edge.across);
     }
   }
 }
 
-}  // namespace planar
-
-using namespace planar;
-
-PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3>> triangles,
-                                          std::span<const PlanarEdge> constrained_edges) {
-  PlanarTriangulation t;
+Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
+                             std::span<const Edge> constrained_edges) {
+  Triangulation t;
   t.triangles.assign(triangles.begin(), triangles.end());
   t.neighbors.assign(triangles.size(), {none, none, none});
   t.constrained.assign(triangles.size(), {false, false, false});
   t.triangle_of_vertex.reserve(triangles.size() / 2 + 3);
 
   const auto count = static_cast<std::uint32_t>(triangles.size());
-  PlanarTable side_of_edge;  // by direction, so that each may occur once
+  Table side_of_edge;  // by direction, so that each may occur once
   side_of_edge.reserve(3 * triangles.size());
   for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
-    const PlanarSide s = unpack(packed);
+    const Side s = unpack(packed);
     const VertexId from = edge_start(t, s), to = edge_end(t, s);
-    if (from == to) throw PlanarDefect("a triangle of a facet has the same vertex twice", {from, to});
+    if (from == to) throw Defect("a triangle of a facet has the same vertex twice", {from, to});
     if (side_of_edge.contains(directed_key(from, to))) {
-      throw PlanarDefect("two triangles of a facet lie on the same side of an edge", {from, to});
+      throw Defect("two triangles of a facet lie on the same side of an edge", {from, to});
     }
     side_of_edge.set(directed_key(from, to), packed);
     t.triangle_of_vertex.set(apex(t, s), s.triangle);
   }
   for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
-    const PlanarSide s = unpack(packed);
+    const Side s = unpack(packed);
     const std::uint32_t other = side_of_edge.get(directed_key(edge_end(t, s), edge_start(t, s)), none);
     if (other != none) t.neighbors[s.triangle][s.corner] = other / 3;
     register_edge(t, s);
@@ -177,22 +172,22 @@ PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3
   for (const auto& [a, b] : constrained_edges) {
     std::uint32_t packed = side_of_edge.get(directed_key(a, b), none);
     if (packed == none) packed = side_of_edge.get(directed_key(b, a), none);
-    if (packed == none) throw PlanarDefect("a constrained edge of a facet is no edge of its triangles", {a, b});
-    planar_set_constrained(t, unpack(packed), true);
+    if (packed == none) throw Defect("a constrained edge of a facet is no edge of its triangles", {a, b});
+    set_constrained(t, unpack(packed), true);
   }
   return t;
 }
 
-std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexId a, VertexId b) {
+std::optional<Side> find_edge(const Triangulation& t, VertexId a, VertexId b) {
   const std::uint32_t fixed = t.fixed_edges.get(edge_key(a, b), none);
   if (fixed != none) {
     // An entry is not withdrawn when an edge is split or set free, so it must be looked at.
-    const PlanarSide s = unpack(fixed);
+    const Side s = unpack(fixed);
     if (s.triangle < t.triangles.size() && edge_key(edge_start(t, s), edge_end(t, s)) == edge_key(a, b)) return s;
   }
-  std::optional<PlanarSide> found;
+  std::optional<Side> found;
   const auto has_edge = [&](std::uint32_t triangle, std::uint32_t corner) {
-    const PlanarSide before{triangle, previous_corner(corner)}, after{triangle, next_corner(corner)};
+    const Side before{triangle, previous_corner(corner)}, after{triangle, next_corner(corner)};
     if (edge_end(t, before) == b) found = before;
     if (edge_start(t, after) == b) found = after;
     return found.has_value();
@@ -203,20 +198,20 @@ std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexI
   return found;
 }
 
-bool planar_has_vertex(const PlanarTriangulation& t, VertexId v) {
+bool has_vertex(const Triangulation& t, VertexId v) {
   return t.triangle_of_vertex.contains(v);
 }
 
-void planar_set_constrained(PlanarTriangulation& t, PlanarSide side, bool constrained) {
+void set_constrained(Triangulation& t, Side side, bool constrained) {
   Adjacency across = adjacency_at(t, side);
   across.constrained = constrained;
   attach(t, side, across);
 }
 
-std::vector<PlanarEdge> planar_border_edges(const PlanarTriangulation& t) {
-  std::vector<PlanarEdge> edges;
+std::vector<Edge> border_edges(const Triangulation& t) {
+  std::vector<Edge> edges;
   for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
-    const PlanarSide s = unpack(packed);
+    const Side s = unpack(packed);
     const VertexId from = edge_start(t, s), to = edge_end(t, s);
     if (neighbor(t, s) == none) edges.push_back({std::min(from, to), std::max(from, to)});
   }
@@ -224,4 +219,4 @@ std::vector<PlanarEdge> planar_border_edges(const PlanarTriangulation& t) {
   return edges;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::planar

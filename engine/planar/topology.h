@@ -7,7 +7,7 @@
 /// and know nothing of geometry.
 namespace ccdt::planar {
 
-constexpr std::uint32_t none = PlanarTriangulation::none;
+constexpr std::uint32_t none = Triangulation::none;
 
 constexpr std::uint32_t next_corner(std::uint32_t corner) {
   return corner == 2 ? 0 : corner + 1;
@@ -17,10 +17,10 @@ constexpr std::uint32_t previous_corner(std::uint32_t corner) {
 }
 
 /// A side as one number: 3 * triangle + corner.
-constexpr std::uint32_t pack(PlanarSide s) {
+constexpr std::uint32_t pack(Side s) {
   return 3 * s.triangle + s.corner;
 }
-constexpr PlanarSide unpack(std::uint32_t packed) {
+constexpr Side unpack(std::uint32_t packed) {
   return {packed / 3, packed % 3};
 }
 
@@ -29,27 +29,27 @@ constexpr std::uint64_t directed_key(VertexId from, VertexId to) {
 }
 
 /// Start and end of the edge, with the triangle on its left.
-inline VertexId edge_start(const PlanarTriangulation& t, PlanarSide s) {
+inline VertexId edge_start(const Triangulation& t, Side s) {
   return t.triangles[s.triangle][next_corner(s.corner)];
 }
-inline VertexId edge_end(const PlanarTriangulation& t, PlanarSide s) {
+inline VertexId edge_end(const Triangulation& t, Side s) {
   return t.triangles[s.triangle][previous_corner(s.corner)];
 }
-inline VertexId apex(const PlanarTriangulation& t, PlanarSide s) {
+inline VertexId apex(const Triangulation& t, Side s) {
   return t.triangles[s.triangle][s.corner];
 }
-inline std::uint32_t neighbor(const PlanarTriangulation& t, PlanarSide s) {
+inline std::uint32_t neighbor(const Triangulation& t, Side s) {
   return t.neighbors[s.triangle][s.corner];
 }
-inline bool is_constrained(const PlanarTriangulation& t, PlanarSide s) {
+inline bool is_constrained(const Triangulation& t, Side s) {
   return t.constrained[s.triangle][s.corner];
 }
 
 /// The corner of a triangle that has the vertex; 3 if none has.
-std::uint32_t corner_of(const PlanarTriangulation& t, std::uint32_t triangle, VertexId v);
+std::uint32_t corner_of(const Triangulation& t, std::uint32_t triangle, VertexId v);
 
 /// The same edge seen from its other triangle, which must exist.
-PlanarSide other_side(const PlanarTriangulation& t, PlanarSide s);
+Side other_side(const Triangulation& t, Side s);
 
 /// What is across one edge of a triangle that is about to be rewritten.
 struct Adjacency {
@@ -57,19 +57,19 @@ struct Adjacency {
   std::uint32_t corner = 0;  ///< of the neighbor, opposite to the edge
   bool constrained = false;
 };
-Adjacency adjacency_at(const PlanarTriangulation& t, PlanarSide s);
+Adjacency adjacency_at(const Triangulation& t, Side s);
 
 /// Joins the side to what is across it, from both sides, and enters the edge into the tables.
-void attach(PlanarTriangulation& t, PlanarSide s, const Adjacency& across);
+void attach(Triangulation& t, Side s, const Adjacency& across);
 
 /// Joins two sides of one edge as an inner edge.
-void join(PlanarTriangulation& t, PlanarSide s, PlanarSide other, bool constrained);
+void join(Triangulation& t, Side s, Side other, bool constrained);
 
 /// Appends a triangle without neighbors.
-std::uint32_t append_triangle(PlanarTriangulation& t, VertexId a, VertexId b, VertexId c);
+std::uint32_t append_triangle(Triangulation& t, VertexId a, VertexId b, VertexId c);
 
 /// Rewrites the corners of a triangle and enters them into the table of vertices.
-void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c);
+void set_corners(Triangulation& t, std::uint32_t triangle, VertexId a, VertexId b, VertexId c);
 
 /// Replaces an inner edge by the other diagonal of its two triangles; returns the four outer edges of the two, each
 /// seen from inside.
@@ -79,17 +79,17 @@ void set_corners(PlanarTriangulation& t, std::uint32_t triangle, VertexId a, Ver
 ///     a --- b    ->      a  |  b      afterwards it is cad, its neighbor dbc
 ///      \   /              \ | /
 ///        d                  d
-std::array<PlanarSide, 4> flip(PlanarTriangulation& t, PlanarSide s);
+std::array<Side, 4> flip(Triangulation& t, Side s);
 
 /// Puts as many new triangles in the place of the channel's and joins them to each other and to what was around.
 /// \param border  the sides of the channel's triangles that are not crossed
-void replace_channel(PlanarTriangulation& t, const std::vector<std::uint32_t>& channel,
-                     const std::vector<PlanarSide>& border, const std::vector<std::array<VertexId, 3>>& triangles);
+void replace_channel(Triangulation& t, const std::vector<std::uint32_t>& channel, const std::vector<Side>& border,
+                     const std::vector<std::array<VertexId, 3>>& triangles);
 
 /// Calls visit(triangle, corner of v) for the triangles around v that hang together with the known one, until it
 /// returns true; returns whether it did. At a pinched vertex these need not be all.
 template <class Visit>
-bool visit_fan(const PlanarTriangulation& t, VertexId v, Visit visit) {
+bool visit_fan(const Triangulation& t, VertexId v, Visit visit) {
   const std::uint32_t first = t.triangle_of_vertex.get(v, none);
   if (first == none) return false;
   std::uint32_t triangle = first;
@@ -110,7 +110,7 @@ bool visit_fan(const PlanarTriangulation& t, VertexId v, Visit visit) {
 
 /// The same for all triangles around v: at a pinched vertex all triangles are searched if the first fan has no answer.
 template <class Visit>
-bool visit_star(const PlanarTriangulation& t, VertexId v, Visit visit) {
+bool visit_star(const Triangulation& t, VertexId v, Visit visit) {
   bool at_border = false;
   const auto noting_borders = [&](std::uint32_t triangle, std::uint32_t corner) {
     at_border |= t.neighbors[triangle][next_corner(corner)] == none;
@@ -126,12 +126,12 @@ bool visit_star(const PlanarTriangulation& t, VertexId v, Visit visit) {
 }
 
 /// Keeps the triangles with a true mark only; edges to the others become border edges.
-PlanarTriangulation keep_triangles(const PlanarTriangulation& t, const std::vector<bool>& keep);
+Triangulation keep_triangles(const Triangulation& t, const std::vector<bool>& keep);
 
-/// Marks for `keep_triangles` after the wish for the outside (see `PlanarCarving`).
-std::vector<bool> choose_inside(const PlanarTriangulation& t, PlanarCarving::Outside outside);
+/// Marks for `keep_triangles` after the wish for the outside (see `Carving`).
+std::vector<bool> choose_inside(const Triangulation& t, Carving::Outside outside);
 
 /// Takes the marks from all triangles that the seed triangle reaches without crossing a constraint.
-void flood_hole(const PlanarTriangulation& t, std::uint32_t seed, std::vector<bool>& keep);
+void flood_hole(const Triangulation& t, std::uint32_t seed, std::vector<bool>& keep);
 
 }  // namespace ccdt::planar

@@ -2,29 +2,29 @@
 
 #include "engine/planar/types.h"
 
-namespace ccdt {
+namespace ccdt::planar {
 
 // ---- Topology -------------------------------------------------------------------------------------------------------
 
 /// The triangulation that consists of these triangles, all counterclockwise in the caller's plane. Nothing is flipped.
 ///
-/// \throw PlanarDefect  an edge with more than two triangles, or two triangles on the same side of an edge; or a
+/// \throw Defect  an edge with more than two triangles, or two triangles on the same side of an edge; or a
 ///                      constrained edge that no triangle has
-PlanarTriangulation planar_from_triangles(std::span<const std::array<VertexId, 3>> triangles,
-                                          std::span<const PlanarEdge> constrained_edges = {});
+Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
+                             std::span<const Edge> constrained_edges = {});
 
 /// A side of the edge ab, or nothing if there is no such edge. Constant time for constrained and border edges and
 /// otherwise linear in the number of triangles around a and b (around a pinched vertex, at worst: of all triangles).
-std::optional<PlanarSide> planar_find_edge(const PlanarTriangulation& t, VertexId a, VertexId b);
+std::optional<Side> find_edge(const Triangulation& t, VertexId a, VertexId b);
 
 /// Is the vertex a corner of some triangle?
-bool planar_has_vertex(const PlanarTriangulation& t, VertexId v);
+bool has_vertex(const Triangulation& t, VertexId v);
 
 /// Forbids or allows the edge to be flipped, seen from both its sides.
-void planar_set_constrained(PlanarTriangulation& t, PlanarSide side, bool constrained);
+void set_constrained(Triangulation& t, Side side, bool constrained);
 
 /// All border edges, each once, the smaller id first, sorted.
-std::vector<PlanarEdge> planar_border_edges(const PlanarTriangulation& t);
+std::vector<Edge> border_edges(const Triangulation& t);
 
 // ---- Geometry -------------------------------------------------------------------------------------------------------
 // All triangles must be strictly counterclockwise by `predicates.orient`.
@@ -34,20 +34,20 @@ std::vector<PlanarEdge> planar_border_edges(const PlanarTriangulation& t);
 /// predicates are exact.
 ///
 /// \return how many edges were flipped
-template <PlanarPredicates P>
-std::size_t planar_legalize(PlanarTriangulation& t, const P& predicates);
+template <Predicates P>
+std::size_t legalize(Triangulation& t, const P& predicates);
 
 /// Inserts the vertex v, which lies exactly on the edge ab, strictly between its ends, and legalizes around it. The
 /// halves of the edge inherit its constraint. If the triangulation was constrained Delaunay, it is so again.
 ///
 /// \return false, and nothing has changed, if ab is no edge of the triangulation
-template <PlanarPredicates P>
-bool planar_split_edge(PlanarTriangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates);
+template <Predicates P>
+bool split_edge(Triangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates);
 
 /// Makes ab a constrained edge, or a chain of such where vertices lie exactly on it, and legalizes around it. a and b
 /// must be different vertices of the triangulation.
-template <PlanarPredicates P>
-PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId a, VertexId b, const P& predicates);
+template <Predicates P>
+ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, const P& predicates);
 
 // ---- From nothing ---------------------------------------------------------------------------------------------------
 
@@ -57,15 +57,15 @@ PlanarConstraintResult planar_insert_constraint(PlanarTriangulation& t, VertexId
 ///
 /// Vertices on edges split them; edges may overlap and repeat; an edge from a vertex to itself counts for nothing.
 /// \throw std::invalid_argument  an edge's end that is not among the vertices
-template <PlanarPredicates P>
-PlanarTriangulationResult planar_triangulate(std::span<const VertexId> vertices, std::span<const PlanarEdge> edges,
-                                             const P& predicates, const PlanarCarving& carving = {});
+template <Predicates P>
+TriangulationResult triangulate(std::span<const VertexId> vertices, std::span<const Edge> edges, const P& predicates,
+                                const Carving& carving = {});
 
 /// The Delaunay triangulation of the convex hull of the vertices; `triangulation` is all of the result.
-template <PlanarPredicates P>
-PlanarTriangulationResult planar_delaunay(std::span<const VertexId> vertices, const P& predicates);
+template <Predicates P>
+TriangulationResult delaunay(std::span<const VertexId> vertices, const P& predicates);
 
-}  // namespace ccdt
+}  // namespace ccdt::planar
 
 // The bodies of the templates.
 #include "engine/planar/constraints.h"

@@ -10,7 +10,7 @@
 #include "engine/plc/input_faults.h"
 #include "engine/plc/triangulate_polygons.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 namespace {
 
@@ -125,4 +125,4 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
   return plc;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

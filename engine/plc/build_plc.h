@@ -4,7 +4,7 @@
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 struct PlcOptions {
   double flatness = 1e-8;  ///< a patch whose vertices are this near to one plane is one facet; as a fraction of the box
@@ -17,4 +17,4 @@ struct PlcOptions {
 ///                    open surface, no facets, seeds outside; with the place in the units of the input and a remedy
 Plc build_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

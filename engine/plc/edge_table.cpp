@@ -7,7 +7,7 @@
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 namespace {
 
 // For c and d coplanar with the edge ab: are they on the same side of it?
@@ -83,7 +83,7 @@ SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges) 
 }
 
 Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  const int sign = orient3d(a, b, c, d);
+  const int sign = numbers::orient3d(a, b, c, d);
   if (sign > 0) return Turn::below_180;
   if (sign < 0) return Turn::above_180;
   return on_same_side(a, b, c, d) ? Turn::zero : Turn::exactly_180;
@@ -104,7 +104,7 @@ std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const
         const Turn to_s = turn_about(a, b, zero, apex(s)), to_t = turn_about(a, b, zero, apex(t));
         if (to_s != to_t) return to_s < to_t;
         if (to_s == Turn::below_180 || to_s == Turn::above_180) {
-          const int sign = orient3d(a, b, apex(s), apex(t));
+          const int sign = numbers::orient3d(a, b, apex(s), apex(t));
           if (sign != 0) return sign > 0;
         }
         return s < t;
@@ -121,4 +121,4 @@ std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const
   return std::nullopt;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

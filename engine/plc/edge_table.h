@@ -8,7 +8,7 @@
 
 #include "engine/plc/triangle_set.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// The edges of a set of triangles, sorted by their ends, each with the triangles around it. It does not depend on how
 /// the triangles are oriented.
@@ -56,4 +56,4 @@ Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3&
 std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
                                          const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges);
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -8,7 +8,7 @@
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 namespace {
 
@@ -185,7 +185,7 @@ class PatchFinder {
       const std::uint32_t seed = reference[patches.facet_of[t]];
       if (!flat || seed == t) continue;
       const auto [a, b, c] = corner_points(seed);
-      for (const Point3& p : corner_points(t)) flat = flat && orient3d(a, b, c, p) == 0;
+      for (const Point3& p : corner_points(t)) flat = flat && numbers::orient3d(a, b, c, p) == 0;
     }
     patches.is_inner_edge.assign(edges_.size(), 0);
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -219,4 +219,4 @@ FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangle
   return PatchFinder(vertices, triangles, edges, segment_of, tolerance).find();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

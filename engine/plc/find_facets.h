@@ -8,7 +8,7 @@
 #include "engine/plc/edge_table.h"
 #include "engine/plc/triangle_set.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// Which triangles form one facet.
 struct FacetPatches {
@@ -33,4 +33,4 @@ struct FacetPatches {
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
                          std::span<const std::uint32_t> segment_of, double tolerance);
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -6,7 +6,7 @@
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 namespace {
 
 using Triangle = std::array<Point3, 3>;
@@ -70,7 +70,8 @@ std::optional<Contact> meet_coplanar(const Point3& p, const Point3& q, const Tri
 std::optional<Contact> meet_with_signs(const Point3& p, const Point3& q, int p_sign, int q_sign, const Triangle& t) {
   if (p_sign * q_sign > 0) return std::nullopt;
   if (p_sign == 0 && q_sign == 0) return meet_coplanar(p, q, t);
-  const int u = orient3d(p, q, t[0], t[1]), v = orient3d(p, q, t[1], t[2]), w = orient3d(p, q, t[2], t[0]);
+  const int u = numbers::orient3d(p, q, t[0], t[1]), v = numbers::orient3d(p, q, t[1], t[2]),
+            w = numbers::orient3d(p, q, t[2], t[0]);
   const bool same_turn = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
   if (!same_turn) return std::nullopt;
   const Point3 normal = cross(t[1] - t[0], t[2] - t[0]);
@@ -79,8 +80,8 @@ std::optional<Contact> meet_with_signs(const Point3& p, const Point3& q, int p_s
 }
 
 std::array<int, 3> signs_against(const Triangle& t, const Triangle& corners) {
-  return {orient3d(t[0], t[1], t[2], corners[0]), orient3d(t[0], t[1], t[2], corners[1]),
-          orient3d(t[0], t[1], t[2], corners[2])};
+  return {numbers::orient3d(t[0], t[1], t[2], corners[0]), numbers::orient3d(t[0], t[1], t[2], corners[1]),
+          numbers::orient3d(t[0], t[1], t[2], corners[2])};
 }
 
 bool on_one_side(const std::array<int, 3>& s) {
@@ -111,7 +112,7 @@ std::optional<Contact> meet(std::span<const Point3> vertices, const VertexTriple
 }
 
 bool are_coplanar(const Triangle& s, const Triangle& t) {
-  return std::all_of(t.begin(), t.end(), [&](const Point3& p) { return orient3d(s[0], s[1], s[2], p) == 0; });
+  return std::all_of(t.begin(), t.end(), [&](const Point3& p) { return numbers::orient3d(s[0], s[1], s[2], p) == 0; });
 }
 
 std::optional<Contact> meet_loose(std::span<const Point3> vertices, const std::array<VertexId, 2>& ends,
@@ -179,7 +180,7 @@ std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, con
 }
 
 std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, const Triangle& t) {
-  return meet_with_signs(p, q, orient3d(t[0], t[1], t[2], p), orient3d(t[0], t[1], t[2], q), t);
+  return meet_with_signs(p, q, numbers::orient3d(t[0], t[1], t[2], p), numbers::orient3d(t[0], t[1], t[2], q), t);
 }
 
 bool are_apart_in_plane(int axis, const Triangle& s, const Triangle& t, int common) {
@@ -217,23 +218,23 @@ std::optional<Contact> meet_triangles(const Triangle& s, const Triangle& t) {
 // Their intersection is convex and holds the common corner. If it holds more, then it reaches the opposite edge of one
 // of them.
 std::optional<Contact> meet_triangles_at_corner(const Triangle& s, const Triangle& t) {
-  const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
+  const int s1 = numbers::orient3d(t[0], t[1], t[2], s[1]), s2 = numbers::orient3d(t[0], t[1], t[2], s[2]);
   if (s1 * s2 > 0) return std::nullopt;
-  const int t1 = orient3d(s[0], s[1], s[2], t[1]), t2 = orient3d(s[0], s[1], s[2], t[2]);
+  const int t1 = numbers::orient3d(s[0], s[1], s[2], t[1]), t2 = numbers::orient3d(s[0], s[1], s[2], t[2]);
   if (t1 * t2 > 0) return std::nullopt;
   if (auto contact = meet_with_signs(s[1], s[2], s1, s2, t)) return contact;
   return meet_with_signs(t[1], t[2], t1, t2, s);
 }
 
 std::optional<Contact> meet_segment_at_corner(const Point3& end, const Triangle& t) {
-  if (orient3d(t[0], t[1], t[2], end) != 0) return std::nullopt;
+  if (numbers::orient3d(t[0], t[1], t[2], end) != 0) return std::nullopt;
   const View view = view_of(t);
   if (holds(view, t, end)) return Contact{end, true};
   return meet_in_plane(view, t[0], end, t[1], t[2]);
 }
 
 std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Point3& a, const Point3& b) {
-  if (orient3d(p, q, a, b) != 0) return std::nullopt;
+  if (numbers::orient3d(p, q, a, b) != 0) return std::nullopt;
   Point3 normal = rounded_normal({p, q, a});
   if (normal == Point3{}) normal = rounded_normal({p, q, b});
   if (normal == Point3{}) normal = cross(q - p, dominant_axis(q - p) == 0 ? Point3{0, 1, 0} : Point3{1, 0, 0});
@@ -242,11 +243,11 @@ std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Poi
 
 // The projection first: it rejects most points of the same plane, which are expensive for `orient3d`.
 bool is_on_triangle(int axis, const Point3& p, const Triangle& t) {
-  return holds({axis}, t, p) && orient3d(t[0], t[1], t[2], p) == 0;
+  return holds({axis}, t, p) && numbers::orient3d(t[0], t[1], t[2], p) == 0;
 }
 
 bool is_within_segment(const Point3& p, const Point3& a, const Point3& b) {
   return p != a && p != b && in_box_of(a, b, p) && has_no_area({a, b, p});
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -10,7 +10,7 @@
 #include "engine/plc/find_facets.h"
 #include "engine/plc/triangle_set.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// The boxes of triangles.
 std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
@@ -68,4 +68,4 @@ bool is_on_triangle(int axis, const Point3& p, const std::array<Point3, 3>& tria
 /// Is the point between the ends of the segment, in space, ends excluded?
 bool is_within_segment(const Point3& p, const Point3& a, const Point3& b);
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -11,7 +11,7 @@
 #include "engine/plc/input_faults.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 namespace {
 
 using VeryWide = boost::multiprecision::int256_t;
@@ -63,7 +63,8 @@ bool is_lower(const Crossing& a, const Crossing& b) {
 }
 
 Box box_above(const IntegerPoint& sixfold, bool upwards) {
-  const double scale = DyadicGrid::quantum / 6, slack = DyadicGrid::quantum;  // more than the rounding of this box
+  const double scale = numbers::DyadicGrid::quantum / 6,
+               slack = numbers::DyadicGrid::quantum;  // more than the rounding of this box
   const Point3 p = {scale * static_cast<double>(sixfold[0]), scale * static_cast<double>(sixfold[1]),
                     scale * static_cast<double>(sixfold[2])};
   const Point3 margin = {slack, slack, slack};
@@ -285,4 +286,4 @@ RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& pa
   return map;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

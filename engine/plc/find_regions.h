@@ -9,7 +9,7 @@
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// The input as triangles and segments, conforming in their indices, with what has been found about them.
 struct PlcParts {
@@ -40,4 +40,4 @@ struct RegionMap {
 ///                    by the holes
 RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, const BoxTree& tree);
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -12,7 +12,7 @@
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 namespace {
 
 void check_coordinates(const InputPlc& input) {
@@ -72,7 +72,7 @@ class TriangleSplitter {
 
 void snap_vertices(const InputPlc& input, Plc& plc) {
   check_coordinates(input);
-  plc.grid = make_grid(input.vertices);
+  plc.grid = numbers::make_grid(input.vertices);
   const auto count = static_cast<std::uint32_t>(input.vertices.size());
   std::vector<Point3> snapped(count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -200,4 +200,4 @@ void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& se
   segments = std::move(result);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -7,7 +7,7 @@
 #include "engine/plc/plc.h"
 #include "engine/plc/triangle_set.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// Fills the grid, the vertices and all that belongs to them: puts the vertices of the input on the dyadic grid and
 /// makes those that fall on the same point one. Ids are given in the order of first appearance.
@@ -34,4 +34,4 @@ bool split_triangles_at_vertices(std::span<const Point3> vertices, const BoxTree
 /// Splits the segments that other vertices lie on, drops those of no length and keeps of equal ones the first.
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments);
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -7,7 +7,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// A facet given by polygons in one plane, as in TetGen's .poly and in OBJ, OFF and PLY faces with more than three
 /// corners. A polygon of two vertices is a segment within the facet, of one vertex a vertex within it. Loops other than
@@ -53,4 +53,4 @@ struct InputPlc {
   std::size_t facet_count() const { return triangles.size() + polygon_facets.size(); }
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -9,7 +9,7 @@
 #include "engine/base/union_find.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 namespace {
 
@@ -129,4 +129,4 @@ void throw_open_surface(const Plc& plc, const EdgeTable& edges) {
       points);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -9,7 +9,7 @@
 #include "engine/plc/plc.h"
 #include "engine/plc/triangle_set.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// \throw InputError  a facet has no area; its vertices may be equal after rounding only
 void check_degenerate_triangles(const Plc& plc, const TriangleSet& triangles);
@@ -32,4 +32,4 @@ void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
                                     const std::vector<Point3>& world_points = {},
                                     const std::vector<long long>& facets = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -7,7 +7,7 @@
 #include "engine/base/point.h"
 #include "engine/numbers/grid.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// Input vertices are multiples of the quantum, so they are integers of 33 bits when measured in quanta. Normals and
 /// planar orientations then fit 128 bits and need no filter.
@@ -18,7 +18,7 @@ using WideVector = std::array<Wide, 3>;
 
 /// A vertex of the input, measured in quanta.
 inline IntegerPoint to_integers(const Point3& p) {
-  constexpr double inverse = 1.0 / DyadicGrid::quantum;
+  constexpr double inverse = 1.0 / numbers::DyadicGrid::quantum;
   return {static_cast<std::int64_t>(p.x * inverse), static_cast<std::int64_t>(p.y * inverse),
           static_cast<std::int64_t>(p.z * inverse)};
 }
@@ -67,4 +67,4 @@ inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3
   return orient_along(axis, to_integers(a), to_integers(b), to_integers(c));
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

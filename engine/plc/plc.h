@@ -9,7 +9,7 @@
 #include "engine/base/point.h"
 #include "engine/numbers/grid.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// A segment of the PLC: a straight edge that the mesh must contain as a chain of edges.
 struct Segment {
@@ -43,7 +43,7 @@ struct Region {
 /// vertex of its triangulation; every boundary edge of a facet is a segment.
 struct Plc {
   std::string name;
-  DyadicGrid grid;
+  numbers::DyadicGrid grid;
   std::vector<Point3> vertices;           ///< grid units
   std::vector<Point3> world;              ///< the same vertices in the units of the input, unrounded
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex the vertex that it became
@@ -53,4 +53,4 @@ struct Plc {
   double largest_rounding = 0;  ///< largest change of a coordinate by the grid, in the units of the input
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -8,7 +8,7 @@
 #include "engine/base/index.h"
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// The corners of a triangle.
 using VertexTriple = std::array<VertexId, 3>;
@@ -65,4 +65,4 @@ struct Overlap {
   Point3 where;
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

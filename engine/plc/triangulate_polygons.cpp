@@ -12,7 +12,7 @@
 #include "engine/plc/input_faults.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 namespace {
 
@@ -28,7 +28,7 @@ struct ProjectedPlane {
   }
   int orient(VertexId a, VertexId b, VertexId c) const { return orient_along(axis, point(a), point(b), point(c)); }
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
-    return incircle_perturbed(flat(a), flat(b), flat(c), above(a), flat(d), {a, b, c, d});
+    return numbers::incircle_perturbed(flat(a), flat(b), flat(c), above(a), flat(d), {a, b, c, d});
   }
 
  private:
@@ -39,7 +39,7 @@ struct ProjectedPlane {
   }
   Point3 above(VertexId v) const {
     Point3 p = flat(v);
-    p.z = DyadicGrid::quantum;
+    p.z = numbers::DyadicGrid::quantum;
     return p;
   }
 };
@@ -165,7 +165,7 @@ class FacetTriangulator {
   }
 
   void triangulate() {
-    PlanarCarving carving;
+    planar::Carving carving;
     std::vector<Point3> seeds;
     for (const Point3& hole : facet_->holes) {
       if (!contains(world_box_, box_of(hole)))
@@ -174,11 +174,11 @@ class FacetTriangulator {
       seeds.push_back(plc_.grid.snap(hole));
     }
     plane_.seeds = seeds;
-    PlanarTriangulationResult result =
-        planar_triangulate(std::span<const VertexId>(vertices_), std::span<const PlanarEdge>(edges_), plane_, carving);
-    using Status = PlanarTriangulationResult::Status;
+    planar::TriangulationResult result = planar::triangulate(std::span<const VertexId>(vertices_),
+                                                             std::span<const planar::Edge>(edges_), plane_, carving);
+    using Status = planar::TriangulationResult::Status;
     if (result.status == Status::crossing) {
-      const PlanarEdge &e = edges_[result.crossing[0]], &f = edges_[result.crossing[1]];
+      const planar::Edge &e = edges_[result.crossing[0]], &f = edges_[result.crossing[1]];
       fail("two edges of a facet cross each other (their ends follow)", {e[0], e[1], f[0], f[1]},
            "correct the order of the facet's vertices, or add the point where the edges cross");
     }
@@ -187,7 +187,7 @@ class FacetTriangulator {
            "remove this facet");
     if (!result.lost_seeds.empty())
       fail("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
-    PlanarTriangulation& t = result.triangulation;
+    planar::Triangulation& t = result.triangulation;
     if (t.triangles.empty())
       fail("the outline of a facet is not closed, or its holes leave nothing", vertices_,
            "close the outline, or remove the facet");
@@ -200,22 +200,22 @@ class FacetTriangulator {
       const auto& [a, b, c] = t.triangles[i];
       add_triangle(a, b, c);
       for (std::uint32_t k = 0; k < 3; ++k)
-        if (t.constrained[i][k] && t.neighbors[i][k] != PlanarTriangulation::none && t.neighbors[i][k] > i)
+        if (t.constrained[i][k] && t.neighbors[i][k] != planar::Triangulation::none && t.neighbors[i][k] > i)
           segments_.add(t.triangles[i][(k + 1) % 3], t.triangles[i][(k + 2) % 3], 0);
     }
     plane_.seeds = {};
   }
 
   bool is_end_of_edge(VertexId v) const {
-    return std::any_of(edges_.begin(), edges_.end(), [&](const PlanarEdge& e) { return e[0] == v || e[1] == v; });
+    return std::any_of(edges_.begin(), edges_.end(), [&](const planar::Edge& e) { return e[0] == v || e[1] == v; });
   }
 
   // A segment that leaves the facet or crosses its edges is left to the checks of all segments.
-  void insert_given_segments(PlanarTriangulation& t) {
+  void insert_given_segments(planar::Triangulation& t) {
     for (const VertexId v : vertices_)
       for (const std::uint32_t s : segments_at_[v]) {
         const auto [a, b] = segments_.ends[s];
-        if (a != b && planar_has_vertex(t, a) && planar_has_vertex(t, b)) planar_insert_constraint(t, a, b, plane_);
+        if (a != b && planar::has_vertex(t, a) && planar::has_vertex(t, b)) planar::insert_constraint(t, a, b, plane_);
       }
   }
 
@@ -228,7 +228,7 @@ class FacetTriangulator {
   Box world_box_;                                        // of all vertices, in the units of the input
   const PolygonFacet* facet_ = nullptr;
   std::vector<VertexId> vertices_;  // of the current facet, sorted
-  std::vector<PlanarEdge> edges_;
+  std::vector<planar::Edge> edges_;
 };
 
 }  // namespace
@@ -238,4 +238,4 @@ void triangulate_polygons(const InputPlc& input, const Plc& plc, double toleranc
   if (!input.polygon_facets.empty()) FacetTriangulator(input, plc, tolerance, triangles, segments);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -6,7 +6,7 @@
 #include "engine/plc/plc.h"
 #include "engine/plc/triangle_set.h"
 
-namespace ccdt {
+namespace ccdt::plc {
 
 /// Triangulates the polygon facets of the input, exactly, with all their vertices and without their holes, and appends
 /// the triangles. Polygons of two vertices, and edges of polygons that have the facet on both sides, are appended to
@@ -19,4 +19,4 @@ namespace ccdt {
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments);
 
-}  // namespace ccdt
+}  // namespace ccdt::plc

@@ -4,7 +4,7 @@
 
 #include "engine/base/enum_names.h"
 
-namespace ccdt {
+namespace ccdt::protection {
 
 /// Where a missing segment is split.
 enum class Protection { shell, midpoint };
@@ -15,4 +15,4 @@ constexpr auto names_of(Protection) {
        {Protection::midpoint, "midpoint", "at the midpoint, as in the paper"}});
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::protection

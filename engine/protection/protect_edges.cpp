@@ -13,7 +13,7 @@
 #include "engine/delaunay/insertion.h"
 #include "engine/delaunay/wrap_delaunay.h"
 
-namespace ccdt {
+namespace ccdt::protection {
 namespace {
 
 constexpr std::uint32_t whole = whole_segment;
@@ -24,7 +24,7 @@ struct Subsegment {
   ChainVertex from, to;
 };
 
-Point3 point_on_segment(const Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
+Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
   const Point3& a = plc.vertices[plc.segments[segment].ends[0]];
   const Point3& b = plc.vertices[plc.segments[segment].ends[1]];
   // The ends are multiples of 2^20, so that this is exact.
@@ -32,11 +32,11 @@ Point3 point_on_segment(const Plc& plc, std::uint32_t segment, std::uint32_t fra
 }
 
 /// More than any sound part needs; without a bound two facets that almost touch would keep a computer busy for hours.
-std::size_t most_steiner_vertices(const Plc& plc) {
+std::size_t most_steiner_vertices(const plc::Plc& plc) {
   return 10000 + 100 * plc.vertices.size();
 }
 
-[[noreturn]] void refuse_further_splits(const Plc& plc, const Subsegment& piece, const char* why) {
+[[noreturn]] void refuse_further_splits(const plc::Plc& plc, const Subsegment& piece, const char* why) {
   Place place;
   place.file = plc.name;
   for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
@@ -48,7 +48,7 @@ std::size_t most_steiner_vertices(const Plc& plc) {
 /// The current vertices and segments, and the working memory of the stage.
 class Protector {
  public:
-  Protector(const Plc& plc, Protection strategy, Delaunay& delaunay, const SegmentChains& chains);
+  Protector(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay, const SegmentChains& chains);
 
   bool is_protected(const std::vector<ChainVertex>& chain);
   /// Splits the pieces of one segment until, as things stand, all are Delaunay edges.
@@ -60,15 +60,16 @@ class Protector {
   std::optional<std::uint32_t> encroaching_vertex(const Subsegment& piece, std::uint32_t fraction);
   double split_length(const Subsegment& piece, std::uint32_t encroaching) const;
 
-  const Plc& plc_;
+  const plc::Plc& plc_;
   Protection strategy_;
-  Delaunay& d_;
-  Insertion insertion_;
-  CellStar star_;
+  delaunay::Delaunay& d_;
+  delaunay::Insertion insertion_;
+  delaunay::CellStar star_;
   std::vector<std::uint32_t> segment_of_steiner_;  // by vertex less those of the PLC
 };
 
-Protector::Protector(const Plc& plc, Protection strategy, Delaunay& delaunay, const SegmentChains& chains)
+Protector::Protector(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay,
+                     const SegmentChains& chains)
     : plc_(plc),
       strategy_(strategy),
       d_(delaunay),
@@ -135,9 +136,9 @@ std::optional<std::uint32_t> Protector::encroaching_vertex(const Subsegment& pie
   const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
   std::optional<std::uint32_t> worst;
   double least_cosine = 0;
-  for (const CavityFace& face : insertion_.cavity_faces()) {
+  for (const delaunay::CavityFace& face : insertion_.cavity_faces()) {
     for (const std::uint32_t v : face.vertices) {
-      if (v == ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
+      if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
       const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
       const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
       // Of equals the first, whatever the order of the cells.
@@ -195,7 +196,7 @@ struct ProtectedEdges {
 };
 
 /// Would filling this cavity destroy a protected edge, one that no face of the cavity has?
-bool destroys_edge(const Delaunay& d, const Insertion& insertion, const ProtectedEdges& edges,
+bool destroys_edge(const delaunay::Delaunay& d, const delaunay::Insertion& insertion, const ProtectedEdges& edges,
                    std::vector<std::uint64_t>& found) {
   found.clear();
   const auto interior = static_cast<std::uint32_t>(edges.on_edge.size());  // the first id, and all from there on
@@ -215,7 +216,7 @@ bool destroys_edge(const Delaunay& d, const Insertion& insertion, const Protecte
   const auto repeated = std::ranges::unique(found);
   // The faces are a closed surface, which passes each of its edges once in each direction.
   std::ptrdiff_t on_faces = 0;
-  for (const CavityFace& face : insertion.cavity_faces()) {
+  for (const delaunay::CavityFace& face : insertion.cavity_faces()) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t a = face.vertices[i], b = face.vertices[i < 2 ? i + 1 : 0];
       if (a < b && edges.may_have(a) && edges.may_have(b) && edges.has(a, b)) ++on_faces;
@@ -225,13 +226,14 @@ bool destroys_edge(const Delaunay& d, const Insertion& insertion, const Protecte
 }
 
 /// The vertices with the points that are not among them, ranked as they would be inserted.
-std::vector<DelaunayVertex> with_points(std::vector<DelaunayVertex> vertices, std::span<const Point3> points) {
+std::vector<delaunay::DelaunayVertex> with_points(std::vector<delaunay::DelaunayVertex> vertices,
+                                                  std::span<const Point3> points) {
   const auto less = [](const Point3& a, const Point3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
   std::vector<Point3> taken;
   taken.reserve(vertices.size());
-  for (const DelaunayVertex& v : vertices) taken.push_back(v.point);
+  for (const delaunay::DelaunayVertex& v : vertices) taken.push_back(v.point);
   std::ranges::sort(taken, less);
-  for (const std::uint32_t i : hilbert_order(points))
+  for (const std::uint32_t i : delaunay::hilbert_order(points))
     if (!std::ranges::binary_search(taken, points[i], less))
       vertices.push_back({points[i], static_cast<std::uint32_t>(vertices.size()), 0});
   return vertices;
@@ -239,16 +241,16 @@ std::vector<DelaunayVertex> with_points(std::vector<DelaunayVertex> vertices, st
 
 }  // namespace
 
-ProtectedDelaunay unprotected(const Plc& plc, Delaunay delaunay) {
+ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay) {
   ProtectedDelaunay result{std::move(delaunay), {}, {}};
-  for (const Segment& s : plc.segments) {
+  for (const plc::Segment& s : plc.segments) {
     result.chains.push_back({{s.ends[0], 0}, {s.ends[1], whole}});
     result.must_be_chain.push_back(s.grazeable);
   }
   return result;
 }
 
-ProtectedDelaunay protect_edges(const Plc& plc, ProtectedDelaunay start, Protection strategy,
+ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress) {
   SegmentChains& chains = start.chains;
   Protector protector(plc, strategy, start.delaunay, chains);
@@ -275,16 +277,16 @@ std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
   return splits;
 }
 
-Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress) {
+delaunay::Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress) {
   const ProtectedEdges edges(start);
-  Delaunay& delaunay = start.delaunay;
+  delaunay::Delaunay& delaunay = start.delaunay;
   delaunay.vertices.reserve(delaunay.vertices.size() + points.size());
   delaunay.cells.reserve(delaunay.cells.size() + 7 * points.size());
-  Insertion insertion(delaunay);
+  delaunay::Insertion insertion(delaunay);
   std::vector<std::uint64_t> found;
   std::uint32_t last = delaunay.vertices[0].cell;
   std::uint64_t done = 0;
-  for (const std::uint32_t i : hilbert_order(points)) {
+  for (const std::uint32_t i : delaunay::hilbert_order(points)) {
     if ((++done & 0xFFFF) == 0) report(progress, "delaunay", done, points.size());
     const auto id = static_cast<std::uint32_t>(delaunay.vertices.size());
     delaunay.vertices.push_back({points[i], id, 0});
@@ -298,14 +300,14 @@ Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start
   return std::move(start.delaunay);
 }
 
-Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,
-                       const Progress& progress) {
-  Delaunay all = wrap_delaunay(with_points(start.delaunay.vertices, points), grid_scale, progress);
+delaunay::Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,
+                                 const Progress& progress) {
+  delaunay::Delaunay all = delaunay::wrap_delaunay(with_points(start.delaunay.vertices, points), grid_scale, progress);
   // Edges that are there with all points were there with any part of them: then insertion would drop none.
-  CellStar star(all);
+  delaunay::CellStar star(all);
   if (std::ranges::all_of(edges_that_stay(start), [&](const auto& edge) { return star.has_edge(edge[0], edge[1]); }))
     return all;
-  return wrap_delaunay(insert_interior(points, std::move(start), progress).vertices, grid_scale, progress);
+  return delaunay::wrap_delaunay(insert_interior(points, std::move(start), progress).vertices, grid_scale, progress);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::protection

@@ -11,11 +11,11 @@
 #include "engine/protection/options.h"
 #include "engine/protection/segment_chains.h"
 
-namespace ccdt {
+namespace ccdt::protection {
 
 /// A Delaunay tetrahedralization and the segments, those that need protection as chains of its edges.
 struct ProtectedDelaunay {
-  Delaunay delaunay;
+  delaunay::Delaunay delaunay;
   SegmentChains chains;
   std::vector<bool> must_be_chain;  ///< by segment: must its pieces be Delaunay edges?
 };
@@ -23,7 +23,7 @@ struct ProtectedDelaunay {
 /// The state before protection: segments without splits, of which the grazeable ones must become chains.
 ///
 /// \param delaunay  of the vertices of `plc`
-ProtectedDelaunay unprotected(const Plc& plc, Delaunay delaunay);
+ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay);
 
 /// Splits every missing grazeable segment until each is a chain of Delaunay edges (paper, section 2), so that the
 /// constrained Delaunay tetrahedralization exists (Shewchuk 2002).
@@ -36,7 +36,7 @@ ProtectedDelaunay unprotected(const Plc& plc, Delaunay delaunay);
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices
 /// \return          the same with the Steiner vertices, whose ids follow the existing ones
 /// \throw LimitError  a segment would need a split finer than 2^-20 of it; carries the place
-ProtectedDelaunay protect_edges(const Plc& plc, ProtectedDelaunay start, Protection strategy,
+ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress = {});
 
 /// How many vertices were put on segments at each level, from level 1; for `midpoint` that is the depth of the
@@ -47,13 +47,14 @@ std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains);
 /// dropped rather than the edge split.
 ///
 /// \return  the tetrahedralization with the points, whose ids follow the existing ones
-Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress = {});
+delaunay::Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start,
+                                   const Progress& progress = {});
 
 /// The same with the same result, but all vertices are tetrahedralized anew by `wrap_delaunay`. Only if edges are
 /// missing then, the points to drop are found by insertion.
 ///
 /// \param grid_scale  of `wrap_delaunay`
-Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,
-                       const Progress& progress = {});
+delaunay::Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,
+                                 const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::protection

@@ -5,7 +5,7 @@
 
 #include "engine/base/index.h"
 
-namespace ccdt {
+namespace ccdt::protection {
 
 /// A vertex on a segment.
 struct ChainVertex {
@@ -20,4 +20,4 @@ inline constexpr std::uint32_t whole_segment = 1u << 20;
 /// (`whole_segment`).
 using SegmentChains = std::vector<std::vector<ChainVertex>>;
 
-}  // namespace ccdt
+}  // namespace ccdt::protection

@@ -3,7 +3,7 @@
 
 #include "engine/surface/remesh_steps.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
@@ -371,4 +371,4 @@ bool improve_by_flip(WorkingMesh& m, EdgeHandle e) {
   return true;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -5,7 +5,7 @@
 
 #include "engine/plc/integer_points.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
@@ -59,7 +59,7 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   for (std::uint32_t i = begin; i < end; ++i) box = hull(box, bounding_box(corners(items_[i])));
   nodes_[node] = {box, begin, end - begin};
   if (end - begin <= leaf_size) return;
-  const int axis = dominant_axis(box.high - box.low);
+  const int axis = plc::dominant_axis(box.high - box.low);
   const auto key = [&](std::uint32_t t) {
     const std::array<Point3, 3> c = corners(t);
     return as_array(c[0])[axis] + as_array(c[1])[axis] + as_array(c[2])[axis];
@@ -130,4 +130,4 @@ Point3 ClosestPoint::normal_at(const Foot& foot) const {
   return l > 1e-3 ? (1 / l) * normal : surface_.triangle_normals[foot.triangle];
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

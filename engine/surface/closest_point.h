@@ -7,7 +7,7 @@
 #include "engine/base/box_tree.h"
 #include "engine/surface/original_surface.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 /// A point of the original surface.
 struct Foot {
@@ -50,4 +50,4 @@ class ClosestPoint {
   std::vector<Node> nodes_;           // the root of patch p is node p
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -5,7 +5,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
@@ -139,4 +139,4 @@ FeatureCurves chain_features(const OriginalSurface& surface, double sharp_angle)
   return Chainer(surface, sharp_angle).chain();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

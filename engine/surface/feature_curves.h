@@ -5,7 +5,7 @@
 
 #include "engine/surface/original_surface.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 /// A chain of features from corner to corner, and how far along it each of its points is.
 struct FeatureCurve {
@@ -42,4 +42,4 @@ struct FeatureCurves {
 /// A loop without a corner gets one.
 FeatureCurves chain_features(const OriginalSurface& surface, double sharp_angle);
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

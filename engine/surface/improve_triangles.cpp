@@ -2,7 +2,7 @@
 
 #include "engine/surface/remesh_steps.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr double good_angle = 36;  // degrees
@@ -59,4 +59,4 @@ void improve_worst_triangles(WorkingMesh& m) {
   }
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

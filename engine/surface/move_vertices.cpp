@@ -3,7 +3,7 @@
 
 #include "engine/surface/remesh_steps.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
@@ -259,4 +259,4 @@ bool improve_by_move(WorkingMesh& m, VertexHandle v) {
   return !m.at(v).is_frozen && improve_vertex(m, v);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

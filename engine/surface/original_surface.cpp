@@ -11,29 +11,29 @@
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/triangulate_polygons.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key
 
-std::uint32_t place_in(const VertexTriple& corners, std::uint32_t point) {
+std::uint32_t place_in(const plc::VertexTriple& corners, std::uint32_t point) {
   return corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
 }
 
 // The segments that the input itself names, among them the polygons of two vertices and the slits within its polygon
 // facets, split at all vertices that lie on them.
-SegmentSet declared_segments(const InputPlc& input, const Plc& plc, double tolerance) {
-  SegmentSet segments = gather_segments(input, plc);
-  TriangleSet ignored;
-  triangulate_polygons(input, plc, tolerance, ignored, segments);
-  split_segments_at_vertices(plc.vertices, segments);
+plc::SegmentSet declared_segments(const plc::InputPlc& input, const plc::Plc& plc, double tolerance) {
+  plc::SegmentSet segments = plc::gather_segments(input, plc);
+  plc::TriangleSet ignored;
+  plc::triangulate_polygons(input, plc, tolerance, ignored, segments);
+  plc::split_segments_at_vertices(plc.vertices, segments);
   return segments;
 }
 
 // For each vertex of the PLC: the input lists it, but no facet or segment of the input has it as a corner.
-std::vector<char> find_vertices_listed_alone(const InputPlc& input, const Plc& plc) {
+std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const plc::Plc& plc) {
   std::vector<char> alone(plc.vertices.size(), 0);
   for (const VertexId v : plc.vertex_of_input) alone[v] = 1;
   const auto use = [&](std::uint32_t input_vertex) { alone[plc.vertex_of_input[input_vertex]] = 0; };
@@ -41,7 +41,7 @@ std::vector<char> find_vertices_listed_alone(const InputPlc& input, const Plc& p
     for (const std::uint32_t v : corners) use(v);
   for (const auto& ends : input.segments)
     for (const std::uint32_t v : ends) use(v);
-  for (const PolygonFacet& facet : input.polygon_facets)
+  for (const plc::PolygonFacet& facet : input.polygon_facets)
     for (const auto& polygon : facet.polygons)
       if (polygon.size() > 1)
         for (const std::uint32_t v : polygon) use(v);
@@ -50,17 +50,17 @@ std::vector<char> find_vertices_listed_alone(const InputPlc& input, const Plc& p
 
 class SurfaceCutter {
  public:
-  SurfaceCutter(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness)
+  SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness)
       : plc_(plc), cosine_(std::cos(to_radians(sharp_angle + 1e-6))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
-    segments_ = declared_segments(input, plc, tolerance_of(plc, flatness));
+    segments_ = declared_segments(input, plc, plc::tolerance_of(plc, flatness));
     collect_triangles();
   }
 
   OriginalSurface cut() {
     do {
-      edges_ = make_edge_table(corners_);
+      edges_ = plc::make_edge_table(corners_);
       find_features();
       join_patches();
       join_wedges();
@@ -92,7 +92,7 @@ class SurfaceCutter {
   bool oriented_alike(std::uint32_t e) const {
     const auto around = edges_.around(e);
     const auto [a, b] = edges_.ends[e];
-    return runs_along(corners_[around[0]], a, b) != runs_along(corners_[around[1]], a, b);
+    return plc::runs_along(corners_[around[0]], a, b) != plc::runs_along(corners_[around[1]], a, b);
   }
 
   bool is_sharp(std::uint32_t e) const {
@@ -201,7 +201,7 @@ class SurfaceCutter {
     surface_.points.push_back(surface_.points[a] + 0.5 * (surface_.points[b] - surface_.points[a]));
     surface_.is_listed_alone.push_back(0);
     for (const std::uint32_t t : edges_.around(e)) {
-      VertexTriple half = corners_[t];
+      plc::VertexTriple half = corners_[t];
       half[place_in(half, a)] = middle;
       corners_[t][place_in(corners_[t], b)] = middle;
       corners_.push_back(half);
@@ -228,7 +228,7 @@ class SurfaceCutter {
       surface_.features.push_back(std::move(feature));
     }
     for (std::uint32_t s = 0; s < segments_.size(); ++s)
-      if (edges_.find(segments_.ends[s][0], segments_.ends[s][1]) == EdgeTable::none)
+      if (edges_.find(segments_.ends[s][0], segments_.ends[s][1]) == plc::EdgeTable::none)
         surface_.features.push_back({{segments_.ends[s][0], segments_.ends[s][1]}, {}, true, segments_.markers[s]});
   }
 
@@ -247,20 +247,20 @@ class SurfaceCutter {
     for (Point3& normal : surface_.wedge_normals) normal = normalized(normal);
   }
 
-  const Plc& plc_;
+  const plc::Plc& plc_;
   double cosine_;
-  SegmentSet segments_;
+  plc::SegmentSet segments_;
   SegmentMarkers segment_markers_;
-  std::vector<VertexTriple> corners_;
-  EdgeTable edges_;
+  std::vector<plc::VertexTriple> corners_;
+  plc::EdgeTable edges_;
   std::vector<char> is_feature_;
   OriginalSurface surface_;
 };
 
 }  // namespace
 
-OriginalSurface cut_surface(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness) {
+OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness) {
   return SurfaceCutter(input, plc, sharp_angle, flatness).cut();
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

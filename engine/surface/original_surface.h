@@ -8,7 +8,7 @@
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 /// An edge that remeshing keeps as a shape.
 struct FeatureEdge {
@@ -47,6 +47,6 @@ struct OriginalSurface {
 
 /// \param plc          of that input, built with the same flatness
 /// \param sharp_angle  see RemeshOptions, as is the flatness
-OriginalSurface cut_surface(const InputPlc& input, const Plc& plc, double sharp_angle, double flatness);
+OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness);
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -2,7 +2,7 @@
 
 #include "engine/surface/working_mesh.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 /// \name The steps of isotropic remeshing (Botsch and Kobbelt 2004), each over the whole surface.
 /// An operation that would turn a triangle away from the original surface, make a triangle worse than a limit, or make
@@ -44,4 +44,4 @@ bool improve_by_collapse(WorkingMesh& m, HalfedgeHandle h);  ///< draws the star
 bool improve_by_move(WorkingMesh& m, VertexHandle v);        ///< along the surface, or along the feature it is on
 /// @}
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

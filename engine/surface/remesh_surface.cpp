@@ -14,14 +14,14 @@
 #include "engine/plc/integer_points.h"
 #include "engine/surface/remesh_steps.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 // Where triangles cross, the edge length is halved some times; then the old triangles stay, ever farther around.
 constexpr int halvings = 3;
 constexpr int most_attempts = 10;
 
-void check_options(const InputPlc& input, const RemeshOptions& options) {
+void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   Place place;
   place.file = input.name;
   const bool is_positive = options.edge_length > 0 && std::isfinite(options.edge_length);
@@ -36,9 +36,9 @@ void check_options(const InputPlc& input, const RemeshOptions& options) {
 }
 
 /// What must be the same before and after: the regions, whatever their order.
-std::vector<std::pair<bool, int>> regions_of(const Plc& plc) {
+std::vector<std::pair<bool, int>> regions_of(const plc::Plc& plc) {
   std::vector<std::pair<bool, int>> regions;
-  for (const Region& c : plc.regions) regions.emplace_back(c.inside, c.attribute);
+  for (const plc::Region& c : plc.regions) regions.emplace_back(c.inside, c.attribute);
   std::sort(regions.begin(), regions.end());
   return regions;
 }
@@ -62,27 +62,28 @@ void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
 
 /// Places, in the units of the surface, where its triangles or segments meet in more than common vertices and edges, or
 /// where a triangle has no area: all of them up to some thousands, unlike `build_plc`, which stops at the first.
-std::vector<Point3> find_crossings(const InputPlc& surface, double flatness) {
+std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness) {
   constexpr std::size_t most_places = 4000;
-  Plc plc;
-  snap_vertices(surface, plc);
-  TriangleSet triangles = gather_triangles(surface, plc);
+  plc::Plc plc;
+  plc::snap_vertices(surface, plc);
+  plc::TriangleSet triangles = plc::gather_triangles(surface, plc);
   std::vector<Point3> places;
-  for (const VertexTriple& t : triangles.corners)
-    if (has_no_area(points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
+  for (const plc::VertexTriple& t : triangles.corners)
+    if (plc::has_no_area(plc::points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
   if (!places.empty()) return places;
 
-  EdgeTable edges = make_edge_table(triangles.corners);
-  const SegmentSet segments = gather_segments(surface, plc);
-  const SegmentMatch match = match_segments(segments, edges);
-  const double tolerance = tolerance_of(plc, flatness);
-  const FacetPatches facets = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
-  const auto add = [&](const Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
-  if (const auto covering = sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges))
+  plc::EdgeTable edges = plc::make_edge_table(triangles.corners);
+  const plc::SegmentSet segments = plc::gather_segments(surface, plc);
+  const plc::SegmentMatch match = plc::match_segments(segments, edges);
+  const double tolerance = plc::tolerance_of(plc, flatness);
+  const plc::FacetPatches facets = plc::find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
+  const auto add = [&](const plc::Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
+  if (const auto covering = plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges))
     add(*covering);
-  const BoxTree tree(boxes_of(plc.vertices, triangles));
-  for (const Overlap& o : find_overlaps(plc.vertices, triangles, facets, tree, most_places)) add(o);
-  for (const Overlap& o : find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
+  const BoxTree tree(plc::boxes_of(plc.vertices, triangles));
+  for (const plc::Overlap& o : plc::find_overlaps(plc.vertices, triangles, facets, tree, most_places)) add(o);
+  for (const plc::Overlap& o :
+       plc::find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
     add(o);
   return places;
 }
@@ -93,14 +94,14 @@ struct Defects {
   std::string words;
 };
 
-Defects find_defects(const InputPlc& result, const Plc& before, const RemeshOptions& options) {
+Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const RemeshOptions& options) {
   Defects defects{find_crossings(result, options.flatness), "triangles of the new surface cross each other"};
   if (!defects.places.empty()) return defects;
   try {
-    const Plc after = build_plc(result, {options.flatness});
+    const plc::Plc after = plc::build_plc(result, {options.flatness});
     if (regions_of(after) == regions_of(before)) return {};
     defects.words = "the new surface divides space otherwise than the old one";
-    for (const InputPlc::RegionSeed& region : result.regions) defects.places.push_back(region.seed);
+    for (const plc::InputPlc::RegionSeed& region : result.regions) defects.places.push_back(region.seed);
     defects.places.insert(defects.places.end(), result.holes.begin(), result.holes.end());
   } catch (const InputError& error) {
     defects.words = std::string("the new surface is not valid: ") + error.what();
@@ -131,7 +132,7 @@ void freeze(const OriginalSurface& original, const std::vector<Point3>& places, 
   }
 }
 
-[[noreturn]] void throw_not_remeshed(const InputPlc& input, const Defects& defects, double edge_length) {
+[[noreturn]] void throw_not_remeshed(const plc::InputPlc& input, const Defects& defects, double edge_length) {
   Place place;
   place.file = input.name;
   place.points.push_back(as_array(defects.places.front()));
@@ -142,9 +143,9 @@ void freeze(const OriginalSurface& original, const std::vector<Point3>& places, 
 
 }  // namespace
 
-InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, const Progress& progress) {
+plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
   check_options(input, options);
-  const Plc plc = build_plc(input, {options.flatness}, progress);
+  const plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
@@ -154,7 +155,7 @@ InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, con
   for (int attempt = 0;; ++attempt) {
     WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, frozen);
     remesh(mesh, options.iterations, progress);
-    InputPlc result = to_plc(mesh, input);
+    plc::InputPlc result = to_plc(mesh, input);
     const Defects defects = find_defects(result, plc, options);
     if (defects.places.empty()) return result;
     if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
@@ -168,4 +169,4 @@ InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, con
   }
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -3,7 +3,7 @@
 #include "engine/base/progress.h"
 #include "engine/plc/input.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 struct RemeshOptions {
   double edge_length = 0;  ///< target, in the units of the input; has to be positive
@@ -35,6 +35,6 @@ struct RemeshOptions {
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is no valid PLC, or an option is out of range
 /// \throw MeshError   no valid surface was found at this edge length; with the place
-InputPlc remesh_surface(const InputPlc& input, const RemeshOptions& options, const Progress& progress = {});
+plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress = {});
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -6,7 +6,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 /// What the quality of a triangle is measured by: its area over its squared edges, or its smallest angle.
 enum class TriangleMeasure { area, angle };
@@ -66,4 +66,4 @@ inline bool is_better(const TriangleFit& before, const TriangleFit& after) {
   return after.quality >= before.quality + least_gain && may_stand_for(before, after);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

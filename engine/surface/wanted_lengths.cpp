@@ -6,7 +6,7 @@
 #include "engine/surface/remesh_steps.h"
 #include "engine/surface/working_mesh.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 // How much longer edges may be wanted, per length of the way from a place where shorter ones are wanted.
@@ -167,4 +167,4 @@ void find_wanted_lengths(WorkingMesh& m) {
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -6,7 +6,7 @@
 #include "engine/base/point.h"
 #include "engine/surface/feature_curves.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 /// How far an edge may be from the original surface or feature in its middle, as a fraction of its length: a circle
 /// keeps eighteen edges at least.
@@ -48,4 +48,4 @@ class CurveLengths {
   std::vector<std::vector<double>> lengths_;  // by curve, at each of its points
 };
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

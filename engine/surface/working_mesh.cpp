@@ -5,7 +5,7 @@
 
 #include "engine/base/errors.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
@@ -143,8 +143,8 @@ bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, doub
                              m.at(a).near);
 }
 
-InputPlc to_plc(const WorkingMesh& m, const InputPlc& input) {
-  InputPlc plc;
+plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input) {
+  plc::InputPlc plc;
   plc.name = input.name;
   plc.inside = input.inside;
   plc.holes = input.holes;
@@ -175,4 +175,4 @@ InputPlc to_plc(const WorkingMesh& m, const InputPlc& input) {
   return plc;
 }
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

@@ -12,7 +12,7 @@
 #include "engine/surface/triangle_fit.h"
 #include "engine/surface/wanted_lengths.h"
 
-namespace ccdt {
+namespace ccdt::surface {
 
 struct SurfaceTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -157,6 +157,6 @@ inline TriangleFit fit_of(const WorkingMesh& m, const std::array<VertexHandle, 3
 }
 
 /// The surface as a PLC: with the name, holes and regions of the input, and with markers where it has some.
-InputPlc to_plc(const WorkingMesh& m, const InputPlc& input);
+plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
 
-}  // namespace ccdt
+}  // namespace ccdt::surface

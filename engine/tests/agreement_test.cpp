@@ -45,7 +45,7 @@ TEST(Agreement, ModelsAtThreeDensities) {
   for (const char* name : {"piston", "bracket", "stepping-pole"})
     for (const double edge_length : {5.0, 7.0, 11.0}) {
       SCOPED_TRACE(std::string(name) + " " + std::to_string(edge_length));
-      const InputPlc plc = make_solid(name, edge_length);
+      const InputPlc plc = models::make_solid(name, edge_length);
       for (const Lattice lattice : {Lattice::none, Lattice::fcc, Lattice::bcc, Lattice::sc})
         expect_agreement(plc, lattice);
     }
@@ -54,7 +54,7 @@ TEST(Agreement, ModelsAtThreeDensities) {
 TEST(Agreement, ModelsRotated) {
   for (const char* name : {"piston", "bracket", "stepping-pole"}) {
     SCOPED_TRACE(name);
-    const InputPlc plc = rotated(oblique, make_solid(name, 11));
+    const InputPlc plc = rotated(oblique, models::make_solid(name, 11));
     expect_agreement(plc, Lattice::none);
     expect_agreement(plc, Lattice::fcc);
   }
@@ -63,7 +63,7 @@ TEST(Agreement, ModelsRotated) {
 TEST(Agreement, PrimitivesPlainAndRotated) {
   for (const auto& [name, edge_length] : {std::pair{"cube", 0.2}, {"sphere", 0.25}, {"torus", 0.25}}) {
     SCOPED_TRACE(name);
-    const InputPlc plc = make_solid(name, edge_length);
+    const InputPlc plc = models::make_solid(name, edge_length);
     expect_agreement_of_all_strategies(plc);
     expect_agreement_of_all_strategies(rotated(oblique, plc));
   }
@@ -109,7 +109,7 @@ TEST(Agreement, RandomConvexAndRandomRoughSurfaces) {
   for (std::uint32_t i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
     expect_agreement(random_convex(6 + i, random), Lattice::none);
-    const InputPlc rough = roughened(make_solid("sphere", i % 3 == 0 ? 0.35 : 0.7), i % 2 ? 0.6 : 0.2, random);
+    const InputPlc rough = roughened(models::make_solid("sphere", i % 3 == 0 ? 0.35 : 0.7), i % 2 ? 0.6 : 0.2, random);
     expect_agreement(rough, Lattice::none);
     expect_agreement(rough, Lattice::bcc);
   }
@@ -137,7 +137,7 @@ TEST(Agreement, SmallRealParts) {
   if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const char* name : {"joint.off", "anchor.off", "rotor.off", "pinion.off", "handle.off", "cube-meshed.off"}) {
     SCOPED_TRACE(name);
-    const InputPlc plc = read_plc(folder_of_parts() / name);
+    const InputPlc plc = io::read_plc(folder_of_parts() / name);
     expect_agreement(plc, Lattice::none);
     expect_agreement(plc, Lattice::fcc);
   }

@@ -17,7 +17,7 @@ using namespace test;
 TEST(BuildDelaunay, GivesTheCellsOfTheDefinitionWhateverTheIdsAre) {
   for (const NamedPoints& set : tiny_sets()) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      const Delaunay d = build_delaunay(shuffled(set.points, seed));
+      const delaunay::Delaunay d = delaunay::build_delaunay(shuffled(set.points, seed));
       EXPECT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << set.name << ", order " << seed;
     }
   }
@@ -29,10 +29,10 @@ TEST(BuildDelaunay, GivesTheCellsOfTheDefinitionForManySmallLattices) {
     auto points = shuffled(seed % 2 ? simple_cubic(2, 2) : face_centred(1, 2), seed);
     points.resize(std::min<std::size_t>(points.size(), 6 + seed % 7));
     try {
-      const Delaunay d = build_delaunay(points);
+      const delaunay::Delaunay d = delaunay::build_delaunay(points);
       ASSERT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << seed;
     } catch (const MeshError&) {
-      for (const Point3& p : points) EXPECT_EQ(orient3d(points[0], points[1], points[2], p), 0) << seed;
+      for (const Point3& p : points) EXPECT_EQ(numbers::orient3d(points[0], points[1], points[2], p), 0) << seed;
       ++flat;
     }
   }
@@ -41,19 +41,19 @@ TEST(BuildDelaunay, GivesTheCellsOfTheDefinitionForManySmallLattices) {
 
 TEST(BuildDelaunay, LeavesSpheresAndOuterHalfSpacesEmpty) {
   for (const NamedPoints& set : small_sets()) {
-    const Delaunay d = build_delaunay(set.points);
+    const delaunay::Delaunay d = delaunay::build_delaunay(set.points);
     EXPECT_TRUE(is_consistent(d)) << set.name;
     EXPECT_TRUE(has_empty_spheres(d)) << set.name;
   }
 }
 
 TEST(BuildDelaunay, KeepsItsStructureConsistentForManyPoints) {
-  EXPECT_TRUE(is_consistent(build_delaunay(random_points(30000, 21))));
-  EXPECT_TRUE(is_consistent(build_delaunay(face_centred(18))));
+  EXPECT_TRUE(is_consistent(delaunay::build_delaunay(random_points(30000, 21))));
+  EXPECT_TRUE(is_consistent(delaunay::build_delaunay(face_centred(18))));
 }
 
 TEST(BuildDelaunay, FillsACubeOfAnyLattice) {
-  const auto volume = [](const Delaunay& d) {
+  const auto volume = [](const delaunay::Delaunay& d) {
     double six_fold = 0;
     for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
       if (!d.is_finite(c)) continue;
@@ -63,14 +63,14 @@ TEST(BuildDelaunay, FillsACubeOfAnyLattice) {
     }
     return six_fold / 6;
   };
-  EXPECT_EQ(volume(build_delaunay(simple_cubic(9, 2))), 18 * 18 * 18);
-  EXPECT_EQ(volume(build_delaunay(body_centred(7, 2))), 14 * 14 * 14);
-  EXPECT_EQ(volume(build_delaunay(face_centred(6, 2))), 12 * 12 * 12);
+  EXPECT_EQ(volume(delaunay::build_delaunay(simple_cubic(9, 2))), 18 * 18 * 18);
+  EXPECT_EQ(volume(delaunay::build_delaunay(body_centred(7, 2))), 14 * 14 * 14);
+  EXPECT_EQ(volume(delaunay::build_delaunay(face_centred(6, 2))), 12 * 12 * 12);
 }
 
 TEST(BuildDelaunay, KeepsPointsInTheirPlacesAndGivesEachARank) {
   const auto points = random_points(5000, 22);
-  const Delaunay d = build_delaunay(points);
+  const delaunay::Delaunay d = delaunay::build_delaunay(points);
   ASSERT_EQ(d.vertices.size(), points.size());
   std::set<std::uint32_t> ranks;
   for (std::uint32_t v = 0; v < points.size(); ++v) {
@@ -83,22 +83,22 @@ TEST(BuildDelaunay, KeepsPointsInTheirPlacesAndGivesEachARank) {
 
 TEST(BuildDelaunay, DependsOnThePointsAlone) {
   for (const NamedPoints& set : small_sets())
-    EXPECT_TRUE(are_equal(build_delaunay(set.points), build_delaunay(set.points))) << set.name;
+    EXPECT_TRUE(are_equal(delaunay::build_delaunay(set.points), delaunay::build_delaunay(set.points))) << set.name;
 }
 
 TEST(BuildDelaunay, RefusesPointsWithoutABody) {
   std::vector<Point3> plane;
   for (const Point3& p : random_points(100, 23)) plane.push_back({p.x, p.y, 12345});
-  EXPECT_THROW(build_delaunay(plane), MeshError);
+  EXPECT_THROW(delaunay::build_delaunay(plane), MeshError);
   std::vector<Point3> slanted;
   for (int i = 0; i < 10; ++i)
     for (int j = 0; j < 10; ++j) slanted.push_back({7.0 * i, 3.0 * j, 5.0 * i - 11.0 * j});
-  EXPECT_THROW(build_delaunay(slanted), MeshError);
+  EXPECT_THROW(delaunay::build_delaunay(slanted), MeshError);
   std::vector<Point3> line;
   for (int i = 0; i < 10; ++i) line.push_back({7.0 * i, 3.0 * i, 5.0 * i});
-  EXPECT_THROW(build_delaunay(line), MeshError);
-  EXPECT_THROW(build_delaunay(std::span(slanted).first(3)), MeshError);
-  EXPECT_THROW(build_delaunay({}), MeshError);
+  EXPECT_THROW(delaunay::build_delaunay(line), MeshError);
+  EXPECT_THROW(delaunay::build_delaunay(std::span(slanted).first(3)), MeshError);
+  EXPECT_THROW(delaunay::build_delaunay({}), MeshError);
 }
 
 }  // namespace

@@ -12,26 +12,26 @@ using testing::AssertionResult;
 using testing::AssertionSuccess;
 
 /// Is e in the perturbed sphere of the positively oriented v?
-bool in_sphere(std::span<const DelaunayVertex> vertices, const Corners& v, std::uint32_t e) {
-  const DelaunayVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]], &d = vertices[v[3]];
-  return insphere_perturbed(a.point, b.point, c.point, d.point, vertices[e].point,
-                            {a.rank, b.rank, c.rank, d.rank, vertices[e].rank}) > 0;
+bool in_sphere(std::span<const delaunay::DelaunayVertex> vertices, const Corners& v, std::uint32_t e) {
+  const delaunay::DelaunayVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]], &d = vertices[v[3]];
+  return numbers::insphere_perturbed(a.point, b.point, c.point, d.point, vertices[e].point,
+                                     {a.rank, b.rank, c.rank, d.rank, vertices[e].rank}) > 0;
 }
 
 /// Is e beyond the hull face of a ghost or, in its plane, in its perturbed circle?
-bool in_ghost(const Delaunay& d, const Cell& ghost, std::uint32_t e) {
-  const DelaunayVertex &a = d.vertices[ghost.vertices[0]], &b = d.vertices[ghost.vertices[1]],
-                       &c = d.vertices[ghost.vertices[2]];
-  const int side = orient3d(a.point, b.point, c.point, d.point(e));
+bool in_ghost(const delaunay::Delaunay& d, const delaunay::Cell& ghost, std::uint32_t e) {
+  const delaunay::DelaunayVertex &a = d.vertices[ghost.vertices[0]], &b = d.vertices[ghost.vertices[1]],
+                                 &c = d.vertices[ghost.vertices[2]];
+  const int side = numbers::orient3d(a.point, b.point, c.point, d.point(e));
   if (side != 0) return side > 0;
   const std::uint32_t inner = ghost.neighbors[3];
-  const Point3& apex = d.point(d.cells[cell_of(inner)].vertices[face_of(inner)]);
-  return incircle_perturbed(a.point, c.point, b.point, apex, d.point(e), {a.rank, c.rank, b.rank, d.vertices[e].rank}) >
-         0;
+  const Point3& apex = d.point(d.cells[delaunay::cell_of(inner)].vertices[delaunay::face_of(inner)]);
+  return numbers::incircle_perturbed(a.point, c.point, b.point, apex, d.point(e),
+                                     {a.rank, c.rank, b.rank, d.vertices[e].rank}) > 0;
 }
 
-std::array<std::uint32_t, 3> corners_of_face(const Cell& cell, std::uint32_t f) {
-  const auto& corner = face_corners[f];
+std::array<std::uint32_t, 3> corners_of_face(const delaunay::Cell& cell, std::uint32_t f) {
+  const auto& corner = delaunay::face_corners[f];
   return {cell.vertices[corner[0]], cell.vertices[corner[1]], cell.vertices[corner[2]]};
 }
 
@@ -42,35 +42,36 @@ bool are_opposite(const std::array<std::uint32_t, 3>& f, const std::array<std::u
   return false;
 }
 
-AssertionResult has_good_vertices(const Delaunay& d, std::uint32_t c) {
+AssertionResult has_good_vertices(const delaunay::Delaunay& d, std::uint32_t c) {
   const auto& v = d.cells[c].vertices;
   for (int i = 0; i < 4; ++i) {
-    if (v[i] == ghost_vertex ? i != 3 : v[i] >= d.vertices.size())
+    if (v[i] == delaunay::ghost_vertex ? i != 3 : v[i] >= d.vertices.size())
       return AssertionFailure() << "cell " << c << " has a wrong vertex " << i;
     for (int j = 0; j < i; ++j)
       if (v[i] == v[j]) return AssertionFailure() << "cell " << c << " has a vertex twice";
   }
-  if (v[3] != ghost_vertex && orient3d(d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3])) <= 0)
+  if (v[3] != delaunay::ghost_vertex &&
+      numbers::orient3d(d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3])) <= 0)
     return AssertionFailure() << "cell " << c << " is not positively oriented";
   return AssertionSuccess();
 }
 
-AssertionResult has_good_neighbors(const Delaunay& d, std::uint32_t c) {
+AssertionResult has_good_neighbors(const delaunay::Delaunay& d, std::uint32_t c) {
   for (std::uint32_t f = 0; f < 4; ++f) {
     const std::uint32_t code = d.cells[c].neighbors[f];
-    if (cell_of(code) >= d.cells.size() || d.is_dead(cell_of(code)))
+    if (delaunay::cell_of(code) >= d.cells.size() || d.is_dead(delaunay::cell_of(code)))
       return AssertionFailure() << "cell " << c << " has no neighbor across face " << f;
-    const Cell& other = d.cells[cell_of(code)];
-    if (other.neighbors[face_of(code)] != face_code(c, f))
+    const delaunay::Cell& other = d.cells[delaunay::cell_of(code)];
+    if (other.neighbors[delaunay::face_of(code)] != delaunay::face_code(c, f))
       return AssertionFailure() << "cell " << c << " is not the neighbor of its neighbor across face " << f;
-    if (!are_opposite(corners_of_face(d.cells[c], f), corners_of_face(other, face_of(code))))
+    if (!are_opposite(corners_of_face(d.cells[c], f), corners_of_face(other, delaunay::face_of(code))))
       return AssertionFailure() << "cell " << c << " and its neighbor name different faces across face " << f;
   }
   return AssertionSuccess();
 }
 
-AssertionResult has_empty_sphere(const Delaunay& d, std::uint32_t c) {
-  const Cell& cell = d.cells[c];
+AssertionResult has_empty_sphere(const delaunay::Delaunay& d, std::uint32_t c) {
+  const delaunay::Cell& cell = d.cells[c];
   for (std::uint32_t e = 0; e < d.vertices.size(); ++e) {
     if (std::find(cell.vertices.begin(), cell.vertices.end(), e) != cell.vertices.end()) continue;
     if (d.is_ghost(c) ? in_ghost(d, cell, e) : in_sphere(d.vertices, cell.vertices, e))
@@ -79,7 +80,7 @@ AssertionResult has_empty_sphere(const Delaunay& d, std::uint32_t c) {
   return AssertionSuccess();
 }
 
-AssertionResult has_good_hint(const Delaunay& d, std::uint32_t v) {
+AssertionResult has_good_hint(const delaunay::Delaunay& d, std::uint32_t v) {
   const std::uint32_t c = d.vertices[v].cell;
   if (c >= d.cells.size() || d.is_dead(c)) return AssertionFailure() << "vertex " << v << " names no living cell";
   const auto& corners = d.cells[c].vertices;
@@ -90,7 +91,7 @@ AssertionResult has_good_hint(const Delaunay& d, std::uint32_t v) {
 
 }  // namespace
 
-std::vector<Corners> sorted_cells(const Delaunay& d) {
+std::vector<Corners> sorted_cells(const delaunay::Delaunay& d) {
   std::vector<Corners> cells;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     if (!d.is_finite(c)) continue;
@@ -101,12 +102,13 @@ std::vector<Corners> sorted_cells(const Delaunay& d) {
   return cells;
 }
 
-std::vector<Corners> cells_by_definition(std::span<const DelaunayVertex> vertices) {
+std::vector<Corners> cells_by_definition(std::span<const delaunay::DelaunayVertex> vertices) {
   const auto n = static_cast<std::uint32_t>(vertices.size());
   std::vector<Corners> cells;
   const auto add_if_empty = [&](const Corners& corners) {
     Corners v = corners;
-    const int side = orient3d(vertices[v[0]].point, vertices[v[1]].point, vertices[v[2]].point, vertices[v[3]].point);
+    const int side =
+        numbers::orient3d(vertices[v[0]].point, vertices[v[1]].point, vertices[v[2]].point, vertices[v[3]].point);
     if (side == 0) return;
     if (side < 0) std::swap(v[0], v[1]);
     for (std::uint32_t e = 0; e < n; ++e)
@@ -120,7 +122,7 @@ std::vector<Corners> cells_by_definition(std::span<const DelaunayVertex> vertice
   return cells;
 }
 
-AssertionResult is_consistent(const Delaunay& d) {
+AssertionResult is_consistent(const delaunay::Delaunay& d) {
   const std::set<std::uint32_t> free(d.free_cells.begin(), d.free_cells.end());
   if (free.size() != d.free_cells.size()) return AssertionFailure() << "a free cell is listed twice";
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
@@ -137,7 +139,7 @@ AssertionResult is_consistent(const Delaunay& d) {
   return AssertionSuccess();
 }
 
-AssertionResult has_empty_spheres(const Delaunay& d) {
+AssertionResult has_empty_spheres(const delaunay::Delaunay& d) {
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     if (d.is_dead(c)) continue;
     if (const auto empty = has_empty_sphere(d, c); !empty) return empty;
@@ -145,11 +147,11 @@ AssertionResult has_empty_spheres(const Delaunay& d) {
   return AssertionSuccess();
 }
 
-AssertionResult are_equal(const Delaunay& a, const Delaunay& b) {
-  const auto same_vertex = [](const DelaunayVertex& v, const DelaunayVertex& w) {
+AssertionResult are_equal(const delaunay::Delaunay& a, const delaunay::Delaunay& b) {
+  const auto same_vertex = [](const delaunay::DelaunayVertex& v, const delaunay::DelaunayVertex& w) {
     return v.point == w.point && v.rank == w.rank && v.cell == w.cell;
   };
-  const auto same_cell = [](const Cell& c, const Cell& e) {
+  const auto same_cell = [](const delaunay::Cell& c, const delaunay::Cell& e) {
     return c.vertices == e.vertices && c.neighbors == e.neighbors;
   };
   if (!std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), same_vertex))

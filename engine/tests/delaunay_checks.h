@@ -15,21 +15,21 @@ namespace ccdt::test {
 /// A cell as the sorted ids of its vertices, and the cells of a tetrahedralization as a sorted list: by these two are
 /// compared.
 using Corners = std::array<std::uint32_t, 4>;
-std::vector<Corners> sorted_cells(const Delaunay& d);
+std::vector<Corners> sorted_cells(const delaunay::Delaunay& d);
 
 /// The cells of the perturbed Delaunay tetrahedralization from its definition: all quadruples of vertices in whose
 /// sphere no vertex is, by their points and ranks.
-std::vector<Corners> cells_by_definition(std::span<const DelaunayVertex> vertices);
+std::vector<Corners> cells_by_definition(std::span<const delaunay::DelaunayVertex> vertices);
 
 /// The structure alone: neighbors name each other's common face, from its two sides; ghosts have the ghost as vertex 3
 /// and finite cells are positively oriented; every vertex has a cell and names one that has it; no two have the same
 /// rank; the dead cells are those of the free list.
-testing::AssertionResult is_consistent(const Delaunay& d);
+testing::AssertionResult is_consistent(const delaunay::Delaunay& d);
 
 /// No vertex is in the perturbed circumsphere of a cell, nor beyond a ghost's hull face, nor, in its plane, in its
 /// circumcircle. With `is_consistent` this makes the tetrahedralization Delaunay.
-testing::AssertionResult has_empty_spheres(const Delaunay& d);
+testing::AssertionResult has_empty_spheres(const delaunay::Delaunay& d);
 
-testing::AssertionResult are_equal(const Delaunay& a, const Delaunay& b);
+testing::AssertionResult are_equal(const delaunay::Delaunay& a, const delaunay::Delaunay& b);
 
 }  // namespace ccdt::test

@@ -13,28 +13,29 @@ namespace {
 using namespace test;
 
 /// Adds a vertex of the greatest rank that is not yet part of the tetrahedralization.
-std::uint32_t add_vertex(Delaunay& d, const Point3& p) {
+std::uint32_t add_vertex(delaunay::Delaunay& d, const Point3& p) {
   const auto v = static_cast<std::uint32_t>(d.vertices.size());
   d.vertices.push_back({p, v, 0});
   return v;
 }
 
-std::uint32_t first_living_cell(const Delaunay& d) {
+std::uint32_t first_living_cell(const delaunay::Delaunay& d) {
   std::uint32_t c = 0;
   while (d.is_dead(c)) ++c;
   return c;
 }
 
-std::set<std::uint32_t> cavity_vertices(const Insertion& insertion) {
+std::set<std::uint32_t> cavity_vertices(const delaunay::Insertion& insertion) {
   std::set<std::uint32_t> vertices;
-  for (const CavityFace& face : insertion.cavity_faces()) vertices.insert(face.vertices.begin(), face.vertices.end());
+  for (const delaunay::CavityFace& face : insertion.cavity_faces())
+    vertices.insert(face.vertices.begin(), face.vertices.end());
   return vertices;
 }
 
 /// The first half of the points at once, the others one by one.
-Delaunay build_in_two_steps(const std::vector<Point3>& points) {
-  Delaunay d = build_delaunay(std::span(points).first(points.size() / 2));
-  Insertion insertion(d);
+delaunay::Delaunay build_in_two_steps(const std::vector<Point3>& points) {
+  delaunay::Delaunay d = delaunay::build_delaunay(std::span(points).first(points.size() / 2));
+  delaunay::Insertion insertion(d);
   std::uint32_t start = first_living_cell(d);
   for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
     EXPECT_TRUE(insertion.find_cavity(add_vertex(d, points[i]), start));
@@ -46,14 +47,14 @@ Delaunay build_in_two_steps(const std::vector<Point3>& points) {
 TEST(Insertion, OneByOneGivesTheCellsOfTheDefinition) {
   for (const NamedPoints& set : tiny_sets()) {
     if (set.points.size() < 16) continue;
-    const Delaunay d = build_in_two_steps(set.points);
+    const delaunay::Delaunay d = build_in_two_steps(set.points);
     EXPECT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << set.name;
   }
 }
 
 TEST(Insertion, OneByOneGivesADelaunayTetrahedralization) {
   for (const NamedPoints& set : small_sets()) {
-    const Delaunay d = build_in_two_steps(set.points);
+    const delaunay::Delaunay d = build_in_two_steps(set.points);
     EXPECT_TRUE(is_consistent(d)) << set.name;
     EXPECT_TRUE(has_empty_spheres(d)) << set.name;
   }
@@ -62,7 +63,7 @@ TEST(Insertion, OneByOneGivesADelaunayTetrahedralization) {
 TEST(Insertion, OneByOneGivesWhatBuildingAtOnceGivesWhereNoRankDecides) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const auto points = random_points(3000, seed);
-    EXPECT_EQ(sorted_cells(build_in_two_steps(points)), sorted_cells(build_delaunay(points)));
+    EXPECT_EQ(sorted_cells(build_in_two_steps(points)), sorted_cells(delaunay::build_delaunay(points)));
   }
 }
 
@@ -70,8 +71,8 @@ TEST(Insertion, KeepsTheStructureConsistentAfterEachVertex) {
   for (const NamedPoints& set : tiny_sets()) {
     const std::size_t given = set.points.size() / 2;
     if (given < 8) continue;
-    Delaunay d = build_delaunay(std::span(set.points).first(given));
-    Insertion insertion(d);
+    delaunay::Delaunay d = delaunay::build_delaunay(std::span(set.points).first(given));
+    delaunay::Insertion insertion(d);
     for (std::size_t i = given; i < set.points.size(); ++i) {
       const std::uint32_t far = d.vertices[i % given].cell;
       ASSERT_TRUE(insertion.find_cavity(add_vertex(d, set.points[i]), far)) << set.name;
@@ -83,8 +84,8 @@ TEST(Insertion, KeepsTheStructureConsistentAfterEachVertex) {
 }
 
 TEST(Insertion, FindsTheSameCavityFromEveryCell) {
-  Delaunay d = build_delaunay(face_centred(2, 4));
-  Insertion insertion(d);
+  delaunay::Delaunay d = delaunay::build_delaunay(face_centred(2, 4));
+  delaunay::Insertion insertion(d);
   for (const Point3& p : {Point3{1, 1, 1}, {3, 4, 5}, {-1, 2, 2}, {4, 4, 9}, {2, 1, 0}}) {
     const std::uint32_t v = add_vertex(d, p);
     std::set<std::uint32_t> expected;
@@ -104,21 +105,21 @@ TEST(Insertion, FindsTheSameCavityFromEveryCell) {
 
 TEST(Insertion, TheCavityIsClosedAndItsFacesLookAtTheNewVertex) {
   for (const NamedPoints& set : small_sets()) {
-    Delaunay d = build_delaunay(std::span(set.points).first(set.points.size() - 1));
-    Insertion insertion(d);
+    delaunay::Delaunay d = delaunay::build_delaunay(std::span(set.points).first(set.points.size() - 1));
+    delaunay::Insertion insertion(d);
     ASSERT_TRUE(insertion.find_cavity(add_vertex(d, set.points.back()), first_living_cell(d))) << set.name;
     std::set<std::uint32_t> outside;
-    for (const CavityFace& face : insertion.cavity_faces()) {
-      const Cell& cell = d.cells[cell_of(face.outside)];
-      EXPECT_FALSE(insertion.in_cavity(cell_of(face.outside)));
-      EXPECT_TRUE(insertion.in_cavity(cell_of(cell.neighbors[face_of(face.outside)])));
+    for (const delaunay::CavityFace& face : insertion.cavity_faces()) {
+      const delaunay::Cell& cell = d.cells[delaunay::cell_of(face.outside)];
+      EXPECT_FALSE(insertion.in_cavity(delaunay::cell_of(face.outside)));
+      EXPECT_TRUE(insertion.in_cavity(delaunay::cell_of(cell.neighbors[delaunay::face_of(face.outside)])));
       EXPECT_TRUE(outside.insert(face.outside).second) << "a face is there twice";
       for (const std::uint32_t v : face.vertices)
         EXPECT_NE(std::find(cell.vertices.begin(), cell.vertices.end(), v), cell.vertices.end());
     }
     for (const std::uint32_t c : insertion.cavity_cells()) {
       for (const std::uint32_t code : d.cells[c].neighbors)
-        EXPECT_NE(insertion.in_cavity(cell_of(code)), outside.contains(code)) << set.name;
+        EXPECT_NE(insertion.in_cavity(delaunay::cell_of(code)), outside.contains(code)) << set.name;
     }
   }
 }
@@ -126,9 +127,9 @@ TEST(Insertion, TheCavityIsClosedAndItsFacesLookAtTheNewVertex) {
 TEST(Insertion, AbandonLeavesAllAsItWas) {
   for (const NamedPoints& set : small_sets()) {
     const auto most = std::span(set.points).first(set.points.size() - 10);
-    Delaunay d = build_delaunay(most);
-    Insertion insertion(d);
-    const Delaunay before = d;
+    delaunay::Delaunay d = delaunay::build_delaunay(most);
+    delaunay::Insertion insertion(d);
+    const delaunay::Delaunay before = d;
     const std::uint32_t start = first_living_cell(d);
     for (const Point3& p : std::span(set.points).last(10)) {
       const std::uint32_t v = add_vertex(d, p);
@@ -141,8 +142,8 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
       ASSERT_TRUE(are_equal(d, before)) << set.name;
     }
     // The same insertion goes on as one that has never been abandoned.
-    Delaunay fresh = before;
-    Insertion never_abandoned(fresh);
+    delaunay::Delaunay fresh = before;
+    delaunay::Insertion never_abandoned(fresh);
     for (const Point3& p : std::span(set.points).last(10)) {
       ASSERT_TRUE(insertion.find_cavity(add_vertex(d, p), d.vertices[0].cell)) << set.name;
       ASSERT_TRUE(never_abandoned.find_cavity(add_vertex(fresh, p), fresh.vertices[0].cell)) << set.name;
@@ -156,9 +157,9 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
 
 TEST(Insertion, NamesTheTwinOfAPointThatIsThere) {
   for (const NamedPoints& set : small_sets()) {
-    Delaunay d = build_delaunay(set.points);
-    Insertion insertion(d);
-    const Delaunay before = d;
+    delaunay::Delaunay d = delaunay::build_delaunay(set.points);
+    delaunay::Insertion insertion(d);
+    const delaunay::Delaunay before = d;
     for (std::uint32_t v = 0; v < set.points.size(); v += 7) {
       const std::uint32_t copy = add_vertex(d, set.points[v]);
       EXPECT_FALSE(insertion.find_cavity(copy, d.vertices[set.points.size() / 2].cell)) << set.name;
@@ -176,8 +177,8 @@ TEST(Insertion, FillsCavitiesOfManyVertices) {
   for (const std::size_t n : {62, 63, 64, 65, 66, 127, 128, 129, 253, 254, 255, 256, 257, 300}) {
     auto points = shuffled(sphere, n);
     points.resize(n);
-    Delaunay d = build_delaunay(points);
-    Insertion insertion(d);
+    delaunay::Delaunay d = delaunay::build_delaunay(points);
+    delaunay::Insertion insertion(d);
     const std::uint32_t centre = add_vertex(d, {});
     ASSERT_TRUE(insertion.find_cavity(centre, first_living_cell(d)));
     EXPECT_EQ(cavity_vertices(insertion).size(), n);
@@ -193,11 +194,11 @@ TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
   for (const std::size_t n : {100, 200, 300, 500}) {
     auto points = shuffled(sphere, n);
     points.resize(n);
-    Delaunay d = build_delaunay(points);
-    Insertion insertion(d);
+    delaunay::Delaunay d = delaunay::build_delaunay(points);
+    delaunay::Insertion insertion(d);
     ASSERT_TRUE(insertion.find_cavity(add_vertex(d, {1000003, 1000, 10}), first_living_cell(d)));
     const auto border = cavity_vertices(insertion);
-    EXPECT_TRUE(border.contains(ghost_vertex));
+    EXPECT_TRUE(border.contains(delaunay::ghost_vertex));
     if (n == 500) {
       EXPECT_GT(border.size(), 200u);
     }

@@ -15,12 +15,12 @@ namespace {
 
 using namespace test;
 
-bool has_vertex(const Cell& cell, std::uint32_t v) {
+bool has_vertex(const delaunay::Cell& cell, std::uint32_t v) {
   return std::find(cell.vertices.begin(), cell.vertices.end(), v) != cell.vertices.end();
 }
 
 /// All cells that are not dead and have all of the vertices.
-std::set<std::uint32_t> cells_with(const Delaunay& d, const std::vector<std::uint32_t>& vertices) {
+std::set<std::uint32_t> cells_with(const delaunay::Delaunay& d, const std::vector<std::uint32_t>& vertices) {
   std::set<std::uint32_t> cells;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     const auto has = [&](std::uint32_t v) { return has_vertex(d.cells[c], v); };
@@ -30,28 +30,29 @@ std::set<std::uint32_t> cells_with(const Delaunay& d, const std::vector<std::uin
 }
 
 /// The code names the face abc as a cell calls it from which abc is counterclockwise, the ghost being outside.
-void expect_face_above(const Delaunay& d, std::uint32_t code, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const Cell& cell = d.cells[cell_of(code)];
-  const std::uint32_t apex = cell.vertices[face_of(code)];
+void expect_face_above(const delaunay::Delaunay& d, std::uint32_t code, std::uint32_t a, std::uint32_t b,
+                       std::uint32_t c) {
+  const delaunay::Cell& cell = d.cells[delaunay::cell_of(code)];
+  const std::uint32_t apex = cell.vertices[delaunay::face_of(code)];
   EXPECT_TRUE(has_vertex(cell, a) && has_vertex(cell, b) && has_vertex(cell, c));
   EXPECT_TRUE(apex != a && apex != b && apex != c);
-  if (apex != ghost_vertex) {
-    EXPECT_GT(orient3d(d.point(a), d.point(b), d.point(c), d.point(apex)), 0);
+  if (apex != delaunay::ghost_vertex) {
+    EXPECT_GT(numbers::orient3d(d.point(a), d.point(b), d.point(c), d.point(apex)), 0);
   } else {
-    const std::uint32_t inner = cell.neighbors[face_of(code)];
-    const Point3& below = d.point(d.cells[cell_of(inner)].vertices[face_of(inner)]);
-    EXPECT_LT(orient3d(d.point(a), d.point(b), d.point(c), below), 0);
+    const std::uint32_t inner = cell.neighbors[delaunay::face_of(code)];
+    const Point3& below = d.point(d.cells[delaunay::cell_of(inner)].vertices[delaunay::face_of(inner)]);
+    EXPECT_LT(numbers::orient3d(d.point(a), d.point(b), d.point(c), below), 0);
   }
 }
 
 /// Tetrahedralizations after building alone, and after insertions that reuse cells.
-std::vector<Delaunay> samples() {
-  std::vector<Delaunay> result;
+std::vector<delaunay::Delaunay> samples() {
+  std::vector<delaunay::Delaunay> result;
   for (const NamedPoints& set : tiny_sets()) {
-    result.push_back(build_delaunay(set.points));
+    result.push_back(delaunay::build_delaunay(set.points));
     if (set.points.size() < 16) continue;
-    Delaunay d = build_delaunay(std::span(set.points).first(set.points.size() / 2));
-    Insertion insertion(d);
+    delaunay::Delaunay d = delaunay::build_delaunay(std::span(set.points).first(set.points.size() / 2));
+    delaunay::Insertion insertion(d);
     for (std::size_t i = d.vertices.size(); i < set.points.size(); ++i) {
       d.vertices.push_back({set.points[i], static_cast<std::uint32_t>(i), 0});
       insertion.find_cavity(static_cast<std::uint32_t>(i), d.vertices[0].cell);
@@ -63,8 +64,8 @@ std::vector<Delaunay> samples() {
 }
 
 TEST(CellStar, HoldsAllCellsAroundAVertexOnce) {
-  for (const Delaunay& d : samples()) {
-    CellStar star(d);
+  for (const delaunay::Delaunay& d : samples()) {
+    delaunay::CellStar star(d);
     for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
       const auto around = star.around(v);
       const std::set<std::uint32_t> cells(around.begin(), around.end());
@@ -75,8 +76,8 @@ TEST(CellStar, HoldsAllCellsAroundAVertexOnce) {
 }
 
 TEST(CellStar, KnowsAllEdges) {
-  for (const Delaunay& d : samples()) {
-    CellStar star(d);
+  for (const delaunay::Delaunay& d : samples()) {
+    delaunay::CellStar star(d);
     for (std::uint32_t a = 0; a < d.vertices.size(); ++a)
       for (std::uint32_t b = a + 1; b < d.vertices.size(); ++b)
         ASSERT_EQ(star.has_edge(a, b), !cells_with(d, {a, b}).empty()) << a << " " << b;
@@ -84,16 +85,16 @@ TEST(CellStar, KnowsAllEdges) {
 }
 
 TEST(CellStar, FindsAllFacesFromBothSidesAndNoOthers) {
-  for (const Delaunay& d : samples()) {
-    CellStar star(d);
+  for (const delaunay::Delaunay& d : samples()) {
+    delaunay::CellStar star(d);
     std::set<std::array<std::uint32_t, 3>> faces;
     for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
       if (d.is_dead(c)) continue;
-      for (const auto& corner : face_corners) {
+      for (const auto& corner : delaunay::face_corners) {
         const auto& v = d.cells[c].vertices;
         std::array<std::uint32_t, 3> face = {v[corner[0]], v[corner[1]], v[corner[2]]};
         std::sort(face.begin(), face.end());
-        if (face[2] != ghost_vertex) faces.insert(face);
+        if (face[2] != delaunay::ghost_vertex) faces.insert(face);
       }
     }
     const auto n = static_cast<std::uint32_t>(d.vertices.size());
@@ -102,13 +103,13 @@ TEST(CellStar, FindsAllFacesFromBothSidesAndNoOthers) {
         for (std::uint32_t c = b + 1; c < n; ++c) {
           const std::uint32_t code = star.find_face(a, b, c), reverse = star.find_face(c, b, a);
           if (!faces.contains({a, b, c})) {
-            ASSERT_EQ(code, no_neighbor);
-            ASSERT_EQ(reverse, no_neighbor);
+            ASSERT_EQ(code, delaunay::no_neighbor);
+            ASSERT_EQ(reverse, delaunay::no_neighbor);
             continue;
           }
-          ASSERT_NE(code, no_neighbor);
+          ASSERT_NE(code, delaunay::no_neighbor);
           expect_face_above(d, code, a, b, c);
-          EXPECT_EQ(reverse, d.cells[cell_of(code)].neighbors[face_of(code)]);
+          EXPECT_EQ(reverse, d.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]);
           EXPECT_EQ(star.find_face(b, c, a), code);
           EXPECT_EQ(star.find_face(c, a, b), code);
         }
@@ -119,7 +120,7 @@ TEST(CellStar, FindsAllFacesFromBothSidesAndNoOthers) {
 
 TEST(HilbertOrder, HoldsEachPointOnce) {
   for (const int n : {0, 1, 2, 100, 30000}) {
-    auto order = hilbert_order(random_points(n, 31));
+    auto order = delaunay::hilbert_order(random_points(n, 31));
     std::sort(order.begin(), order.end());
     ASSERT_EQ(order.size(), static_cast<std::size_t>(n));
     for (std::uint32_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
@@ -129,7 +130,7 @@ TEST(HilbertOrder, HoldsEachPointOnce) {
 /// Points in random order are half the extent apart; along the curve, by the spacing of a round's points.
 TEST(HilbertOrder, PutsNeighborsNextToEachOther) {
   const auto points = random_points(20000, 32);
-  const auto order = hilbert_order(points);
+  const auto order = delaunay::hilbert_order(points);
   double length = 0;
   for (std::size_t i = 1; i < order.size(); ++i)
     length += std::sqrt(squared_length(points[order[i]] - points[order[i - 1]]));

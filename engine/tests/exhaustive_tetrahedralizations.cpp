@@ -39,7 +39,7 @@ class Enumeration {
       Face face = {a, b, c};
       std::ranges::sort(face);
       surface_.push_back(face);
-      const bool turned = orient3d(at(face[0]), at(face[1]), at(face[2]), at(a) + normal(a, b, c)) < 0;
+      const bool turned = numbers::orient3d(at(face[0]), at(face[1]), at(face[2]), at(a) + normal(a, b, c)) < 0;
       open_[face] = turned ? 1 : -1;  // the inside is below the triangle
     }
     list_candidates();
@@ -51,7 +51,7 @@ class Enumeration {
  private:
   const Point3& at(Vertex v) const { return polyhedron_.vertices[v]; }
   Point3 normal(Vertex a, Vertex b, Vertex c) const { return cross(at(b) - at(a), at(c) - at(a)); }
-  int side(const Face& f, Vertex v) const { return orient3d(at(f[0]), at(f[1]), at(f[2]), at(v)); }
+  int side(const Face& f, Vertex v) const { return numbers::orient3d(at(f[0]), at(f[1]), at(f[2]), at(v)); }
 
   bool contains(const Tetrahedron& t, Vertex v) const {
     for (unsigned i = 0; i < 4; ++i)
@@ -60,9 +60,9 @@ class Enumeration {
   }
   bool pierces(const Edge& e, const Face& f) const {
     if (has(f, e[0]) || has(f, e[1]) || side(f, e[0]) == side(f, e[1])) return false;
-    const int turn = orient3d(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
-    return turn == orient3d(at(e[0]), at(e[1]), at(f[1]), at(f[2])) &&
-           turn == orient3d(at(e[0]), at(e[1]), at(f[2]), at(f[0]));
+    const int turn = numbers::orient3d(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
+    return turn == numbers::orient3d(at(e[0]), at(e[1]), at(f[1]), at(f[2])) &&
+           turn == numbers::orient3d(at(e[0]), at(e[1]), at(f[2]), at(f[0]));
   }
   bool crosses_surface(const Tetrahedron& t) const {
     std::vector<Face> faces;
@@ -171,7 +171,7 @@ class Enumeration {
           const Face face = face_opposite(s, i);
           if (s == t || !std::ranges::includes(t, face)) continue;
           const Point3 &a = at(s[0]), &b = at(s[1]), &c = at(s[2]), &d = at(s[3]);
-          if (insphere(a, b, c, d, at(apex(t, face))) * orient3d(a, b, c, d) > 0) return false;
+          if (numbers::insphere(a, b, c, d, at(apex(t, face))) * numbers::orient3d(a, b, c, d) > 0) return false;
         }
       }
     return true;
@@ -192,9 +192,9 @@ bool is_generic(const Polyhedron& polyhedron) {
     for (std::size_t b = 0; b < a; ++b)
       for (std::size_t c = 0; c < b; ++c)
         for (std::size_t d = 0; d < c; ++d) {
-          if (orient3d(v[a], v[b], v[c], v[d]) == 0) return false;
+          if (numbers::orient3d(v[a], v[b], v[c], v[d]) == 0) return false;
           for (std::size_t e = 0; e < d; ++e)
-            if (insphere(v[a], v[b], v[c], v[d], v[e]) == 0) return false;
+            if (numbers::insphere(v[a], v[b], v[c], v[d], v[e]) == 0) return false;
         }
   return true;
 }

@@ -17,15 +17,15 @@ namespace {
 using namespace mesh_test;
 
 struct Found {
-  Plc plc;
-  SegmentChains chains;
+  plc::Plc plc;
+  protection::SegmentChains chains;
   std::vector<Point3> places;  ///< of all vertices
-  std::vector<Freedom> freedom;
+  std::vector<improve::Freedom> freedom;
 
   /// How many vertices have 0, 1, 2 and 3 dimensions.
   std::array<int, 4> counts() const {
     std::array<int, 4> result = {};
-    for (const Freedom& f : freedom) ++result[static_cast<std::size_t>(f.dimensions)];
+    for (const improve::Freedom& f : freedom) ++result[static_cast<std::size_t>(f.dimensions)];
     return result;
   }
   int dimensions_at(const Point3& world) const {
@@ -38,16 +38,17 @@ struct Found {
 };
 
 /// \param interior  how many vertices the mesh has beyond those of the PLC and the Steiner vertices
-Found find(const InputPlc& input, bool protect = false, std::size_t interior = 0) {
-  Found found{build_plc(input), {}, {}, {}};
-  ProtectedDelaunay surface = unprotected(found.plc, build_delaunay(found.plc.vertices));
+Found find(const plc::InputPlc& input, bool protect = false, std::size_t interior = 0) {
+  Found found{plc::build_plc(input), {}, {}, {}};
+  protection::ProtectedDelaunay surface =
+      protection::unprotected(found.plc, delaunay::build_delaunay(found.plc.vertices));
   if (protect) {
     surface.must_be_chain.assign(found.plc.segments.size(), true);
-    surface = protect_edges(found.plc, std::move(surface), Protection::midpoint);
+    surface = protection::protect_edges(found.plc, std::move(surface), protection::Protection::midpoint);
   }
   found.chains = surface.chains;
-  for (const DelaunayVertex& v : surface.delaunay.vertices) found.places.push_back(v.point);
-  found.freedom = find_freedom(found.plc, found.chains, found.places.size() + interior);
+  for (const delaunay::DelaunayVertex& v : surface.delaunay.vertices) found.places.push_back(v.point);
+  found.freedom = improve::find_freedom(found.plc, found.chains, found.places.size() + interior);
   return found;
 }
 
@@ -59,24 +60,24 @@ bool is_integer(const Point3& p) {
 /// PLC, what the steps span is in its plane or on its line.
 void expect_exact_steps(const Found& found) {
   for (std::size_t v = 0; v < found.plc.vertices.size(); ++v) {
-    const Freedom& f = found.freedom[v];
+    const improve::Freedom& f = found.freedom[v];
     if (f.dimensions == 0) continue;
     const Point3 here = found.places[v];
     EXPECT_TRUE(is_integer(f.u) && is_integer(f.v));
     EXPECT_NE(f.u, Point3{});
     EXPECT_EQ(f.dimensions == 2, f.v != Point3{});
-    for (const Facet& facet : found.plc.facets) {
+    for (const plc::Facet& facet : found.plc.facets) {
       for (const auto& t : facet.triangles) {
         if (t[0] != v && t[1] != v && t[2] != v) continue;
         const auto& at = found.plc.vertices;
         for (const Point3& place : {here + 5.0 * f.u, here - 3.0 * f.v, here + f.u + 7.0 * f.v})
-          EXPECT_EQ(orient3d(at[t[0]], at[t[1]], at[t[2]], place), 0);
+          EXPECT_EQ(numbers::orient3d(at[t[0]], at[t[1]], at[t[2]], place), 0);
       }
     }
-    for (const Segment& s : found.plc.segments) {
+    for (const plc::Segment& s : found.plc.segments) {
       if (s.ends[0] == v || s.ends[1] == v) {
         EXPECT_EQ(f.dimensions, 1);
-        EXPECT_TRUE(collinear(found.plc.vertices[s.ends[0]], found.plc.vertices[s.ends[1]], here + 5.0 * f.u));
+        EXPECT_TRUE(numbers::collinear(found.plc.vertices[s.ends[0]], found.plc.vertices[s.ends[1]], here + 5.0 * f.u));
       }
     }
   }
@@ -102,7 +103,7 @@ TEST(FindFreedom, VerticesOfAGriddedCubeSlideInItsFacesAndAlongItsEdges) {
 /// Axis-parallel places are as fine as the grid.
 TEST(FindFreedom, StepsAreAsShortAsTheGridAllows) {
   const Found found = find(gridded_cube(4));
-  for (const Freedom& f : found.freedom) {
+  for (const improve::Freedom& f : found.freedom) {
     EXPECT_EQ(squared_length(f.u), f.dimensions > 0 ? 1 : 0);
     EXPECT_EQ(squared_length(f.v), f.dimensions > 1 ? 1 : 0);
   }
@@ -116,7 +117,7 @@ TEST(FindFreedom, VerticesSlideInObliqueFaces) {
   const Found found = find(mapped(gridded_cube(4), shear));
   EXPECT_EQ(found.counts(), (std::array{8, 12 * 3, 6 * 9, 0}));
   expect_exact_steps(found);
-  for (const Freedom& f : found.freedom) {
+  for (const improve::Freedom& f : found.freedom) {
     if (f.dimensions != 2) continue;
     const double cosine = dot(f.u, f.v) / std::sqrt(squared_length(f.u) * squared_length(f.v));
     EXPECT_LT(std::fabs(cosine), 0.51);
@@ -127,7 +128,7 @@ TEST(FindFreedom, NothingSlidesOnFacetsThatAreFlatOnlyWithinTheTolerance) {
   const Found found = find(mapped(gridded_cube(4), [](const Point3& p) { return rotated(oblique, p); }));
   ASSERT_EQ(found.plc.facets.size(), 6u);
   int inexact = 0;
-  for (const Facet& f : found.plc.facets) inexact += f.exactly_flat ? 0 : 1;
+  for (const plc::Facet& f : found.plc.facets) inexact += f.exactly_flat ? 0 : 1;
   ASSERT_EQ(inexact, 6);
   EXPECT_EQ(found.counts(), (std::array{98, 0, 0, 0}));
 }
@@ -145,9 +146,10 @@ TEST(FindFreedom, SteinerVerticesSlideAlongTheirSegments) {
     const auto& chain = found.chains[s];
     const auto& ends = found.plc.segments[s].ends;
     for (std::size_t i = 1; i + 1 < chain.size(); ++i, ++steiner) {
-      const Freedom& f = found.freedom[chain[i].vertex];
+      const improve::Freedom& f = found.freedom[chain[i].vertex];
       EXPECT_EQ(f.dimensions, 1);
-      EXPECT_TRUE(collinear(found.places[ends[0]], found.places[ends[1]], found.places[chain[i].vertex] + 9.0 * f.u));
+      EXPECT_TRUE(
+          numbers::collinear(found.places[ends[0]], found.places[ends[1]], found.places[chain[i].vertex] + 9.0 * f.u));
     }
   }
   EXPECT_GT(steiner, 0);
@@ -155,14 +157,15 @@ TEST(FindFreedom, SteinerVerticesSlideAlongTheirSegments) {
 }
 
 /// How many vertices at the middles of all segments may slide.
-int sliding_middles(const InputPlc& input) {
-  const Plc plc = build_plc(input);
-  SegmentChains chains = unprotected(plc, {}).chains;
+int sliding_middles(const plc::InputPlc& input) {
+  const plc::Plc plc = plc::build_plc(input);
+  protection::SegmentChains chains = protection::unprotected(plc, {}).chains;
   auto next = static_cast<std::uint32_t>(plc.vertices.size());
-  for (auto& chain : chains) chain.insert(chain.begin() + 1, ChainVertex{VertexId(next++), whole_segment / 2, 1});
-  const std::vector<Freedom> freedom = find_freedom(plc, chains, next);
+  for (auto& chain : chains)
+    chain.insert(chain.begin() + 1, protection::ChainVertex{VertexId(next++), protection::whole_segment / 2, 1});
+  const std::vector<improve::Freedom> freedom = improve::find_freedom(plc, chains, next);
   return static_cast<int>(std::count_if(freedom.begin() + static_cast<std::ptrdiff_t>(plc.vertices.size()),
-                                        freedom.end(), [](const Freedom& f) { return f.dimensions == 1; }));
+                                        freedom.end(), [](const improve::Freedom& f) { return f.dimensions == 1; }));
 }
 
 TEST(FindFreedom, SteinerVerticesStayOnFacetsThatAreFlatOnlyWithinTheTolerance) {
@@ -174,14 +177,14 @@ TEST(FindFreedom, SteinerVerticesStayOnFacetsThatAreFlatOnlyWithinTheTolerance) 
 }
 
 TEST(FindFreedom, IsolatedVerticesStay) {
-  InputPlc plc = seeded_cube();
+  plc::InputPlc plc = seeded_cube();
   plc.vertices.push_back({1.5, 1.5, 1.5});
   EXPECT_EQ(find(plc).counts(), (std::array{9, 0, 0, 0}));
 }
 
 /// A straight line of three vertices within the cube, with whatever else meets at its middle.
-InputPlc cube_with_line() {
-  InputPlc plc = seeded_cube();
+plc::InputPlc cube_with_line() {
+  plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1}, {1.5, 1.5, 1.5}, {2, 2, 2}});
   plc.segments = {{8, 9}, {9, 10}};
   return plc;
@@ -195,20 +198,20 @@ TEST(FindFreedom, TheMiddleOfAStraightLineSlidesAndItsEndsStay) {
 }
 
 TEST(FindFreedom, AKinkStays) {
-  InputPlc plc = cube_with_line();
+  plc::InputPlc plc = cube_with_line();
   plc.vertices.back().x += 0x1p-20;
   EXPECT_EQ(find(plc).counts(), (std::array{11, 0, 0, 0}));
 }
 
 TEST(FindFreedom, AThirdSegmentHoldsTheMiddle) {
-  InputPlc plc = cube_with_line();
+  plc::InputPlc plc = cube_with_line();
   plc.vertices.push_back({1.5, 1.5, 2});
   plc.segments.push_back({9, 11});
   EXPECT_EQ(find(plc).counts(), (std::array{12, 0, 0, 0}));
 }
 
 TEST(FindFreedom, AChangeOfMarkersHoldsTheMiddle) {
-  InputPlc plc = cube_with_line();
+  plc::InputPlc plc = cube_with_line();
   plc.segment_markers = {1, 2};
   EXPECT_EQ(find(plc).counts(), (std::array{11, 0, 0, 0}));
   plc.segment_markers = {2, 2};
@@ -217,7 +220,7 @@ TEST(FindFreedom, AChangeOfMarkersHoldsTheMiddle) {
 
 /// The line goes through a facet, of which its middle is a vertex: there it must stay.
 TEST(FindFreedom, AFacetThatIsCrossedHoldsTheMiddle) {
-  InputPlc plc = seeded_cube();
+  plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1.5}, {2, 1, 1.5}, {2, 2, 1.5}, {1, 2, 1.5}, {1.5, 1.5, 1.5}});
   plc.vertices.insert(plc.vertices.end(), {{1.5, 1.5, 1}, {1.5, 1.5, 2}});
   for (const std::uint32_t a : {8u, 9u, 10u, 11u}) plc.triangles.push_back({a, a == 11 ? 8 : a + 1, 12});
@@ -228,7 +231,7 @@ TEST(FindFreedom, AFacetThatIsCrossedHoldsTheMiddle) {
 
 /// A line that is part of the facet, on both of whose sides the facet goes on.
 TEST(FindFreedom, AVertexOnALineWithinAFacetSlidesAlongTheLine) {
-  InputPlc plc = gridded_cube(4);
+  plc::InputPlc plc = gridded_cube(4);
   std::map<std::array<double, 3>, std::uint32_t> vertex;
   for (std::uint32_t v = 0; v < plc.vertices.size(); ++v) vertex[as_array(plc.vertices[v])] = v;
   const Found before = find(plc);

@@ -17,11 +17,13 @@ namespace {
 using namespace mesh_test;
 
 void expect_same_tetrahedra(const Stages& stages) {
-  const FrontResult checked = stages.advance({LocatorKind::grid}), all = stages.advance_all({LocatorKind::grid});
-  for (const FrontOptions& locator : {FrontOptions{LocatorKind::grid, 0.5}, FrontOptions{LocatorKind::grid, 2},
-                                      FrontOptions{LocatorKind::octree}, FrontOptions{LocatorKind::cavity}}) {
+  const front::FrontResult checked = stages.advance({locate::LocatorKind::grid}),
+                           all = stages.advance_all({locate::LocatorKind::grid});
+  for (const front::FrontOptions& locator :
+       {front::FrontOptions{locate::LocatorKind::grid, 0.5}, front::FrontOptions{locate::LocatorKind::grid, 2},
+        front::FrontOptions{locate::LocatorKind::octree}, front::FrontOptions{locate::LocatorKind::cavity}}) {
     SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.locator)));
-    const FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
+    const front::FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
     EXPECT_EQ(sorted(checked.tetrahedra), sorted(other.tetrahedra));
     EXPECT_EQ(sorted(all.tetrahedra), sorted(all_by_other.tetrahedra));
     EXPECT_EQ(checked.undelaunay_faces, other.undelaunay_faces);
@@ -30,23 +32,23 @@ void expect_same_tetrahedra(const Stages& stages) {
   }
 }
 
-void expect_same_tetrahedra(const InputPlc& input) {
+void expect_same_tetrahedra(const plc::InputPlc& input) {
   expect_same_tetrahedra(Stages(input));
 }
 
 TEST(FrontLocators, AgreeOnSmallInputs) {
-  for (const InputPlc& input :
+  for (const plc::InputPlc& input :
        {unit_cube(), l_shape(), plc_test::schoenhardt(), cube_with_cubic_hole(), cube_within_cube(), two_cubes(),
         two_cubes_as_surface(), cube_with_slit(), cube_with_dangling_facet(), cube_with_dangling_segment(),
         cube_with_floating_segment(), cube_with_turnstile(), two_bars()})
-    for (const InputPlc& plc : {input, rotated(oblique, input)}) expect_same_tetrahedra(plc);
+    for (const plc::InputPlc& plc : {input, rotated(oblique, input)}) expect_same_tetrahedra(plc);
 }
 
 TEST(FrontLocators, AgreeOnModels) {
   for (const char* name : {"piston", "bracket", "stepping-pole"})
     for (const double edge_length : {7.0, 11.0}) {
       SCOPED_TRACE(name);
-      expect_same_tetrahedra(rotated(oblique, make_solid(name, edge_length)));
+      expect_same_tetrahedra(rotated(oblique, models::make_solid(name, edge_length)));
     }
 }
 
@@ -55,7 +57,7 @@ TEST(FrontLocators, AgreeOnRandomVoxelsInPerspective) {
   for (int i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
     const int n = 2 + i % 3;
-    const InputPlc plc = in_perspective(random_voxels(n, 2 + i % 2, random), n);
+    const plc::InputPlc plc = in_perspective(random_voxels(n, 2 + i % 2, random), n);
     expect_same_tetrahedra(plc);
     expect_same_tetrahedra(rotated(random_rotation(random), plc));
   }
@@ -66,7 +68,7 @@ TEST(FrontLocators, AgreeOnRandomRoughSurfaces) {
   std::size_t undelaunay = 0;
   for (int i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
-    const Stages stages(roughened(make_solid("sphere", i % 3 == 0 ? 0.35 : 0.7), i % 2 ? 0.6 : 0.2, random));
+    const Stages stages(roughened(models::make_solid("sphere", i % 3 == 0 ? 0.35 : 0.7), i % 2 ? 0.6 : 0.2, random));
     undelaunay += stages.undelaunay();
     expect_same_tetrahedra(stages);
   }
@@ -88,7 +90,7 @@ TEST(FrontLocators, AgreeOnRealParts) {
   if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const char* name : {"joint.off", "anchor.off", "fandisk.off"}) {
     SCOPED_TRACE(name);
-    const Stages stages(read_plc(folder_of_parts() / name));
+    const Stages stages(io::read_plc(folder_of_parts() / name));
     EXPECT_GT(stages.undelaunay(), 0u);
     expect_same_tetrahedra(stages);
   }
@@ -107,14 +109,14 @@ std::array<double, 4> weights(const std::array<Point3, 4>& cell, const Point3& p
 void expect_cells_of_missing_faces(const Stages& stages, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> part(0, 1);
-  const Delaunay& d = stages.delaunay;
-  CellStar star(d);
-  const CavityLocator locator(stages.facets, stages.codes, d, star);
+  const delaunay::Delaunay& d = stages.delaunay;
+  delaunay::CellStar star(d);
+  const locate::CavityLocator locator(stages.facets, stages.codes, d, star);
   std::size_t inside = 0;
   for (std::uint32_t f = 0; f < stages.codes.size(); ++f) {
     const std::uint32_t cavity = locator.cavity_of_triangle(f);
-    EXPECT_EQ(cavity == CavityLocator::no_cavity, stages.codes[f] != no_neighbor);
-    if (cavity == CavityLocator::no_cavity) continue;
+    EXPECT_EQ(cavity == locate::CavityLocator::no_cavity, stages.codes[f] != delaunay::no_neighbor);
+    if (cavity == locate::CavityLocator::no_cavity) continue;
     const auto& t = stages.facets.triangles[f];
     const double s = part(random), r = part(random) * (1 - s);
     const Point3 p = s * d.point(t[0]) + r * d.point(t[1]) + (1 - s - r) * d.point(t[2]);
@@ -135,23 +137,23 @@ TEST(CavityLocator, HasTheCellsThatMissingFacesGoThrough) {
   expect_cells_of_missing_faces(Stages(two_bars()), 1);
   std::mt19937 random(4);
   for (unsigned i = 0; i < 5; ++i)
-    expect_cells_of_missing_faces(Stages(roughened(make_solid("sphere", 0.35), 0.2, random)), i);
+    expect_cells_of_missing_faces(Stages(roughened(models::make_solid("sphere", 0.35), 0.2, random)), i);
 }
 
 TEST(CavityLocator, HasNoCavityWhereNothingIsMissing) {
   const Stages cube(unit_cube());
-  CellStar star(cube.delaunay);
-  const CavityLocator locator(cube.facets, cube.codes, cube.delaunay, star);
+  delaunay::CellStar star(cube.delaunay);
+  const locate::CavityLocator locator(cube.facets, cube.codes, cube.delaunay, star);
   EXPECT_EQ(locator.cavity_count(), 0u);
   EXPECT_TRUE(locator.triangles().empty());
 }
 
 TEST(CavityLocator, LooksForFacesWhoseCodesAreNotTold) {
   const Stages bars(two_bars());
-  CellStar star(bars.delaunay);
-  const CavityLocator told(bars.facets, bars.codes, bars.delaunay, star);
-  const CavityLocator untold(bars.facets, std::vector<std::uint32_t>(bars.codes.size(), no_neighbor), bars.delaunay,
-                             star);
+  delaunay::CellStar star(bars.delaunay);
+  const locate::CavityLocator told(bars.facets, bars.codes, bars.delaunay, star);
+  const locate::CavityLocator untold(bars.facets, std::vector<std::uint32_t>(bars.codes.size(), delaunay::no_neighbor),
+                                     bars.delaunay, star);
   EXPECT_GT(told.cavity_count(), 0u);
   EXPECT_EQ(told.cavity_count(), untold.cavity_count());
   EXPECT_EQ(told.triangles(), untold.triangles());

@@ -23,28 +23,31 @@ inline Cells sorted(Cells cells) {
 
 /// All that the front works on, without interior points.
 struct Stages {
-  Plc plc;
-  Delaunay delaunay;
-  SegmentChains chains;
-  FacetMesh facets;
+  plc::Plc plc;
+  delaunay::Delaunay delaunay;
+  protection::SegmentChains chains;
+  facets::FacetMesh facets;
   std::vector<std::uint32_t> codes;
 
-  explicit Stages(const InputPlc& input) : plc(build_plc(input)), delaunay(build_delaunay(plc.vertices)) {
-    ProtectedDelaunay surface = protect_edges(plc, unprotected(plc, std::move(delaunay)), Protection::shell);
+  explicit Stages(const plc::InputPlc& input)
+      : plc(plc::build_plc(input)), delaunay(delaunay::build_delaunay(plc.vertices)) {
+    protection::ProtectedDelaunay surface = protection::protect_edges(
+        plc, protection::unprotected(plc, std::move(delaunay)), protection::Protection::shell);
     delaunay = std::move(surface.delaunay);
     chains = std::move(surface.chains);
-    facets = triangulate_facets(plc, chains, delaunay);
-    codes = find_delaunay_faces(facets, delaunay);
+    facets = facets::triangulate_facets(plc, chains, delaunay);
+    codes = front::find_delaunay_faces(facets, delaunay);
   }
 
-  std::size_t undelaunay() const { return std::count(codes.begin(), codes.end(), no_neighbor); }
-  FrontResult advance(const FrontOptions& options = {}) const {
-    return advance_front({plc, facets, codes, delaunay}, options);
+  std::size_t undelaunay() const { return std::count(codes.begin(), codes.end(), delaunay::no_neighbor); }
+  front::FrontResult advance(const front::FrontOptions& options = {}) const {
+    return front::advance_front({plc, facets, codes, delaunay}, options);
   }
   /// Every face goes through the front.
-  FrontResult advance_all(FrontOptions options = {}) const {
+  front::FrontResult advance_all(front::FrontOptions options = {}) const {
     options.face_protection = false;
-    return advance_front({plc, facets, std::vector<std::uint32_t>(codes.size(), no_neighbor), delaunay}, options);
+    return front::advance_front(
+        {plc, facets, std::vector<std::uint32_t>(codes.size(), delaunay::no_neighbor), delaunay}, options);
   }
 };
 

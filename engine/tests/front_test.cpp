@@ -12,9 +12,9 @@ using namespace mesh_test;
 
 /// A triangle and two points close above and below it. The segment between these two pierces the triangle and is a
 /// Delaunay edge.
-InputPlc flat_bipyramid() {
-  InputPlc plc;
-  plc.inside = InputPlc::Inside::seeds;
+plc::InputPlc flat_bipyramid() {
+  plc::InputPlc plc;
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.vertices = {{4, 0, 0}, {-2, 3, 0}, {-2, -3, 0}, {0, 0, 1}, {0, 0, -1}};
   for (const auto& [a, b] : {std::array{0u, 1u}, {1u, 2u}, {2u, 0u}}) {
     plc.triangles.push_back({a, b, 3});
@@ -24,8 +24,8 @@ InputPlc flat_bipyramid() {
 }
 
 /// The same with the triangle as a facet.
-InputPlc divided_bipyramid() {
-  InputPlc plc = flat_bipyramid();
+plc::InputPlc divided_bipyramid() {
+  plc::InputPlc plc = flat_bipyramid();
   plc.triangles.push_back({0, 1, 2});
   return plc;
 }
@@ -33,17 +33,17 @@ InputPlc divided_bipyramid() {
 TEST(Front, HasNothingToDoWhereAllFacesAreDelaunay) {
   const Stages cube(unit_cube());
   EXPECT_EQ(cube.undelaunay(), 0u);
-  const FrontResult result = cube.advance();
+  const front::FrontResult result = cube.advance();
   EXPECT_TRUE(result.tetrahedra.empty());
   EXPECT_EQ(result.open.size(), 12u);  // one side of each face
   EXPECT_EQ(result.undelaunay_faces, 0u);
 }
 
 TEST(Front, FillsATetrahedronWithItself) {
-  InputPlc input;
+  plc::InputPlc input;
   input.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   input.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  const FrontResult result = Stages(input).advance_all();
+  const front::FrontResult result = Stages(input).advance_all();
   EXPECT_EQ(sorted(result.tetrahedra), Cells({{0, 1, 2, 3}}));
   EXPECT_TRUE(result.open.empty());
 }
@@ -59,7 +59,7 @@ TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {
   const Stages bipyramid(divided_bipyramid());
   EXPECT_EQ(bipyramid.undelaunay(), 1u);
   EXPECT_EQ(bipyramid.delaunay.vertices.size(), 5u);
-  for (const FrontResult& result : {bipyramid.advance(), bipyramid.advance_all()}) {
+  for (const front::FrontResult& result : {bipyramid.advance(), bipyramid.advance_all()}) {
     EXPECT_EQ(sorted(result.tetrahedra), Cells({{0, 1, 2, 3}, {0, 1, 2, 4}}));
     EXPECT_TRUE(result.open.empty());
     ASSERT_EQ(result.regions.size(), 2u);
@@ -79,7 +79,7 @@ TEST(Front, CountsTheUndelaunayFacesThatItMeets) {
 TEST(Front, IsNotHinderedByTheWayTheInputTurns) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
-    InputPlc input = rotated(random_rotation(random), divided_bipyramid());
+    plc::InputPlc input = rotated(random_rotation(random), divided_bipyramid());
     std::shuffle(input.triangles.begin(), input.triangles.end(), random);
     for (auto& t : input.triangles)
       if (random() % 2) std::swap(t[0], t[1]);
@@ -90,7 +90,7 @@ TEST(Front, IsNotHinderedByTheWayTheInputTurns) {
 TEST(Front, StopsAtDelaunayFacesAndLeavesTheRest) {
   const Stages bars(two_bars());
   EXPECT_GT(bars.undelaunay(), 0u);
-  const FrontResult result = bars.advance(), all = bars.advance_all();
+  const front::FrontResult result = bars.advance(), all = bars.advance_all();
   EXPECT_GT(result.tetrahedra.size(), 0u);
   EXPECT_LT(result.tetrahedra.size(), all.tetrahedra.size());
   EXPECT_GT(result.open.size(), 0u);
@@ -100,7 +100,7 @@ TEST(Front, StopsAtDelaunayFacesAndLeavesTheRest) {
 }
 
 TEST(Front, FillsTheWholeVolumeByItself) {
-  for (const InputPlc& input : {l_shape(), cube_with_cubic_hole(), two_bars(), cube_with_turnstile()}) {
+  for (const plc::InputPlc& input : {l_shape(), cube_with_cubic_hole(), two_bars(), cube_with_turnstile()}) {
     const Stages stages(input);
     double sixfold = 0;
     for (const auto& [a, b, c, d] : stages.advance_all().tetrahedra) {

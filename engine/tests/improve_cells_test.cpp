@@ -17,7 +17,7 @@ constexpr double spacing = 1099511627776.0;  // 2^40 grid units
 /// random amount where it was free to: in its face, along its edge, or anywhere inside.
 struct Cube {
   Model model;
-  std::vector<Freedom> freedom;  ///< of the vertices on the boundary
+  std::vector<improve::Freedom> freedom;  ///< of the vertices on the boundary
 };
 
 /// The axes along which a vertex is at an end of the cube.
@@ -27,12 +27,12 @@ std::array<bool, 3> at_end(const Point3& p, int n) {
   return result;
 }
 
-Freedom freedom_of(const std::array<bool, 3>& fixed) {
+improve::Freedom freedom_of(const std::array<bool, 3>& fixed) {
   std::vector<Point3> steps;
   if (!fixed[0]) steps.push_back({1, 0, 0});
   if (!fixed[1]) steps.push_back({0, 1, 0});
   if (!fixed[2]) steps.push_back({0, 0, 1});
-  Freedom freedom;
+  improve::Freedom freedom;
   freedom.dimensions = static_cast<int>(steps.size());
   if (steps.size() == 3) return freedom;
   if (!steps.empty()) freedom.u = steps[0];
@@ -89,7 +89,7 @@ Cube cube_of(int n, double jitter, unsigned seed) {
   cube.model.first_interior = size - static_cast<std::uint32_t>((n - 1) * (n - 1) * (n - 1));
   for (std::uint32_t v = 0; v < cube.model.first_interior; ++v)
     cube.freedom.push_back(freedom_of(at_end(cube.model.points[v], n)));
-  const Delaunay delaunay = build_delaunay(cube.model.points);
+  const delaunay::Delaunay delaunay = delaunay::build_delaunay(cube.model.points);
   for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
     const auto& v = delaunay.cells[c].vertices;
     if (delaunay.is_finite(c))
@@ -103,10 +103,10 @@ Cube cube_of(int n, double jitter, unsigned seed) {
 
 struct Case {
   Cube cube;
-  ImproveOptions options;
-  const std::vector<Freedom>& freedom() const {
-    static const std::vector<Freedom> none;
-    return options.boundary == BoundaryRule::slide ? cube.freedom : none;
+  improve::ImproveOptions options;
+  const std::vector<improve::Freedom>& freedom() const {
+    static const std::vector<improve::Freedom> none;
+    return options.boundary == improve::BoundaryRule::slide ? cube.freedom : none;
   }
 };
 
@@ -115,9 +115,10 @@ void visit_cases(const Visit& visit) {
   unsigned seed = 0;
   for (const double jitter : {0.0, 0.3, 0.49}) {
     const Cube cube = cube_of(3, jitter, ++seed);
-    for (const Improvement improvement : {Improvement::swap, Improvement::smooth, Improvement::all})
-      for (const Objective objective : {Objective::r, Objective::dihedral})
-        for (const BoundaryRule boundary : {BoundaryRule::keep, BoundaryRule::slide}) {
+    for (const improve::Improvement improvement :
+         {improve::Improvement::swap, improve::Improvement::smooth, improve::Improvement::all})
+      for (const improve::Objective objective : {improve::Objective::r, improve::Objective::dihedral})
+        for (const improve::BoundaryRule boundary : {improve::BoundaryRule::keep, improve::BoundaryRule::slide}) {
           SCOPED_TRACE("jitter " + std::to_string(jitter) + ", improvement " +
                        std::to_string(static_cast<int>(improvement)) + ", objective " +
                        std::to_string(static_cast<int>(objective)) + ", boundary " +
@@ -127,31 +128,31 @@ void visit_cases(const Visit& visit) {
   }
 }
 
-double worst_quality(const CellComplex& x) {
+double worst_quality(const improve::CellComplex& x) {
   double worst = 2;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
     if (!x.is_dead(c)) worst = std::min(worst, x.quality(c));
   return worst;
 }
 
-std::vector<std::uint32_t> bad_cells(const CellComplex& x, const QualityGoal& goal) {
+std::vector<std::uint32_t> bad_cells(const improve::CellComplex& x, const improve::QualityGoal& goal) {
   std::vector<std::uint32_t> bad;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    if (!x.is_dead(c) && x.quality(c) < goal_quality(goal)) bad.push_back(c);
+    if (!x.is_dead(c) && x.quality(c) < improve::goal_quality(goal)) bad.push_back(c);
   return bad;
 }
 
 TEST(Improving, FillsTheSameSpaceExactlyAndIsNeverWorse) {
   int slid = 0;
   visit_cases([&](const Case& c) {
-    const QualityGoal goal = goal_of(c.options);
-    CellComplex x = complex_of(c.cube.model, goal);
+    const improve::QualityGoal goal = improve::goal_of(c.options);
+    improve::CellComplex x = complex_of(c.cube.model, goal);
     Invariants before = invariants_of(x);
     const double worst = worst_quality(x);
-    EXPECT_GT(improve_cells(x, c.freedom(), c.options).bad_cells, 0u);
+    EXPECT_GT(improve::improve_cells(x, c.freedom(), c.options).bad_cells, 0u);
     expect_consistent(x);
     Invariants after = invariants_of(x);
-    if (c.options.boundary == BoundaryRule::slide && c.options.improvement != Improvement::swap) {
+    if (c.options.boundary == improve::BoundaryRule::slide && c.options.improvement != improve::Improvement::swap) {
       slid += before.places != after.places;
       before.places = after.places = {};
     }
@@ -163,23 +164,23 @@ TEST(Improving, FillsTheSameSpaceExactlyAndIsNeverWorse) {
 
 TEST(Improving, CountsWhatItDid) {
   visit_cases([](const Case& c) {
-    const QualityGoal goal = goal_of(c.options);
-    CellComplex x = complex_of(c.cube.model, goal);
+    const improve::QualityGoal goal = improve::goal_of(c.options);
+    improve::CellComplex x = complex_of(c.cube.model, goal);
     const std::size_t bad_before = bad_cells(x, goal).size(), vertices = x.vertex_count();
     const std::vector<Point3> points = points_of(x);
     const std::set<Tetrahedron> cells = cells_of(x);
-    const ImproveCounts counts = improve_cells(x, c.freedom(), c.options);
+    const improve::ImproveCounts counts = improve::improve_cells(x, c.freedom(), c.options);
     EXPECT_EQ(counts.bad_cells, bad_before);
     EXPECT_EQ(counts.bad_cells_left, bad_cells(x, goal).size());
-    EXPECT_EQ(counts.stop, counts.bad_cells_left == 0 ? ImproveStop::target : ImproveStop::stuck);
+    EXPECT_EQ(counts.stop, counts.bad_cells_left == 0 ? improve::ImproveStop::target : improve::ImproveStop::stuck);
     EXPECT_EQ(counts.moved_vertices == 0, points == points_of(x));
     EXPECT_LE(counts.facet_flips, counts.removed_edges);
-    EXPECT_TRUE(c.options.improvement != Improvement::swap || counts.moved_vertices == 0);
-    if (c.options.improvement == Improvement::smooth) {
+    EXPECT_TRUE(c.options.improvement != improve::Improvement::swap || counts.moved_vertices == 0);
+    if (c.options.improvement == improve::Improvement::smooth) {
       EXPECT_TRUE(cells_of(x) == cells);
       EXPECT_EQ(counts.removed_edges + counts.removed_faces, 0u);
     }
-    if (c.options.improvement == Improvement::all) return;
+    if (c.options.improvement == improve::Improvement::all) return;
     EXPECT_EQ(counts.inserted_vertices + counts.collapsed_edges, 0u);
     EXPECT_EQ(x.vertex_count(), vertices);
   });
@@ -187,10 +188,10 @@ TEST(Improving, CountsWhatItDid) {
 
 TEST(Improving, HasTheSameResultAgain) {
   visit_cases([](const Case& c) {
-    const QualityGoal goal = goal_of(c.options);
-    CellComplex x = complex_of(c.cube.model, goal), y = x;
-    improve_cells(x, c.freedom(), c.options);
-    improve_cells(y, c.freedom(), c.options);
+    const improve::QualityGoal goal = improve::goal_of(c.options);
+    improve::CellComplex x = complex_of(c.cube.model, goal), y = x;
+    improve::improve_cells(x, c.freedom(), c.options);
+    improve::improve_cells(y, c.freedom(), c.options);
     EXPECT_TRUE(points_of(x) == points_of(y));
     EXPECT_TRUE(cells_of(x) == cells_of(y));
   });
@@ -198,20 +199,20 @@ TEST(Improving, HasTheSameResultAgain) {
 
 TEST(Improving, ThatFindsNoMoreSwapsLeavesNone) {
   visit_cases([](const Case& c) {
-    if (c.options.improvement != Improvement::swap) return;
-    const QualityGoal goal = goal_of(c.options);
-    CellComplex x = complex_of(c.cube.model, goal);
+    if (c.options.improvement != improve::Improvement::swap) return;
+    const improve::QualityGoal goal = improve::goal_of(c.options);
+    improve::CellComplex x = complex_of(c.cube.model, goal);
     std::uint64_t changes = 0;
     do {  // it gives cells up that were tried several times; another run tries them all
       changes = x.change_count();
-      improve_cells(x, c.freedom(), c.options);
+      improve::improve_cells(x, c.freedom(), c.options);
     } while (x.change_count() != changes);
-    Change change;
+    improve::Change change;
     for (const std::uint32_t cell : bad_cells(x, goal)) {
       for (std::uint32_t edge = 0; edge < 6; ++edge)
-        EXPECT_FALSE(plan_edge_removal(x, cell, edge, x.quality(cell), change) && x.all_positive(change));
+        EXPECT_FALSE(improve::plan_edge_removal(x, cell, edge, x.quality(cell), change) && x.all_positive(change));
       for (std::uint32_t face = 0; face < 4; ++face)
-        EXPECT_FALSE(plan_face_removal(x, cell, face, x.quality(cell), change) && x.all_positive(change));
+        EXPECT_FALSE(improve::plan_face_removal(x, cell, face, x.quality(cell), change) && x.all_positive(change));
     }
   });
 }
@@ -219,9 +220,9 @@ TEST(Improving, ThatFindsNoMoreSwapsLeavesNone) {
 TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
   PlanCounts all;
   for (const double jitter : {0.0, 0.49}) {
-    for (const Objective objective : {Objective::r, Objective::dihedral}) {
-      const QualityGoal goal{objective, 1, 1};
-      const CellComplex x = complex_of(cube_of(3, jitter, 7).model, goal);
+    for (const improve::Objective objective : {improve::Objective::r, improve::Objective::dihedral}) {
+      const improve::QualityGoal goal{objective, 1, 1};
+      const improve::CellComplex x = complex_of(cube_of(3, jitter, 7).model, goal);
       const PlanCounts counts = expect_every_plan_is_sound(x);
       all.edge_removals += counts.edge_removals, all.face_removals += counts.face_removals;
       all.facet_flips += counts.facet_flips, all.collapses += counts.collapses, all.insertions += counts.insertions;
@@ -235,35 +236,37 @@ TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
 }
 
 TEST(Improving, NoneChangesNothing) {
-  const ImproveOptions options{.improvement = Improvement::none};
-  const QualityGoal goal = goal_of(options);
-  CellComplex x = complex_of(cube_of(3, 0.4, 1).model, goal);
-  const CellComplex before = x;
-  EXPECT_EQ(improve_cells(x, {}, options).stop, ImproveStop::none);
+  const improve::ImproveOptions options{.improvement = improve::Improvement::none};
+  const improve::QualityGoal goal = improve::goal_of(options);
+  improve::CellComplex x = complex_of(cube_of(3, 0.4, 1).model, goal);
+  const improve::CellComplex before = x;
+  EXPECT_EQ(improve::improve_cells(x, {}, options).stop, improve::ImproveStop::none);
   EXPECT_TRUE(cells_of(x) == cells_of(before));
   EXPECT_TRUE(points_of(x) == points_of(before));
 }
 
 TEST(Improving, ReachesATargetThatIsLow) {
-  ImproveOptions options{Improvement::all, Objective::dihedral, BoundaryRule::keep, 5, 2, 0};
+  improve::ImproveOptions options{
+      improve::Improvement::all, improve::Objective::dihedral, improve::BoundaryRule::keep, 5, 2, 0};
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const QualityGoal goal = goal_of(options);
-    CellComplex x = complex_of(cube_of(4, 0.4, seed).model, goal);
+    const improve::QualityGoal goal = improve::goal_of(options);
+    improve::CellComplex x = complex_of(cube_of(4, 0.4, seed).model, goal);
     EXPECT_LT(worst_quality(x), goal.sine);
-    EXPECT_EQ(improve_cells(x, {}, options).stop, ImproveStop::target);
+    EXPECT_EQ(improve::improve_cells(x, {}, options).stop, improve::ImproveStop::target);
     EXPECT_GE(worst_quality(x), goal.sine);
   }
 }
 
 TEST(Improving, StopsWhenTheTimeIsUpWithAMeshThatIsWhole) {
-  ImproveOptions options{Improvement::all, Objective::r, BoundaryRule::keep, 60, 1, 1e-9};
-  const QualityGoal goal = goal_of(options);
+  improve::ImproveOptions options{
+      improve::Improvement::all, improve::Objective::r, improve::BoundaryRule::keep, 60, 1, 1e-9};
+  const improve::QualityGoal goal = improve::goal_of(options);
   for (const double time : {1e-9, 1e-3, 1e-2}) {
     options.time = time;
-    CellComplex x = complex_of(cube_of(7, 0.4, 3).model, goal);
+    improve::CellComplex x = complex_of(cube_of(7, 0.4, 3).model, goal);
     const Invariants before = invariants_of(x);
-    const ImproveCounts counts = improve_cells(x, {}, options);
-    EXPECT_EQ(counts.stop, ImproveStop::time);
+    const improve::ImproveCounts counts = improve::improve_cells(x, {}, options);
+    EXPECT_EQ(counts.stop, improve::ImproveStop::time);
     EXPECT_EQ(counts.bad_cells_left, bad_cells(x, goal).size());
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);

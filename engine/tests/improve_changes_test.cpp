@@ -12,8 +12,8 @@ namespace {
 using namespace improve_test;
 
 /// 1 / r alone, so that any difference of shape counts.
-const QualityGoal by_shape{Objective::r, 1, 1};
-const QualityGoal by_angle{Objective::dihedral, 0.5, std::sin(std::numbers::pi / 3)};
+const improve::QualityGoal by_shape{improve::Objective::r, 1, 1};
+const improve::QualityGoal by_angle{improve::Objective::dihedral, 0.5, std::sin(std::numbers::pi / 3)};
 
 /// Tetrahedra around the edge from 0 to 1; the ring is 2, 3, ...
 Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
@@ -28,7 +28,7 @@ Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
 }
 
 /// The edge of the cell between two vertices, or 6.
-std::uint32_t edge_of_cell(const CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
+std::uint32_t edge_of_cell(const improve::CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
   constexpr std::array<std::array<std::uint32_t, 2>, 6> ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
   const auto& v = x.cell(cell).vertices;
   std::uint32_t edge = 0;
@@ -37,12 +37,12 @@ std::uint32_t edge_of_cell(const CellComplex& x, std::uint32_t cell, std::uint32
 }
 
 /// Plans to remove an edge that the first cell has.
-bool plan_removal(const CellComplex& x, std::uint32_t a, std::uint32_t b, Change& change) {
-  return plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);
+bool plan_removal(const improve::CellComplex& x, std::uint32_t a, std::uint32_t b, improve::Change& change) {
+  return improve::plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);
 }
 
 /// Makes the change and expects that all is well after it.
-void apply_checked(CellComplex& x, const Change& change) {
+void apply_checked(improve::CellComplex& x, const improve::Change& change) {
   const Invariants before = invariants_of(x);
   ASSERT_TRUE(x.all_positive(change));
   apply_change(x, change);
@@ -83,8 +83,8 @@ Model octahedron() {
 }
 
 TEST(Changes, ThreeTetrahedraAroundAnEdgeBecomeTwo) {
-  CellComplex x = complex_of(ring_of(3), by_shape);
-  Change change;
+  improve::CellComplex x = complex_of(ring_of(3), by_shape);
+  improve::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   EXPECT_TRUE(change.flips.empty());
   apply_checked(x, change);
@@ -94,9 +94,9 @@ TEST(Changes, ThreeTetrahedraAroundAnEdgeBecomeTwo) {
 TEST(Changes, TwoFlatTetrahedraBecomeThreeAroundAnEdge) {
   Model model = ring_of(3, 300, 1000);
   model.cells = {{0, 2, 3, 4}, {1, 2, 3, 4}};
-  CellComplex x = complex_of(model, by_shape);
-  Change change;
-  ASSERT_TRUE(plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
+  improve::CellComplex x = complex_of(model, by_shape);
+  improve::Change change;
+  ASSERT_TRUE(improve::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 3, 4}}));
 }
@@ -104,18 +104,18 @@ TEST(Changes, TwoFlatTetrahedraBecomeThreeAroundAnEdge) {
 TEST(Changes, FourTetrahedraAroundAnEdgeBecomeFourAroundTheShorterDiagonal) {
   Model model = ring_of(4);
   model.points[2].x = 150, model.points[4].x = -150;
-  CellComplex x = complex_of(model, by_shape);
-  Change change;
+  improve::CellComplex x = complex_of(model, by_shape);
+  improve::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 5}, {0, 3, 4, 5}, {1, 2, 3, 5}, {1, 3, 4, 5}}));
 }
 
 TEST(Changes, RingsUpToTheLongestGiveWayToTwoTetrahedraForEachOfTheirTriangles) {
-  for (std::uint32_t size = 3; size <= longest_ring; ++size) {
+  for (std::uint32_t size = 3; size <= improve::longest_ring; ++size) {
     SCOPED_TRACE(size);
-    CellComplex x = complex_of(ring_of(size), by_shape);
-    Change change;
+    improve::CellComplex x = complex_of(ring_of(size), by_shape);
+    improve::Change change;
     ASSERT_TRUE(plan_removal(x, 0, 1, change));
     apply_checked(x, change);
     EXPECT_EQ(cells_of(x).size(), 2 * (size - 2));
@@ -124,32 +124,32 @@ TEST(Changes, RingsUpToTheLongestGiveWayToTwoTetrahedraForEachOfTheirTriangles) 
 }
 
 TEST(Changes, RingThatGivesWayToMoreTetrahedraCountsAsARemovedEdge) {
-  CellComplex x = complex_of(ring_of(5), by_shape);
-  const ImproveCounts counts = improve_cells(x, {}, {.improvement = Improvement::swap});
+  improve::CellComplex x = complex_of(ring_of(5), by_shape);
+  const improve::ImproveCounts counts = improve::improve_cells(x, {}, {.improvement = improve::Improvement::swap});
   EXPECT_EQ(cells_of(x).size(), 6u);
   EXPECT_EQ(counts.removed_edges, 1u);
   EXPECT_EQ(counts.removed_faces, 0u);
 }
 
 TEST(Changes, LongerRingIsLeftAlone) {
-  CellComplex x = complex_of(ring_of(longest_ring + 1), by_shape);
+  improve::CellComplex x = complex_of(ring_of(improve::longest_ring + 1), by_shape);
   // Not for want of something better: of all triangles of the ring none is smaller than one that cuts off a corner.
   EXPECT_GT(x.quality_of({2, 3, 4, 1}), x.quality(0));
-  Change change;
+  improve::Change change;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    EXPECT_FALSE(plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), x.quality(c), change));
+    EXPECT_FALSE(improve::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), x.quality(c), change));
 }
 
 TEST(Changes, RingThatIsAsGoodAsAnyIsLeftAlone) {
-  CellComplex x = complex_of(ring_of(5, 100, 170), by_shape);  // nearly regular tetrahedra
-  Change change;
+  improve::CellComplex x = complex_of(ring_of(5, 100, 170), by_shape);  // nearly regular tetrahedra
+  improve::Change change;
   EXPECT_FALSE(plan_removal(x, 0, 1, change));
   EXPECT_EQ(expect_every_plan_is_sound(x).edge_removals, 0);
 }
 
 TEST(Changes, DiagonalOnAFlatBoundaryFacetIsExchanged) {
-  CellComplex x = complex_of(square_with_long_diagonal(), by_shape);
-  Change change;
+  improve::CellComplex x = complex_of(square_with_long_diagonal(), by_shape);
+  improve::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   EXPECT_EQ(change.flips.size(), 1u);
   apply_checked(x, change);
@@ -159,8 +159,8 @@ TEST(Changes, DiagonalOnAFlatBoundaryFacetIsExchanged) {
 }
 
 TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
-  CellComplex x = complex_of(square_between_regions(), by_shape);
-  Change change;
+  improve::CellComplex x = complex_of(square_between_regions(), by_shape);
+  improve::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 4}, {1, 2, 3, 4}, {0, 2, 3, 5}, {1, 2, 3, 5}}));
@@ -169,11 +169,11 @@ TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
 }
 
 TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
-  CellComplex x = complex_of(square_between_regions(), by_shape);
-  Change change;
+  improve::CellComplex x = complex_of(square_between_regions(), by_shape);
+  improve::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
-  TetMesh mesh;
+  mesh::TetMesh mesh;
   const std::size_t faces = x.faces().size();
   std::move(x).take_mesh(mesh);
   ASSERT_EQ(mesh.faces.size(), faces);
@@ -186,11 +186,11 @@ TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
 
 TEST(Changes, EdgeOnASegmentIsNeverRemoved) {
   for (Model model : {ring_of(3), ring_of(4), ring_of(6), square_with_long_diagonal(), square_between_regions()}) {
-    const CellComplex free = complex_of(model, by_shape);
-    Change change;
+    const improve::CellComplex free = complex_of(model, by_shape);
+    improve::Change change;
     EXPECT_TRUE(plan_removal(free, 0, 1, change));
     model.segments.push_back({0, 1});
-    const CellComplex x = complex_of(model, by_shape);
+    const improve::CellComplex x = complex_of(model, by_shape);
     EXPECT_FALSE(plan_removal(x, 0, 1, change));
     expect_every_plan_is_sound(x);
   }
@@ -199,8 +199,8 @@ TEST(Changes, EdgeOnASegmentIsNeverRemoved) {
 TEST(Changes, EdgeBetweenDifferentFacetsIsNeverRemoved) {
   for (Model model : {square_with_long_diagonal(), square_between_regions()}) {
     model.facet_of_face = {7, 8};
-    const CellComplex x = complex_of(model, by_shape);
-    Change change;
+    const improve::CellComplex x = complex_of(model, by_shape);
+    improve::Change change;
     EXPECT_FALSE(plan_removal(x, 0, 1, change));
     expect_every_plan_is_sound(x);
   }
@@ -211,8 +211,8 @@ TEST(Changes, DiagonalOfAQuadrilateralThatIsNotConvexStays) {
   model.points[0] = {50, 0, 0};  // the other diagonal passes by
   model.points[2] = {0, -200, 0};
   model.points[3] = {0, 200, 0};
-  const CellComplex x = complex_of(model, by_shape);
-  Change change;
+  const improve::CellComplex x = complex_of(model, by_shape);
+  improve::Change change;
   EXPECT_FALSE(plan_removal(x, 0, 1, change));
 }
 
@@ -227,7 +227,7 @@ TEST(Changes, WallIsNeverRemoved) {
   ring.faces = {{0, 1, 2}};
   ring.facet_of_face = {7};
   ring.segments = {{0, 1}, {1, 2}, {2, 0}};
-  const CellComplex x = complex_of(ring, by_shape);
+  const improve::CellComplex x = complex_of(ring, by_shape);
   EXPECT_EQ(expect_every_plan_is_sound(x).edge_removals, 0);
 }
 
@@ -235,9 +235,9 @@ TEST(Changes, TwoFacesAreRemovedTogetherWithTheEdgeBetweenThem) {
   Model model = ring_of(4, 100, 100);
   model.points[2].x = 150, model.points[4].x = -150;
   model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
-  CellComplex x = complex_of(model, by_shape);
-  Change change;
-  ASSERT_TRUE(plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
+  improve::CellComplex x = complex_of(model, by_shape);
+  improve::Change change;
+  ASSERT_TRUE(improve::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
   apply_checked(x, change);
   EXPECT_FALSE(has_edge(x, 2, 4));
   EXPECT_TRUE(has_edge(x, 0, 1));
@@ -248,18 +248,18 @@ TEST(Changes, DanglingSegmentBetweenTwoFacesStays) {
   model.points[2].x = 150, model.points[4].x = -150;
   model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
   model.segments = {{2, 4}};
-  const CellComplex x = complex_of(model, by_shape);
+  const improve::CellComplex x = complex_of(model, by_shape);
   expect_every_plan_is_sound(x);
 }
 
 TEST(Changes, InnerVertexOfOursIsCollapsed) {
-  CellComplex x = complex_of(octahedron(), by_shape);
-  Change change;
-  PlanScratch scratch;
-  ASSERT_TRUE(plan_collapse(x, 0, x.quality(0), scratch, change));
+  improve::CellComplex x = complex_of(octahedron(), by_shape);
+  improve::Change change;
+  improve::PlanScratch scratch;
+  ASSERT_TRUE(improve::plan_collapse(x, 0, x.quality(0), scratch, change));
   apply_checked(x, change);
-  EXPECT_EQ(x.cell_at(6), no_neighbor);
-  TetMesh mesh;
+  EXPECT_EQ(x.cell_at(6), delaunay::no_neighbor);
+  mesh::TetMesh mesh;
   EXPECT_EQ(std::move(x).take_mesh(mesh).size(), 6u);
   EXPECT_EQ(mesh.tetrahedra.size(), 4u);
 }
@@ -273,7 +273,7 @@ TEST(Changes, CavityOfANewVertexSwallowsVerticesOfOurs) {
 TEST(Changes, IsolatedVertexOfTheInputStays) {
   Model model = octahedron();
   model.first_interior = 7;
-  for (const QualityGoal& goal : {by_shape, by_angle}) {
+  for (const improve::QualityGoal& goal : {by_shape, by_angle}) {
     const PlanCounts counts = expect_every_plan_is_sound(complex_of(model, goal));
     EXPECT_EQ(counts.collapses, 0);
     EXPECT_TRUE(counts.vertices_gone.empty());
@@ -284,10 +284,10 @@ TEST(Changes, CavityOfANewVertexKeepsDanglingSegments) {
   for (const std::uint32_t size : {3u, 4u, 5u, 6u, 7u}) {
     SCOPED_TRACE(size);
     Model model = ring_of(size, 400, 200);
-    CellComplex free = complex_of(model, by_angle);
-    Change change;
-    PlanScratch scratch;
-    ASSERT_TRUE(plan_insertion(free, 0, free.quality(0), scratch, change));
+    improve::CellComplex free = complex_of(model, by_angle);
+    improve::Change change;
+    improve::PlanScratch scratch;
+    ASSERT_TRUE(improve::plan_insertion(free, 0, free.quality(0), scratch, change));
     apply_change(free, change);
     EXPECT_FALSE(has_edge(free, 0, 1));
     model.segments = {{0, 1}};
@@ -299,7 +299,7 @@ TEST(Changes, CavityOfANewVertexKeepsASegmentThatEndsInside) {
   Model model = octahedron();
   model.segments = {{1, 6}};
   model.first_interior = 7;
-  for (const QualityGoal& goal : {by_shape, by_angle})
+  for (const improve::QualityGoal& goal : {by_shape, by_angle})
     EXPECT_TRUE(expect_every_plan_is_sound(complex_of(model, goal)).vertices_gone.empty());
 }
 
@@ -307,16 +307,16 @@ TEST(Changes, VertexIsInsertedIntoASliver) {
   Model model;  // the sliver 0 1 2 3, its long edges crossing, between the vertices 4 above and 5 below
   model.points = {{-100, 0, -2}, {100, 0, -2}, {0, -100, 2}, {0, 100, 2}, {0, 0, 140}, {0, 0, -140}};
   model.cells = {{0, 1, 2, 3}, {2, 3, 0, 4}, {2, 3, 1, 4}, {0, 1, 2, 5}, {0, 1, 3, 5}};
-  CellComplex x = complex_of(model, by_angle);
+  improve::CellComplex x = complex_of(model, by_angle);
   EXPECT_LT(x.quality(0), 0.1);
-  Change change;
-  PlanScratch scratch;
-  ASSERT_TRUE(plan_insertion(x, 0, x.quality(0), scratch, change));
+  improve::Change change;
+  improve::PlanScratch scratch;
+  ASSERT_TRUE(improve::plan_insertion(x, 0, x.quality(0), scratch, change));
   const Invariants before = invariants_of(x);
   apply_change(x, change);
   expect_consistent(x);
   EXPECT_EQ(x.vertex_count(), 7u);
-  EXPECT_NE(x.cell_at(6), no_neighbor);
+  EXPECT_NE(x.cell_at(6), delaunay::no_neighbor);
   EXPECT_TRUE(invariants_of(x) == before);
   EXPECT_EQ(cells_of(x).size(), 8u);
   EXPECT_GT(x.worst_of(std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}), 0.5);

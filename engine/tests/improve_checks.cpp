@@ -35,14 +35,14 @@ Integer sixfold_volume(const std::vector<Point3>& points, const Tetrahedron& t) 
 }
 
 template <class Visit>
-void visit_cells(const CellComplex& x, const Visit& visit) {
+void visit_cells(const improve::CellComplex& x, const Visit& visit) {
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
     if (!x.is_dead(c)) visit(c);
 }
 
-FaceKey key_of(const CellComplex& x, std::uint32_t code) {
-  const auto& v = x.cell(cell_of(code)).vertices;
-  const auto& corner = face_corners[face_of(code)];
+FaceKey key_of(const improve::CellComplex& x, std::uint32_t code) {
+  const auto& v = x.cell(delaunay::cell_of(code)).vertices;
+  const auto& corner = delaunay::face_corners[delaunay::face_of(code)];
   return face_key(v[corner[0]], v[corner[1]], v[corner[2]]);
 }
 
@@ -50,7 +50,7 @@ FaceKey key_of(const CellComplex& x, std::uint32_t code) {
 std::map<FaceKey, int> count_faces(const std::vector<Tetrahedron>& cells) {
   std::map<FaceKey, int> counts;
   for (const auto& v : cells)
-    for (const auto& corner : face_corners) ++counts[face_key(v[corner[0]], v[corner[1]], v[corner[2]])];
+    for (const auto& corner : delaunay::face_corners) ++counts[face_key(v[corner[0]], v[corner[1]], v[corner[2]])];
   return counts;
 }
 
@@ -65,7 +65,7 @@ void add_boundary(Model& model) {
   const auto counts = count_faces(model.cells);
   std::uint32_t facet = 1000;
   for (const auto& v : model.cells)
-    for (const auto& corner : face_corners) {
+    for (const auto& corner : delaunay::face_corners) {
       const Triangle face = {v[corner[0]], v[corner[2]], v[corner[1]]};
       const FaceKey key = face_key(face[0], face[1], face[2]);
       if (counts.at(key) == 2 || !known.insert(key).second) continue;
@@ -74,39 +74,40 @@ void add_boundary(Model& model) {
     }
 }
 
-void expect_neighbors_fit(const CellComplex& x, std::uint32_t code) {
-  const std::uint32_t c = cell_of(code), beyond = x.cell(c).neighbors[face_of(code)];
+void expect_neighbors_fit(const improve::CellComplex& x, std::uint32_t code) {
+  const std::uint32_t c = delaunay::cell_of(code), beyond = x.cell(c).neighbors[delaunay::face_of(code)];
   const FaceKey key = key_of(x, code);
   const bool on_facet = x.find_face(key[0], key[1], key[2]).has_value();
-  EXPECT_EQ(x.is_wall(code), on_facet || beyond == no_neighbor) << "face " << face_of(code) << " of cell " << c;
-  if (beyond == no_neighbor) return;
-  ASSERT_LT(cell_of(beyond), x.cell_count());
-  EXPECT_FALSE(x.is_dead(cell_of(beyond)));
-  EXPECT_EQ(x.cell(cell_of(beyond)).neighbors[face_of(beyond)], code);
+  EXPECT_EQ(x.is_wall(code), on_facet || beyond == delaunay::no_neighbor)
+      << "face " << delaunay::face_of(code) << " of cell " << c;
+  if (beyond == delaunay::no_neighbor) return;
+  ASSERT_LT(delaunay::cell_of(beyond), x.cell_count());
+  EXPECT_FALSE(x.is_dead(delaunay::cell_of(beyond)));
+  EXPECT_EQ(x.cell(delaunay::cell_of(beyond)).neighbors[delaunay::face_of(beyond)], code);
   EXPECT_EQ(key_of(x, beyond), key_of(x, code));
-  EXPECT_TRUE(x.is_wall(code) || x.region(cell_of(beyond)) == x.region(c)) << "cell " << c;
+  EXPECT_TRUE(x.is_wall(code) || x.region(delaunay::cell_of(beyond)) == x.region(c)) << "cell " << c;
 }
 
-void expect_vertices_know_cells(const CellComplex& x) {
+void expect_vertices_know_cells(const improve::CellComplex& x) {
   std::vector<bool> in_use(x.vertex_count(), false);
   visit_cells(x, [&](std::uint32_t c) {
     for (const std::uint32_t v : x.cell(c).vertices) in_use[v] = true;
   });
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v) {
     const std::uint32_t c = x.cell_at(v);
-    EXPECT_EQ(c != no_neighbor, in_use[v]) << "vertex " << v;
-    if (c == no_neighbor) continue;
+    EXPECT_EQ(c != delaunay::no_neighbor, in_use[v]) << "vertex " << v;
+    if (c == delaunay::no_neighbor) continue;
     ASSERT_FALSE(x.is_dead(c)) << "vertex " << v;
     EXPECT_EQ(std::ranges::count(x.cell(c).vertices, v), 1) << "vertex " << v;
   }
 }
 
-void expect_faces_and_segments_there(const CellComplex& x) {
+void expect_faces_and_segments_there(const improve::CellComplex& x) {
   std::set<FaceKey> faces;
   std::set<std::uint64_t> edges;
   visit_cells(x, [&](std::uint32_t c) {
     const auto& v = x.cell(c).vertices;
-    for (std::uint32_t f = 0; f < 4; ++f) faces.insert(key_of(x, face_code(c, f)));
+    for (std::uint32_t f = 0; f < 4; ++f) faces.insert(key_of(x, delaunay::face_code(c, f)));
     for (std::uint32_t i = 0; i < 4; ++i)
       for (std::uint32_t j = 0; j < i; ++j) edges.insert(edge_key(v[i], v[j]));
   });
@@ -121,48 +122,49 @@ void expect_faces_and_segments_there(const CellComplex& x) {
 }
 
 /// Makes a planned change in a copy.
-void expect_sound(CellComplex x, const Invariants& before, double least, const Change& change, PlanCounts& counts) {
-  EXPECT_GT(worst_of(change.new_cells), least);
+void expect_sound(improve::CellComplex x, const Invariants& before, double least, const improve::Change& change,
+                  PlanCounts& counts) {
+  EXPECT_GT(improve::worst_of(change.new_cells), least);
   if (!x.all_positive(change)) return;  // such a plan is given up
   const std::uint64_t changes = x.change_count();
   const auto places = apply_change(x, change);
   EXPECT_GT(x.change_count(), changes);
   EXPECT_EQ(places.size(), change.new_cells.size());
-  for (const NewCell& made : change.new_cells) EXPECT_EQ(made.quality, x.quality_of(made.vertices));
+  for (const improve::NewCell& made : change.new_cells) EXPECT_EQ(made.quality, x.quality_of(made.vertices));
   expect_consistent(x);
   EXPECT_TRUE(invariants_of(x) == before);
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v)
-    if (x.cell_at(v) == no_neighbor) counts.vertices_gone.insert(v);
+    if (x.cell_at(v) == delaunay::no_neighbor) counts.vertices_gone.insert(v);
 }
 
 }  // namespace
 
-std::vector<Point3> points_of(const CellComplex& x) {
+std::vector<Point3> points_of(const improve::CellComplex& x) {
   std::vector<Point3> points;
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v) points.push_back(x.point(v));
   return points;
 }
 
-std::vector<std::uint32_t> apply_change(CellComplex& x, const Change& change) {
-  CellMarks marks;
+std::vector<std::uint32_t> apply_change(improve::CellComplex& x, const improve::Change& change) {
+  improve::CellMarks marks;
   std::vector<std::uint32_t> made;
   x.apply(change, marks, made);
   return made;
 }
 
-CellComplex complex_of(Model model, const QualityGoal& goal) {
+improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal) {
   for (Tetrahedron& t : model.cells) orient(model.points, t);
   add_boundary(model);
-  TetMesh mesh;
+  mesh::TetMesh mesh;
   mesh.tetrahedra = model.cells;
   mesh.regions = model.regions.empty() ? std::vector<int>(model.cells.size(), 0) : model.regions;
   mesh.faces = model.faces;
   mesh.edges = model.segments;
   const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
-  return CellComplex(mesh, model.points, model.facet_of_face, first_interior, goal);
+  return improve::CellComplex(mesh, model.points, model.facet_of_face, first_interior, goal);
 }
 
-Invariants invariants_of(const CellComplex& x) {
+Invariants invariants_of(const improve::CellComplex& x) {
   Invariants result;
   const std::vector<Point3> points = points_of(x);
   visit_cells(x, [&](std::uint32_t c) {
@@ -182,7 +184,7 @@ Invariants invariants_of(const CellComplex& x) {
   return result;
 }
 
-void expect_consistent(const CellComplex& x) {
+void expect_consistent(const improve::CellComplex& x) {
   std::size_t dead = 0;
   const std::vector<Point3> points = points_of(x);
   for (std::uint32_t c = 0; c < x.cell_count(); ++c) {
@@ -190,19 +192,19 @@ void expect_consistent(const CellComplex& x) {
     if (x.is_dead(c)) continue;
     EXPECT_GT(sixfold_volume(points, x.cell(c).vertices), 0) << "cell " << c;
     EXPECT_EQ(x.quality(c), x.quality_of(x.cell(c).vertices)) << "cell " << c;
-    for (std::uint32_t f = 0; f < 4; ++f) expect_neighbors_fit(x, face_code(c, f));
+    for (std::uint32_t f = 0; f < 4; ++f) expect_neighbors_fit(x, delaunay::face_code(c, f));
   }
   EXPECT_EQ(dead, x.dead_count());
   expect_vertices_know_cells(x);
   expect_faces_and_segments_there(x);
 }
 
-PlanCounts expect_every_plan_is_sound(const CellComplex& complex) {
+PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex) {
   PlanCounts counts;
   const Invariants before = invariants_of(complex);
-  const CellComplex& x = complex;
-  Change change;
-  PlanScratch scratch;
+  const improve::CellComplex& x = complex;
+  improve::Change change;
+  improve::PlanScratch scratch;
   const auto make = [&](int& count, std::uint32_t cell) {
     ++count;
     expect_sound(x, before, x.quality(cell), change, counts);
@@ -211,19 +213,19 @@ PlanCounts expect_every_plan_is_sound(const CellComplex& complex) {
     SCOPED_TRACE("cell " + std::to_string(c));
     const double least = complex.quality(c);
     for (std::uint32_t edge = 0; edge < 6; ++edge) {
-      if (!plan_edge_removal(x, c, edge, least, change)) continue;
+      if (!improve::plan_edge_removal(x, c, edge, least, change)) continue;
       counts.facet_flips += static_cast<int>(change.flips.size());
       make(counts.edge_removals, c);
     }
     for (std::uint32_t face = 0; face < 4; ++face)
-      if (plan_face_removal(x, c, face, least, change)) make(counts.face_removals, c);
-    if (plan_collapse(x, c, least, scratch, change)) make(counts.collapses, c);
-    if (plan_insertion(x, c, least, scratch, change)) make(counts.insertions, c);
+      if (improve::plan_face_removal(x, c, face, least, change)) make(counts.face_removals, c);
+    if (improve::plan_collapse(x, c, least, scratch, change)) make(counts.collapses, c);
+    if (improve::plan_insertion(x, c, least, scratch, change)) make(counts.insertions, c);
   });
   return counts;
 }
 
-std::set<Tetrahedron> cells_of(const CellComplex& x) {
+std::set<Tetrahedron> cells_of(const improve::CellComplex& x) {
   std::set<Tetrahedron> cells;
   visit_cells(x, [&](std::uint32_t c) {
     Tetrahedron t = x.cell(c).vertices;
@@ -233,7 +235,7 @@ std::set<Tetrahedron> cells_of(const CellComplex& x) {
   return cells;
 }
 
-bool has_edge(const CellComplex& x, std::uint32_t a, std::uint32_t b) {
+bool has_edge(const improve::CellComplex& x, std::uint32_t a, std::uint32_t b) {
   return std::ranges::any_of(cells_of(x), [&](const Tetrahedron& t) {
     return std::ranges::count(t, a) == 1 && std::ranges::count(t, b) == 1;
   });

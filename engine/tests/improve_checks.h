@@ -26,12 +26,12 @@ struct Model {
   std::uint32_t first_interior = 0xFFFFFFFFu;  ///< none is interior
 };
 
-std::vector<Point3> points_of(const CellComplex& complex);
+std::vector<Point3> points_of(const improve::CellComplex& complex);
 
 /// \return the new cells
-std::vector<std::uint32_t> apply_change(CellComplex& complex, const Change& change);
+std::vector<std::uint32_t> apply_change(improve::CellComplex& complex, const improve::Change& change);
 
-CellComplex complex_of(Model model, const QualityGoal& goal);
+improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal);
 
 /// Exact sums, which stay the same as long as the same space is filled once and the facets keep their orientation.
 struct Invariants {
@@ -44,12 +44,12 @@ struct Invariants {
   bool operator==(const Invariants&) const = default;
 };
 
-Invariants invariants_of(const CellComplex& complex);
+Invariants invariants_of(const improve::CellComplex& complex);
 
 /// All that the complex says of itself is right: neighbors are mutual and share three vertices, walls are exactly at
 /// the faces on facets and at the boundary, cells are exactly positive and of the quality that they say, regions end at
 /// walls, each vertex knows one of its cells, and segments are edges of cells.
-void expect_consistent(const CellComplex& complex);
+void expect_consistent(const improve::CellComplex& complex);
 
 /// How many changes are possible, by kind.
 struct PlanCounts {
@@ -61,11 +61,11 @@ struct PlanCounts {
 
 /// Makes each change that any cell can have part in, in a copy of the complex, and expects that it is for the better,
 /// that all is consistent, and that the invariants hold.
-PlanCounts expect_every_plan_is_sound(const CellComplex& complex);
+PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex);
 
 /// The tetrahedra that live, with sorted vertices.
-std::set<Tetrahedron> cells_of(const CellComplex& complex);
+std::set<Tetrahedron> cells_of(const improve::CellComplex& complex);
 
-bool has_edge(const CellComplex& complex, std::uint32_t a, std::uint32_t b);
+bool has_edge(const improve::CellComplex& complex, std::uint32_t a, std::uint32_t b);
 
 }  // namespace ccdt::improve_test

@@ -54,8 +54,8 @@ WorstShape worst_shape(const TetMesh& mesh) {
   WorstShape worst;
   for (const auto& t : mesh.tetrahedra) {
     const auto& at = mesh.vertices;
-    worst.inverse_r = std::min(worst.inverse_r, inverse_r(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
-    worst.least_sine = std::min(worst.least_sine, least_sine(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
+    worst.inverse_r = std::min(worst.inverse_r, improve::inverse_r(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
+    worst.least_sine = std::min(worst.least_sine, improve::least_sine(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
   }
   return worst;
 }
@@ -63,7 +63,7 @@ WorstShape worst_shape(const TetMesh& mesh) {
 void expect_not_worse(const TetMesh& before, const TetMesh& after, const ImproveOptions& options) {
   constexpr double rounding = 1e-9;
   const WorstShape old_worst = worst_shape(before), new_worst = worst_shape(after);
-  const QualityGoal goal = goal_of(options);
+  const improve::QualityGoal goal = improve::goal_of(options);
   if (options.objective == Objective::r) {
     EXPECT_GE(new_worst.inverse_r, std::min(old_worst.inverse_r, goal.inverse_r) - rounding);
   } else {
@@ -89,8 +89,8 @@ double expect_improved(const InputPlc& input, const MeshResult& plain, const Mes
   const MeshResult result = mesh_plc(input, options);
   const TetMesh &before = plain.mesh, &after = result.mesh;
   expect_right(input, after,
-               {.boundary = options.improve.boundary == BoundaryRule::slide ? VerifyOptions::Boundary::slide
-                                                                            : VerifyOptions::Boundary::keep});
+               {.boundary = options.improve.boundary == BoundaryRule::slide ? verify::VerifyOptions::Boundary::slide
+                                                                            : verify::VerifyOptions::Boundary::keep});
   expect_not_worse(before, after, options.improve);
   EXPECT_NE(result.counts.improve.stop, ImproveStop::none);
   EXPECT_EQ(after.constrained_delaunay, !anything_done(result.counts.improve));
@@ -175,7 +175,7 @@ TEST(ImprovedMesh, RandomVoxelsAndRoughSurfaces) {
     const InputPlc voxels = random_voxels(2 + i % 2, 2 + i % 2, random);
     expect_improved_by_all_means(in_perspective(voxels, 2 + i % 2), Lattice::fcc);
     expect_improved_by_all_means(rotated(random_rotation(random), voxels), Lattice::sc, 0.6);
-    expect_improved_by_all_means(roughened(make_solid("sphere", 0.7), 0.4, random), Lattice::fcc);
+    expect_improved_by_all_means(roughened(models::make_solid("sphere", 0.7), 0.4, random), Lattice::fcc);
   }
 }
 

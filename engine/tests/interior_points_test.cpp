@@ -68,40 +68,40 @@ InputPlc segment_in_large_cube() {
 
 /// An input with its edges protected, and an interior point that is yet to come.
 struct Protected {
-  Plc plc;
-  ProtectedDelaunay surface;
-  const Delaunay& delaunay = surface.delaunay;
+  plc::Plc plc;
+  protection::ProtectedDelaunay surface;
+  const delaunay::Delaunay& delaunay = surface.delaunay;
   std::uint64_t splits;
   Point3 point;
 
   Protected(const InputPlc& input, const Point3& interior)
-      : plc(build_plc(input, {0})), surface(unprotected(plc, build_delaunay(plc.vertices))) {
+      : plc(plc::build_plc(input, {0})), surface(protection::unprotected(plc, delaunay::build_delaunay(plc.vertices))) {
     splits = protect(Protection::midpoint);
     point = (1 / plc.grid.unit) * (interior - plc.grid.origin);
   }
 
-  bool has_edge(std::uint32_t a, std::uint32_t b) { return CellStar(delaunay).has_edge(a, b); }
+  bool has_edge(std::uint32_t a, std::uint32_t b) { return delaunay::CellStar(delaunay).has_edge(a, b); }
   /// \return  how many Steiner vertices it takes
   std::uint64_t protect(Protection strategy) {
     const std::size_t before = delaunay.vertices.size();
-    surface = protect_edges(plc, std::move(surface), strategy);
+    surface = protection::protect_edges(plc, std::move(surface), strategy);
     return delaunay.vertices.size() - before;
   }
   /// With regard to edges, or without.
   std::uint64_t insert(bool with_regard) {
-    ProtectedDelaunay start = surface;
+    protection::ProtectedDelaunay start = surface;
     if (!with_regard) start.must_be_chain.assign(start.must_be_chain.size(), false);
     const std::size_t before = delaunay.vertices.size();
-    surface.delaunay = insert_interior(std::vector{point}, std::move(start));
+    surface.delaunay = protection::insert_interior(std::vector{point}, std::move(start));
     return delaunay.vertices.size() - before;
   }
-  FrontResult advance() const {
-    const FacetMesh facets = triangulate_facets(plc, surface.chains, delaunay);
-    return advance_front({plc, facets, find_delaunay_faces(facets, delaunay), delaunay});
+  front::FrontResult advance() const {
+    const facets::FacetMesh facets = facets::triangulate_facets(plc, surface.chains, delaunay);
+    return front::advance_front({plc, facets, front::find_delaunay_faces(facets, delaunay), delaunay});
   }
 };
 
-bool is_in_ball(const Ball& ball, const Point3& p) {
+bool is_in_ball(const lattice::Ball& ball, const Point3& p) {
   return std::sqrt(squared_length(p - ball.center)) <= ball.radius;
 }
 
@@ -128,7 +128,7 @@ TEST(ExhaustiveTetrahedralizations, FindBothOfFivePointsAndNoneOfSchoenhardtsPol
 TEST(InteriorPoints, OnePointOutsideTheDiametralSphereKnocksOutAProtectedEdge) {
   Protected p(tetrahedron_with_segment(), beside_segment);
   EXPECT_EQ(p.splits, 0u);  // it is a Delaunay edge as it is
-  EXPECT_FALSE(is_in_ball(smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
+  EXPECT_FALSE(is_in_ball(lattice::smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_EQ(p.insert(false), 1u);
   EXPECT_FALSE(p.has_edge(0, 4));
@@ -157,14 +157,15 @@ TEST(InteriorPoints, OnePointEndsExistenceForASolidOfFiveVertices) {
 
 /// Does the front get to its end, and are its tetrahedra locally Delaunay where two of them meet?
 bool finds_constrained_delaunay(const Protected& p) {
-  const FrontResult front = p.advance();
+  const front::FrontResult front = p.advance();
   if (front.stuck) return false;
   for (const auto& s : front.tetrahedra)
     for (const auto& t : front.tetrahedra) {
       std::vector<std::uint32_t> others;
       std::ranges::copy_if(t, std::back_inserter(others), [&](auto v) { return std::ranges::find(s, v) == s.end(); });
       const auto at = [&](std::uint32_t v) { return p.delaunay.point(v); };
-      if (others.size() == 1 && insphere(at(s[0]), at(s[1]), at(s[2]), at(s[3]), at(others[0])) > 0) return false;
+      if (others.size() == 1 && numbers::insphere(at(s[0]), at(s[1]), at(s[2]), at(s[3]), at(others[0])) > 0)
+        return false;
     }
   return true;
 }
@@ -172,7 +173,7 @@ bool finds_constrained_delaunay(const Protected& p) {
 TEST(InteriorPoints, TheFrontFindsNoConstrainedDelaunayTetrahedraWhereExistenceHasEnded) {
   Protected p(dented_tetrahedron(), below_dent);
   EXPECT_EQ(p.splits, 0u);
-  EXPECT_FALSE(is_in_ball(smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
+  EXPECT_FALSE(is_in_ball(lattice::smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_TRUE(finds_constrained_delaunay(p));
   EXPECT_EQ(p.insert(false), 1u);
@@ -183,11 +184,12 @@ TEST(InteriorPoints, TheFrontFindsNoConstrainedDelaunayTetrahedraWhereExistenceH
 TEST(InteriorPoints, ThePaperSphereRuleDoesNotSaveTheEdge) {
   Protected p(segment_in_large_cube(), beside_segment);
   EXPECT_EQ(p.splits, 0u);
-  const FacetMesh facets = triangulate_facets(p.plc, p.surface.chains, p.delaunay);
+  const facets::FacetMesh facets = facets::triangulate_facets(p.plc, p.surface.chains, p.delaunay);
   const auto& v = p.plc.vertices;
   for (const auto& [a, b, c] : facets.triangles)
-    EXPECT_FALSE(is_in_ball(smallest_ball(TrianglePoints{v[a], v[b], v[c]}), p.point));
-  for (const Segment& s : p.plc.segments) EXPECT_FALSE(is_in_ball(smallest_ball(v[s.ends[0]], v[s.ends[1]]), p.point));
+    EXPECT_FALSE(is_in_ball(lattice::smallest_ball(lattice::TrianglePoints{v[a], v[b], v[c]}), p.point));
+  for (const plc::Segment& s : p.plc.segments)
+    EXPECT_FALSE(is_in_ball(lattice::smallest_ball(v[s.ends[0]], v[s.ends[1]]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_EQ(p.insert(false), 1u);
   EXPECT_FALSE(p.has_edge(0, 4));
@@ -224,7 +226,7 @@ TEST(InteriorPoints, ThatWereDroppedAreCounted) {
   const MeshResult mesh = mesh_plc(cube_with_turnstile(), options);
   EXPECT_GT(mesh.counts.dropped_interior_vertices, 0u);
   options.sphere_factor = 1;
-  options.clearance = usual_clearance;
+  options.clearance = lattice::usual_clearance;
   EXPECT_EQ(mesh_plc(cube_with_turnstile(), options).counts.dropped_interior_vertices, 0u);
 }
 

@@ -37,7 +37,7 @@ TEST(DamagedFiles, PlcReadersReadOrRefuse) {
   for (const std::string name :
        {"a.poly", "a.smesh", "a.mesh", "a.off", "a.obj", "a.ply", "a.stl", "a.node", "text.stl"}) {
     SCOPED_TRACE(name);
-    InputPlc plc = name == "a.poly" ? rich_plc() : awkward_surface();
+    plc::InputPlc plc = name == "a.poly" ? rich_plc() : awkward_surface();
     if (name == "a.stl") plc.polygon_facets.clear(), plc.vertices.assign(5, {1, 2, 3});
     if (name == "a.node")
       put(folder / name, "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
@@ -46,8 +46,8 @@ TEST(DamagedFiles, PlcReadersReadOrRefuse) {
           "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
           "0\nendloop\nendfacet\nendsolid x\n");
     else
-      write_plc(plc, folder / name);
-    damage_and_read(bytes_of(folder / name), folder / name, [&] { read_plc(folder / name); });
+      io::write_plc(plc, folder / name);
+    damage_and_read(bytes_of(folder / name), folder / name, [&] { io::read_plc(folder / name); });
   }
 }
 
@@ -55,13 +55,13 @@ TEST(DamagedFiles, TetMeshReadersReadOrRefuse) {
   const Folder folder;
   for (const std::string name : {"a.mesh", "a.vtu", "a.msh"}) {
     SCOPED_TRACE(name);
-    write_tet_mesh(small_mesh(), folder / name);
-    damage_and_read(bytes_of(folder / name), folder / name, [&] { read_tet_mesh(folder / name); });
+    io::write_tet_mesh(small_mesh(), folder / name);
+    damage_and_read(bytes_of(folder / name), folder / name, [&] { io::read_tet_mesh(folder / name); });
   }
   for (const std::string name : {"b.node", "b.ele", "b.face", "b.edge"}) {
     SCOPED_TRACE(name);
-    write_tet_mesh(small_mesh(), folder / "b.node");
-    damage_and_read(bytes_of(folder / name), folder / name, [&] { read_tet_mesh(folder / "b.node"); });
+    io::write_tet_mesh(small_mesh(), folder / "b.node");
+    damage_and_read(bytes_of(folder / name), folder / name, [&] { io::read_tet_mesh(folder / "b.node"); });
   }
 }
 

@@ -15,8 +15,8 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using OpenMeshSurface = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-InputPlc pyramid() {
-  InputPlc plc;
+plc::InputPlc pyramid() {
+  plc::InputPlc plc;
   plc.vertices = {{0, 0, 0}, {1.5, 0, 0}, {1.5, 1.25, 0}, {0, 1.25, 0}, {0.75, 0.5, -2}};
   plc.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   plc.polygon_facets.push_back({{{3, 2, 1, 0}}, {}, 0, 4});
@@ -27,18 +27,18 @@ TEST(OpenMeshCrossRead, ReadsTheSameSurfaceFromWhatWeWrite) {
   for (const char* name : {"a.off", "a.obj", "a.ply", "a.stl"}) {
     SCOPED_TRACE(name);
     const Folder folder;
-    InputPlc plc = pyramid();
+    plc::InputPlc plc = pyramid();
     if (std::string(name) == "a.stl") {
       plc.polygon_facets.clear();
       plc.triangles.push_back({2, 1, 0}), plc.triangles.push_back({3, 2, 0});
     }
-    write_plc(plc, folder / name);
+    io::write_plc(plc, folder / name);
     OpenMeshSurface mesh;
     OpenMesh::IO::Options options = OpenMesh::IO::Options::Default;
     ASSERT_TRUE(OpenMesh::IO::read_mesh(mesh, (folder / name).string(), options));
     EXPECT_EQ(mesh.n_vertices(), plc.vertices.size());
     EXPECT_EQ(mesh.n_faces(), plc.facet_count());
-    const InputPlc ours = read_plc(folder / name);
+    const plc::InputPlc ours = io::read_plc(folder / name);
     ASSERT_EQ(ours.vertices.size(), mesh.n_vertices());
     if (std::string(name) == "a.stl") continue;  // merged by either in its own order
     for (const auto vertex : mesh.vertices()) {
@@ -61,7 +61,7 @@ TEST(OpenMeshCrossRead, WeReadWhatItWrites) {
       const Folder folder;
       OpenMesh::IO::Options options = binary ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
       ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, (folder / name).string(), options));
-      const InputPlc plc = read_plc(folder / name);
+      const plc::InputPlc plc = io::read_plc(folder / name);
       EXPECT_EQ(plc.vertices, pyramid().vertices);
       EXPECT_EQ(plc.triangles, pyramid().triangles);
       ASSERT_EQ(plc.polygon_facets.size(), 1u);

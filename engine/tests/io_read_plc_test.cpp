@@ -23,17 +23,18 @@ std::string binary_stl(std::string header, std::uint32_t claimed, std::size_t wr
 }
 
 TEST(ReadStl, BinaryMayBeginWithSolid) {
-  const InputPlc plc = plc_of("a.stl", binary_stl("solid part", 2, 2));
+  const plc::InputPlc plc = plc_of("a.stl", binary_stl("solid part", 2, 2));
   EXPECT_EQ(plc.triangles, (Triangles{{0, 1, 2}, {0, 1, 3}}));
   EXPECT_EQ(plc.vertices.size(), 4u) << "equal vertices are one";
 }
 
 TEST(ReadStl, TextOfSeveralSolidsInAnyCase) {
-  const InputPlc plc = plc_of("A.STL",
-                              "  SOLID  a strange solid name\r\n FACET NORMAL nan nan nan\r\nouter loop\n"
-                              "vertex 0 0 0\nvertex +1.5e0 0 0\nvertex 0 1 -0\nendloop\nendfacet\nENDSOLID a b\n"
-                              "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1.5 0 0 vertex 0 0 1 endloop "
-                              "endfacet\nendsolid");
+  const plc::InputPlc plc =
+      plc_of("A.STL",
+             "  SOLID  a strange solid name\r\n FACET NORMAL nan nan nan\r\nouter loop\n"
+             "vertex 0 0 0\nvertex +1.5e0 0 0\nvertex 0 1 -0\nendloop\nendfacet\nENDSOLID a b\n"
+             "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1.5 0 0 vertex 0 0 1 endloop "
+             "endfacet\nendsolid");
   EXPECT_EQ(plc.triangles, (Triangles{{0, 1, 2}, {0, 1, 3}}));
   EXPECT_EQ(plc.vertices[1].x, 1.5);
 }
@@ -62,7 +63,7 @@ TEST(ReadOff, HeadersCommentsExtrasAndMissingEdgeCount) {
   for (const std::string head : {"OFF\n3 2 0\n", "# c\nOFF 3 2\n", "COFF\n# c\n3 2 0 # c\n", "NOFF\n3 2 0\n",
                                  "STOFF\n\n3 2 0\n", "STCNOFF 3 2 0\n", "3 2 0\n", "off\r\n3 2 0\r\n"}) {
     SCOPED_TRACE(head);
-    const InputPlc plc =
+    const plc::InputPlc plc =
         plc_of("a.off", head + "0 0 0 255 0 0 255\n# c\n1 0 0 0.5 # c\n0 1 0\n3 0 1 2 0.5 0.5 0\n3 2 1 0");
     EXPECT_EQ(plc.triangles, (Triangles{{0, 1, 2}, {2, 1, 0}}));
     EXPECT_EQ(plc.vertices, (std::vector<Point3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
@@ -71,7 +72,7 @@ TEST(ReadOff, HeadersCommentsExtrasAndMissingEdgeCount) {
 }
 
 TEST(ReadOff, FacesOfAnySizeKeepTheirNumbers) {
-  const InputPlc plc =
+  const plc::InputPlc plc =
       plc_of("a.off", "OFF\n4 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 0 1 2\n2 0 2\n1 3\n3 3 2 1\n");
   EXPECT_EQ(plc.triangles, (Triangles{{0, 1, 2}, {3, 2, 1}}));
   EXPECT_EQ(plc.triangle_numbers, (std::vector<std::uint32_t>{1, 4}));
@@ -82,7 +83,8 @@ TEST(ReadOff, FacesOfAnySizeKeepTheirNumbers) {
 }
 
 TEST(ReadOff, KeepsNonManifoldFaces) {
-  const InputPlc plc = plc_of("a.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n");
+  const plc::InputPlc plc =
+      plc_of("a.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n");
   EXPECT_EQ(plc.triangles.size(), 3u);
 }
 
@@ -107,7 +109,7 @@ TEST(ReadOff, ErrorsHaveTheirPlace) {
 }
 
 TEST(ReadObj, FormsOfCornersNegativeIndicesAndJoinedLines) {
-  const InputPlc plc =
+  const plc::InputPlc plc =
       plc_of("a.obj",
              "# c\nmtllib x.mtl\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\n"
              "f 1/1/1 2//1 3/1 # c\nv 0 0 1\nf -4 \\\n -3 \\\r\n -1\nusemtl m \\\n f 1 2 3\ns off\nf 1 2 3 4\nl 1 2\n");
@@ -120,7 +122,7 @@ TEST(ReadObj, FormsOfCornersNegativeIndicesAndJoinedLines) {
 
 TEST(ReadObj, GroupsBecomeMarkers) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1 2 3\n";
-  const InputPlc plc = plc_of(
+  const plc::InputPlc plc = plc_of(
       "a.obj", vertices + face + "g top side\n" + face + "o 1\n" + face + "g bottom\n" + face + "g top side\n" + face);
   EXPECT_EQ(plc.triangle_markers, (std::vector<int>{0, 2, 1, 3, 2}));
 }
@@ -142,7 +144,7 @@ const std::string ply_text_head =
     "property double y\nproperty int x\nend_header\n";
 
 TEST(ReadPly, TextWithPropertiesInAnyOrder) {
-  const InputPlc plc =
+  const plc::InputPlc plc =
       plc_of("a.ply", ply_text_head + "9 3 0 1 2\n9 4 0 1 2 3\n7 2 nan 0.5\n0.5 nan 2 1\n0 0 0 0\n0 0 0 1\n0 0 1 1\n");
   EXPECT_EQ(plc.vertices[0], (Point3{1, 2, 0.5}));
   EXPECT_EQ(plc.triangles, (Triangles{{0, 1, 2}}));
@@ -174,7 +176,7 @@ std::string binary_ply(bool big, double z, short index) {
 
 TEST(ReadPly, BinaryOfBothByteOrdersAndMixedTypes) {
   for (const bool big : {false, true}) {
-    const InputPlc plc = plc_of("a.ply", binary_ply(big, 0.1, 0) + "\n");
+    const plc::InputPlc plc = plc_of("a.ply", binary_ply(big, 0.1, 0) + "\n");
     EXPECT_EQ(plc.vertices[2], (Point3{0.5, -2, 0.1}));
     EXPECT_EQ(plc.triangles, (Triangles{{2, 1, 0}}));
   }
@@ -212,7 +214,7 @@ TEST(ReadPly, ErrorsHaveTheirPlace) {
 
 TEST(ReadPlc, RefusesWhatIsNoFile) {
   const Folder folder;
-  const auto read = [&](const std::string& name) { return [&folder, name] { read_plc(folder / name); }; };
+  const auto read = [&](const std::string& name) { return [&folder, name] { io::read_plc(folder / name); }; };
   put(folder / "a.step", "x");
   for (const std::string ending : {".stl", ".off", ".obj", ".ply", ".poly", ".smesh", ".node", ".mesh"}) {
     put(folder / ("empty" + ending), "");
@@ -223,7 +225,7 @@ TEST(ReadPlc, RefusesWhatIsNoFile) {
   }
   expect_input_error(read("a.step"), {"unknown ending '.step'"});
   expect_input_error(read("missing.step"), {"no such file"});
-  expect_input_error([] { read_plc("/dev/null"); }, {"not a regular file"});
+  expect_input_error([] { io::read_plc("/dev/null"); }, {"not a regular file"});
 }
 
 TEST(ReadPlc, NoFacetsAreNoErrorHere) {
@@ -234,7 +236,7 @@ TEST(ReadPlc, NoFacetsAreNoErrorHere) {
 
 TEST(ReadPlc, TellsTheNameOfTheFile) {
   const Folder folder;
-  EXPECT_EQ(read_plc(put(folder / "a.off", "OFF\n0 0 0\n")).name, (folder / "a.off").string());
+  EXPECT_EQ(io::read_plc(put(folder / "a.off", "OFF\n0 0 0\n")).name, (folder / "a.off").string());
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::string sol(const std::string& head, const std::string& values) {
 void expect_refused(const std::filesystem::path& file, const std::string& bad_file, long long line) {
   SCOPED_TRACE(bad_file);
   try {
-    read_sizes(file);
+    io::read_sizes(file);
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_EQ(std::filesystem::path(error.place().file).filename(), bad_file) << error.what();
@@ -35,7 +35,7 @@ TEST(ReadSizes, OfMeditBesideATetrahedralMesh) {
   const Folder folder;
   put(folder / "a.mesh", medit_tetrahedron);
   const auto file = put(folder / "a.sol", sol("4\n1 1", "1 2.5\n3\n0.25"));
-  const BackgroundSizes sizes = read_sizes(file);
+  const lattice::BackgroundSizes sizes = io::read_sizes(file);
   EXPECT_EQ(sizes.sizes, four_sizes);
   ASSERT_EQ(sizes.vertices.size(), 4u);
   EXPECT_EQ(sizes.vertices[3], (Point3{0, 0, 1}));
@@ -50,7 +50,7 @@ TEST(ReadSizes, OfMeditBesideASurfaceHaveNoTetrahedra) {
   put(folder / "a.mesh", medit_surface);
   // As mmg writes it, but for the End.
   put(folder / "a.sol", "MeshVersionFormatted 2\n\nDimension\n3\n\nSolAtVertices\n4\n1 1 \n1 \n2.5 \n3 \n0.25 \n");
-  const BackgroundSizes sizes = read_sizes(folder / "a.sol");
+  const lattice::BackgroundSizes sizes = io::read_sizes(folder / "a.sol");
   EXPECT_EQ(sizes.sizes, four_sizes);
   EXPECT_EQ(sizes.vertices.size(), 4u);
   EXPECT_TRUE(sizes.tetrahedra.empty());
@@ -60,10 +60,10 @@ TEST(ReadSizes, OfTetGenBesideNodesAndElements) {
   const Folder folder;
   put(folder / "part.b.node", nodes);
   const auto file = put(folder / "part.b.mtr", "4 1\n1\n2.5\n3\n0.25\n# made by hand\n");
-  EXPECT_EQ(read_sizes(file).sizes, four_sizes);
-  EXPECT_TRUE(read_sizes(file).tetrahedra.empty());
+  EXPECT_EQ(io::read_sizes(file).sizes, four_sizes);
+  EXPECT_TRUE(io::read_sizes(file).tetrahedra.empty());
   put(folder / "part.b.ele", "1 4 0\n1 1 2 3 4\n");
-  EXPECT_EQ(read_sizes(file).tetrahedra.size(), 1u);
+  EXPECT_EQ(io::read_sizes(file).tetrahedra.size(), 1u);
 }
 
 TEST(ReadSizes, OfTetGenBesideAPlcThatHasItsVertices) {
@@ -71,7 +71,7 @@ TEST(ReadSizes, OfTetGenBesideAPlcThatHasItsVertices) {
   for (const std::string ending : {".poly", ".smesh"}) {
     const Folder folder;
     put(folder / ("part" + ending), nodes + facets);
-    const BackgroundSizes sizes = read_sizes(put(folder / "part.mtr", "4 1\n1\n2.5\n3\n0.25\n"));
+    const lattice::BackgroundSizes sizes = io::read_sizes(put(folder / "part.mtr", "4 1\n1\n2.5\n3\n0.25\n"));
     EXPECT_EQ(sizes.sizes, four_sizes);
     EXPECT_EQ(sizes.vertices.size(), 4u);
     EXPECT_EQ(std::filesystem::path(sizes.mesh_name).filename(), "part" + ending);

@@ -51,14 +51,14 @@ inline std::string bytes_of(const std::filesystem::path& file) {
 }
 
 /// What a PLC file of this name and content holds.
-inline InputPlc plc_of(const std::string& name, std::string_view bytes) {
+inline plc::InputPlc plc_of(const std::string& name, std::string_view bytes) {
   const Folder folder;
-  return read_plc(put(folder / name, bytes));
+  return io::read_plc(put(folder / name, bytes));
 }
 
-inline TetMesh mesh_of(const std::string& name, std::string_view bytes) {
+inline mesh::TetMesh mesh_of(const std::string& name, std::string_view bytes) {
   const Folder folder;
-  return read_tet_mesh(put(folder / name, bytes));
+  return io::read_tet_mesh(put(folder / name, bytes));
 }
 
 /// The place that an error should have; what is not given is not compared.
@@ -108,8 +108,8 @@ inline const std::vector<Point3> awkward_points = {{0.1, 1.0 / 3, -0.0},
                                                    {1, 1, 1}};
 
 /// A tetrahedron and a quadrilateral over the awkward points.
-inline InputPlc awkward_surface() {
-  InputPlc plc;
+inline plc::InputPlc awkward_surface() {
+  plc::InputPlc plc;
   plc.vertices = awkward_points;
   plc.triangles = {{0, 1, 2}, {2, 1, 3}, {4, 0, 2}};
   plc.triangle_numbers = {0, 2, 3};
@@ -118,9 +118,9 @@ inline InputPlc awkward_surface() {
 }
 
 /// All that a .poly can hold.
-inline InputPlc rich_plc() {
-  InputPlc plc = awkward_surface();
-  plc.inside = InputPlc::Inside::seeds;
+inline plc::InputPlc rich_plc() {
+  plc::InputPlc plc = awkward_surface();
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.triangle_markers = {5, -7, 0};
   plc.polygon_facets[0].marker = 9;
   plc.polygon_facets[0].polygons.push_back({1, 2});
@@ -141,7 +141,7 @@ inline void expect_same_points(const std::vector<Point3>& a, const std::vector<P
   }
 }
 
-inline void expect_same_plc(const InputPlc& a, const InputPlc& b) {
+inline void expect_same_plc(const plc::InputPlc& a, const plc::InputPlc& b) {
   EXPECT_EQ(a.inside, b.inside);
   expect_same_points(a.vertices, b.vertices);
   EXPECT_EQ(a.triangles, b.triangles);
@@ -166,8 +166,8 @@ inline void expect_same_plc(const InputPlc& a, const InputPlc& b) {
 }
 
 /// Two tetrahedra with all attributes, of all signs.
-inline TetMesh small_mesh() {
-  TetMesh mesh;
+inline mesh::TetMesh small_mesh() {
+  mesh::TetMesh mesh;
   mesh.vertices = awkward_points;
   mesh.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
   mesh.regions = {0, -12};
@@ -179,7 +179,7 @@ inline TetMesh small_mesh() {
   return mesh;
 }
 
-inline void expect_same_mesh(const TetMesh& a, const TetMesh& b) {
+inline void expect_same_mesh(const mesh::TetMesh& a, const mesh::TetMesh& b) {
   expect_same_points(a.vertices, b.vertices);
   EXPECT_EQ(a.tetrahedra, b.tetrahedra);
   EXPECT_EQ(a.regions, b.regions);

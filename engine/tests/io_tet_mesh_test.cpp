@@ -11,40 +11,40 @@ TEST(TetMeshFiles, EveryFormatKeepsEverything) {
   for (const std::string& name : mesh_names) {
     SCOPED_TRACE(name);
     const Folder folder;
-    TetMesh mesh = small_mesh();
+    mesh::TetMesh mesh = small_mesh();
     for (const bool claim : {true, false}) {
       mesh.constrained_delaunay = claim;
-      write_tet_mesh(mesh, folder / name);
-      expect_same_mesh(read_tet_mesh(folder / name), mesh);
+      io::write_tet_mesh(mesh, folder / name);
+      expect_same_mesh(io::read_tet_mesh(folder / name), mesh);
     }
     EXPECT_EQ(folder.files(), std::filesystem::exists(folder / "a.ele") ? 4u : 1u);
   }
 }
 
 TEST(TetMeshFiles, MeshesWithoutFacesAndEdges) {
-  TetMesh mesh = small_mesh();
+  mesh::TetMesh mesh = small_mesh();
   mesh.faces.clear(), mesh.face_markers.clear(), mesh.edges.clear(), mesh.edge_markers.clear();
   for (const std::string& name : mesh_names) {
     const Folder folder;
-    write_tet_mesh(small_mesh(), folder / name);  // whose faces and edges must not survive
-    write_tet_mesh(mesh, folder / name);
-    expect_same_mesh(read_tet_mesh(folder / name), mesh);
+    io::write_tet_mesh(small_mesh(), folder / name);  // whose faces and edges must not survive
+    io::write_tet_mesh(mesh, folder / name);
+    expect_same_mesh(io::read_tet_mesh(folder / name), mesh);
   }
 }
 
 TEST(TetMeshFiles, EndingsAreKnownBeforehand) {
-  for (const std::string& name : mesh_names) EXPECT_TRUE(is_tet_mesh_file(name));
-  for (const char* name : {"a.stl", "a", "a.vtk", "mesh"}) EXPECT_FALSE(is_tet_mesh_file(name));
+  for (const std::string& name : mesh_names) EXPECT_TRUE(io::is_tet_mesh_file(name));
+  for (const char* name : {"a.stl", "a", "a.vtk", "mesh"}) EXPECT_FALSE(io::is_tet_mesh_file(name));
   const Folder folder;
-  EXPECT_THROW(write_tet_mesh(small_mesh(), folder / "a.vtk"), OutputError);
-  expect_input_error([&] { read_tet_mesh(put(folder / "a.vtk", "x")); }, {"unknown ending '.vtk'"});
+  EXPECT_THROW(io::write_tet_mesh(small_mesh(), folder / "a.vtk"), OutputError);
+  expect_input_error([&] { io::read_tet_mesh(put(folder / "a.vtk", "x")); }, {"unknown ending '.vtk'"});
 }
 
 TEST(TetMeshFiles, NothingIsLeftAfterFailure) {
   const Folder folder;
   std::filesystem::create_directory(folder / "a.face");  // the other three files must not appear either
-  EXPECT_THROW(write_tet_mesh(small_mesh(), folder / "a.node"), OutputError);
-  EXPECT_THROW(write_tet_mesh(small_mesh(), folder / "missing/a.vtu"), OutputError);
+  EXPECT_THROW(io::write_tet_mesh(small_mesh(), folder / "a.node"), OutputError);
+  EXPECT_THROW(io::write_tet_mesh(small_mesh(), folder / "missing/a.vtu"), OutputError);
   EXPECT_EQ(folder.files(), 1u);
 }
 
@@ -52,15 +52,15 @@ TEST(TetMeshFiles, RefuseWhatIsNoFile) {
   const Folder folder;
   std::filesystem::create_directory(folder / "d.vtu");
   for (const std::string& name : mesh_names) {
-    expect_input_error([&] { read_tet_mesh(folder / name); }, {"no such file"});
+    expect_input_error([&] { io::read_tet_mesh(folder / name); }, {"no such file"});
     put(folder / "a.node", "0 3 0 0\n");  // of TetGen's files the nodes are read first
     put(folder / "a.ele", "0 4 0\n");
     put(folder / name, "");
-    expect_input_error([&] { read_tet_mesh(folder / name); }, {"is empty"});
+    expect_input_error([&] { io::read_tet_mesh(folder / name); }, {"is empty"});
     for (const std::string& file : {name, std::string("a.node"), std::string("a.ele")})
       std::filesystem::remove(folder / file);
   }
-  expect_input_error([&] { read_tet_mesh(folder / "d.vtu"); }, {"is a directory"});
+  expect_input_error([&] { io::read_tet_mesh(folder / "d.vtu"); }, {"is a directory"});
 }
 
 const std::string gmsh4 =
@@ -71,7 +71,7 @@ const std::string gmsh4 =
     "0 1 15 1\n1 10\n2 5 2 1\n2 10 50 7\n3 1 4 1\n3 10 50 7 8\n3 2 4 1\n4 50 7 8 9\n$EndElements\n";
 
 TEST(ReadGmsh, Version41WithEntitiesAndScatteredNodeNumbers) {
-  const TetMesh mesh = mesh_of("a.msh", gmsh4);
+  const mesh::TetMesh mesh = mesh_of("a.msh", gmsh4);
   EXPECT_EQ(mesh.vertices.size(), 5u);
   EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
   EXPECT_EQ(mesh.regions, (std::vector<int>{-6, 0}));
@@ -85,7 +85,7 @@ std::string gmsh2(const std::string& elements) {
 }
 
 TEST(ReadGmsh, Version22WithAnyNumberOfTags) {
-  const TetMesh mesh = mesh_of("a.msh", gmsh2("3\n1 15 2 0 1 9\n2 4 4 -5 1 1 1 1 2 3 9\n3 2 0 3 2 1\n"));
+  const mesh::TetMesh mesh = mesh_of("a.msh", gmsh2("3\n1 15 2 0 1 9\n2 4 4 -5 1 1 1 1 2 3 9\n3 2 0 3 2 1\n"));
   EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}}));
   EXPECT_EQ(mesh.regions, std::vector<int>{-5});
   EXPECT_EQ(mesh.face_markers, std::vector<int>{0});
@@ -128,12 +128,12 @@ const std::string base64_points =
     "MAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw==\n</DataArray>";
 
 TEST(ReadVtu, TextAndBase64) {
-  const TetMesh text = mesh_of("a.vtu", vtu(text_points, "0 1 2 3 0 0 2 1"));
+  const mesh::TetMesh text = mesh_of("a.vtu", vtu(text_points, "0 1 2 3 0 0 2 1"));
   EXPECT_EQ(text.vertices[3], (Point3{0, 0, 0.1}));
   EXPECT_EQ(text.tetrahedra, (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}}));
   EXPECT_EQ(text.faces, (std::vector<std::array<std::uint32_t, 3>>{{0, 2, 1}}));
   EXPECT_EQ(text.regions, std::vector<int>{0});
-  const TetMesh base64 = mesh_of("a.vtu", vtu(base64_points, "0 1 2 3 0 0 2 1"));
+  const mesh::TetMesh base64 = mesh_of("a.vtu", vtu(base64_points, "0 1 2 3 0 0 2 1"));
   EXPECT_EQ(base64.vertices, (std::vector<Point3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
 }
 
@@ -159,7 +159,7 @@ TEST(ReadVtu, ErrorsSayWhatIsWrong) {
                       {"claims 252 bytes, but only 48 bytes follow"});
   expect_mesh_refused("a.vtu", bad.replace(bad.find("/AAA"), 4, "M-AA"), {"not valid base64"});
   const Folder folder;
-  write_tet_mesh(small_mesh(), folder / "a.vtu");
+  io::write_tet_mesh(small_mesh(), folder / "a.vtu");
   const std::string raw = bytes_of(folder / "a.vtu");
   expect_mesh_refused("b.vtu", raw.substr(0, raw.size() - 60), {"truncated"});
 }

@@ -9,17 +9,17 @@ namespace {
 
 using namespace io_test;
 
-InputPlc written_and_read(const InputPlc& plc, const std::string& name) {
+plc::InputPlc written_and_read(const plc::InputPlc& plc, const std::string& name) {
   const Folder folder;
-  write_plc(plc, folder / name);
+  io::write_plc(plc, folder / name);
   EXPECT_EQ(folder.files(), 1u);
-  return read_plc(folder / name);
+  return io::read_plc(folder / name);
 }
 
-void expect_not_writable(const InputPlc& plc, const std::string& name, std::string_view words) {
+void expect_not_writable(const plc::InputPlc& plc, const std::string& name, std::string_view words) {
   const Folder folder;
   try {
-    write_plc(plc, folder / name);
+    io::write_plc(plc, folder / name);
     ADD_FAILURE() << name << ": not refused: " << words;
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
@@ -33,22 +33,22 @@ TEST(WritePlc, PolyKeepsEverything) {
 }
 
 TEST(WritePlc, SmeshKeepsAllButHolesInFacets) {
-  InputPlc plc = rich_plc();
+  plc::InputPlc plc = rich_plc();
   plc.polygon_facets[0].polygons.resize(1);
   plc.polygon_facets[0].holes.clear();
   expect_same_plc(written_and_read(plc, "a.smesh"), plc);
 }
 
 TEST(WritePlc, MeditKeepsMarkersAndSegments) {
-  InputPlc plc = awkward_surface();
-  plc.inside = InputPlc::Inside::seeds;
+  plc::InputPlc plc = awkward_surface();
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.triangle_markers = {5, -7, 0};
   plc.polygon_facets[0].marker = 9;
   plc.segments = {{0, 4}, {1, 3}};
   plc.segment_markers = {0, 3};
   // Medit has a list of triangles and one of quadrilaterals, so the facets get other numbers.
   plc.triangle_numbers.clear();
-  InputPlc expected = plc;
+  plc::InputPlc expected = plc;
   expected.polygon_facets[0].number = 3;
   plc.polygon_facets[0].number = 1;
   expect_same_plc(written_and_read(plc, "a.mesh"), expected);
@@ -57,7 +57,7 @@ TEST(WritePlc, MeditKeepsMarkersAndSegments) {
 TEST(WritePlc, EvenAndOddGoesThroughFormatsWithSeeds) {
   for (const char* name : {"a.poly", "a.smesh"})
     expect_same_plc(written_and_read(awkward_surface(), name), awkward_surface());
-  EXPECT_EQ(written_and_read(awkward_surface(), "a.mesh").inside, InputPlc::Inside::even_odd);
+  EXPECT_EQ(written_and_read(awkward_surface(), "a.mesh").inside, plc::InputPlc::Inside::even_odd);
 }
 
 TEST(WritePlc, SurfaceFormatsKeepEveryBitAndTheOrderOfFacets) {
@@ -68,7 +68,7 @@ TEST(WritePlc, SurfaceFormatsKeepEveryBitAndTheOrderOfFacets) {
 }
 
 TEST(WritePlc, ObjAndPlyKeepMarkers) {
-  InputPlc plc = awkward_surface();
+  plc::InputPlc plc = awkward_surface();
   plc.triangle_markers = {5, -7, 0};
   plc.polygon_facets[0].marker = 2000000000;
   for (const char* name : {"a.obj", "a.ply"}) {
@@ -78,7 +78,7 @@ TEST(WritePlc, ObjAndPlyKeepMarkers) {
 }
 
 TEST(WritePlc, PlyHoldsFacetsOfManyCorners) {
-  InputPlc plc;
+  plc::InputPlc plc;
   std::vector<std::uint32_t> corners;
   for (std::uint32_t i = 0; i < 300; ++i) {
     plc.vertices.push_back({std::cos(i), std::sin(i), 0});
@@ -89,73 +89,77 @@ TEST(WritePlc, PlyHoldsFacetsOfManyCorners) {
 }
 
 TEST(WritePlc, StlRoundsToSinglePrecision) {
-  InputPlc plc;
+  plc::InputPlc plc;
   plc.vertices = {{0.1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   plc.triangles = {{0, 1, 2}, {3, 1, 0}};
-  const InputPlc read = written_and_read(plc, "a.stl");
+  const plc::InputPlc read = written_and_read(plc, "a.stl");
   EXPECT_EQ(read.vertices.size(), 4u);
   EXPECT_EQ(read.triangles, plc.triangles);
   EXPECT_EQ(read.vertices[0].x, static_cast<double>(0.1f));
-  EXPECT_EQ(read.inside, InputPlc::Inside::even_odd);
+  EXPECT_EQ(read.inside, plc::InputPlc::Inside::even_odd);
 }
 
 TEST(WritePlc, RefusesWhatTheFormatCannotHold) {
   const auto with = [](auto change) {
-    InputPlc plc = awkward_surface();
+    plc::InputPlc plc = awkward_surface();
     change(plc);
     return plc;
   };
   for (const std::string name : {"a.off", "a.obj", "a.ply"}) {
-    expect_not_writable(with([](InputPlc& p) { p.segments = {{0, 1}}; }), name, "segments");
-    expect_not_writable(with([](InputPlc& p) { p.holes = {{0, 1, 0}}; }), name, "holes");
-    expect_not_writable(with([](InputPlc& p) { p.regions = {{{0, 1, 0}, 1, 0}}; }), name, "regions");
-    expect_not_writable(with([](InputPlc& p) { p.polygon_facets[0].holes = {{0, 0, 0}}; }), name, "holes");
-    expect_not_writable(with([](InputPlc& p) { p.polygon_facets[0].polygons.push_back({0, 1, 2}); }), name, "polygons");
+    expect_not_writable(with([](plc::InputPlc& p) { p.segments = {{0, 1}}; }), name, "segments");
+    expect_not_writable(with([](plc::InputPlc& p) { p.holes = {{0, 1, 0}}; }), name, "holes");
+    expect_not_writable(with([](plc::InputPlc& p) { p.regions = {{{0, 1, 0}, 1, 0}}; }), name, "regions");
+    expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets[0].holes = {{0, 0, 0}}; }), name, "holes");
+    expect_not_writable(with([](plc::InputPlc& p) {
+                          p.polygon_facets[0].polygons.push_back({0, 1, 2});
+                        }),
+                        name, "polygons");
   }
   expect_not_writable(awkward_surface(), "a.stl", "more than 3 corners");
-  expect_not_writable(with([](InputPlc& p) { p.polygon_facets[0].polygons[0].push_back(2); }), "a.mesh", "4 corners");
-  expect_not_writable(with([](InputPlc& p) { p.holes = {{0, 1, 0}}; }), "a.mesh", "holes");
-  expect_not_writable(with([](InputPlc& p) { p.polygon_facets[0].polygons.push_back({0}); }), "a.smesh",
+  expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets[0].polygons[0].push_back(2); }), "a.mesh",
+                      "4 corners");
+  expect_not_writable(with([](plc::InputPlc& p) { p.holes = {{0, 1, 0}}; }), "a.mesh", "holes");
+  expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets[0].polygons.push_back({0}); }), "a.smesh",
                       "several polygons");
-  expect_not_writable(with([](InputPlc& p) { p.polygon_facets.clear(); }), "a.stl", "too large");
-  expect_not_writable(with([](InputPlc& p) { p.polygon_facets.clear(), p.triangles.resize(1); }), "a.stl",
+  expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets.clear(); }), "a.stl", "too large");
+  expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets.clear(), p.triangles.resize(1); }), "a.stl",
                       "no facet has");
-  expect_not_writable(InputPlc(), "a.off", "no vertices");
+  expect_not_writable(plc::InputPlc(), "a.off", "no vertices");
   expect_not_writable(awkward_surface(), "a.step", "unknown ending '.step'");
 }
 
 TEST(WritePlc, LeavesAnOlderFileAloneWhenItFails) {
   const Folder folder;
   put(folder / "a.stl", "older");
-  EXPECT_THROW(write_plc(awkward_surface(), folder / "a.stl"), OutputError);
+  EXPECT_THROW(io::write_plc(awkward_surface(), folder / "a.stl"), OutputError);
   EXPECT_EQ(bytes_of(folder / "a.stl"), "older");
-  write_plc(awkward_surface(), put(folder / "a.off", "older"));
-  EXPECT_EQ(read_plc(folder / "a.off").facet_count(), 4u);
+  io::write_plc(awkward_surface(), put(folder / "a.off", "older"));
+  EXPECT_EQ(io::read_plc(folder / "a.off").facet_count(), 4u);
   EXPECT_EQ(folder.files(), 2u);
 }
 
 TEST(WritePlc, RefusesPlacesThatCannotBeWritten) {
   const Folder folder;
   std::filesystem::create_directory(folder / "d.off");
-  EXPECT_THROW(write_plc(awkward_surface(), folder / "d.off"), OutputError);
-  EXPECT_THROW(write_plc(awkward_surface(), folder / "missing/a.off"), OutputError);
+  EXPECT_THROW(io::write_plc(awkward_surface(), folder / "d.off"), OutputError);
+  EXPECT_THROW(io::write_plc(awkward_surface(), folder / "missing/a.off"), OutputError);
   std::filesystem::create_symlink("/dev/null", folder / "null.off");
-  EXPECT_THROW(write_plc(awkward_surface(), folder / "null.off"), OutputError);
+  EXPECT_THROW(io::write_plc(awkward_surface(), folder / "null.off"), OutputError);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   EXPECT_EQ(folder.files(), 2u);
 }
 
 TEST(WritePlc, LeavesNothingWhenTheDiskIsFull) {
   const Folder folder;
-  InputPlc plc = awkward_surface();
+  plc::InputPlc plc = awkward_surface();
   plc.vertices.resize(100000, {0.1, 0.2, 0.3});
   rlimit before;
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const rlimit small{20000, before.rlim_max};
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);  // writing then fails as on a full disk
   setrlimit(RLIMIT_FSIZE, &small);
-  EXPECT_THROW(write_plc(plc, folder / "a.off"), OutputError);
-  EXPECT_THROW(write_plc(awkward_surface(), folder / "missing/a.off"), OutputError);
+  EXPECT_THROW(io::write_plc(plc, folder / "a.off"), OutputError);
+  EXPECT_THROW(io::write_plc(awkward_surface(), folder / "missing/a.off"), OutputError);
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_EQ(folder.files(), 0u);

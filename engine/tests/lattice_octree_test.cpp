@@ -10,13 +10,13 @@
 namespace ccdt::test {
 namespace {
 
-DomainSurface surface_of(const Shape& shape) {
+lattice::DomainSurface surface_of(const Shape& shape) {
   return {shape.vertices, shape.triangles, shape.subsegments};
 }
 
-Octree octree_of(const Shape& shape, double edge_length, double grading) {
-  const DomainSurface surface = surface_of(shape);
-  return build_octree(surface, SizeField(surface, edge_length, grading), Lattice::fcc);
+lattice::Octree octree_of(const Shape& shape, double edge_length, double grading) {
+  const lattice::DomainSurface surface = surface_of(shape);
+  return lattice::build_octree(surface, lattice::SizeField(surface, edge_length, grading), lattice::Lattice::fcc);
 }
 
 /// Fine squares near one corner of a large cube.
@@ -34,17 +34,17 @@ Shape cube_with_a_fine_corner() {
 
 TEST(LatticeOctree, HasLevelsThatDifferByOneAtMost) {
   for (const Shape& shape : {cube_with_a_fine_corner(), sphere(3)}) {
-    const Octree tree = octree_of(shape, 0, 2);  // growth as fast as the rule allows
-    std::vector<OctreeNode> leaves;
+    const lattice::Octree tree = octree_of(shape, 0, 2);  // growth as fast as the rule allows
+    std::vector<lattice::OctreeNode> leaves;
     std::set<int> levels;
-    for (const OctreeNode& node : tree.nodes) {
-      if (!node.is_leaf() || node.place == NodePlace::outside) continue;
+    for (const lattice::OctreeNode& node : tree.nodes) {
+      if (!node.is_leaf() || node.place == lattice::NodePlace::outside) continue;
       leaves.push_back(node);
       levels.insert(node.level);
     }
     EXPECT_GE(levels.size(), 2u);
-    for (const OctreeNode& a : leaves) {
-      for (const OctreeNode& b : leaves) {
+    for (const lattice::OctreeNode& a : leaves) {
+      for (const lattice::OctreeNode& b : leaves) {
         if (squared_distance(tree.box(a), tree.box(b)) == 0) {
           ASSERT_LE(std::abs(a.level - b.level), 1);
         }
@@ -54,9 +54,9 @@ TEST(LatticeOctree, HasLevelsThatDifferByOneAtMost) {
 }
 
 TEST(LatticeOctree, LeavesFillTheRootOnce) {
-  const Octree tree = octree_of(cube_with_a_fine_corner(), 0, 0.5);
+  const lattice::Octree tree = octree_of(cube_with_a_fine_corner(), 0, 0.5);
   double volume = 0;
-  for (const OctreeNode& node : tree.nodes) {
+  for (const lattice::OctreeNode& node : tree.nodes) {
     if (node.is_leaf()) volume += std::pow(tree.side(node), 3);
   }
   EXPECT_EQ(volume, std::pow(tree.side(tree.nodes[0]), 3));
@@ -66,11 +66,11 @@ TEST(LatticeOctree, KnowsWhereItsNodesAre) {
   const auto tunnel = [](int x, int y, int) { return x == 2 && y == 2 ? 0 : 1; };
   for (bool turn : {false, true}) {
     const Shape shape = cubes(5, tunnel, turn);
-    const Octree tree = octree_of(shape, 0.3 * shape.unit, 0);
+    const lattice::Octree tree = octree_of(shape, 0.3 * shape.unit, 0);
     std::size_t inside = 0;
-    for (const OctreeNode& node : tree.nodes) {
-      if (!node.is_leaf() || node.place == NodePlace::surface) continue;
-      const bool is_in = node.place == NodePlace::inside;
+    for (const lattice::OctreeNode& node : tree.nodes) {
+      if (!node.is_leaf() || node.place == lattice::NodePlace::surface) continue;
+      const bool is_in = node.place == lattice::NodePlace::inside;
       ASSERT_NEAR(winding_number(shape, tree.box(node).center()), is_in ? 1 : 0, 1e-6);
       inside += is_in;
     }
@@ -80,16 +80,16 @@ TEST(LatticeOctree, KnowsWhereItsNodesAre) {
 
 TEST(LatticeOctree, NodesOnTheSurfaceKnowAllTrianglesThatTouchThem) {
   const Shape shape = sphere(2);
-  const Octree tree = octree_of(shape, 0, 0.5);
-  for (const OctreeNode& node : tree.nodes) {
+  const lattice::Octree tree = octree_of(shape, 0, 0.5);
+  for (const lattice::OctreeNode& node : tree.nodes) {
     const Box box = tree.box(node);
     const auto known = tree.triangles_of(node);
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
       Point3 common;
-      if (node.place != NodePlace::surface && node.level > 0) {
+      if (node.place != lattice::NodePlace::surface && node.level > 0) {
         ASSERT_TRUE(known.empty());
       }
-      if (common_point(box, surface_of(shape).corners(t), common)) {
+      if (lattice::common_point(box, surface_of(shape).corners(t), common)) {
         ASSERT_NE(std::ranges::find(known, t), known.end());
       }
     }
@@ -99,14 +99,14 @@ TEST(LatticeOctree, NodesOnTheSurfaceKnowAllTrianglesThatTouchThem) {
 TEST(LatticeOctree, LeavesAreAsLargeAsTheSizeFieldAllows) {
   const Shape shape = cube_with_a_fine_corner();
   for (double grading : {0.2, 0.5, 1.0}) {
-    const Octree tree = octree_of(shape, 0, grading);
+    const lattice::Octree tree = octree_of(shape, 0, grading);
     const double longest = std::sqrt(2.0) * shape.unit, fine = std::sqrt(2.0) / 16 * shape.unit;
     const Point3 fine_place = shape.vertices.back();
     double largest = 0;
-    for (const OctreeNode& node : tree.nodes) {
-      if (!node.is_leaf() || node.place == NodePlace::outside) continue;
+    for (const lattice::OctreeNode& node : tree.nodes) {
+      if (!node.is_leaf() || node.place == lattice::NodePlace::outside) continue;
       const Box box = tree.box(node);
-      const double edge_length = edge_length_of_cell(Lattice::fcc, tree.length(tree.side(node)));
+      const double edge_length = lattice::edge_length_of_cell(lattice::Lattice::fcc, tree.length(tree.side(node)));
       largest = std::max(largest, edge_length);
       const double allowed_by_fine = fine + grading * std::sqrt(squared_distance(box, fine_place));
       double to_vertex = HUGE_VAL;
@@ -121,33 +121,34 @@ TEST(LatticeOctree, LeavesAreAsLargeAsTheSizeFieldAllows) {
 TEST(LatticeOctree, IsUniformWithoutGrading) {
   const Shape shape = cube_with_a_fine_corner();
   const double edge_length = 0.37 * shape.unit;
-  const Octree tree = octree_of(shape, edge_length, 0);
-  for (const OctreeNode& node : tree.nodes) {
-    if (!node.is_leaf() || node.place == NodePlace::outside) continue;
-    ASSERT_NEAR(edge_length_of_cell(Lattice::fcc, tree.length(tree.side(node))) / edge_length, 1, 0.004);
+  const lattice::Octree tree = octree_of(shape, edge_length, 0);
+  for (const lattice::OctreeNode& node : tree.nodes) {
+    if (!node.is_leaf() || node.place == lattice::NodePlace::outside) continue;
+    ASSERT_NEAR(lattice::edge_length_of_cell(lattice::Lattice::fcc, tree.length(tree.side(node))) / edge_length, 1,
+                0.004);
   }
 }
 
 TEST(InsideByRays, TellsTheSideAndDeclinesPointsOfTheSurface) {
   const double u = 1024;
   const std::vector<Point3> vertices = {{0, 0, 0}, {u, 0, 0}, {0, u, 0}, {u, u, 0}};
-  const std::vector<SurfaceTriangle> triangles = {{{VertexId(0), VertexId(1), VertexId(2)}, true, false},
-                                                  {{VertexId(1), VertexId(3), VertexId(2)}, true, false}};
-  const DomainSurface surface{vertices, triangles, {}};
+  const std::vector<lattice::SurfaceTriangle> triangles = {{{VertexId(0), VertexId(1), VertexId(2)}, true, false},
+                                                           {{VertexId(1), VertexId(3), VertexId(2)}, true, false}};
+  const lattice::DomainSurface surface{vertices, triangles, {}};
   const Box box{{-u, -u, -u}, {2 * u, 2 * u, u}};
   const std::uint32_t both[] = {0, 1};
-  EXPECT_EQ(is_inside_by_rays({100, 100, 50}, box, surface, both), std::optional(true));
-  EXPECT_EQ(is_inside_by_rays({100, 100, -50}, box, surface, both), std::optional(false));
-  EXPECT_FALSE(is_inside_by_rays({512, 512, 0}, box, surface, both).value_or(false));  // on the common edge
-  EXPECT_FALSE(is_inside_by_rays({100, 100, 0}, box, surface, both).value_or(false));  // within a triangle
-  EXPECT_FALSE(is_inside_by_rays({0, 0, 0}, box, surface, both).value_or(false));      // on a vertex
-  EXPECT_EQ(is_inside_by_rays({100, 100, 50}, box, surface, {}), std::nullopt);
+  EXPECT_EQ(lattice::is_inside_by_rays({100, 100, 50}, box, surface, both), std::optional(true));
+  EXPECT_EQ(lattice::is_inside_by_rays({100, 100, -50}, box, surface, both), std::optional(false));
+  EXPECT_FALSE(lattice::is_inside_by_rays({512, 512, 0}, box, surface, both).value_or(false));  // on the common edge
+  EXPECT_FALSE(lattice::is_inside_by_rays({100, 100, 0}, box, surface, both).value_or(false));  // within a triangle
+  EXPECT_FALSE(lattice::is_inside_by_rays({0, 0, 0}, box, surface, both).value_or(false));      // on a vertex
+  EXPECT_EQ(lattice::is_inside_by_rays({100, 100, 50}, box, surface, {}), std::nullopt);
 }
 
 TEST(InsideByRays, TakesTheNearestOfSeveralSheets) {
   const double u = 1024;
   std::vector<Point3> vertices;
-  std::vector<SurfaceTriangle> triangles;
+  std::vector<lattice::SurfaceTriangle> triangles;
   std::vector<std::uint32_t> all;
   for (int sheet = 0; sheet < 4; ++sheet) {  // the domain between sheets 0 and 1, 2 and 3
     const double z = 100 * sheet;
@@ -156,11 +157,12 @@ TEST(InsideByRays, TakesTheNearestOfSeveralSheets) {
         {{VertexId(3 * sheet), VertexId(3 * sheet + 1), VertexId(3 * sheet + 2)}, sheet % 2 == 0, sheet % 2 == 1});
     all.push_back(static_cast<std::uint32_t>(sheet));
   }
-  const DomainSurface surface{vertices, triangles, {}};
+  const lattice::DomainSurface surface{vertices, triangles, {}};
   const Box box{{-u, -u, -u}, {u, u, u}};
   const double heights[] = {-50, 50, 150, 250, 350};
   for (int i = 0; i < 5; ++i)
-    EXPECT_EQ(is_inside_by_rays({3, 5, heights[i]}, box, surface, all), std::optional(i % 2 == 1)) << heights[i];
+    EXPECT_EQ(lattice::is_inside_by_rays({3, 5, heights[i]}, box, surface, all), std::optional(i % 2 == 1))
+        << heights[i];
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace ccdt::test {
 namespace {
 
-constexpr Lattice lattices[] = {Lattice::fcc, Lattice::bcc, Lattice::sc};
+constexpr lattice::Lattice lattices[] = {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc};
 
 bool before(const Point3& a, const Point3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -40,7 +40,7 @@ void expect_inside(const Shape& shape, const std::vector<Point3>& points) {
 }
 
 void expect_outside_of_smallest_spheres(const Shape& shape, const std::vector<Point3>& points) {
-  for (const SurfaceTriangle& t : shape.triangles) {
+  for (const lattice::SurfaceTriangle& t : shape.triangles) {
     for (const Point3& p : points)
       ASSERT_FALSE(in_smallest_sphere(shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]],
                                       shape.vertices[t.vertices[2]], p));
@@ -57,7 +57,7 @@ int l_shape(int x, int y, int) {
 TEST(LatticePoints, AreStrictlyInsideAndOutsideOfAllSmallestSpheres) {
   const Shape shapes[] = {cube(8), cube(6, true), sphere(3), cubes(9, l_shape), cubes(8, l_shape, true)};
   for (const Shape& shape : shapes) {
-    for (Lattice kind : lattices) {
+    for (lattice::Lattice kind : lattices) {
       for (double grading : {0.0, 0.5}) {
         const auto points = shape.place({kind, 0, grading});
         expect_inside(shape, points);
@@ -68,7 +68,7 @@ TEST(LatticePoints, AreStrictlyInsideAndOutsideOfAllSmallestSpheres) {
 }
 
 TEST(LatticePoints, AreIntegersAndPairwiseDifferent) {
-  for (Lattice kind : lattices) {
+  for (lattice::Lattice kind : lattices) {
     const auto points = sorted(sphere(3).place({kind, 0, 0.3}));
     EXPECT_EQ(std::ranges::adjacent_find(points), points.end());
     for (const Point3& p : points) {
@@ -78,7 +78,7 @@ TEST(LatticePoints, AreIntegersAndPairwiseDifferent) {
 }
 
 TEST(LatticePoints, ShareManyTrailingZeroBitsWhenUniform) {
-  for (Lattice kind : lattices) {
+  for (lattice::Lattice kind : lattices) {
     for (double edge_length : {0.31, 0.7, 1.0}) {
       const Shape shape = cube(10, true);
       for (const Point3& p : shape.place({kind, edge_length * shape.unit, 0})) {
@@ -90,22 +90,22 @@ TEST(LatticePoints, ShareManyTrailingZeroBitsWhenUniform) {
 
 TEST(LatticePoints, DoNotDependOnTheOrderOfTriangles) {
   Shape shape = cubes(7, l_shape, true);
-  const auto points = shape.place({Lattice::fcc, 0, 0.5});
-  EXPECT_EQ(points, shape.place({Lattice::fcc, 0, 0.5}));
+  const auto points = shape.place({lattice::Lattice::fcc, 0, 0.5});
+  EXPECT_EQ(points, shape.place({lattice::Lattice::fcc, 0, 0.5}));
   std::ranges::reverse(shape.triangles);
-  for (SurfaceTriangle& t : shape.triangles) {
+  for (lattice::SurfaceTriangle& t : shape.triangles) {
     std::swap(t.vertices[0], t.vertices[1]);
     std::swap(t.inside_above, t.inside_below);
   }
-  EXPECT_EQ(points, shape.place({Lattice::fcc, 0, 0.5}));
+  EXPECT_EQ(points, shape.place({lattice::Lattice::fcc, 0, 0.5}));
 }
 
 TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
   for (const Shape& shape : {cubes(8, l_shape, true), sphere(3)}) {
     const double edge_length = 0.16 * shape.unit * (shape.triangles.size() == 1280 ? 1 : 4);
-    const auto points = sorted(shape.place({Lattice::sc, edge_length, 0}));
+    const auto points = sorted(shape.place({lattice::Lattice::sc, edge_length, 0}));
     ASSERT_GT(points.size(), 300u);
-    const double side = round_to_few_bits(cell_side(Lattice::sc, edge_length));
+    const double side = lattice::round_to_few_bits(lattice::cell_side(lattice::Lattice::sc, edge_length));
     std::size_t missing = 0;
     for (const Point3& p : points) {
       for (const Point3& step :
@@ -114,11 +114,11 @@ TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
         if (std::ranges::binary_search(points, q, before)) continue;
         ++missing;
         if (std::abs(winding_number(shape, q)) < 0.5) continue;
-        const bool near = std::ranges::any_of(shape.triangles, [&](const SurfaceTriangle& t) {
-          const TrianglePoints c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]],
-                                 shape.vertices[t.vertices[2]]};
+        const bool near = std::ranges::any_of(shape.triangles, [&](const lattice::SurfaceTriangle& t) {
+          const lattice::TrianglePoints c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]],
+                                          shape.vertices[t.vertices[2]]};
           return in_smallest_sphere(c[0], c[1], c[2], q) ||
-                 std::sqrt(squared_distance(c, q)) < 1.01 * usual_clearance * edge_length;
+                 std::sqrt(lattice::squared_distance(c, q)) < 1.01 * lattice::usual_clearance * edge_length;
         });
         ASSERT_TRUE(near) << q.x << " " << q.y << " " << q.z;
       }
@@ -148,13 +148,15 @@ Neighbours nearest(const std::vector<Point3>& points, const Point3& p) {
 
 TEST(LatticePoints, HaveTheNeighboursOfTheirLattice) {
   struct Case {
-    Lattice kind;
+    lattice::Lattice kind;
     int neighbors;
     double distance;
   };
   const Shape shape = cube(10);
   const double edge_length = 0.97 * shape.unit;
-  for (const Case& c : {Case{Lattice::fcc, 12, 1.0}, {Lattice::bcc, 8, 0.97208}, {Lattice::sc, 6, 0.89090}}) {
+  for (const Case& c : {Case{lattice::Lattice::fcc, 12, 1.0},
+                        {lattice::Lattice::bcc, 8, 0.97208},
+                        {lattice::Lattice::sc, 6, 0.89090}}) {
     const auto points = shape.place({c.kind, edge_length, 0});
     int inner = 0;
     for (const Point3& p : points) {
@@ -183,20 +185,20 @@ TEST(LatticePoints, HaveTheSameDensityInAllLattices) {
   const Shape shape = cube(4);
   for (double part : {0.21, 0.25, 0.3, 0.37}) {
     const double edge_length = part * shape.unit, wanted = std::sqrt(2.0) / std::pow(edge_length, 3);
-    for (Lattice kind : lattices)
+    for (lattice::Lattice kind : lattices)
       EXPECT_NEAR(density(shape.place({kind, edge_length, 0}), 0.9 * shape.unit) / wanted, 1, 0.02);
   }
 }
 
 TEST(LatticePoints, KeepTheirDistanceFromTheSurface) {
   const Shape shape = cube(10);
-  for (Lattice kind : lattices) {
+  for (lattice::Lattice kind : lattices) {
     const double edge_length = 0.6 * shape.unit;
     double least = HUGE_VAL;
     for (const Point3& p : shape.place({kind, edge_length, 0})) {
       for (double c : as_array(p)) least = std::min(least, 5 * shape.unit - std::abs(c));
     }
-    EXPECT_GE(least, 0.99 * usual_clearance * edge_length);
+    EXPECT_GE(least, 0.99 * lattice::usual_clearance * edge_length);
     EXPECT_LE(least, 1.5 * edge_length);
   }
 }
@@ -206,7 +208,7 @@ TEST(LatticePoints, AreNotInAHole) {
     const auto middle = [](int c) { return c >= 3 && c < 6; };
     return middle(x) && middle(y) && middle(z) ? 0 : 1;
   });
-  const auto points = shape.place({Lattice::fcc, 0.5 * shape.unit, 0});
+  const auto points = shape.place({lattice::Lattice::fcc, 0.5 * shape.unit, 0});
   expect_inside(shape, points);
   for (const Point3& p : points) {
     const auto c = as_array(p);
@@ -218,8 +220,8 @@ TEST(LatticePoints, AreOnBothSidesOfAnInteriorFacet) {
   const auto halves = [](int x, int, int) { return x < 4 ? 1 : 2; };
   const Shape one = cube(9), two = cubes(9, halves);
   const double facet = -0.5 * one.unit, edge_length = 0.5 * one.unit;
-  const auto all = sorted(one.place({Lattice::bcc, edge_length, 0}));
-  const auto divided = sorted(two.place({Lattice::bcc, edge_length, 0}));
+  const auto all = sorted(one.place({lattice::Lattice::bcc, edge_length, 0}));
+  const auto divided = sorted(two.place({lattice::Lattice::bcc, edge_length, 0}));
   EXPECT_LT(divided.size(), all.size());
   EXPECT_TRUE(std::ranges::includes(all, divided, before));
   std::size_t lost = 0;
@@ -243,12 +245,12 @@ TEST(LatticePoints, StayClearOfDanglingFacetsSegmentsAndVertices) {
   const VertexId d = add(-2, -1.5, -1), e = add(-1, -1.5, -1), alone = add(-1, 2, 0.125);
   shape.subsegments.push_back({d, e});
   const double edge_length = 0.4 * shape.unit;
-  const auto points = shape.place({Lattice::fcc, edge_length, 0});
+  const auto points = shape.place({lattice::Lattice::fcc, edge_length, 0});
   expect_inside(shape, points);
   expect_outside_of_smallest_spheres(shape, points);
   double least = HUGE_VAL;
   for (const Point3& p : points) least = std::min(least, std::sqrt(squared_length(p - shape.vertices[alone])));
-  EXPECT_GE(least, 0.99 * usual_clearance * edge_length);
+  EXPECT_GE(least, 0.99 * lattice::usual_clearance * edge_length);
   EXPECT_LE(least, 1.5 * edge_length);
 }
 
@@ -257,15 +259,15 @@ TEST(LatticePoints, FillAWallAndNotTheCavityBehindIt) {
   add_sphere(shape, 3, 1, false, true);
   add_sphere(shape, 3, 0.7, true, false);
   put_on_grid(shape);
-  for (Lattice kind : lattices) expect_inside(shape, shape.place({kind, 0.1 * shape.unit, 0}));
-  EXPECT_TRUE(shape.place({Lattice::fcc, 0.3 * shape.unit, 0}).empty());
+  for (lattice::Lattice kind : lattices) expect_inside(shape, shape.place({kind, 0.1 * shape.unit, 0}));
+  EXPECT_TRUE(shape.place({lattice::Lattice::fcc, 0.3 * shape.unit, 0}).empty());
 }
 
 TEST(LatticePoints, GetFewerWithGreaterGrading) {
   const Shape shape = sphere(4);
-  std::size_t last = shape.place({Lattice::fcc, 0, 0}).size();
+  std::size_t last = shape.place({lattice::Lattice::fcc, 0, 0}).size();
   for (double grading : {0.1, 0.3, 1.0}) {
-    const std::size_t now = shape.place({Lattice::fcc, 0, grading}).size();
+    const std::size_t now = shape.place({lattice::Lattice::fcc, 0, grading}).size();
     EXPECT_LT(now, last);
     EXPECT_GT(now, 0u);
     last = now;
@@ -275,22 +277,23 @@ TEST(LatticePoints, GetFewerWithGreaterGrading) {
 TEST(LatticePoints, FollowAnEvenSurfaceOfTheTargetSizeWithoutGrading) {
   const Shape shape = sphere(4);
   const double edge_length = 0.07 * shape.unit;
-  EXPECT_EQ(shape.place({Lattice::fcc, edge_length, 0.5}), shape.place({Lattice::fcc, edge_length, 0}));
+  EXPECT_EQ(shape.place({lattice::Lattice::fcc, edge_length, 0.5}),
+            shape.place({lattice::Lattice::fcc, edge_length, 0}));
 }
 
 TEST(LatticePoints, AreDeclinedBeforeTheyFillTheMemory) {
   const Shape shape = cube(2);
-  EXPECT_THROW(shape.place({Lattice::fcc, 1e-4 * shape.unit, 0.5}), LimitError);
+  EXPECT_THROW(shape.place({lattice::Lattice::fcc, 1e-4 * shape.unit, 0.5}), LimitError);
 }
 
 TEST(LatticePoints, AreNoneWithoutALatticeOrASurface) {
-  EXPECT_TRUE(cube(6).place({Lattice::none, 0, 0.5}).empty());
-  EXPECT_TRUE(Shape{}.place({Lattice::fcc, 1, 0.5}).empty());
+  EXPECT_TRUE(cube(6).place({lattice::Lattice::none, 0, 0.5}).empty());
+  EXPECT_TRUE(Shape{}.place({lattice::Lattice::fcc, 1, 0.5}).empty());
 }
 
 TEST(CellSize, HasFewBitsAndIsNear) {
   for (double x = 1; x < 1e15; x *= 1.37) {
-    const double rounded = round_to_few_bits(x);
+    const double rounded = lattice::round_to_few_bits(x);
     EXPECT_NEAR(rounded / x, 1, 0.004);
     int exponent = 0;
     const double bits = std::ldexp(std::frexp(rounded, &exponent), 8);
@@ -299,10 +302,10 @@ TEST(CellSize, HasFewBitsAndIsNear) {
 }
 
 TEST(SmallestBall, TouchesTheCornersOfAnAcuteTriangleAndTheLongestEdgeOfAnObtuseOne) {
-  const Ball acute = smallest_ball(TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
+  const lattice::Ball acute = lattice::smallest_ball(lattice::TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
   for (const Point3& p : {Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}})
     EXPECT_NEAR(std::sqrt(squared_length(p - acute.center)), acute.radius, 1e-7);
-  const Ball obtuse = smallest_ball(TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
+  const lattice::Ball obtuse = lattice::smallest_ball(lattice::TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
   EXPECT_NEAR(obtuse.center.x, 5, 1e-12);
   EXPECT_NEAR(obtuse.center.y, 0, 1e-12);
   EXPECT_NEAR(obtuse.radius, 5, 1e-7);

@@ -14,18 +14,18 @@ namespace ccdt::test {
 /// A domain for the lattice, in grid units, and how large a unit of its description is.
 struct Shape {
   std::vector<Point3> vertices;
-  std::vector<SurfaceTriangle> triangles;
+  std::vector<lattice::SurfaceTriangle> triangles;
   std::vector<std::array<VertexId, 2>> subsegments;
   double unit = 1;
 
-  std::vector<Point3> place(const LatticeOptions& options) const {
-    return place_lattice_points({vertices, triangles, subsegments}, options);
+  std::vector<Point3> place(const lattice::LatticeOptions& options) const {
+    return lattice::place_lattice_points({vertices, triangles, subsegments}, options);
   }
 };
 
 /// Puts vertices on the dyadic grid.
 inline void put_on_grid(Shape& shape) {
-  const DyadicGrid grid = make_grid(shape.vertices);
+  const numbers::DyadicGrid grid = numbers::make_grid(shape.vertices);
   for (Point3& p : shape.vertices) p = grid.snap(p);
   shape.unit = 1 / grid.unit;
 }
@@ -123,7 +123,7 @@ inline Shape sphere(int subdivisions) {
 /// outside.
 inline double winding_number(const Shape& shape, const Point3& p) {
   double angle = 0;
-  for (const SurfaceTriangle& t : shape.triangles) {
+  for (const lattice::SurfaceTriangle& t : shape.triangles) {
     const int side = int{t.inside_below} - int{t.inside_above};
     if (side == 0) continue;
     const Point3 a = shape.vertices[t.vertices[0]] - p, b = shape.vertices[t.vertices[1]] - p,

@@ -17,7 +17,7 @@ constexpr double side = 0x1p40;
 
 /// Vertices and small triangles of them; graded: their distances to a corner of the box range over many powers of two.
 struct Scene {
-  std::vector<DelaunayVertex> vertices;
+  std::vector<delaunay::DelaunayVertex> vertices;
   std::vector<std::array<VertexId, 3>> triangles;
 
   Scene(std::uint32_t count, bool graded, unsigned seed) {
@@ -41,8 +41,9 @@ struct Scene {
 
 /// Have the closed segment and the closed triangle a point in common? (Touching in one plane may count as well.)
 bool passes(const Point3& p, const Point3& q, const Point3& a, const Point3& b, const Point3& c) {
-  if (orient3d(a, b, c, p) * orient3d(a, b, c, q) > 0) return false;
-  const std::array turns = {orient3d(p, q, a, b), orient3d(p, q, b, c), orient3d(p, q, c, a)};
+  if (numbers::orient3d(a, b, c, p) * numbers::orient3d(a, b, c, q) > 0) return false;
+  const std::array turns = {numbers::orient3d(p, q, a, b), numbers::orient3d(p, q, b, c),
+                            numbers::orient3d(p, q, c, a)};
   return std::none_of(turns.begin(), turns.end(), [](int t) { return t < 0; }) ||
          std::none_of(turns.begin(), turns.end(), [](int t) { return t > 0; });
 }
@@ -57,14 +58,14 @@ void expect_vertices_of_caps(const Scene& scene, const Locator& locator, unsigne
   for (int round = 0; round < 40; ++round) {
     const std::size_t t = random() % scene.triangles.size();
     const Point3 &a = scene.corner(t, 0), &b = scene.corner(t, 1), &c = scene.corner(t, 2);
-    Cap cap(a, b, c);
+    locate::Cap cap(a, b, c);
     // It shrinks to a ball around a vertex after some visits, as it does when a candidate is found.
     const Point3 centre = scene.vertices[random() % scene.vertices.size()].point;
     const double radius = std::sqrt(squared_length(centre - a)) * (round % 4 + 1) / 4;
     const unsigned visits_before = random() % 3 == 0 ? 1000000 : random() % 20;
     std::vector<int> visits(scene.vertices.size(), 0);
     unsigned count = 0;
-    locator.visit_nearest_first(a, cap, [&](const LocatedVertex& v) {
+    locator.visit_nearest_first(a, cap, [&](const locate::LocatedVertex& v) {
       EXPECT_TRUE(v.point == scene.vertices[v.id].point);
       ++visits[v.id];
       if (count++ == visits_before) cap.shrink_to(centre, radius);
@@ -121,11 +122,11 @@ void expect_finds_everything(const Make& make) {
 
 TEST(GridLocator, FindsAllVerticesAndFacesAtAnyScale) {
   for (const double scale : {0.5, 1.0, 3.0})
-    expect_finds_everything([&](const Scene& s) { return GridLocator(s.vertices, s.triangles, scale); });
+    expect_finds_everything([&](const Scene& s) { return locate::GridLocator(s.vertices, s.triangles, scale); });
 }
 
 TEST(OctreeLocator, FindsAllVerticesAndFaces) {
-  expect_finds_everything([](const Scene& s) { return OctreeLocator(s.vertices, s.triangles); });
+  expect_finds_everything([](const Scene& s) { return locate::OctreeLocator(s.vertices, s.triangles); });
 }
 
 TEST(OctreeLocator, OfSomeFindsTheseAlone) {
@@ -133,9 +134,9 @@ TEST(OctreeLocator, OfSomeFindsTheseAlone) {
   std::vector<std::uint32_t> some_vertices, some_faces;
   for (std::uint32_t v = 0; v < scene.vertices.size(); v += 7) some_vertices.push_back(v);
   for (std::uint32_t f = 0; f < scene.triangles.size(); f += 5) some_faces.push_back(f);
-  const OctreeLocator locator(scene.vertices, some_vertices, scene.triangles, some_faces);
-  const Cap cap(scene.corner(0, 0), scene.corner(0, 1), scene.corner(0, 2));
-  locator.visit_nearest_first({}, cap, [](const LocatedVertex& v) { EXPECT_EQ(v.id % 7, 0u); });
+  const locate::OctreeLocator locator(scene.vertices, some_vertices, scene.triangles, some_faces);
+  const locate::Cap cap(scene.corner(0, 0), scene.corner(0, 1), scene.corner(0, 2));
+  locator.visit_nearest_first({}, cap, [](const locate::LocatedVertex& v) { EXPECT_EQ(v.id % 7, 0u); });
   int faces = 0;
   locator.any_near_edge({-side, -side, -side}, {side, side, side}, [&](std::uint32_t f) {
     EXPECT_EQ(f % 5, 0u);
@@ -148,12 +149,13 @@ TEST(OctreeLocator, OfSomeFindsTheseAlone) {
 TEST(OctreeLocator, HoldsManyVerticesInOnePlace) {
   Scene scene(30, false, 6);
   for (std::uint32_t i = 0; i < 100; ++i) scene.vertices.push_back({{side + i % 3, 0, 0}, 0, 0});
-  expect_vertices_of_caps(scene, OctreeLocator(scene.vertices, scene.triangles), 7);
+  expect_vertices_of_caps(scene, locate::OctreeLocator(scene.vertices, scene.triangles), 7);
 }
 
 TEST(OctreeLocator, OfNothingFindsNothing) {
-  const OctreeLocator locator({}, {});
-  locator.visit_nearest_first({}, Cap({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), [](const LocatedVertex&) { ADD_FAILURE(); });
+  const locate::OctreeLocator locator({}, {});
+  locator.visit_nearest_first({}, locate::Cap({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                              [](const locate::LocatedVertex&) { ADD_FAILURE(); });
   EXPECT_FALSE(locator.any_near_edge({0, 0, 0}, {1, 1, 1}, [](std::uint32_t) { return true; }));
 }
 
@@ -163,14 +165,14 @@ TEST(Locators, VisitFewVerticesWhereTheCapIsSmall) {
   const auto visits_of = [&](const auto& locator) {
     std::size_t visits = 0;
     for (std::size_t t = 0; t < 100; ++t) {
-      Cap cap(scene.corner(t, 0), scene.corner(t, 1), scene.corner(t, 2));
+      locate::Cap cap(scene.corner(t, 0), scene.corner(t, 1), scene.corner(t, 2));
       cap.shrink_to(scene.corner(t, 0), side / 16);
-      locator.visit_nearest_first(scene.corner(t, 0), cap, [&](const LocatedVertex&) { ++visits; });
+      locator.visit_nearest_first(scene.corner(t, 0), cap, [&](const locate::LocatedVertex&) { ++visits; });
     }
     return visits / 100;
   };
-  EXPECT_LT(visits_of(GridLocator(scene.vertices, scene.triangles)), 200u);
-  EXPECT_LT(visits_of(OctreeLocator(scene.vertices, scene.triangles)), 200u);
+  EXPECT_LT(visits_of(locate::GridLocator(scene.vertices, scene.triangles)), 200u);
+  EXPECT_LT(visits_of(locate::OctreeLocator(scene.vertices, scene.triangles)), 200u);
 }
 
 }  // namespace

@@ -42,9 +42,9 @@ void expect_same_cells(const TetMesh& a, const TetMesh& b) {
   EXPECT_TRUE(cells_of_a == cells_of_b);
 }
 
-void expect_right(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options) {
-  const Verification verification = verify(input, mesh, options);
-  for (const Check& check : verification.checks)
+void expect_right(const InputPlc& input, const TetMesh& mesh, const verify::VerifyOptions& options) {
+  const verify::Verification verification = verify::verify(input, mesh, options);
+  for (const verify::Check& check : verification.checks)
     EXPECT_FALSE(check.required && check.failed > 0) << check.name << ": " << check.failed << " of " << check.checked
                                                      << " " << (check.examples.empty() ? "" : check.examples.front());
 }

@@ -16,7 +16,7 @@ std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh);
 void expect_same_cells(const TetMesh& a, const TetMesh& b);
 
 /// The independent verification finds nothing wrong.
-void expect_right(const InputPlc& input, const TetMesh& mesh, const VerifyOptions& options = {});
+void expect_right(const InputPlc& input, const TetMesh& mesh, const verify::VerifyOptions& options = {});
 
 /// The same, and the mesh claims to be constrained Delaunay.
 void expect_verified(const InputPlc& input, const TetMesh& mesh);

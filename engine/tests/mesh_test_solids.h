@@ -20,7 +20,7 @@ inline Matrix random_rotation(std::mt19937& random) {
 }
 
 template <class Map>
-InputPlc mapped(InputPlc plc, const Map& map) {
+plc::InputPlc mapped(plc::InputPlc plc, const Map& map) {
   for (Point3& p : plc.vertices) p = map(p);
   for (Point3& p : plc.holes) p = map(p);
   for (auto& region : plc.regions) region.seed = map(region.seed);
@@ -28,30 +28,30 @@ InputPlc mapped(InputPlc plc, const Map& map) {
 }
 
 /// A cube of side 3 whose inside is told by seeds, so that facets may stand in it.
-inline InputPlc seeded_cube() {
-  InputPlc plc = box({0, 0, 0}, {3, 3, 3});
-  plc.inside = InputPlc::Inside::seeds;
+inline plc::InputPlc seeded_cube() {
+  plc::InputPlc plc = box({0, 0, 0}, {3, 3, 3});
+  plc.inside = plc::InputPlc::Inside::seeds;
   return plc;
 }
 
-inline InputPlc cube_with_cubic_hole() {
-  InputPlc plc = box({0, 0, 0}, {3, 3, 3});
+inline plc::InputPlc cube_with_cubic_hole() {
+  plc::InputPlc plc = box({0, 0, 0}, {3, 3, 3});
   append(plc, box({1, 1, 1}, {2, 2, 2}));
   return plc;
 }
 
 /// The same, but the inner cube is filled: regions 3 and 4.
-inline InputPlc cube_within_cube() {
-  InputPlc plc = cube_with_cubic_hole();
-  plc.inside = InputPlc::Inside::seeds;
+inline plc::InputPlc cube_within_cube() {
+  plc::InputPlc plc = cube_with_cubic_hole();
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.regions = {{{0.5, 0.4, 0.3}, 3, 0}, {{1.5, 1.4, 1.3}, 4, 0}};
   return plc;
 }
 
 /// Two unit cubes that share the face x = 1; regions 1 and 2.
-inline InputPlc two_cubes() {
-  InputPlc plc;
-  plc.inside = InputPlc::Inside::seeds;
+inline plc::InputPlc two_cubes() {
+  plc::InputPlc plc;
+  plc.inside = plc::InputPlc::Inside::seeds;
   for (int x = 0; x < 3; ++x)
     for (int i = 0; i < 4; ++i) plc.vertices.push_back({double(x), double(i & 1), double(i >> 1)});
   for (std::uint32_t x = 0; x < 3; ++x) append_fan(plc, {4 * x, 4 * x + 1, 4 * x + 3, 4 * x + 2});
@@ -63,40 +63,40 @@ inline InputPlc two_cubes() {
 }
 
 /// The same as a surface format has it, which knows no seeds.
-inline InputPlc two_cubes_as_surface() {
-  InputPlc plc = two_cubes();
-  plc.inside = InputPlc::Inside::even_odd;
+inline plc::InputPlc two_cubes_as_surface() {
+  plc::InputPlc plc = two_cubes();
+  plc.inside = plc::InputPlc::Inside::even_odd;
   plc.regions.clear();
   return plc;
 }
 
 /// A cube with a square slit that touches nothing.
-inline InputPlc cube_with_slit() {
-  InputPlc plc = seeded_cube();
+inline plc::InputPlc cube_with_slit() {
+  plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1.25}, {2, 1, 1.25}, {2, 2, 1.25}, {1, 2, 1.25}});
   append_fan(plc, {8, 9, 10, 11});
   return plc;
 }
 
 /// A cube with a facet that stands on a piece of one of its edges.
-inline InputPlc cube_with_dangling_facet() {
-  InputPlc plc = box({0, 0, 0}, {3, 3, 3});
-  plc.inside = InputPlc::Inside::seeds;
+inline plc::InputPlc cube_with_dangling_facet() {
+  plc::InputPlc plc = box({0, 0, 0}, {3, 3, 3});
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.vertices.insert(plc.vertices.end(), {{2, 2, 1}, {2, 2, 2}});
   append_fan(plc, {0, 8, 9, 4});
   return plc;
 }
 
-inline InputPlc cube_with_dangling_segment() {
-  InputPlc plc = seeded_cube();
+inline plc::InputPlc cube_with_dangling_segment() {
+  plc::InputPlc plc = seeded_cube();
   plc.vertices.push_back({2, 1.5, 1});
   plc.segments = {{0, 8}};
   return plc;
 }
 
 /// A segment that touches nothing, and three vertices so near to it that it has to be split.
-inline InputPlc cube_with_floating_segment() {
-  InputPlc plc = seeded_cube();
+inline plc::InputPlc cube_with_floating_segment() {
+  plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1.5, 1}, {2, 1.5, 2}, {1.5, 1.5, 1.625}, {1.5, 1.375, 1.5}});
   plc.vertices.push_back({1.5, 1.625, 1.4375});
   plc.segments = {{8, 9}};
@@ -104,8 +104,8 @@ inline InputPlc cube_with_floating_segment() {
 }
 
 /// Three slits around one edge, like the wings of a turnstile.
-inline InputPlc cube_with_turnstile() {
-  InputPlc plc = seeded_cube();
+inline plc::InputPlc cube_with_turnstile() {
+  plc::InputPlc plc = seeded_cube();
   for (const auto& [x, y] : {std::array{1.0, 1.0}, {2.0, 1.0}, {0.5, 1.5}, {0.75, 0.25}})
     plc.vertices.insert(plc.vertices.end(), {{x, y, 1}, {x, y, 2}});
   for (const std::uint32_t wing : {10u, 12u, 14u}) append_fan(plc, {8, wing, wing + 1, 9});
@@ -114,8 +114,8 @@ inline InputPlc cube_with_turnstile() {
 
 /// A prism over a regular polygon whose top is turned by a part of the polygon's angle: Schoenhardt's polyhedron if
 /// that is a quarter of a triangle's. Turned backwards it is convex; all vertices are on one sphere.
-inline InputPlc twisted_prism(std::uint32_t corners, double turn, double height = 1) {
-  InputPlc plc;
+inline plc::InputPlc twisted_prism(std::uint32_t corners, double turn, double height = 1) {
+  plc::InputPlc plc;
   const double step = 2 * std::acos(-1.0) / corners;
   for (std::uint32_t k = 0; k < 2 * corners; ++k) {
     const double angle = step * (k % corners + (k < corners ? 0 : turn));
@@ -136,8 +136,8 @@ inline InputPlc twisted_prism(std::uint32_t corners, double turn, double height 
 
 /// Two prongs that stand on nothing: a long bar, and a short one so near to the middle of its long edges that these are
 /// no Delaunay edges. All edges are convex.
-inline InputPlc two_bars() {
-  InputPlc plc = box({0, 0, 0}, {8, 1, 1});
+inline plc::InputPlc two_bars() {
+  plc::InputPlc plc = box({0, 0, 0}, {8, 1, 1});
   append(plc, box({3.5, 1.125, 0.25}, {4.5, 2, 0.75}));
   append(plc, box({3.5, 0.25, 1.125}, {4.5, 0.75, 2}));
   return plc;
@@ -146,7 +146,7 @@ inline InputPlc two_bars() {
 /// An input, and what to call it in a message.
 struct Named {
   const char* name;
-  InputPlc plc;
+  plc::InputPlc plc;
 };
 
 /// One of each kind.
@@ -167,8 +167,8 @@ inline std::vector<Named> small_inputs() {
 }
 
 /// The convex hull of random points on the unit sphere.
-inline InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
-  InputPlc plc;
+inline plc::InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
+  plc::InputPlc plc;
   std::normal_distribution<double> part;
   for (std::uint32_t i = 0; i < points; ++i) {
     const double x = part(random), y = part(random), z = part(random);
@@ -190,7 +190,7 @@ inline InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
 
 /// Unit cubes with random labels: facets are where labels differ, so there are edges and vertices of every kind.
 /// Label 0 is empty, but what is enclosed by others is filled, since no seed says otherwise.
-inline InputPlc random_voxels(int n, int labels, std::mt19937& random) {
+inline plc::InputPlc random_voxels(int n, int labels, std::mt19937& random) {
   std::vector<int> label(n * n * n);
   for (int& l : label) l = static_cast<int>(random() % labels);
   label[0] = 1;  // never nothing
@@ -200,8 +200,8 @@ inline InputPlc random_voxels(int n, int labels, std::mt19937& random) {
       if (c < 0 || c >= n) return 0;
     return label[(p[2] * n + p[1]) * n + p[0]];
   };
-  InputPlc plc;
-  plc.inside = InputPlc::Inside::seeds;
+  plc::InputPlc plc;
+  plc.inside = plc::InputPlc::Inside::seeds;
   std::map<Place, std::uint32_t> numbers;
   const auto vertex = [&](const Place& p) {
     const auto [entry, is_new] = numbers.try_emplace(p, static_cast<std::uint32_t>(plc.vertices.size()));
@@ -220,7 +220,7 @@ inline InputPlc random_voxels(int n, int labels, std::mt19937& random) {
 }
 
 /// A projective map of the cube [0, size]^3: planes stay planes, right angles do not stay right.
-inline InputPlc in_perspective(const InputPlc& plc, double size) {
+inline plc::InputPlc in_perspective(const plc::InputPlc& plc, double size) {
   return mapped(plc, [size](const Point3& p) {
     const Point3 q = (1 / size) * p;
     return (1 / (1 + 0.4 * q.x + 0.3 * q.y + 0.7 * q.z)) * q;
@@ -228,14 +228,14 @@ inline InputPlc in_perspective(const InputPlc& plc, double size) {
 }
 
 /// Moves every vertex of a surface around the origin towards it, by a random amount: reflex edges everywhere.
-inline InputPlc roughened(InputPlc plc, double least, std::mt19937& random) {
+inline plc::InputPlc roughened(plc::InputPlc plc, double least, std::mt19937& random) {
   std::uniform_real_distribution<double> factor(least, 1);
   for (Point3& p : plc.vertices) p = factor(random) * p;
   return plc;
 }
 
 /// A box of height `height` with a grid on each face.
-inline InputPlc gridded_plate(std::uint32_t n, double height) {
+inline plc::InputPlc gridded_plate(std::uint32_t n, double height) {
   return mapped(gridded_cube(n), [height](const Point3& p) { return Point3{p.x, p.y, height * p.z}; });
 }
 

@@ -15,8 +15,9 @@ using test::jittered_stars;
 using test::Star;
 
 /// Goals that no star reaches, so that the search goes to its end.
-const QualityGoal best_r{Objective::r, 1.1, 1.1}, best_sine{Objective::dihedral, 1.1, 1.1};
-const QualityGoal best_sine_of_good_r{Objective::r, 0.5, 1.1}, usual{Objective::r, 0.5, 0.34};
+const improve::QualityGoal best_r{improve::Objective::r, 1.1, 1.1}, best_sine{improve::Objective::dihedral, 1.1, 1.1};
+const improve::QualityGoal best_sine_of_good_r{improve::Objective::r, 0.5, 1.1},
+    usual{improve::Objective::r, 0.5, 0.34};
 
 bool is_integer(const Point3& p) {
   return p.x == std::round(p.x) && p.y == std::round(p.y) && p.z == std::round(p.z);
@@ -24,21 +25,21 @@ bool is_integer(const Point3& p) {
 
 bool all_positive(const Star& star) {
   return std::all_of(star.faces.begin(), star.faces.end(),
-                     [&](const StarFace& f) { return orient3d(f.a, f.b, f.c, star.apex) > 0; });
+                     [&](const improve::StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, star.apex) > 0; });
 }
 
 /// Moves the apex and checks all that holds of every move; gives the quality before and after.
-std::array<double, 2> move_checked(const QualityGoal& goal, const Freedom& freedom, Star& star) {
+std::array<double, 2> move_checked(const improve::QualityGoal& goal, const improve::Freedom& freedom, Star& star) {
   EXPECT_TRUE(all_positive(star));
   const Point3 from = star.apex;
-  const double before = worst_of_star(star.faces, goal, from);
-  MoveScratch scratch;
-  const double after = move_apex(star.faces, goal, freedom, before, scratch, star.apex);
+  const double before = improve::worst_of_star(star.faces, goal, from);
+  improve::MoveScratch scratch;
+  const double after = improve::move_apex(star.faces, goal, freedom, before, scratch, star.apex);
   if (star.apex == from)
     EXPECT_EQ(after, before);
   else
     EXPECT_GT(after, before);
-  EXPECT_EQ(after, worst_of_star(star.faces, goal, star.apex));
+  EXPECT_EQ(after, improve::worst_of_star(star.faces, goal, star.apex));
   EXPECT_TRUE(is_integer(star.apex));
   EXPECT_TRUE(all_positive(star));
   return {before, after};
@@ -46,14 +47,14 @@ std::array<double, 2> move_checked(const QualityGoal& goal, const Freedom& freed
 
 double radius(const Star& star) {
   double squared = 0;
-  for (const StarFace& f : star.faces) squared = std::max(squared, squared_length(f.a - star.apex));
+  for (const improve::StarFace& f : star.faces) squared = std::max(squared, squared_length(f.a - star.apex));
   return std::sqrt(squared);
 }
 
 /// The best of ever finer grids around the best so far. `directions` spans where the apex may go.
-double best_of_grids(const Star& star, const QualityGoal& goal, std::span<const Point3> directions) {
+double best_of_grids(const Star& star, const improve::QualityGoal& goal, std::span<const Point3> directions) {
   Point3 best = star.apex;
-  double quality = worst_of_star(star.faces, goal, best);
+  double quality = improve::worst_of_star(star.faces, goal, best);
   const int dimensions = static_cast<int>(directions.size());
   double step = radius(star) / 6;
   for (int level = 0; level < 8; ++level, step *= 0.4) {
@@ -65,7 +66,7 @@ double best_of_grids(const Star& star, const QualityGoal& goal, std::span<const 
           Point3 there = centre + (step * i) * directions[0];
           if (dimensions > 1) there = there + (step * j) * directions[1];
           if (dimensions > 2) there = there + (step * k) * directions[2];
-          if (const double w = worst_of_star(star.faces, goal, there); w > quality) quality = w, best = there;
+          if (const double w = improve::worst_of_star(star.faces, goal, there); w > quality) quality = w, best = there;
         }
       }
     }
@@ -76,13 +77,13 @@ double best_of_grids(const Star& star, const QualityGoal& goal, std::span<const 
 constexpr std::array<Point3, 3> all_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// The eight faces of an octahedron of this radius around the origin, seen from inside.
-std::vector<StarFace> octahedron(double size) {
-  std::vector<StarFace> faces;
+std::vector<improve::StarFace> octahedron(double size) {
+  std::vector<improve::StarFace> faces;
   for (const double x : {-size, size}) {
     for (const double y : {-size, size}) {
       for (const double z : {-size, size}) {
         const Point3 a{x, 0, 0}, b{0, y, 0}, c{0, 0, z};
-        faces.push_back(orient3d(a, b, c, {}) > 0 ? StarFace{a, b, c} : StarFace{b, a, c});
+        faces.push_back(numbers::orient3d(a, b, c, {}) > 0 ? improve::StarFace{a, b, c} : improve::StarFace{b, a, c});
       }
     }
   }
@@ -91,25 +92,25 @@ std::vector<StarFace> octahedron(double size) {
 
 TEST(CellQuality, KnowsTheRegularTetrahedron) {
   const Point3 a{1, 1, 1}, b{-1, -1, 1}, c{-1, 1, -1}, d{1, -1, -1};
-  EXPECT_NEAR(std::fabs(inverse_r(a, b, c, d)), 1, 1e-15);
-  EXPECT_NEAR(std::fabs(least_sine(a, b, c, d)), std::sqrt(8.0) / 3, 1e-15);
-  EXPECT_NEAR(inverse_r(a, b, c, d), -inverse_r(b, a, c, d), 1e-15);
+  EXPECT_NEAR(std::fabs(improve::inverse_r(a, b, c, d)), 1, 1e-15);
+  EXPECT_NEAR(std::fabs(improve::least_sine(a, b, c, d)), std::sqrt(8.0) / 3, 1e-15);
+  EXPECT_NEAR(improve::inverse_r(a, b, c, d), -improve::inverse_r(b, a, c, d), 1e-15);
 }
 
 TEST(CellQuality, KnowsTheCornerOfACube) {
   const Point3 a{1, 0, 0}, b{0, 1, 0}, c{0, 0, 1}, d{};
-  ASSERT_LT(orient3d(a, b, c, d), 0);
+  ASSERT_LT(numbers::orient3d(a, b, c, d), 0);
   // Edges: three of 1, three of sqrt(2): mean square 3/2. Angles: 90 degrees, and those with tangent sqrt(2).
-  EXPECT_NEAR(inverse_r(b, a, c, d), std::numbers::sqrt2 / (1.5 * std::sqrt(1.5)), 1e-15);
-  EXPECT_NEAR(least_sine(b, a, c, d), std::sqrt(2.0 / 3), 1e-15);
+  EXPECT_NEAR(improve::inverse_r(b, a, c, d), std::numbers::sqrt2 / (1.5 * std::sqrt(1.5)), 1e-15);
+  EXPECT_NEAR(improve::least_sine(b, a, c, d), std::sqrt(2.0 / 3), 1e-15);
 }
 
 TEST(StarFunctions, AgreeWithTheWorthOfSingleTetrahedra) {
-  ScaledStar scaled;
+  improve::ScaledStar scaled;
   for (const Star& star : jittered_stars(0.3, 1)) {
-    load_star(star.faces, star.apex, scaled);
-    for (const QualityGoal& goal : {best_r, best_sine, usual})
-      EXPECT_NEAR(least_quality(goal, {}, scaled), worst_of_star(star.faces, goal, star.apex), 1e-12);
+    improve::load_star(star.faces, star.apex, scaled);
+    for (const improve::QualityGoal& goal : {best_r, best_sine, usual})
+      EXPECT_NEAR(improve::least_quality(goal, {}, scaled), improve::worst_of_star(star.faces, goal, star.apex), 1e-12);
   }
 }
 
@@ -117,20 +118,21 @@ TEST(StarFunctions, AgreeWithTheWorthOfSingleTetrahedra) {
 /// differs by what the gradient says.
 TEST(StarFunctions, HaveTheGradientsOfFiniteDifferences) {
   constexpr double everything = 100, step = 1e-5;
-  ScaledStar scaled;
-  LinearModels models, ahead, behind;
+  improve::ScaledStar scaled;
+  improve::LinearModels models, ahead, behind;
   for (const Star& star : jittered_stars(0.3, 2)) {
-    load_star(star.faces, star.apex, scaled);
+    improve::load_star(star.faces, star.apex, scaled);
     const Point3 x{0.05, -0.03, 0.02};
-    for (const QualityGoal& goal : {best_r, best_sine, QualityGoal{Objective::r, 0.0, 1.1}}) {
-      const double least = least_quality(goal, x, scaled);
-      model_star(goal, x, least, everything, scaled, models);
+    for (const improve::QualityGoal& goal :
+         {best_r, best_sine, improve::QualityGoal{improve::Objective::r, 0.0, 1.1}}) {
+      const double least = improve::least_quality(goal, x, scaled);
+      improve::model_star(goal, x, least, everything, scaled, models);
       for (const Point3& axis : all_axes) {
         // The surplus of 1 / r is on top of what `least` is said to be.
-        least_quality(goal, x + step * axis, scaled);
-        model_star(goal, x + step * axis, least, everything, scaled, ahead);
-        least_quality(goal, x - step * axis, scaled);
-        model_star(goal, x - step * axis, least, everything, scaled, behind);
+        improve::least_quality(goal, x + step * axis, scaled);
+        improve::model_star(goal, x + step * axis, least, everything, scaled, ahead);
+        improve::least_quality(goal, x - step * axis, scaled);
+        improve::model_star(goal, x - step * axis, least, everything, scaled, behind);
         ASSERT_EQ(models.size(), ahead.size());
         ASSERT_EQ(models.size(), behind.size());
         for (std::size_t i = 0; i < models.size(); ++i) {
@@ -143,13 +145,13 @@ TEST(StarFunctions, HaveTheGradientsOfFiniteDifferences) {
 }
 
 TEST(StarFunctions, LeaveOutWhatIsOutOfReach) {
-  ScaledStar scaled;
-  LinearModels models;
+  improve::ScaledStar scaled;
+  improve::LinearModels models;
   for (const Star& star : jittered_stars(0.3, 2)) {
-    load_star(star.faces, star.apex, scaled);
-    for (const QualityGoal& goal : {best_r, best_sine}) {
-      const double least = least_quality(goal, {}, scaled);
-      model_star(goal, {}, least, 0.1, scaled, models);
+    improve::load_star(star.faces, star.apex, scaled);
+    for (const improve::QualityGoal& goal : {best_r, best_sine}) {
+      const double least = improve::least_quality(goal, {}, scaled);
+      improve::model_star(goal, {}, least, 0.1, scaled, models);
       ASSERT_GT(models.size(), 0u);
       const auto [low, high] = std::minmax_element(models.value.begin(), models.value.end());
       EXPECT_NEAR(*low, least, 1e-12);
@@ -159,28 +161,28 @@ TEST(StarFunctions, LeaveOutWhatIsOutOfReach) {
 }
 
 TEST(ProximalStep, FollowsTheOnlyGradient) {
-  LinearModels models;
+  improve::LinearModels models;
   models.add(1, {1, 2, -2});
-  const ProximalStep found = proximal_step(models, 0.5);
+  const improve::ProximalStep found = improve::proximal_step(models, 0.5);
   EXPECT_EQ(found.step, (Point3{0.5, 1, -1}));
   EXPECT_EQ(found.least, 1 + 4.5);
 }
 
 TEST(ProximalStep, TakesTheLeastCombinationOfGradientsOfEqualValues) {
-  LinearModels models;
+  improve::LinearModels models;
   models.add(0, {1, 1, 0});
   models.add(0, {1, -1, 0});
   models.add(0, {9, 0, 0});
-  const ProximalStep found = proximal_step(models, 1);
+  const improve::ProximalStep found = improve::proximal_step(models, 1);
   EXPECT_NEAR(squared_length(found.step - Point3{1, 0, 0}), 0, 1e-20);
   EXPECT_NEAR(found.least, 1, 1e-10);
 }
 
 TEST(ProximalStep, StaysWhereGradientsSurroundIt) {
-  LinearModels models;
+  improve::LinearModels models;
   for (const Point3& g : {Point3{1, 0, -1}, Point3{-1, 0, -1}, Point3{0, 1, 1}, Point3{0, -1, 1}}) models.add(2, g);
   models.add(2.5, {3, 3, 3});
-  const ProximalStep found = proximal_step(models, 1);
+  const improve::ProximalStep found = improve::proximal_step(models, 1);
   EXPECT_NEAR(squared_length(found.step), 0, 1e-10);
   EXPECT_LE(found.least, 2 + 1e-6);
 }
@@ -188,10 +190,10 @@ TEST(ProximalStep, StaysWhereGradientsSurroundIt) {
 /// Four planes meet in one point: a step that is long enough ends there.
 TEST(ProximalStep, EndsWhereFourModelsMeet) {
   const Point3 summit{0.3, -0.2, 0.1};
-  LinearModels models;
+  improve::LinearModels models;
   for (const Point3& g : {Point3{1, 0, -1}, Point3{-1, 0, -1}, Point3{0, 1, 1}, Point3{0, -1, 1}})
     models.add(2 - dot(g, summit), g);
-  const ProximalStep found = proximal_step(models, 10);
+  const improve::ProximalStep found = improve::proximal_step(models, 10);
   EXPECT_NEAR(squared_length(found.step - summit), 0, 1e-6);
   EXPECT_NEAR(found.least, 2, 1e-2);
 }
@@ -201,7 +203,7 @@ TEST(ProximalStep, IsBetterThanOtherSteps) {
   std::mt19937_64 random(5);
   const auto number = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
   for (int round = 0; round < 200; ++round) {
-    LinearModels models;
+    improve::LinearModels models;
     for (int i = 0; i < 3 + round % 40; ++i) models.add(0.2 * number(), {number(), number(), number() + 0.2});
     const double length = 0.05 * (1 + round % 7);
     const auto least = [&](const Point3& step) {
@@ -211,7 +213,7 @@ TEST(ProximalStep, IsBetterThanOtherSteps) {
       return value;
     };
     const auto worth = [&](const Point3& step) { return least(step) - squared_length(step) / (2 * length); };
-    const ProximalStep found = proximal_step(models, length);
+    const improve::ProximalStep found = improve::proximal_step(models, length);
     EXPECT_NEAR(found.least, least(found.step), 1e-12);
     const double gain = worth(found.step) - worth({});
     EXPECT_GE(gain, 0);
@@ -224,7 +226,7 @@ TEST(ProximalStep, IsBetterThanOtherSteps) {
 
 TEST(MoveApex, FindsTheCentreOfAnOctahedron) {
   const double size = 0x1p40;
-  for (const QualityGoal& goal : {best_r, best_sine}) {
+  for (const improve::QualityGoal& goal : {best_r, best_sine}) {
     for (const Point3& start : {Point3{0.3, 0.2, -0.1}, Point3{-0.6, 0.1, 0.2}, Point3{0, 0, 0.95}}) {
       Star star{octahedron(size), size * start};
       star.apex = {std::round(star.apex.x), std::round(star.apex.y), std::round(star.apex.z)};
@@ -235,7 +237,7 @@ TEST(MoveApex, FindsTheCentreOfAnOctahedron) {
 }
 
 TEST(MoveApex, IsSeldomWorseThanASearchOfTheWholeStar) {
-  for (const QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r}) {
+  for (const improve::QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r}) {
     for (const double jitter : {0.15, 0.3, 0.6}) {
       int stars = 0, close = 0;
       double found = 0, known = 0;
@@ -255,13 +257,14 @@ TEST(MoveApex, IsSeldomWorseThanASearchOfTheWholeStar) {
 TEST(MoveApex, NeverMakesAStarWorse) {
   for (const double jitter : {0.05, 0.3, 1.0, 3.0})
     for (Star& star : jittered_stars(jitter, 4))
-      for (const QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r, usual}) move_checked(goal, {}, star);
+      for (const improve::QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r, usual})
+        move_checked(goal, {}, star);
 }
 
 TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
   const auto bad = [](const Star& star) {
-    return std::count_if(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
-      return cell_quality(usual, f.a, f.b, f.c, star.apex) < goal_quality(usual);
+    return std::count_if(star.faces.begin(), star.faces.end(), [&](const improve::StarFace& f) {
+      return improve::cell_quality(usual, f.a, f.b, f.c, star.apex) < improve::goal_quality(usual);
     });
   };
   int small_gains = 0, great_gains = 0;
@@ -283,27 +286,27 @@ TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
 TEST(MoveApex, LeavesAStarAloneThatIsGoodEnough) {
   Star star{octahedron(0x1p40), {0x1p36, 0, 0}};
   const auto [before, after] = move_checked(usual, {}, star);
-  EXPECT_GE(before, goal_quality(usual));
+  EXPECT_GE(before, improve::goal_quality(usual));
   EXPECT_EQ(after, before);
   EXPECT_EQ(star.apex, (Point3{0x1p36, 0, 0}));
 }
 
 TEST(MoveApex, GoesNowhereWithoutFreedom) {
   Star star{octahedron(0x1p40), {0x1p39, 0, 0}};
-  move_checked(best_r, Freedom{0, {}, {}}, star);
+  move_checked(best_r, improve::Freedom{0, {}, {}}, star);
   EXPECT_EQ(star.apex, (Point3{0x1p39, 0, 0}));
 }
 
 /// The apex is in an oblique plane through its star; it may take only places that are multiples of the steps away.
 TEST(MoveApex, StaysExactlyInAPlane) {
-  const Freedom freedom{2, {3 * 0x1p20, 1 * 0x1p20, 2 * 0x1p20}, {-1 * 0x1p20, 5 * 0x1p20, 7 * 0x1p20}};
+  const improve::Freedom freedom{2, {3 * 0x1p20, 1 * 0x1p20, 2 * 0x1p20}, {-1 * 0x1p20, 5 * 0x1p20, 7 * 0x1p20}};
   int moved = 0;
-  for (const QualityGoal& goal : {best_r, best_sine}) {
+  for (const improve::QualityGoal& goal : {best_r, best_sine}) {
     for (Star& star : jittered_stars(0.3, 6)) {
       const Point3 from = star.apex;
       move_checked(goal, freedom, star);
       const Point3 move = star.apex - from;
-      EXPECT_EQ(orient3d(from, from + freedom.u, from + freedom.v, star.apex), 0);
+      EXPECT_EQ(numbers::orient3d(from, from + freedom.u, from + freedom.v, star.apex), 0);
       const double i = std::round((5 * move.x + move.y) / (16 * 0x1p20));
       const double j = std::round((3 * move.y - move.x) / (16 * 0x1p20));
       EXPECT_EQ(move, i * freedom.u + j * freedom.v);
@@ -314,9 +317,9 @@ TEST(MoveApex, StaysExactlyInAPlane) {
 }
 
 TEST(MoveApex, StaysExactlyOnALine) {
-  const Freedom freedom{1, {3 * 0x1p20, 1 * 0x1p20, 2 * 0x1p20}, {}};
+  const improve::Freedom freedom{1, {3 * 0x1p20, 1 * 0x1p20, 2 * 0x1p20}, {}};
   int moved = 0;
-  for (const QualityGoal& goal : {best_r, best_sine}) {
+  for (const improve::QualityGoal& goal : {best_r, best_sine}) {
     for (Star& star : jittered_stars(0.3, 6)) {
       const Point3 from = star.apex;
       move_checked(goal, freedom, star);
@@ -331,7 +334,8 @@ TEST(MoveApex, StaysExactlyOnALine) {
 TEST(MoveApex, IsSeldomWorseThanASearchOfThePlaneOrTheLine) {
   const std::array<Point3, 2> axes{{{0.6, 0.8, 0}, {0, 0, 1}}};
   for (const int dimensions : {1, 2}) {
-    const Freedom freedom{dimensions, 0x1p20 * Point3{3, 4, 0}, dimensions == 2 ? Point3{0, 0, 0x1p20} : Point3{}};
+    const improve::Freedom freedom{dimensions, 0x1p20 * Point3{3, 4, 0},
+                                   dimensions == 2 ? Point3{0, 0, 0x1p20} : Point3{}};
     int stars = 0, close = 0;
     for (Star& star : jittered_stars(0.3, 7)) {
       const double best = best_of_grids(star, best_sine, std::span(axes).first(static_cast<std::size_t>(dimensions)));
@@ -346,7 +350,7 @@ TEST(MoveApex, IsSeldomWorseThanASearchOfThePlaneOrTheLine) {
 TEST(MoveApex, LeavesNearlyFlatPlacesAndStaysPositive) {
   const double size = 0x1p40;
   for (const double depth : {0x1p-20, 0x1p-30, 0x1p-40}) {
-    for (const QualityGoal& goal : {best_r, best_sine, usual}) {
+    for (const improve::QualityGoal& goal : {best_r, best_sine, usual}) {
       // One unit below the tip of the octahedron, and just inside one of its faces.
       Star tip{octahedron(size), {0, 0, size - size * depth}};
       EXPECT_GT(move_checked(goal, {}, tip)[1], 0.3);
@@ -356,7 +360,7 @@ TEST(MoveApex, LeavesNearlyFlatPlacesAndStaysPositive) {
   }
   // The whole star is flat: no place in it is good.
   Star flat{octahedron(0x1p20), {0x1p18, 0x1p18, 0}};
-  for (StarFace& f : flat.faces)
+  for (improve::StarFace& f : flat.faces)
     for (Point3* const p : {&f.a, &f.b, &f.c}) p->z *= 0x1p-18;
   move_checked(best_r, {}, flat);
   move_checked(best_sine, {}, flat);
@@ -378,7 +382,7 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
     Star near = here[i];
     // Moved by an exact vector, so that all differences are the same.
     Star shifted = near;
-    for (StarFace& f : shifted.faces) f = {f.a + far, f.b + far, f.c + far};
+    for (improve::StarFace& f : shifted.faces) f = {f.a + far, f.b + far, f.c + far};
     shifted.apex = near.apex + far;
     EXPECT_EQ(move_checked(usual, {}, near), move_checked(usual, {}, shifted));
     EXPECT_EQ(shifted.apex, near.apex + far);
@@ -390,10 +394,10 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
 TEST(MoveApex, ReachesAGoalWhereASearchDoes) {
   int within_reach = 0, reached = 0;
   for (Star& star : jittered_stars(0.2, 9)) {
-    if (worst_of_star(star.faces, usual, star.apex) >= goal_quality(usual)) continue;
-    if (best_of_grids(star, usual, all_axes) < goal_quality(usual)) continue;
+    if (improve::worst_of_star(star.faces, usual, star.apex) >= improve::goal_quality(usual)) continue;
+    if (best_of_grids(star, usual, all_axes) < improve::goal_quality(usual)) continue;
     ++within_reach;
-    if (move_checked(usual, {}, star)[1] >= goal_quality(usual)) ++reached;
+    if (move_checked(usual, {}, star)[1] >= improve::goal_quality(usual)) ++reached;
   }
   EXPECT_GE(within_reach, 2);
   EXPECT_EQ(reached, within_reach);

@@ -16,7 +16,7 @@ std::array<Point3, 5> first_five(const std::array<Point3, 6>& p) {
 }
 
 int insphere_of(const std::array<Point3, 5>& p, const std::array<std::uint32_t, 5>& ranks) {
-  return insphere_perturbed(p[0], p[1], p[2], p[3], p[4], ranks);
+  return numbers::insphere_perturbed(p[0], p[1], p[2], p[3], p[4], ranks);
 }
 
 /// The sign of insphere plus heights times powers of epsilon, by the coefficients from the greatest rank down.
@@ -42,7 +42,7 @@ TEST(PerturbedInsphere, TakesTheFirstCoefficientThatIsNotZero) {
     const auto p = first_five(six);
     const auto ranks = draw_ranks<5>(random);
     disagreements += insphere_of(p, ranks) != first_coefficient(p, ranks);
-    ties += insphere(p[0], p[1], p[2], p[3], p[4]) == 0;
+    ties += numbers::insphere(p[0], p[1], p[2], p[3], p[4]) == 0;
   });
   EXPECT_EQ(disagreements, 0);
   EXPECT_GT(ties, cases(100000));
@@ -106,7 +106,7 @@ TEST(PerturbedInsphere, PutsTheGreatestRankOutsideTheSphereThatItIsOn) {
     const auto p = first_five(six);
     auto ranks = draw_ranks<5>(random);
     std::iter_swap(std::max_element(ranks.begin(), ranks.end()), ranks.end() - 1);
-    if (orient3d(p[0], p[1], p[2], p[3]) <= 0 || insphere(p[0], p[1], p[2], p[3], p[4]) != 0) return;
+    if (numbers::orient3d(p[0], p[1], p[2], p[3]) <= 0 || numbers::insphere(p[0], p[1], p[2], p[3], p[4]) != 0) return;
     ASSERT_EQ(insphere_of(p, ranks), -1);
     ++ties;
   });
@@ -130,10 +130,11 @@ bool draw_planar_case(Random& random, PlanarCase& result) {
     for (int i = 1; i < 4; ++i) coordinate(six[i]) = coordinate(six[0]);
   }
   result.p = {six[0], six[1], six[2], six[3]};
-  if (orient3d(six[0], six[1], six[2], six[3]) != 0) return false;
+  if (numbers::orient3d(six[0], six[1], six[2], six[3]) != 0) return false;
   for (const auto family_of_apex : {Family::anywhere, Family::lattice}) {
     const auto apexes = draw_points(random, family_of_apex);
-    const int side = orient3d(six[0], six[1], six[2], apexes[0]), other = orient3d(six[0], six[1], six[2], apexes[1]);
+    const int side = numbers::orient3d(six[0], six[1], six[2], apexes[0]),
+              other = numbers::orient3d(six[0], six[1], six[2], apexes[1]);
     if (side * other >= 0) continue;
     result.above = apexes[side > 0 ? 0 : 1];
     result.below = apexes[side > 0 ? 1 : 0];
@@ -143,7 +144,7 @@ bool draw_planar_case(Random& random, PlanarCase& result) {
 }
 
 int incircle_of(const std::array<Point3, 4>& p, const Point3& apex, const std::array<std::uint32_t, 4>& ranks) {
-  return incircle_perturbed(p[0], p[1], p[2], apex, p[3], ranks);
+  return numbers::incircle_perturbed(p[0], p[1], p[2], apex, p[3], ranks);
 }
 
 TEST(PerturbedIncircle, EqualsThePlanarDeterminantWithATinyEpsilon) {
@@ -155,7 +156,7 @@ TEST(PerturbedIncircle, EqualsThePlanarDeterminantWithATinyEpsilon) {
     const auto ranks = draw_ranks<4>(random);
     const int sign = incircle_of(planar.p, planar.above, ranks);
     disagreements += sign == 0 || sign != reference::incircle_with_epsilon(planar.p, ranks);
-    ties += insphere(planar.p[0], planar.p[1], planar.p[2], planar.above, planar.p[3]) == 0;
+    ties += numbers::insphere(planar.p[0], planar.p[1], planar.p[2], planar.above, planar.p[3]) == 0;
     ++done;
   }
   EXPECT_EQ(disagreements, 0);
@@ -189,8 +190,8 @@ TEST(PerturbedIncircle, AQuadrilateralHasExactlyOneDelaunayDiagonal) {
     PlanarCase planar;
     if (!draw_planar_case(random, planar)) continue;
     const auto& [a, b, c, d] = planar.p;
-    if (orient3d(a, c, d, planar.above) <= 0) continue;
-    if (orient3d(a, b, d, planar.above) <= 0 || orient3d(b, c, d, planar.above) <= 0) continue;
+    if (numbers::orient3d(a, c, d, planar.above) <= 0) continue;
+    if (numbers::orient3d(a, b, d, planar.above) <= 0 || numbers::orient3d(b, c, d, planar.above) <= 0) continue;
     const auto ranks = draw_ranks<4>(random);
     ASSERT_EQ(incircle_of({a, b, c, d}, planar.above, ranks),
               incircle_of({a, c, d, b}, planar.above, {ranks[0], ranks[2], ranks[3], ranks[1]}));
@@ -203,7 +204,7 @@ TEST(PerturbedIncircle, AQuadrilateralHasExactlyOneDelaunayDiagonal) {
 TEST(CentroidOrientation, EqualsTheSideOfAPointATinyEpsilonFromTheCentroid) {
   int disagreements = 0, zeros = 0;
   for_all_families(cases(40000), [&](Random&, const auto& p) {
-    const int sign = orient3d_centroid(p[0], p[1], p[2], p[3], p[4], p[5]);
+    const int sign = numbers::orient3d_centroid(p[0], p[1], p[2], p[3], p[4], p[5]);
     disagreements += sign != reference::orient3d_centroid_with_epsilon(p[0], p[1], p[2], p[3], p[4], p[5]);
     zeros += sign == 0;
   });
@@ -213,11 +214,11 @@ TEST(CentroidOrientation, EqualsTheSideOfAPointATinyEpsilonFromTheCentroid) {
 
 TEST(CentroidOrientation, IsDecidedByTheMovedCentroidWhereTheCentroidIsInThePlane) {
   const Point3 p{0, 0, 0}, q{1, 0, 0}, r{0, 1, 0}, a{0, 0, -1}, b{5, 0, -1}, c{0, 5, 2};
-  EXPECT_EQ(orient3d_centroid(p, q, r, a, b, c), 1);  // b is as deep as a: c decides
-  EXPECT_EQ(orient3d_centroid(p, q, r, c, b, a), -1);
-  EXPECT_EQ(orient3d_centroid(p, r, q, a, b, c), -1);
-  EXPECT_EQ(orient3d_centroid(p, q, r, p, q, {7, 7, 0}), 0);
-  EXPECT_EQ(orient3d_centroid(p, q, {2, 0, 0}, a, b, c), 0);
+  EXPECT_EQ(numbers::orient3d_centroid(p, q, r, a, b, c), 1);  // b is as deep as a: c decides
+  EXPECT_EQ(numbers::orient3d_centroid(p, q, r, c, b, a), -1);
+  EXPECT_EQ(numbers::orient3d_centroid(p, r, q, a, b, c), -1);
+  EXPECT_EQ(numbers::orient3d_centroid(p, q, r, p, q, {7, 7, 0}), 0);
+  EXPECT_EQ(numbers::orient3d_centroid(p, q, {2, 0, 0}, a, b, c), 0);
 }
 
 }  // namespace

@@ -24,34 +24,34 @@ void expect_equal_signs(int cases_a_family, const Tested& tested, const Referenc
 }
 
 TEST(Predicates, OrientationIsPositiveAboveACounterclockwiseTriangle) {
-  EXPECT_EQ(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
-  EXPECT_EQ(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, -1}), -1);
-  EXPECT_EQ(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 0}), 0);
+  EXPECT_EQ(numbers::orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
+  EXPECT_EQ(numbers::orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, -1}), -1);
+  EXPECT_EQ(numbers::orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 0}), 0);
 }
 
 TEST(Predicates, InsphereIsPositiveInsideAPositiveTetrahedron) {
   const Point3 a{0, 0, 0}, b{4, 0, 0}, c{0, 4, 0}, d{0, 0, 4};
-  EXPECT_EQ(insphere(a, b, c, d, {1, 1, 1}), 1);
-  EXPECT_EQ(insphere(a, b, c, d, {5, 5, 5}), -1);
-  EXPECT_EQ(insphere(a, b, c, d, {4, 4, 4}), 0);
-  EXPECT_EQ(insphere(b, a, c, d, {1, 1, 1}), -1);
+  EXPECT_EQ(numbers::insphere(a, b, c, d, {1, 1, 1}), 1);
+  EXPECT_EQ(numbers::insphere(a, b, c, d, {5, 5, 5}), -1);
+  EXPECT_EQ(numbers::insphere(a, b, c, d, {4, 4, 4}), 0);
+  EXPECT_EQ(numbers::insphere(b, a, c, d, {1, 1, 1}), -1);
 }
 
 TEST(Predicates, OrientationAgreesWithTheExactKernel) {
   expect_equal_signs(
-      cases(440000), [](const auto& p) { return orient3d(p[0], p[1], p[2], p[3]); },
+      cases(440000), [](const auto& p) { return numbers::orient3d(p[0], p[1], p[2], p[3]); },
       [](const auto& p) { return reference::orient3d(p[0], p[1], p[2], p[3]); });
 }
 
 TEST(Predicates, InsphereAgreesWithTheExactKernel) {
   expect_equal_signs(
-      cases(440000), [](const auto& p) { return insphere(p[0], p[1], p[2], p[3], p[4]); },
+      cases(440000), [](const auto& p) { return numbers::insphere(p[0], p[1], p[2], p[3], p[4]); },
       [](const auto& p) { return reference::insphere(p[0], p[1], p[2], p[3], p[4]); });
 }
 
 TEST(Predicates, CollinearityAgreesWithTheExactKernel) {
   expect_equal_signs(
-      cases(150000), [](const auto& p) { return collinear(p[0], p[1], p[2]); },
+      cases(150000), [](const auto& p) { return numbers::collinear(p[0], p[1], p[2]); },
       [](const auto& p) { return reference::collinear(p[0], p[1], p[2]); });
 }
 
@@ -61,8 +61,8 @@ TEST(Predicates, TheFamiliesHoldZerosAndSignsOfBothKinds) {
     std::array<int, 3> volumes = {}, spheres = {};
     for (int i = 0; i < 5000; ++i) {
       const auto p = draw_points(random, family);
-      ++volumes[orient3d(p[0], p[1], p[2], p[3]) + 1];
-      ++spheres[insphere(p[0], p[1], p[2], p[3], p[4]) + 1];
+      ++volumes[numbers::orient3d(p[0], p[1], p[2], p[3]) + 1];
+      ++spheres[numbers::insphere(p[0], p[1], p[2], p[3], p[4]) + 1];
     }
     const bool degenerate = family != Family::anywhere && family != Family::box_of_any_size;
     for (const auto& counts : {volumes, spheres}) {
@@ -84,11 +84,12 @@ TEST(Predicates, SignsDoNotDependOnTheScale) {
     for (Point3& q : p)
       q = {double(draw_between(random, -700, 700)), double(draw_between(random, -700, 700)),
            double(draw_between(random, -700, 700))};
-    const int volume = orient3d(p[0], p[1], p[2], p[3]), sphere = insphere(p[0], p[1], p[2], p[3], p[4]);
+    const int volume = numbers::orient3d(p[0], p[1], p[2], p[3]),
+              sphere = numbers::insphere(p[0], p[1], p[2], p[3], p[4]);
     for (const double scale : {0x1p8, 0x1p17, 0x1p31, 0x1p41}) {
       const auto s = [&](int k) { return scale * p[k]; };
-      ASSERT_EQ(orient3d(s(0), s(1), s(2), s(3)), volume);
-      ASSERT_EQ(insphere(s(0), s(1), s(2), s(3), s(4)), sphere);
+      ASSERT_EQ(numbers::orient3d(s(0), s(1), s(2), s(3)), volume);
+      ASSERT_EQ(numbers::insphere(s(0), s(1), s(2), s(3), s(4)), sphere);
     }
   }
 }

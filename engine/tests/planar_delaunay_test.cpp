@@ -11,17 +11,17 @@ using namespace planar_test;
 
 void expect_unique_delaunay(const IntegerPlane& plane) {
   std::vector<VertexId> vertices = all_vertices(plane);
-  const PlanarTriangulationResult first = planar_delaunay<IntegerPlane>(vertices, plane);
+  const planar::TriangulationResult first = planar::delaunay<IntegerPlane>(vertices, plane);
   ASSERT_TRUE(first);
   expect_sound(first.triangulation, plane);
   expect_empty_circles(first.triangulation, plane);
-  const std::size_t border = planar_border_edges(first.triangulation).size();
+  const std::size_t border = planar::border_edges(first.triangulation).size();
   EXPECT_EQ(first.triangulation.triangles.size() + border + 2, 2 * vertices.size());  // Euler
 
   std::mt19937 random(5);
   for (int round = 0; round < 5; ++round) {
     std::shuffle(vertices.begin(), vertices.end(), random);
-    const PlanarTriangulationResult again = planar_delaunay<IntegerPlane>(vertices, plane);
+    const planar::TriangulationResult again = planar::delaunay<IntegerPlane>(vertices, plane);
     EXPECT_EQ(canonical(again.triangulation), canonical(first.triangulation));
   }
 }
@@ -34,7 +34,8 @@ TEST(PlanarDelaunay, IsUniqueForFewPointsWithManyTies) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     IntegerPlane plane = random_points(5 + seed % 12, 5, seed);
     const auto vertices = all_vertices(plane);
-    if (planar_delaunay<IntegerPlane>(vertices, plane).status == PlanarTriangulationResult::Status::collinear) continue;
+    if (planar::delaunay<IntegerPlane>(vertices, plane).status == planar::TriangulationResult::Status::collinear)
+      continue;
     expect_unique_delaunay(plane);
   }
 }
@@ -71,7 +72,7 @@ TEST(PlanarDelaunay, IsUniqueForTwoParallelLines) {
 
 TEST(PlanarDelaunay, OfThreePointsIsOneCounterclockwiseTriangle) {
   const IntegerPlane plane{{{0, 0}, {0, 5}, {5, 0}}};
-  const auto result = planar_delaunay<IntegerPlane>(all_vertices(plane), plane);
+  const auto result = planar::delaunay<IntegerPlane>(all_vertices(plane), plane);
   ASSERT_TRUE(result);
   EXPECT_EQ(canonical(result.triangulation), Triangles{triangle(0, 2, 1)});
 }
@@ -79,7 +80,7 @@ TEST(PlanarDelaunay, OfThreePointsIsOneCounterclockwiseTriangle) {
 TEST(PlanarDelaunay, OfASquareHasTheDiagonalThatTheSmallestIdDecides) {
   // Raising the lifted point of vertex 0 takes it off the lower hull of the others: the diagonal avoids it.
   const IntegerPlane plane{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  const auto result = planar_delaunay<IntegerPlane>(all_vertices(plane), plane);
+  const auto result = planar::delaunay<IntegerPlane>(all_vertices(plane), plane);
   ASSERT_TRUE(result);
   EXPECT_EQ(canonical(result.triangulation), (Triangles{triangle(0, 1, 3), triangle(1, 2, 3)}));
 }
@@ -87,13 +88,13 @@ TEST(PlanarDelaunay, OfASquareHasTheDiagonalThatTheSmallestIdDecides) {
 TEST(PlanarDelaunay, ReportsThatAllAreCollinear) {
   IntegerPlane plane;
   for (std::int64_t i = 0; i < 40; ++i) plane.points.push_back({2 * i, 3 * i});
-  const auto result = planar_delaunay<IntegerPlane>(all_vertices(plane), plane);
-  EXPECT_EQ(result.status, PlanarTriangulationResult::Status::collinear);
+  const auto result = planar::delaunay<IntegerPlane>(all_vertices(plane), plane);
+  EXPECT_EQ(result.status, planar::TriangulationResult::Status::collinear);
   EXPECT_TRUE(result.triangulation.triangles.empty());
   plane.points.resize(2);
-  EXPECT_EQ(planar_delaunay<IntegerPlane>(all_vertices(plane), plane).status,
-            PlanarTriangulationResult::Status::collinear);
-  EXPECT_EQ(planar_delaunay<IntegerPlane>({}, plane).status, PlanarTriangulationResult::Status::collinear);
+  EXPECT_EQ(planar::delaunay<IntegerPlane>(all_vertices(plane), plane).status,
+            planar::TriangulationResult::Status::collinear);
+  EXPECT_EQ(planar::delaunay<IntegerPlane>({}, plane).status, planar::TriangulationResult::Status::collinear);
 }
 
 TEST(PlanarDelaunay, ReportsVerticesAtTheSamePlace) {
@@ -103,8 +104,8 @@ TEST(PlanarDelaunay, ReportsVerticesAtTheSamePlace) {
       IntegerPlane plane = random_points(12, 50, 9);
       const IntegerPoint copy = plane.points[copied];
       plane.points.insert(plane.points.begin() + static_cast<std::ptrdiff_t>(at), copy);
-      const auto result = planar_delaunay<IntegerPlane>(all_vertices(plane), plane);
-      ASSERT_EQ(result.status, PlanarTriangulationResult::Status::duplicates);
+      const auto result = planar::delaunay<IntegerPlane>(all_vertices(plane), plane);
+      ASSERT_EQ(result.status, planar::TriangulationResult::Status::duplicates);
       ASSERT_EQ(result.duplicates.size(), 1u);
       const auto [a, b] = result.duplicates[0];
       EXPECT_NE(a, b);
@@ -117,7 +118,7 @@ TEST(PlanarDelaunay, ReportsVerticesAtTheSamePlace) {
 /// The effort is measured in evaluations of the predicates, which no load of the machine can change.
 void expect_few_evaluations(const IntegerPlane& plane) {
   plane.calls = 0;
-  const auto result = planar_delaunay<IntegerPlane>(all_vertices(plane), plane);
+  const auto result = planar::delaunay<IntegerPlane>(all_vertices(plane), plane);
   ASSERT_TRUE(result);
   const auto n = static_cast<double>(plane.points.size());
   EXPECT_LT(static_cast<double>(plane.calls), 10 * n * std::log2(n));
@@ -133,10 +134,10 @@ TEST(PlanarDelaunay, EvaluatesFewPredicatesForManyPoints) {
 
 TEST(PlanarPoints, AgreeWithTheIntegerModel) {
   const IntegerPlane plane = square_grid(17);  // 16 across: rounding to the grid changes nothing
-  std::vector<Point2> points;
+  std::vector<planar::Point2> points;
   for (const IntegerPoint& p : plane.points)
     points.push_back({100 + 0.125 * static_cast<double>(p.x), 0.125 * static_cast<double>(p.y)});
-  const PlanarPoints rounded(points);
+  const planar::Points rounded(points);
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
     std::set<VertexId> ids;
@@ -150,18 +151,18 @@ TEST(PlanarPoints, AgreeWithTheIntegerModel) {
 
 TEST(PlanarPoints, TriangulateAnyCoordinates) {
   std::mt19937 random(4);
-  std::vector<Point2> points;
+  std::vector<planar::Point2> points;
   std::vector<VertexId> vertices;
   for (std::uint32_t i = 0; i < 2000; ++i) {
     const double angle = random() * 1e-9, radius = 1e-7 * std::sqrt(random());
     points.push_back({1e3 + radius * std::cos(angle), -2 + radius * std::sin(angle)});
     vertices.emplace_back(i);
   }
-  const PlanarPoints plane(points);
-  const auto first = planar_delaunay<PlanarPoints>(vertices, plane);
+  const planar::Points plane(points);
+  const auto first = planar::delaunay<planar::Points>(vertices, plane);
   ASSERT_TRUE(first);
   std::shuffle(vertices.begin(), vertices.end(), random);
-  EXPECT_EQ(canonical(planar_delaunay<PlanarPoints>(vertices, plane).triangulation), canonical(first.triangulation));
+  EXPECT_EQ(canonical(planar::delaunay<planar::Points>(vertices, plane).triangulation), canonical(first.triangulation));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ inline std::vector<VertexId> all_vertices(const IntegerPlane& plane) {
   return vertices;
 }
 
-inline PlanarEdge edge(std::uint32_t a, std::uint32_t b) {
+inline planar::Edge edge(std::uint32_t a, std::uint32_t b) {
   return {VertexId(a), VertexId(b)};
 }
 inline std::array<VertexId, 3> triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -89,7 +89,7 @@ inline std::array<VertexId, 3> triangle(std::uint32_t a, std::uint32_t b, std::u
 }
 
 /// The triangles in a form that can be compared: each from its smallest vertex on, and sorted.
-inline Triangles canonical(const PlanarTriangulation& t) {
+inline Triangles canonical(const planar::Triangulation& t) {
   Triangles triangles = t.triangles;
   for (auto& corners : triangles)
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -97,28 +97,28 @@ inline Triangles canonical(const PlanarTriangulation& t) {
   return triangles;
 }
 
-inline std::int64_t twice_area(const PlanarTriangulation& t, const IntegerPlane& plane) {
+inline std::int64_t twice_area(const planar::Triangulation& t, const IntegerPlane& plane) {
   std::int64_t sum = 0;
   for (const auto& [a, b, c] : t.triangles) sum += plane.area(a, b, c);
   return sum;
 }
 
-inline bool has_constrained(const PlanarTriangulation& t, VertexId a, VertexId b) {
-  const auto side = planar_find_edge(t, a, b);
+inline bool has_constrained(const planar::Triangulation& t, VertexId a, VertexId b) {
+  const auto side = planar::find_edge(t, a, b);
   return side && t.constrained[side->triangle][side->corner];
 }
 
 /// The same edge seen from its other triangle; nothing at the border.
-inline std::optional<PlanarSide> other_side(const PlanarTriangulation& t, PlanarSide side) {
+inline std::optional<planar::Side> side_across(const planar::Triangulation& t, planar::Side side) {
   if (planar::neighbor(t, side) == planar::none) return std::nullopt;
   return planar::other_side(t, side);
 }
 
 /// All constrained edges, each once, the smaller id first, sorted.
-inline std::vector<PlanarEdge> constrained_edges(const PlanarTriangulation& t) {
-  std::set<PlanarEdge> edges;
+inline std::vector<planar::Edge> constrained_edges(const planar::Triangulation& t) {
+  std::set<planar::Edge> edges;
   for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
-    const PlanarSide s = planar::unpack(packed);
+    const planar::Side s = planar::unpack(packed);
     const VertexId a = planar::edge_start(t, s), b = planar::edge_end(t, s);
     if (planar::is_constrained(t, s)) edges.insert({std::min(a, b), std::max(a, b)});
   }
@@ -127,10 +127,10 @@ inline std::vector<PlanarEdge> constrained_edges(const PlanarTriangulation& t) {
 
 /// Everything that must always hold of a triangulation: adjacency from both sides, maps that find what is there,
 /// counterclockwise triangles.
-inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane) {
+inline void expect_sound(const planar::Triangulation& t, const IntegerPlane& plane) {
   ASSERT_EQ(t.neighbors.size(), t.triangles.size());
   ASSERT_EQ(t.constrained.size(), t.triangles.size());
-  const PlanarTriangulation rebuilt = planar_from_triangles(t.triangles);
+  const planar::Triangulation rebuilt = planar::from_triangles(t.triangles);
   EXPECT_EQ(t.neighbors, rebuilt.neighbors);
   for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
     const auto& [a, b, c] = t.triangles[i];
@@ -139,12 +139,12 @@ inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane
       const VertexId from = t.triangles[i][(corner + 1) % 3], to = t.triangles[i][(corner + 2) % 3];
       const auto& around = t.triangles[t.triangle_of_vertex.get(from, planar::none)];
       EXPECT_NE(std::find(around.begin(), around.end(), from), around.end());
-      if (const auto other = other_side(t, {i, corner})) {
+      if (const auto other = side_across(t, {i, corner})) {
         EXPECT_EQ(t.constrained[other->triangle][other->corner], t.constrained[i][corner]);
       }
-      const auto found = planar_find_edge(t, to, from);
+      const auto found = planar::find_edge(t, to, from);
       ASSERT_TRUE(found);
-      const auto found_other = other_side(t, *found);
+      const auto found_other = side_across(t, *found);
       EXPECT_TRUE((found->triangle == i && found->corner == corner) ||
                   (found_other && found_other->triangle == i && found_other->corner == corner));
     }
@@ -152,11 +152,11 @@ inline void expect_sound(const PlanarTriangulation& t, const IntegerPlane& plane
 }
 
 /// Constrained Delaunay, by the definition of its edges.
-inline void expect_locally_delaunay(const PlanarTriangulation& t, const IntegerPlane& plane) {
+inline void expect_locally_delaunay(const planar::Triangulation& t, const IntegerPlane& plane) {
   for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
     const auto& [a, b, c] = t.triangles[i];
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      const auto other = other_side(t, {i, corner});
+      const auto other = side_across(t, {i, corner});
       if (!other || t.constrained[i][corner]) continue;
       EXPECT_LT(plane.incircle(a, b, c, t.triangles[other->triangle][other->corner]), 0);
     }
@@ -164,7 +164,7 @@ inline void expect_locally_delaunay(const PlanarTriangulation& t, const IntegerP
 }
 
 /// Delaunay by the definition of its triangles: no vertex at all in any circumcircle.
-inline void expect_empty_circles(const PlanarTriangulation& t, const IntegerPlane& plane) {
+inline void expect_empty_circles(const planar::Triangulation& t, const IntegerPlane& plane) {
   for (const auto& [a, b, c] : t.triangles) {
     for (VertexId d : all_vertices(plane)) {
       if (d == a || d == b || d == c) continue;

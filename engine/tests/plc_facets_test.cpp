@@ -12,10 +12,10 @@ using namespace plc_test;
 
 const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
 
-void expect_valid(const Plc& plc) {
+void expect_valid(const plc::Plc& plc) {
   std::set<std::array<std::uint32_t, 2>> ends = segment_ends(plc);
   EXPECT_EQ(ends.size(), plc.segments.size()) << "a segment is there twice";
-  for (const Facet& f : plc.facets) {
+  for (const plc::Facet& f : plc.facets) {
     std::map<std::array<std::uint32_t, 2>, int> edges;
     for (const auto& t : f.triangles)
       for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
@@ -28,7 +28,7 @@ void expect_valid(const Plc& plc) {
 }
 
 TEST(PlcFacets, CubeHasSixFacetsTwelveSegmentsAndNothingGrazeable) {
-  const Plc plc = build_plc(unit_cube());
+  const plc::Plc plc = plc::build_plc(unit_cube());
   expect_valid(plc);
   EXPECT_EQ(plc.vertices.size(), 8u);
   EXPECT_EQ(plc.facets.size(), 6u);
@@ -37,7 +37,7 @@ TEST(PlcFacets, CubeHasSixFacetsTwelveSegmentsAndNothingGrazeable) {
   EXPECT_EQ(plc.regions.size(), 2u);
   EXPECT_FALSE(plc.regions[0].inside);
   EXPECT_TRUE(plc.regions[1].inside);
-  for (const Facet& f : plc.facets) {
+  for (const plc::Facet& f : plc.facets) {
     EXPECT_TRUE(f.exactly_flat);
     EXPECT_EQ(f.above, 0u);
     EXPECT_EQ(f.below, 1u);
@@ -46,9 +46,9 @@ TEST(PlcFacets, CubeHasSixFacetsTwelveSegmentsAndNothingGrazeable) {
 }
 
 TEST(PlcFacets, OrientationOfTheInputDoesNotMatter) {
-  InputPlc cube = unit_cube();
+  plc::InputPlc cube = unit_cube();
   for (std::size_t t = 0; t < cube.triangles.size(); t += 3) std::swap(cube.triangles[t][0], cube.triangles[t][1]);
-  const Plc plc = build_plc(cube);
+  const plc::Plc plc = plc::build_plc(cube);
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 12u);
@@ -56,32 +56,32 @@ TEST(PlcFacets, OrientationOfTheInputDoesNotMatter) {
 }
 
 TEST(PlcFacets, GriddedCubeHasSixFacets) {
-  const Plc plc = build_plc(gridded_cube(60));
+  const plc::Plc plc = plc::build_plc(gridded_cube(60));
   expect_valid(plc);
   EXPECT_EQ(plc.vertices.size(), 6u * 60 * 60 + 2);
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 12u * 60);
   EXPECT_EQ(grazeable_count(plc), 0u);
-  for (const Facet& f : plc.facets) {
+  for (const plc::Facet& f : plc.facets) {
     EXPECT_TRUE(f.exactly_flat);
     EXPECT_EQ(f.triangles.size(), 2u * 60 * 60);
   }
 }
 
 TEST(PlcFacets, GriddedCubeTurnedByAnArbitraryMatrixHasSixFacetsThatAreFlatWithinTheTolerance) {
-  const Plc plc = build_plc(rotated(arbitrary, gridded_cube(60)));
+  const plc::Plc plc = plc::build_plc(rotated(arbitrary, gridded_cube(60)));
   expect_valid(plc);
   EXPECT_EQ(plc.vertices.size(), 6u * 60 * 60 + 2);
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 12u * 60);
   EXPECT_EQ(grazeable_count(plc), 0u);
-  for (const Facet& f : plc.facets) EXPECT_FALSE(f.exactly_flat);
+  for (const plc::Facet& f : plc.facets) EXPECT_FALSE(f.exactly_flat);
 }
 
 TEST(PlcFacets, NoToleranceLeavesTheFoldsOfATurnedCube) {
-  PlcOptions options;
+  plc::PlcOptions options;
   options.flatness = 0;
-  const Plc plc = build_plc(rotated(arbitrary, gridded_cube(10)), options);
+  const plc::Plc plc = plc::build_plc(rotated(arbitrary, gridded_cube(10)), options);
   expect_valid(plc);
   EXPECT_GT(plc.facets.size(), 300u);
   EXPECT_EQ(plc.regions.size(), 2u);
@@ -90,12 +90,12 @@ TEST(PlcFacets, NoToleranceLeavesTheFoldsOfATurnedCube) {
 TEST(PlcFacets, RotationsChangeNeitherFacetsNorSegments) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
-  for (const InputPlc& solid : {gridded_cube(7), l_shape(), schoenhardt(), unit_cube()}) {
-    const Plc straight = build_plc(solid);
+  for (const plc::InputPlc& solid : {gridded_cube(7), l_shape(), schoenhardt(), unit_cube()}) {
+    const plc::Plc straight = plc::build_plc(solid);
     for (int i = 0; i < 25; ++i) {
       const Matrix m = rotation(normal(random), normal(random), normal(random), normal(random));
       // Vertices that the faces of the solid share are turned alike, so that they stay equal and keep their ids.
-      const Plc turned = build_plc(rotated(m, solid));
+      const plc::Plc turned = plc::build_plc(rotated(m, solid));
       expect_valid(turned);
       EXPECT_EQ(turned.facets.size(), straight.facets.size());
       EXPECT_EQ(segment_ends(turned), segment_ends(straight));
@@ -106,7 +106,7 @@ TEST(PlcFacets, RotationsChangeNeitherFacetsNorSegments) {
 }
 
 TEST(PlcFacets, LShapeHasOneGrazeableSegment) {
-  const Plc plc = build_plc(l_shape());
+  const plc::Plc plc = plc::build_plc(l_shape());
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), 8u);
   EXPECT_EQ(plc.segments.size(), 18u);
@@ -114,7 +114,7 @@ TEST(PlcFacets, LShapeHasOneGrazeableSegment) {
 }
 
 TEST(PlcFacets, SchoenhardtHasThreeGrazeableSegments) {
-  const Plc plc = build_plc(schoenhardt());
+  const plc::Plc plc = plc::build_plc(schoenhardt());
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), 8u);
   EXPECT_EQ(plc.segments.size(), 12u);
@@ -125,7 +125,7 @@ TEST(PlcFacets, FineCylinderKeepsItsCreases) {
   std::vector<std::array<double, 2>> circle;
   const int n = 2000;
   for (int i = 0; i < n; ++i) circle.push_back({std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n)});
-  const Plc plc = build_plc(prism(circle));
+  const plc::Plc plc = plc::build_plc(prism(circle));
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), n + 2u);
   EXPECT_EQ(plc.segments.size(), 3u * n);
@@ -133,10 +133,10 @@ TEST(PlcFacets, FineCylinderKeepsItsCreases) {
 }
 
 TEST(PlcFacets, MarkersDivideAFlatFace) {
-  InputPlc cube = unit_cube();
+  plc::InputPlc cube = unit_cube();
   cube.triangle_markers.assign(12, 5);
   cube.triangle_markers[0] = 6;
-  const Plc plc = build_plc(cube);
+  const plc::Plc plc = plc::build_plc(cube);
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), 7u);
   EXPECT_EQ(plc.segments.size(), 13u);
@@ -145,28 +145,28 @@ TEST(PlcFacets, MarkersDivideAFlatFace) {
 }
 
 TEST(PlcFacets, ASegmentOfTheInputDividesAFlatFaceAndKeepsItsMarker) {
-  InputPlc cube = unit_cube();
+  plc::InputPlc cube = unit_cube();
   cube.segments = {{cube.triangles[0][2], cube.triangles[0][0]}};  // the diagonal
   cube.segment_markers = {9};
-  const Plc plc = build_plc(cube);
+  const plc::Plc plc = plc::build_plc(cube);
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), 7u);
   ASSERT_EQ(plc.segments.size(), 13u);
   int marked = 0;
-  for (const Segment& s : plc.segments) marked += s.marker == 9;
+  for (const plc::Segment& s : plc.segments) marked += s.marker == 9;
   EXPECT_EQ(marked, 1);
 }
 
 TEST(PlcFacets, VerticesThatFallTogetherAreMergedInOrderOfAppearance) {
-  InputPlc soup;  // as STL has it: three vertices a triangle
-  const InputPlc cube = unit_cube();
+  plc::InputPlc soup;  // as STL has it: three vertices a triangle
+  const plc::InputPlc cube = unit_cube();
   for (const auto& t : cube.triangles) {
     const auto v = static_cast<std::uint32_t>(soup.vertices.size());
     for (const std::uint32_t c : t) soup.vertices.push_back(cube.vertices[c]);
     soup.triangles.push_back({v, v + 1, v + 2});
   }
   soup.vertices[3].x += 1e-12;
-  const Plc plc = build_plc(soup);
+  const plc::Plc plc = plc::build_plc(soup);
   EXPECT_EQ(plc.vertices.size(), 8u);
   EXPECT_EQ(plc.vertex_of_input[0], 0u);
   EXPECT_EQ(plc.vertex_of_input[3], plc.vertex_of_input[0]);
@@ -175,27 +175,27 @@ TEST(PlcFacets, VerticesThatFallTogetherAreMergedInOrderOfAppearance) {
 }
 
 TEST(PlcFacets, AVertexExactlyOnAnEdgeSplitsTheTrianglesThere) {
-  InputPlc cube = unit_cube();
+  plc::InputPlc cube = unit_cube();
   cube.vertices.push_back({0.5, 0, 0});     // on an edge of the cube
   cube.vertices.push_back({0.25, 0.5, 1});  // within a facet
-  const Plc plc = build_plc(cube);
+  const plc::Plc plc = plc::build_plc(cube);
   expect_valid(plc);
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 13u);
   EXPECT_EQ(segment_ends(plc).count({0, 8}), 1u);
   EXPECT_EQ(segment_ends(plc).count({1, 8}), 1u);
   std::set<std::uint32_t> on_facets;
-  for (const Facet& f : plc.facets)
+  for (const plc::Facet& f : plc.facets)
     for (const auto& t : f.triangles) on_facets.insert(t.begin(), t.end());
   EXPECT_EQ(on_facets.size(), 10u);
 }
 
 TEST(PlcFacets, AFacetMayHaveManyVerticesThatItsTrianglesDoNotName) {
-  InputPlc cube = unit_cube();
+  plc::InputPlc cube = unit_cube();
   const int n = 40;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) cube.vertices.push_back({double(i) / n, double(j) / n, 1});
-  const Plc plc = build_plc(cube);
+  const plc::Plc plc = plc::build_plc(cube);
   expect_valid(plc);
   EXPECT_EQ(plc.vertices.size(), 4u + (n + 1) * (n + 1));
   EXPECT_EQ(plc.facets.size(), 6u);
@@ -205,13 +205,14 @@ TEST(PlcFacets, AFacetMayHaveManyVerticesThatItsTrianglesDoNotName) {
 }
 
 TEST(PlcFacets, ExactlyFlatMeansThatAllVerticesAreInOnePlane) {
-  const Plc plc = build_plc(rotated(arbitrary, l_shape()));
-  for (const Facet& f : plc.facets) {
+  const plc::Plc plc = plc::build_plc(rotated(arbitrary, l_shape()));
+  for (const plc::Facet& f : plc.facets) {
     bool flat = true;
     for (const auto& s : f.triangles)
       for (const VertexId v : s) {
         const auto& t = f.triangles[0];
-        flat = flat && orient3d(plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]], plc.vertices[v]) == 0;
+        flat =
+            flat && numbers::orient3d(plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]], plc.vertices[v]) == 0;
       }
     EXPECT_EQ(f.exactly_flat, flat);
   }

@@ -20,9 +20,9 @@ struct InputFault {
 };
 
 /// The error that the input is rejected with; none if it is accepted.
-InputFault fault_of(const InputPlc& input) {
+InputFault fault_of(const plc::InputPlc& input) {
   try {
-    build_plc(input);
+    plc::build_plc(input);
   } catch (const InputError& error) {
     EXPECT_FALSE(error.remedy().empty());
     EXPECT_EQ(error.place().file, input.name);
@@ -40,22 +40,22 @@ std::vector<long long> numbers(std::initializer_list<long long> n) {
 }
 
 TEST(PlcInputFaults, NoFacets) {
-  InputPlc input;
+  plc::InputPlc input;
   input.vertices = {{0, 0, 0}, {1, 0, 0}};
   EXPECT_TRUE(says(fault_of(input), "no facets"));
-  EXPECT_TRUE(says(fault_of(InputPlc{}), "no facets"));
+  EXPECT_TRUE(says(fault_of(plc::InputPlc{}), "no facets"));
 }
 
 TEST(PlcInputFaults, CoordinatesThatAreNotFinite) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    InputPlc input = unit_cube();
+    plc::InputPlc input = unit_cube();
     input.vertices[5].y = bad;
     EXPECT_TRUE(says(fault_of(input), "vertex 5"));
   }
 }
 
 TEST(PlcInputFaults, ADegenerateFacetByItsNumber) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   input.triangles.push_back({0, 1, 1});
   input.triangle_numbers.assign(13, 0);
   input.triangle_numbers[12] = 99;
@@ -72,7 +72,7 @@ TEST(PlcInputFaults, ADegenerateFacetByItsNumber) {
 }
 
 TEST(PlcInputFaults, ADuplicateFacetByBothNumbers) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   const auto [a, b, c] = input.triangles[4];
   input.triangles.push_back({b, a, c});
   const InputFault fault = fault_of(input);
@@ -81,7 +81,7 @@ TEST(PlcInputFaults, ADuplicateFacetByBothNumbers) {
 }
 
 TEST(PlcInputFaults, AnOpenSurfaceByItsLoops) {
-  InputPlc input = gridded_cube(4);
+  plc::InputPlc input = gridded_cube(4);
   input.triangles.erase(input.triangles.begin() + 130);  // on another face
   input.triangles.erase(input.triangles.begin() + 10, input.triangles.begin() + 12);
   const InputFault fault = fault_of(input);
@@ -90,15 +90,15 @@ TEST(PlcInputFaults, AnOpenSurfaceByItsLoops) {
 }
 
 TEST(PlcInputFaults, APlcThatEnclosesNothing) {
-  InputPlc input = unit_cube();
-  input.inside = InputPlc::Inside::seeds;
+  plc::InputPlc input = unit_cube();
+  input.inside = plc::InputPlc::Inside::seeds;
   input.triangles.pop_back();
   EXPECT_TRUE(says(fault_of(input), "1 boundary loop, of 3 edges"));
 }
 
 TEST(PlcInputFaults, CrossingBoxesByTheirFacetsAndAPoint) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    InputPlc input = box({0, 0, 0}, {4, 4, 4});
+    plc::InputPlc input = box({0, 0, 0}, {4, 4, 4});
     append(input, box({3, 1, 1}, {5, 2, 2}));
     const InputFault fault = fault_of(rotated(m, input));
     EXPECT_TRUE(says(fault, "cross each other; there are ")) << fault.what;
@@ -115,15 +115,15 @@ TEST(PlcInputFaults, CrossingBoxesByTheirFacetsAndAPoint) {
 }
 
 TEST(PlcInputFaults, ACornerThatPiercesAFacet) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   append(input, schoenhardt());
   for (std::size_t v = 8; v < 14; ++v) input.vertices[v] = input.vertices[v] + Point3{0.5, 0.6, 0.7};
   EXPECT_TRUE(says(fault_of(input), "cross each other"));
 }
 
 TEST(PlcInputFaults, TrianglesThatShareACornerAndCross) {
-  InputPlc input;
-  input.inside = InputPlc::Inside::seeds;
+  plc::InputPlc input;
+  input.inside = plc::InputPlc::Inside::seeds;
   input.vertices = {{0, 0, 0}, {4, -1, 0}, {4, 1, 0}, {3, 0, -1}, {3, 0, 1}};
   input.triangles = {{0, 1, 2}, {0, 3, 4}};
   const InputFault fault = fault_of(input);
@@ -136,7 +136,7 @@ TEST(PlcInputFaults, TrianglesThatShareACornerAndCross) {
 // Two squares over the same four corners, with different diagonals.
 TEST(PlcInputFaults, FacetsThatCoverEachOther) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary, rotation(3, 1, -2, 5)}) {
-    InputPlc input = unit_cube();
+    plc::InputPlc input = unit_cube();
     const auto [a, b, c] = input.triangles[0];
     const VertexId d(input.triangles[1][2]);
     input.triangles.push_back({a, b, d});
@@ -151,7 +151,7 @@ TEST(PlcInputFaults, FacetsThatCoverEachOther) {
 }
 
 TEST(PlcInputFaults, FacetsThatCoverEachOtherInPart) {
-  InputPlc input = box({0, 0, 0}, {4, 4, 4});
+  plc::InputPlc input = box({0, 0, 0}, {4, 4, 4});
   append(input, box({4, 1, 1}, {6, 2, 2}));  // stands on the first one's side without being cut out of it
   const InputFault fault = fault_of(input);
   EXPECT_TRUE(says(fault, "cover each other")) << fault.what;
@@ -160,7 +160,7 @@ TEST(PlcInputFaults, FacetsThatCoverEachOtherInPart) {
 }
 
 TEST(PlcInputFaults, ASegmentThatCrossesAFacet) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.5, 0.25, 0.5}, {0.5, 0.25, 2}});
   input.segments = {{8, 9}};
   const InputFault fault = fault_of(input);
@@ -170,7 +170,7 @@ TEST(PlcInputFaults, ASegmentThatCrossesAFacet) {
 }
 
 TEST(PlcInputFaults, SegmentsThatCross) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.2, 0.2, 0.5}, {0.8, 0.8, 0.5}, {0.8, 0.2, 0.5}, {0.2, 0.8, 0.5}});
   input.segments = {{8, 9}, {10, 11}};
   const InputFault fault = fault_of(input);
@@ -180,9 +180,9 @@ TEST(PlcInputFaults, SegmentsThatCross) {
 }
 
 TEST(PlcInputFaults, FacetsThatAreNearButApartAreAccepted) {
-  InputPlc input = box({0, 0, 0}, {4, 4, 4});
+  plc::InputPlc input = box({0, 0, 0}, {4, 4, 4});
   append(input, box({4.000001, 1, 1}, {6, 2, 2}));
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   EXPECT_EQ(inside_count(plc), 2u);
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Triangle = std::array<Point3, 3>;
 
 Point3 random_point(std::mt19937& random, int extent) {
-  const auto coordinate = [&] { return DyadicGrid::quantum * double(int(random() % extent)); };
+  const auto coordinate = [&] { return numbers::DyadicGrid::quantum * double(int(random() % extent)); };
   return {coordinate(), coordinate(), coordinate()};
 }
 
@@ -24,7 +24,7 @@ Triangle random_triangle(std::mt19937& random, int extent) {
   Triangle t;
   do {
     t = {random_point(random, extent), random_point(random, extent), random_point(random, extent)};
-  } while (collinear(t[0], t[1], t[2]));
+  } while (numbers::collinear(t[0], t[1], t[2]));
   return t;
 }
 
@@ -46,7 +46,7 @@ bool separates(const Point3& axis, const std::vector<Point3>& s, const std::vect
 /// The separating axis theorem: the axes are the normals of the faces of the Minkowski difference.
 bool are_disjoint(std::vector<Point3> s, std::vector<Point3> t) {
   for (auto* points : {&s, &t})
-    for (Point3& p : *points) p = (1 / DyadicGrid::quantum) * p;
+    for (Point3& p : *points) p = (1 / numbers::DyadicGrid::quantum) * p;
   std::vector<Point3> s_edges, t_edges, axes;
   for (std::size_t i = 0; i < s.size(); ++i) s_edges.push_back(s[(i + 1) % s.size()] - s[i]);
   for (std::size_t i = 0; i < t.size(); ++i) t_edges.push_back(t[(i + 1) % t.size()] - t[i]);
@@ -73,7 +73,7 @@ TEST(PlcIntersections, TrianglesMeetIfNoAxisSeparatesThem) {
     const int extent = 2 + i % 5;
     const Triangle s = random_triangle(random, extent), t = random_triangle(random, extent);
     const bool disjoint = are_disjoint(list(s), list(t));
-    ASSERT_EQ(!meet_triangles(s, t).has_value(), disjoint) << "round " << i;
+    ASSERT_EQ(!plc::meet_triangles(s, t).has_value(), disjoint) << "round " << i;
     apart += disjoint;
   }
   EXPECT_GT(apart, rounds / 10);
@@ -85,8 +85,9 @@ TEST(PlcIntersections, SegmentsMeetTrianglesAndSegmentsIfNoAxisSeparatesThem) {
   for (int i = 0; i < 60000; ++i) {
     const int extent = 2 + i % 5;
     const Triangle t = random_triangle(random, extent), s = random_triangle(random, extent);
-    ASSERT_EQ(!meet_segment_triangle(s[0], s[1], t).has_value(), are_disjoint({s[0], s[1]}, list(t))) << "round " << i;
-    ASSERT_EQ(!meet_segments(s[0], s[1], t[0], t[1]).has_value(), are_disjoint({s[0], s[1]}, {t[0], t[1]}))
+    ASSERT_EQ(!plc::meet_segment_triangle(s[0], s[1], t).has_value(), are_disjoint({s[0], s[1]}, list(t)))
+        << "round " << i;
+    ASSERT_EQ(!plc::meet_segments(s[0], s[1], t[0], t[1]).has_value(), are_disjoint({s[0], s[1]}, {t[0], t[1]}))
         << "round " << i;
   }
 }
@@ -98,7 +99,7 @@ TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutThe
   for (int i = 0; i < 40000; ++i) {
     Triangle s = random_triangle(random, 4), t = random_triangle(random, 4);
     t[0] = s[0];
-    if (collinear(t[0], t[1], t[2])) continue;
+    if (numbers::collinear(t[0], t[1], t[2])) continue;
     const bool shared_twice = s[1] == t[1] || s[1] == t[2] || s[2] == t[1] || s[2] == t[2];
     if (shared_twice) continue;
     // Scaled by a hundred, cutting off the tips leaves integers. What meets beyond the corner reaches an opposite edge.
@@ -112,7 +113,7 @@ TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutThe
     const std::vector<Point3> s_all = {100 * s[0], 100 * s[1], 100 * s[2]},
                               t_all = {100 * t[0], 100 * t[1], 100 * t[2]};
     const bool disjoint = are_disjoint(s_cut, t_all) && are_disjoint(s_all, t_cut);
-    ASSERT_EQ(!meet_triangles_at_corner(s, t).has_value(), disjoint) << "round " << i;
+    ASSERT_EQ(!plc::meet_triangles_at_corner(s, t).has_value(), disjoint) << "round " << i;
     meeting += !disjoint;
   }
   EXPECT_GT(meeting, 1000);
@@ -131,10 +132,10 @@ TEST(PlcIntersections, TheQuickTestInAPlaneIsNeverWrongAndMostlyAnswers) {
       if (i % 2) t[0] = s[0];
       for (Triangle* u : {&s, &t})
         for (Point3& p : *u) flatten(p);
-    } while (collinear(s[0], s[1], s[2]) || collinear(t[0], t[1], t[2]));
+    } while (numbers::collinear(s[0], s[1], s[2]) || numbers::collinear(t[0], t[1], t[2]));
     if (i % 2 && (s[1] == t[1] || s[1] == t[2] || s[2] == t[1] || s[2] == t[2])) continue;
-    const bool meet = i % 2 ? meet_triangles_at_corner(s, t).has_value() : meet_triangles(s, t).has_value();
-    const bool apart = are_apart_in_plane(axis, s, t, i % 2);
+    const bool meet = i % 2 ? plc::meet_triangles_at_corner(s, t).has_value() : plc::meet_triangles(s, t).has_value();
+    const bool apart = plc::are_apart_in_plane(axis, s, t, i % 2);
     ASSERT_FALSE(apart && meet) << "round " << i;
     disjoint += !meet;
     separated += apart;
@@ -144,7 +145,7 @@ TEST(PlcIntersections, TheQuickTestInAPlaneIsNeverWrongAndMostlyAnswers) {
 
 TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {
   std::mt19937 random(8);
-  const double q = DyadicGrid::quantum;
+  const double q = numbers::DyadicGrid::quantum;
   for (int i = 0; i < 20000; ++i) {  // about the z axis, so that plain integers tell the angle
     const auto direction = [&] {
       int x = 0, y = 0;
@@ -156,14 +157,14 @@ TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {
     };
     const auto c = direction(), d = direction();
     const int across = c[0] * d[1] - c[1] * d[0], along = c[0] * d[0] + c[1] * d[1];
-    const Turn expected = across > 0   ? Turn::below_180
-                          : across < 0 ? Turn::above_180
-                          : along > 0  ? Turn::zero
-                                       : Turn::exactly_180;
+    const plc::Turn expected = across > 0   ? plc::Turn::below_180
+                               : across < 0 ? plc::Turn::above_180
+                               : along > 0  ? plc::Turn::zero
+                                            : plc::Turn::exactly_180;
     const auto lifted = [&](const std::array<int, 2>& p) {
       return q * Point3{double(p[0]), double(p[1]), double(random() % 9)};
     };
-    EXPECT_EQ(turn_about({0, 0, q}, {0, 0, 4 * q}, lifted(c), lifted(d)), expected);
+    EXPECT_EQ(plc::turn_about({0, 0, q}, {0, 0, 4 * q}, lifted(c), lifted(d)), expected);
   }
 }
 

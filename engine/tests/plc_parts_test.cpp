@@ -11,7 +11,7 @@ namespace {
 
 using namespace plc_test;
 
-double surface_volume(const InputPlc& input) {
+double surface_volume(const plc::InputPlc& input) {
   double sixfold = 0;
   for (const auto& [a, b, c] : input.triangles)
     sixfold += dot(input.vertices[a], cross(input.vertices[b], input.vertices[c]));
@@ -23,17 +23,17 @@ TEST(PlcParts, RealSurfacesAreValidAndKeepTheirVolume) {
   if (files.empty()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const auto& file : files) {
     SCOPED_TRACE(file.filename().string());
-    const InputPlc input = read_plc(file);
-    const Plc plc = build_plc(input);
+    const plc::InputPlc input = io::read_plc(file);
+    const plc::Plc plc = plc::build_plc(input);
     std::size_t triangles = 0;
-    for (const Facet& f : plc.facets) triangles += f.triangles.size();
+    for (const plc::Facet& f : plc.facets) triangles += f.triangles.size();
     EXPECT_EQ(triangles, input.triangles.size());
     EXPECT_EQ(plc.vertices.size(), input.vertices.size());
     EXPECT_GE(inside_count(plc), 1u);
     // These surfaces are oriented outwards, and their components are not nested.
     EXPECT_NEAR(inside_volume(plc), surface_volume(input), 1e-6 * std::abs(surface_volume(input)));
     EXPECT_LT(grazeable_count(plc), plc.segments.size());
-    for (const Facet& f : plc.facets) EXPECT_NE(plc.regions[f.above].inside, plc.regions[f.below].inside);
+    for (const plc::Facet& f : plc.facets) EXPECT_NE(plc.regions[f.above].inside, plc.regions[f.below].inside);
   }
 }
 

@@ -14,18 +14,18 @@ using Polygon = std::vector<std::uint32_t>;
 
 const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
 
-PolygonFacet facet(std::vector<Polygon> polygons, std::uint32_t number) {
-  PolygonFacet f;
+plc::PolygonFacet facet(std::vector<Polygon> polygons, std::uint32_t number) {
+  plc::PolygonFacet f;
   f.polygons = std::move(polygons);
   f.number = number;
   return f;
 }
 
 /// A box of six squares.
-InputPlc polygon_cube(double size = 1) {
-  InputPlc plc;
+plc::InputPlc polygon_cube(double size = 1) {
+  plc::InputPlc plc;
   plc.name = "cube of squares";
-  plc.inside = InputPlc::Inside::seeds;
+  plc.inside = plc::InputPlc::Inside::seeds;
   plc.vertices = box({0, 0, 0}, {size, size, size}).vertices;
   for (const Polygon& q :
        std::vector<Polygon>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
@@ -34,8 +34,8 @@ InputPlc polygon_cube(double size = 1) {
 }
 
 /// A cube of size 4 with a square hole of size 2 from bottom to top.
-InputPlc cube_with_through_hole() {
-  InputPlc plc = polygon_cube(4);
+plc::InputPlc cube_with_through_hole() {
+  plc::InputPlc plc = polygon_cube(4);
   for (const double z : {0.0, 4.0})
     for (const auto& [x, y] : {std::pair{1.0, 1.0}, {3.0, 1.0}, {3.0, 3.0}, {1.0, 3.0}})
       plc.vertices.push_back({x, y, z});
@@ -50,16 +50,16 @@ InputPlc cube_with_through_hole() {
   return plc;
 }
 
-InputPlc turned(const Matrix& m, const InputPlc& plc) {
-  InputPlc result = rotated(m, plc);
-  for (PolygonFacet& f : result.polygon_facets)
+plc::InputPlc turned(const Matrix& m, const plc::InputPlc& plc) {
+  plc::InputPlc result = rotated(m, plc);
+  for (plc::PolygonFacet& f : result.polygon_facets)
     for (Point3& hole : f.holes) hole = rotated(m, hole);
   return result;
 }
 
-std::string fault_of(const InputPlc& input) {
+std::string fault_of(const plc::InputPlc& input) {
   try {
-    build_plc(input);
+    plc::build_plc(input);
   } catch (const InputError& error) {
     EXPECT_FALSE(error.remedy().empty());
     return error.what();
@@ -67,24 +67,24 @@ std::string fault_of(const InputPlc& input) {
   return "";
 }
 
-void expect_told(const InputPlc& input, const std::string& text) {
+void expect_told(const plc::InputPlc& input, const std::string& text) {
   const std::string what = fault_of(input);
   EXPECT_NE(what.find(text), std::string::npos) << what;
 }
 
 TEST(PlcPolygons, ACubeOfSquares) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    const Plc plc = build_plc(turned(m, polygon_cube()));
+    const plc::Plc plc = plc::build_plc(turned(m, polygon_cube()));
     EXPECT_EQ(plc.facets.size(), 6u);
     EXPECT_EQ(plc.segments.size(), 12u);
     EXPECT_NEAR(inside_volume(plc), 1, 1e-9);
-    for (const Facet& f : plc.facets) EXPECT_EQ(f.triangles.size(), 2u);
+    for (const plc::Facet& f : plc.facets) EXPECT_EQ(f.triangles.size(), 2u);
   }
 }
 
 TEST(PlcPolygons, AThroughHole) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    const Plc plc = build_plc(turned(m, cube_with_through_hole()));
+    const plc::Plc plc = plc::build_plc(turned(m, cube_with_through_hole()));
     EXPECT_EQ(plc.facets.size(), 10u);
     EXPECT_EQ(plc.segments.size(), 24u);
     EXPECT_EQ(grazeable_count(plc), 4u) << "the four upright edges of the hole";
@@ -95,8 +95,8 @@ TEST(PlcPolygons, AThroughHole) {
 }
 
 TEST(PlcPolygons, AConcavePolygon) {
-  const InputPlc l = l_shape();
-  InputPlc plc = l;
+  const plc::InputPlc l = l_shape();
+  plc::InputPlc plc = l;
   plc.triangles.clear();
   Polygon bottom, top;
   for (std::uint32_t k = 0; k < 6; ++k) {
@@ -106,18 +106,18 @@ TEST(PlcPolygons, AConcavePolygon) {
   }
   plc.polygon_facets.push_back(facet({bottom}, 6));
   plc.polygon_facets.push_back(facet({top}, 7));
-  const Plc built = build_plc(plc);
+  const plc::Plc built = plc::build_plc(plc);
   EXPECT_EQ(built.facets.size(), 8u);
-  EXPECT_EQ(segment_ends(built), segment_ends(build_plc(l)));
+  EXPECT_EQ(segment_ends(built), segment_ends(plc::build_plc(l)));
   EXPECT_NEAR(inside_volume(built), 3, 1e-12);
 }
 
 TEST(PlcPolygons, SegmentsAndVerticesWithinAFacet) {
-  InputPlc plc = polygon_cube(4);
+  plc::InputPlc plc = polygon_cube(4);
   plc.vertices.insert(plc.vertices.end(), {{1, 2, 4}, {3, 2, 4}, {2, 3, 4}});
   plc.polygon_facets[1].polygons.push_back({8, 9});
   plc.polygon_facets[1].polygons.push_back({10});
-  const Plc built = build_plc(plc);
+  const plc::Plc built = plc::build_plc(plc);
   EXPECT_EQ(built.facets.size(), 6u);
   EXPECT_EQ(built.segments.size(), 13u);
   EXPECT_EQ(segment_ends(built, true), (std::set<std::array<std::uint32_t, 2>>{{8, 9}}));
@@ -127,10 +127,10 @@ TEST(PlcPolygons, SegmentsAndVerticesWithinAFacet) {
 }
 
 TEST(PlcPolygons, ALoopWithinAFacetThatIsNoHoleDividesIt) {
-  InputPlc plc = polygon_cube(4);
+  plc::InputPlc plc = polygon_cube(4);
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 4}, {3, 1, 4}, {2, 3, 4}});
   plc.polygon_facets[1].polygons.push_back({8, 9, 10});
-  const Plc built = build_plc(plc);
+  const plc::Plc built = plc::build_plc(plc);
   EXPECT_EQ(built.facets.size(), 7u);
   EXPECT_EQ(built.segments.size(), 15u);
   EXPECT_EQ(built.regions.size(), 2u);
@@ -138,10 +138,10 @@ TEST(PlcPolygons, ALoopWithinAFacetThatIsNoHoleDividesIt) {
 
 TEST(PlcPolygons, AGivenSegmentAcrossAFacetBecomesAnEdgeOfIt) {
   for (const std::array<std::uint32_t, 2>& diagonal : {std::array{4u, 7u}, std::array{5u, 6u}}) {
-    InputPlc plc = polygon_cube();
+    plc::InputPlc plc = polygon_cube();
     plc.segments = {diagonal};
     plc.segment_markers = {3};
-    const Plc built = build_plc(plc);
+    const plc::Plc built = plc::build_plc(plc);
     EXPECT_EQ(built.segments.size(), 13u);
     EXPECT_EQ(segment_ends(built).count(diagonal), 1u);
     EXPECT_EQ(built.facets.size(), 7u);
@@ -149,26 +149,26 @@ TEST(PlcPolygons, AGivenSegmentAcrossAFacetBecomesAnEdgeOfIt) {
 }
 
 TEST(PlcPolygons, AVertexOnAnEdgeOfNeighborsThatDoNotNameIt) {
-  InputPlc plc = polygon_cube(4);
+  plc::InputPlc plc = polygon_cube(4);
   plc.vertices.push_back({2, 0, 4});
   plc.polygon_facets[1].polygons[0] = {4, 8, 5, 7, 6};  // the side facet has the whole edge
-  const Plc built = build_plc(plc);
+  const plc::Plc built = plc::build_plc(plc);
   EXPECT_EQ(built.facets.size(), 6u);
   EXPECT_EQ(built.segments.size(), 13u);
   EXPECT_NEAR(inside_volume(built), 64, 1e-9);
 }
 
 TEST(PlcPolygons, AFacetOfTwoVerticesIsADanglingSegment) {
-  InputPlc plc = polygon_cube(4);
+  plc::InputPlc plc = polygon_cube(4);
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1}, {2, 3, 2}});
   plc.polygon_facets.push_back(facet({{8, 9}}, 6));
-  const Plc built = build_plc(plc);
+  const plc::Plc built = plc::build_plc(plc);
   EXPECT_EQ(built.facets.size(), 6u);
   EXPECT_EQ(segment_ends(built, true), (std::set<std::array<std::uint32_t, 2>>{{8, 9}}));
 }
 
 TEST(PlcPolygons, BadFacetsAreRejected) {
-  InputPlc plc = polygon_cube();
+  plc::InputPlc plc = polygon_cube();
   plc.vertices[7].z = 1.001;
   expect_told(plc, "not planar: its vertices are up to 0.0005 away");
 

@@ -8,11 +8,11 @@ namespace {
 
 using namespace plc_test;
 
-using Inside = InputPlc::Inside;
+using Inside = plc::InputPlc::Inside;
 
 const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
 
-std::vector<double> inside_volumes(const Plc& plc) {
+std::vector<double> inside_volumes(const plc::Plc& plc) {
   std::vector<double> volumes;
   for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
     if (plc.regions[c].inside) volumes.push_back(volume(plc, c));
@@ -20,16 +20,16 @@ std::vector<double> inside_volumes(const Plc& plc) {
   return volumes;
 }
 
-InputPlc cube_in_cube() {
-  InputPlc plc = box({0, 0, 0}, {4, 4, 4});
+plc::InputPlc cube_in_cube() {
+  plc::InputPlc plc = box({0, 0, 0}, {4, 4, 4});
   append(plc, box({1, 1, 1}, {2, 2, 2}));
   return plc;
 }
 
 /// Two unit cubes side by side in x; the face that they share is there once.
-InputPlc two_cubes() {
-  InputPlc plc = unit_cube();
-  InputPlc second = box({1, 0, 0}, {2, 1, 1});
+plc::InputPlc two_cubes() {
+  plc::InputPlc plc = unit_cube();
+  plc::InputPlc second = box({1, 0, 0}, {2, 1, 1});
   std::erase_if(second.triangles, [&](const Triangle& t) {
     return second.vertices[t[0]].x == 1 && second.vertices[t[1]].x == 1 && second.vertices[t[2]].x == 1;
   });
@@ -38,7 +38,7 @@ InputPlc two_cubes() {
 }
 
 TEST(PlcRegions, TwoCubesThatShareAFaceAreTwoRegionsInASurface) {
-  const Plc plc = build_plc(two_cubes());
+  const plc::Plc plc = plc::build_plc(two_cubes());
   EXPECT_EQ(plc.vertices.size(), 12u);
   EXPECT_EQ(plc.facets.size(), 11u) << "where three facets meet, the sides of the cubes end";
   EXPECT_EQ(plc.segments.size(), 20u);
@@ -48,40 +48,40 @@ TEST(PlcRegions, TwoCubesThatShareAFaceAreTwoRegionsInASurface) {
 }
 
 TEST(PlcRegions, RegionSeedsNameTheRegionsOfTwoCubes) {
-  InputPlc input = two_cubes();
+  plc::InputPlc input = two_cubes();
   input.inside = Inside::seeds;
   input.regions = {{{0.5, 0.5, 0.5}, 7, 0}, {{1.5, 0.25, 0.5}, 8, 0}};
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    const Plc plc = build_plc(rotated(m, input));
+    const plc::Plc plc = plc::build_plc(rotated(m, input));
     ASSERT_EQ(plc.regions.size(), 3u);
     std::multiset<int> regions;
-    for (const Region& c : plc.regions)
+    for (const plc::Region& c : plc.regions)
       if (c.inside) regions.insert(c.attribute);
     EXPECT_EQ(regions, (std::multiset<int>{7, 8}));
   }
 }
 
 TEST(PlcRegions, ACubeInACubeIsAHoleInASurface) {
-  const Plc plc = build_plc(cube_in_cube());
+  const plc::Plc plc = plc::build_plc(cube_in_cube());
   EXPECT_EQ(plc.regions.size(), 3u);
   EXPECT_EQ(inside_volumes(plc), std::vector<double>{63});
   EXPECT_EQ(grazeable_count(plc), 12u) << "all edges of the hole";
 }
 
 TEST(PlcRegions, ACubeInACubeIsAnInclusionInAPlc) {
-  InputPlc input = cube_in_cube();
+  plc::InputPlc input = cube_in_cube();
   input.inside = Inside::seeds;
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   EXPECT_EQ(inside_volumes(plc), (std::vector<double>{1, 63}));
   EXPECT_EQ(grazeable_count(plc), 12u);
 }
 
 TEST(PlcRegions, AHoleSeedEmptiesTheCubeInACube) {
-  InputPlc input = cube_in_cube();
+  plc::InputPlc input = cube_in_cube();
   input.inside = Inside::seeds;
   input.holes = {{1.5, 1.25, 1.5}};
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    const Plc plc = build_plc(rotated(m, input));
+    const plc::Plc plc = plc::build_plc(rotated(m, input));
     ASSERT_EQ(inside_volumes(plc).size(), 1u);
     EXPECT_NEAR(inside_volumes(plc)[0], 63, 1e-6);
   }
@@ -90,12 +90,12 @@ TEST(PlcRegions, AHoleSeedEmptiesTheCubeInACube) {
 TEST(PlcRegions, NestedSurfacesAlternateHoweverTheyAreTurnedAndOrdered) {
   for (const bool outermost_first : {true, false})
     for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-      InputPlc input;
+      plc::InputPlc input;
       for (int k = 0; k < 5; ++k) {
         const double r = outermost_first ? 5 - k : k + 1;
         append(input, box({-r, -r, -r}, {r, r, r}));
       }
-      const Plc plc = build_plc(rotated(m, input));
+      const plc::Plc plc = plc::build_plc(rotated(m, input));
       EXPECT_EQ(plc.regions.size(), 6u);
       EXPECT_NEAR(inside_volume(plc), 8 * (125 - 64 + 27 - 8 + 1), 1e-6);
     }
@@ -103,14 +103,14 @@ TEST(PlcRegions, NestedSurfacesAlternateHoweverTheyAreTurnedAndOrdered) {
 
 // Two L in one box, each with a part straight above a part of the other, so that neither need see the box first.
 TEST(PlcRegions, InterlockedComponentsFindWhatEnclosesThem) {
-  InputPlc input = box({-10, -10, -10}, {10, 10, 10});
-  InputPlc up = prism({{1, 1}, {1, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 1}});  // an L, standing in z
+  plc::InputPlc input = box({-10, -10, -10}, {10, 10, 10});
+  plc::InputPlc up = prism({{1, 1}, {1, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 1}});  // an L, standing in z
   for (Point3& p : up.vertices) p = {p.x, p.z, p.y};
-  InputPlc down = up;
+  plc::InputPlc down = up;
   for (Point3& p : down.vertices) p = {5 - p.x, p.y, 5 - p.z};
   append(input, up);
   append(input, down);
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   EXPECT_EQ(plc.regions.size(), 4u);
   EXPECT_NEAR(inside_volume(plc), 8000 - 14, 1e-9);
   EXPECT_EQ(inside_count(plc), 1u);
@@ -118,10 +118,10 @@ TEST(PlcRegions, InterlockedComponentsFindWhatEnclosesThem) {
 
 TEST(PlcRegions, CubesThatTouchInAnEdgeOrAVertexAreTwoRegions) {
   for (const double z : {0.0, 1.0}) {
-    InputPlc input = unit_cube();
+    plc::InputPlc input = unit_cube();
     append(input, box({1, 1, z}, {2, 2, z + 1}));
     for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-      const Plc plc = build_plc(rotated(m, input));
+      const plc::Plc plc = plc::build_plc(rotated(m, input));
       EXPECT_EQ(plc.vertices.size(), z == 0 ? 14u : 15u);
       EXPECT_EQ(plc.regions.size(), 3u);
       EXPECT_EQ(inside_count(plc), 2u);
@@ -131,20 +131,20 @@ TEST(PlcRegions, CubesThatTouchInAnEdgeOrAVertexAreTwoRegions) {
 }
 
 TEST(PlcRegions, AHoleThatTouchesTheSurfaceInAVertexIsStillAHole) {
-  InputPlc input = box({0, 0, 0}, {4, 4, 4});
+  plc::InputPlc input = box({0, 0, 0}, {4, 4, 4});
   const auto first = static_cast<std::uint32_t>(input.vertices.size());
   for (const Point3& p : {Point3{0, 0, 0}, Point3{1, 2, 1}, Point3{2, 1, 1}, Point3{1, 1, 2}})
     input.vertices.push_back(p);
   for (const Triangle& t : std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})
     input.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   EXPECT_EQ(plc.regions.size(), 3u);
   ASSERT_EQ(inside_count(plc), 1u);
   EXPECT_NEAR(inside_volume(plc), 64 - 4.0 / 6, 1e-12);
 }
 
-InputPlc cube_with_dangling_facet() {
-  InputPlc input = box({0, 0, 0}, {4, 4, 4});
+plc::InputPlc cube_with_dangling_facet() {
+  plc::InputPlc input = box({0, 0, 0}, {4, 4, 4});
   input.inside = Inside::seeds;
   const auto first = static_cast<std::uint32_t>(input.vertices.size());
   for (const Point3& p : {Point3{1, 1, 2}, Point3{3, 1, 2}, Point3{3, 3, 2}, Point3{1, 3, 2}})
@@ -155,7 +155,7 @@ InputPlc cube_with_dangling_facet() {
 
 TEST(PlcRegions, ADanglingFacetHasTheSameRegionOnBothSides) {
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    const Plc plc = build_plc(rotated(m, cube_with_dangling_facet()));
+    const plc::Plc plc = plc::build_plc(rotated(m, cube_with_dangling_facet()));
     EXPECT_EQ(plc.facets.size(), 7u);
     EXPECT_EQ(plc.segments.size(), 16u);
     EXPECT_EQ(grazeable_count(plc), 4u);
@@ -166,28 +166,28 @@ TEST(PlcRegions, ADanglingFacetHasTheSameRegionOnBothSides) {
 }
 
 TEST(PlcRegions, DanglingSegmentsAreGrazeableInsideOnly) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.2, 0.3, 0.4}, {0.6, 0.7, 0.5}, {1.5, 0.5, 0.5}});
   input.segments = {{8, 9}, {0, 8}, {7, 10}};  // within; from a corner inwards; from a corner outwards
   input.segment_markers = {1, 2, 3};
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   ASSERT_EQ(plc.segments.size(), 15u);
-  for (const Segment& s : plc.segments) EXPECT_EQ(s.grazeable, s.marker == 1 || s.marker == 2);
+  for (const plc::Segment& s : plc.segments) EXPECT_EQ(s.grazeable, s.marker == 1 || s.marker == 2);
 }
 
 TEST(PlcRegions, ASegmentIsSplitWhereAVertexLiesOnIt) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.25, 0.5, 0.5}, {0.75, 0.5, 0.5}, {0.5, 0.5, 0.5}});
   input.segments = {{9, 8}};
   input.segment_markers = {4};
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   ASSERT_EQ(plc.segments.size(), 14u);
   EXPECT_EQ(segment_ends(plc, true), (std::set<std::array<std::uint32_t, 2>>{{8, 10}, {9, 10}}));
 }
 
 // A facet from the top of a box down into it: its upper edge divides the top.
 TEST(PlcRegions, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
-  InputPlc input;
+  plc::InputPlc input;
   input.inside = Inside::seeds;
   input.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0},   {0, 2, 0},   {0, 0, 2},   {2, 0, 2},
                     {2, 2, 2}, {0, 2, 2}, {0.5, 1, 2}, {1.5, 1, 2}, {1.5, 1, 1}, {0.5, 1, 1}};
@@ -197,7 +197,7 @@ TEST(PlcRegions, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
   for (const Triangle& t : std::vector<Triangle>{{4, 5, 8}, {5, 9, 8}, {5, 6, 9}, {6, 7, 9}, {7, 8, 9}, {7, 4, 8}})
     input.triangles.push_back(t);
   for (const Matrix& m : {rotation(1, 0, 0, 0), arbitrary}) {
-    const Plc plc = build_plc(rotated(m, input));
+    const plc::Plc plc = plc::build_plc(rotated(m, input));
     EXPECT_EQ(plc.facets.size(), 7u) << "the top remains one facet with a segment in it";
     EXPECT_EQ(plc.segments.size(), 16u);
     EXPECT_EQ(plc.regions.size(), 2u);
@@ -209,26 +209,26 @@ TEST(PlcRegions, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
 TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRejected) {
   for (const Point3& seed : {Point3{5, 0.5, 0.5}, Point3{0.5, 0.5, -1e300}, Point3{0.5, 0.25, 1}, Point3{0, 0.5, 0.5},
                              Point3{0, 0, 0}, Point3{0.5, 0, 0}}) {
-    InputPlc input = unit_cube();
+    plc::InputPlc input = unit_cube();
     input.inside = Inside::seeds;
     input.regions = {{seed, 1, 0}};
-    EXPECT_THROW(build_plc(input), InputError);
+    EXPECT_THROW(plc::build_plc(input), InputError);
     input.regions.clear();
     input.holes = {seed};
-    EXPECT_THROW(build_plc(input), InputError);
+    EXPECT_THROW(plc::build_plc(input), InputError);
   }
   // Within the box of all vertices, but outside all the same.
-  InputPlc input = l_shape();
+  plc::InputPlc input = l_shape();
   input.inside = Inside::seeds;
   input.holes = {{1.5, 1.5, 0.5}};
-  EXPECT_THROW(build_plc(input), InputError);
+  EXPECT_THROW(plc::build_plc(input), InputError);
 }
 
 TEST(PlcRegions, AHoleSeedMustLeaveSomething) {
-  InputPlc input = unit_cube();
+  plc::InputPlc input = unit_cube();
   input.inside = Inside::seeds;
   input.holes = {{0.5, 0.5, 0.5}};
-  EXPECT_THROW(build_plc(input), InputError);
+  EXPECT_THROW(plc::build_plc(input), InputError);
 }
 
 }  // namespace

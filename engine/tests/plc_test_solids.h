@@ -14,20 +14,20 @@ namespace ccdt::plc_test {
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// Appends the triangles and vertices of another input; they share nothing yet.
-inline void append(InputPlc& to, const InputPlc& from) {
+inline void append(plc::InputPlc& to, const plc::InputPlc& from) {
   const auto offset = static_cast<std::uint32_t>(to.vertices.size());
   to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
   for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({a + offset, b + offset, c + offset});
 }
 
 /// A flat polygon, given by its corners in order, as a fan.
-inline void append_fan(InputPlc& plc, const std::vector<std::uint32_t>& corners) {
+inline void append_fan(plc::InputPlc& plc, const std::vector<std::uint32_t>& corners) {
   for (std::size_t i = 2; i < corners.size(); ++i) plc.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
 /// An axis-parallel box of 12 triangles, its vertices numbered x + 2y + 4z, oriented outwards.
-inline InputPlc box(const Point3& low, const Point3& high) {
-  InputPlc plc;
+inline plc::InputPlc box(const Point3& low, const Point3& high) {
+  plc::InputPlc plc;
   plc.name = "box";
   for (int i = 0; i < 8; ++i)
     plc.vertices.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
@@ -37,13 +37,13 @@ inline InputPlc box(const Point3& low, const Point3& high) {
   return plc;
 }
 
-inline InputPlc unit_cube() {
+inline plc::InputPlc unit_cube() {
   return box({0, 0, 0}, {1, 1, 1});
 }
 
 /// A unit cube with n x n squares on each face; faces do not share their vertices.
-inline InputPlc gridded_cube(std::uint32_t n) {
-  InputPlc plc;
+inline plc::InputPlc gridded_cube(std::uint32_t n) {
+  plc::InputPlc plc;
   plc.name = "gridded cube";
   for (int axis = 0; axis < 3; ++axis)
     for (int end = 0; end < 2; ++end) {
@@ -69,8 +69,8 @@ inline InputPlc gridded_cube(std::uint32_t n) {
 
 /// The prism over a polygon in the xy plane (counterclockwise, seen by all of its corners from the first) between z = 0
 /// and z = 1.
-inline InputPlc prism(const std::vector<std::array<double, 2>>& polygon) {
-  InputPlc plc;
+inline plc::InputPlc prism(const std::vector<std::array<double, 2>>& polygon) {
+  plc::InputPlc plc;
   plc.name = "prism";
   const auto n = static_cast<std::uint32_t>(polygon.size());
   for (const double z : {0.0, 1.0})
@@ -87,13 +87,13 @@ inline InputPlc prism(const std::vector<std::array<double, 2>>& polygon) {
 }
 
 /// An L: its reflex edge is from vertex 0 to vertex 6.
-inline InputPlc l_shape() {
+inline plc::InputPlc l_shape() {
   return prism({{1, 1}, {1, 2}, {0, 2}, {0, 0}, {2, 0}, {2, 1}});
 }
 
 /// Schoenhardt's twisted prism: its three reflex edges hinder any tetrahedralization without Steiner vertices.
-inline InputPlc schoenhardt() {
-  InputPlc plc;
+inline plc::InputPlc schoenhardt() {
+  plc::InputPlc plc;
   plc.name = "schoenhardt";
   const double twist = std::acos(-1.0) / 6;
   for (int k = 0; k < 6; ++k) {
@@ -124,7 +124,7 @@ inline Point3 rotated(const Matrix& m, const Point3& p) {
   return {row(0), row(1), row(2)};
 }
 
-inline InputPlc rotated(const Matrix& m, InputPlc plc) {
+inline plc::InputPlc rotated(const Matrix& m, plc::InputPlc plc) {
   for (Point3& p : plc.vertices) p = rotated(m, p);
   for (Point3& p : plc.holes) p = rotated(m, p);
   for (auto& region : plc.regions) region.seed = rotated(m, region.seed);
@@ -132,35 +132,35 @@ inline InputPlc rotated(const Matrix& m, InputPlc plc) {
 }
 
 /// Segments by their ends, the smaller first.
-inline std::set<std::array<std::uint32_t, 2>> segment_ends(const Plc& plc, bool grazeable_only = false) {
+inline std::set<std::array<std::uint32_t, 2>> segment_ends(const plc::Plc& plc, bool grazeable_only = false) {
   std::set<std::array<std::uint32_t, 2>> ends;
-  for (const Segment& s : plc.segments)
+  for (const plc::Segment& s : plc.segments)
     if (s.grazeable || !grazeable_only) ends.insert({std::min(s.ends[0], s.ends[1]), std::max(s.ends[0], s.ends[1])});
   return ends;
 }
 
-inline std::size_t grazeable_count(const Plc& plc) {
+inline std::size_t grazeable_count(const plc::Plc& plc) {
   return segment_ends(plc, true).size();
 }
 
-inline std::size_t inside_count(const Plc& plc) {
+inline std::size_t inside_count(const plc::Plc& plc) {
   std::size_t n = 0;
-  for (const Region& c : plc.regions) n += c.inside;
+  for (const plc::Region& c : plc.regions) n += c.inside;
   return n;
 }
 
 /// The volume of a region in the units of the input, by the divergence theorem over its facets; infinite ones come out
 /// negative.
-inline double volume(const Plc& plc, std::uint32_t region) {
+inline double volume(const plc::Plc& plc, std::uint32_t region) {
   double sixfold = 0;
-  for (const Facet& f : plc.facets) {
+  for (const plc::Facet& f : plc.facets) {
     const double sign = (f.below == region ? 1 : 0) - (f.above == region ? 1 : 0);
     for (const auto& t : f.triangles) sixfold += sign * dot(plc.world[t[0]], cross(plc.world[t[1]], plc.world[t[2]]));
   }
   return sixfold / 6;
 }
 
-inline double inside_volume(const Plc& plc) {
+inline double inside_volume(const plc::Plc& plc) {
   double sum = 0;
   for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
     if (plc.regions[c].inside) sum += volume(plc, c);

@@ -29,10 +29,10 @@ Voxels random_voxels(int n, int kinds, std::mt19937& random) {
   return voxels;
 }
 
-InputPlc surface_of(const Voxels& voxels, std::mt19937& random) {
-  InputPlc plc;
+plc::InputPlc surface_of(const Voxels& voxels, std::mt19937& random) {
+  plc::InputPlc plc;
   plc.name = "voxels";
-  plc.inside = InputPlc::Inside::seeds;
+  plc.inside = plc::InputPlc::Inside::seeds;
   const int m = voxels.n + 1;
   for (int i = 0; i < m * m * m; ++i) plc.vertices.push_back({double(i % m), double(i / m % m), double(i / m / m)});
   const auto vertex = [&](const std::array<int, 3>& p) { return std::uint32_t((p[2] * m + p[1]) * m + p[0]); };
@@ -127,9 +127,9 @@ TEST(PlcVoxels, RegionsAndSegmentsAreThoseThatTheLabelsGive) {
   std::normal_distribution<double> normal;
   for (int round = 0; round < 60; ++round) {
     const Voxels voxels = random_voxels(2 + round % 4, 2 + round % 3, random);
-    const InputPlc input = surface_of(voxels, random);
+    const plc::InputPlc input = surface_of(voxels, random);
     const bool turn = round % 2;
-    const Plc plc = build_plc(
+    const plc::Plc plc = plc::build_plc(
         turn ? rotated(rotation(normal(random), normal(random), normal(random), normal(random)), input) : input);
 
     std::vector<double> volumes;

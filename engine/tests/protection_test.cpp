@@ -28,10 +28,10 @@ double distance_to_segment(const Point3& p, const Point3& a, const Point3& b) {
 }
 
 void expect_steiner_vertices_on_grazeable_segments(const InputPlc& input, const MeshResult& result) {
-  const Plc plc = build_plc(input);
+  const plc::Plc plc = plc::build_plc(input);
   for (std::size_t v = plc.vertices.size(); v < plc.vertices.size() + result.counts.steiner_vertices; ++v) {
     double nearest = 1e300;
-    for (const Segment& s : plc.segments)
+    for (const plc::Segment& s : plc.segments)
       if (s.grazeable)
         nearest =
             std::min(nearest, distance_to_segment(result.mesh.vertices[v], plc.world[s.ends[0]], plc.world[s.ends[1]]));
@@ -43,9 +43,9 @@ void expect_steiner_vertices_on_grazeable_segments(const InputPlc& input, const 
 std::vector<InputPlc> inputs_with_reflex_edges() {
   std::mt19937 random(7);
   std::vector<InputPlc> inputs = {plc_test::schoenhardt(), cube_with_floating_segment(), cube_with_turnstile(),
-                                  twisted_prism(6, 0.25), make_solid("bracket", 11)};
+                                  twisted_prism(6, 0.25), models::make_solid("bracket", 11)};
   for (int i = 0; i < 6; ++i) inputs.push_back(random_voxels(3, 2, random));
-  for (int i = 0; i < 6; ++i) inputs.push_back(roughened(make_solid("sphere", 0.5), 0.2, random));
+  for (int i = 0; i < 6; ++i) inputs.push_back(roughened(models::make_solid("sphere", 0.5), 0.2, random));
   return inputs;
 }
 
@@ -100,20 +100,20 @@ TEST(Protection, SmallCubesWithGridsNeedNoSteinerVertexHoweverRotated) {
 TEST(Protection, EveryGrazeableSegmentBecomesAChainOfDelaunayEdgesThatLieOnIt) {
   for (const Protection strategy : {Protection::shell, Protection::midpoint})
     for (const InputPlc& input : inputs_with_reflex_edges()) {
-      const Plc plc = build_plc(input);
-      const auto [delaunay, chains, grazeable] =
-          protect_edges(plc, unprotected(plc, build_delaunay(plc.vertices)), strategy);
-      CellStar star(delaunay);
+      const plc::Plc plc = plc::build_plc(input);
+      const auto [delaunay, chains, grazeable] = protection::protect_edges(
+          plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), strategy);
+      delaunay::CellStar star(delaunay);
       for (std::size_t s = 0; s < chains.size(); ++s) {
         const Point3 &a = plc.vertices[plc.segments[s].ends[0]], &b = plc.vertices[plc.segments[s].ends[1]];
         EXPECT_EQ(chains[s].front().fraction, 0u);
-        EXPECT_EQ(chains[s].back().fraction, whole_segment);
+        EXPECT_EQ(chains[s].back().fraction, protection::whole_segment);
         if (!grazeable[s]) {
           EXPECT_EQ(chains[s].size(), 2u);
         }
         for (std::size_t i = 0; i < chains[s].size(); ++i) {
-          const ChainVertex& v = chains[s][i];
-          EXPECT_EQ(delaunay.point(v.vertex), a + v.fraction * (1.0 / whole_segment * (b - a)));
+          const protection::ChainVertex& v = chains[s][i];
+          EXPECT_EQ(delaunay.point(v.vertex), a + v.fraction * (1.0 / protection::whole_segment * (b - a)));
           if (i == 0) continue;
           EXPECT_LT(chains[s][i - 1].fraction, v.fraction);
           EXPECT_TRUE(!grazeable[s] || star.has_edge(chains[s][i - 1].vertex, v.vertex));
@@ -142,18 +142,18 @@ TEST(Protection, SplitsAreCountedByLevelWhichForMidpointsIsTheDepthOfTheBisectio
   std::vector<InputPlc> inputs = inputs_with_reflex_edges();
   for (const double angle : {0.1, 0.05}) inputs.push_back(cube_with_pages(5, angle));
   for (const InputPlc& input : inputs) {
-    const Plc plc = build_plc(input);
-    const auto [delaunay, chains, grazeable] =
-        protect_edges(plc, unprotected(plc, build_delaunay(plc.vertices)), Protection::midpoint);
+    const plc::Plc plc = plc::build_plc(input);
+    const auto [delaunay, chains, grazeable] = protection::protect_edges(
+        plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), Protection::midpoint);
     const std::size_t added = delaunay.vertices.size() - plc.vertices.size();
-    const std::vector<std::uint64_t> splits = count_splits_by_level(chains);
+    const std::vector<std::uint64_t> splits = protection::count_splits_by_level(chains);
     EXPECT_EQ(std::accumulate(splits.begin(), splits.end(), std::uint64_t{0}), added);
     deepest = std::max(deepest, splits.size());
     for (const auto& chain : chains)
-      for (const ChainVertex& v : chain) {
+      for (const protection::ChainVertex& v : chain) {
         // A midpoint of depth k is an odd multiple of 2^-k.
-        const std::uint32_t unit = whole_segment >> v.level;
-        EXPECT_TRUE(v.level == 0 ? v.fraction % whole_segment == 0 : v.fraction / unit % 2 == 1);
+        const std::uint32_t unit = protection::whole_segment >> v.level;
+        EXPECT_TRUE(v.level == 0 ? v.fraction % protection::whole_segment == 0 : v.fraction / unit % 2 == 1);
         EXPECT_EQ(v.fraction % unit, 0u);
       }
   }

@@ -114,7 +114,7 @@ inline double mean_edge_length(const InputPlc& plc) {
 }
 
 /// The volume of the regions of each region; 0 is also what has no region.
-inline std::map<int, double> region_volumes(const Plc& plc) {
+inline std::map<int, double> region_volumes(const plc::Plc& plc) {
   std::map<int, double> sums;
   for (std::uint32_t c = 0; c < plc.regions.size(); ++c)
     if (plc.regions[c].inside) sums[plc.regions[c].attribute] += plc_test::volume(plc, c);

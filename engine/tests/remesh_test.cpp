@@ -17,9 +17,9 @@ using namespace mesh_test;
 using namespace remesh_test;
 
 InputPlc remeshed(const InputPlc& input, double edge_length) {
-  RemeshOptions options;
+  surface::RemeshOptions options;
   options.edge_length = edge_length;
-  return remesh_surface(input, options);
+  return surface::remesh_surface(input, options);
 }
 
 /// Flat facets, so everything but the triangles is as before, to the last bits.
@@ -27,7 +27,7 @@ void expect_same_shape(const InputPlc& before, const InputPlc& after) {
   expect_near(areas(before), areas(after), 1e-9);
   expect_near(odd_edge_lengths(before), odd_edge_lengths(after), 1e-9);
   expect_near(segment_lengths(before), segment_lengths(after), 1e-9);
-  const Plc a = build_plc(before), b = build_plc(after);
+  const plc::Plc a = plc::build_plc(before), b = plc::build_plc(after);
   EXPECT_EQ(a.regions.size(), b.regions.size());
   EXPECT_EQ(a.facets.size(), b.facets.size());
   expect_near(region_volumes(a), region_volumes(b), 1e-9);
@@ -116,16 +116,16 @@ TEST(Remeshing, VerticesThatTheInputListsAloneStay) {
   plc.vertices.insert(plc.vertices.end(), alone.begin(), alone.end());
   const InputPlc result = remeshed(plc, 0.5);
   for (const Point3& p : alone) EXPECT_EQ(std::count(result.vertices.begin(), result.vertices.end(), p), 1);
-  EXPECT_NEAR(inside_volume(build_plc(result)), 27, 1e-9);
+  EXPECT_NEAR(inside_volume(plc::build_plc(result)), 27, 1e-9);
 }
 
 TEST(Remeshing, SphereStaysRound) {
-  const InputPlc plc = make_solid("sphere", 0.05);
-  const double before = inside_volume(build_plc(plc));
+  const InputPlc plc = models::make_solid("sphere", 0.05);
+  const double before = inside_volume(plc::build_plc(plc));
   for (const double h : {0.04, 0.08, 0.15}) {
     SCOPED_TRACE(h);
     const InputPlc result = remeshed(plc, h);
-    EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.01 * before);
+    EXPECT_NEAR(inside_volume(plc::build_plc(result)), before, 0.01 * before);
     EXPECT_EQ(sharp_length(result, 30), 0);
     EXPECT_GE(share_of_good_edges(result, h), 0.9);
     EXPECT_GE(smallest_angle_of_99_percent(result), 25);
@@ -138,12 +138,12 @@ TEST(Remeshing, RimOfACylinderStaysRound) {
   for (int i = 0; i < sides; ++i)
     circle.push_back({std::cos(2 * std::acos(-1.0) * i / sides), std::sin(2 * std::acos(-1.0) * i / sides)});
   const InputPlc cylinder = prism(circle);
-  const double before = inside_volume(build_plc(cylinder));
+  const double before = inside_volume(plc::build_plc(cylinder));
   for (const double h : {0.1, 0.2, 1.0, 5.0}) {
     SCOPED_TRACE(h);
     const InputPlc result = remeshed(cylinder, h);
     EXPECT_NEAR(sharp_length(result, 60), sharp_length(cylinder, 60), 0.01 * sharp_length(cylinder, 60));
-    EXPECT_NEAR(inside_volume(build_plc(result)), before, (h < 0.5 ? 0.005 : 0.03) * before);
+    EXPECT_NEAR(inside_volume(plc::build_plc(result)), before, (h < 0.5 ? 0.005 : 0.03) * before);
     for (const Point3& p : result.vertices) EXPECT_LE(std::hypot(p.x, p.y), 1 + 1e-12);
   }
 }
@@ -151,9 +151,9 @@ TEST(Remeshing, RimOfACylinderStaysRound) {
 TEST(Remeshing, ModelsReachTheirEdgeLength) {
   for (const auto& [name, h] : {std::pair{"piston", 5.0}, {"bracket", 5.0}, {"stepping-pole", 2.5}}) {
     SCOPED_TRACE(name);
-    const InputPlc plc = make_solid(name, h), result = remeshed(plc, h);
-    const double before = inside_volume(build_plc(plc));
-    EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.005 * before);
+    const InputPlc plc = models::make_solid(name, h), result = remeshed(plc, h);
+    const double before = inside_volume(plc::build_plc(plc));
+    EXPECT_NEAR(inside_volume(plc::build_plc(result)), before, 0.005 * before);
     EXPECT_NEAR(sharp_length(result, 30), sharp_length(plc, 30), 0.02 * sharp_length(plc, 30));
     EXPECT_GE(share_of_good_edges(result, h), 0.6);  // fillets and bores need shorter ones
     EXPECT_GE(smallest_angle_of_99_percent(result), 35);
@@ -161,18 +161,18 @@ TEST(Remeshing, ModelsReachTheirEdgeLength) {
 }
 
 TEST(Remeshing, ShellsThinnerThanTheEdgesDoNotCross) {
-  InputPlc shell = make_solid("sphere", 0.1);
+  InputPlc shell = models::make_solid("sphere", 0.1);
   const auto shrunk = [](const Point3& p) { return 0.99 * p; };
   append(shell, rotated(oblique, mapped(shell, shrunk)));
   shell.triangle_markers.clear();
   int attempts = 0;
-  RemeshOptions options;
+  surface::RemeshOptions options;
   options.edge_length = 0.4;
-  const InputPlc result = remesh_surface(
+  const InputPlc result = surface::remesh_surface(
       shell, options,
       [&](std::string_view stage, std::uint64_t done, std::uint64_t) { attempts += stage == "remesh" && done == 0; });
   EXPECT_GT(attempts, 1);  // else this tests nothing
-  const Plc before = build_plc(shell), after = build_plc(result);
+  const plc::Plc before = plc::build_plc(shell), after = plc::build_plc(result);
   EXPECT_EQ(after.regions.size(), before.regions.size());
   EXPECT_NEAR(inside_volume(after), inside_volume(before), 0.3 * inside_volume(before));
 }
@@ -185,7 +185,7 @@ TEST(Remeshing, NoTriangleHasASmallAngleWhereNoFeatureForbidsIt) {
                                       {"stepping-pole", 2.5, 2.5},
                                       {"stepping-pole", 2.5, 5.0}}) {
     SCOPED_TRACE(std::string(name) + " " + std::to_string(h));
-    EXPECT_GE(smallest_angles(remeshed(make_solid(name, made), h)).front(), 30);
+    EXPECT_GE(smallest_angles(remeshed(models::make_solid(name, made), h)).front(), 30);
   }
 }
 
@@ -204,7 +204,7 @@ TEST(Remeshing, EdgesAlongAStripFitItsWidth) {
 }
 
 TEST(Remeshing, IsDeterministic) {
-  const InputPlc plc = make_solid("bracket", 7);
+  const InputPlc plc = models::make_solid("bracket", 7);
   const InputPlc a = remeshed(plc, 5), b = remeshed(plc, 5);
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_EQ(a.triangles, b.triangles);
@@ -222,13 +222,13 @@ TEST(RemeshedParts, MeshAtEveryEdgeLengthAndKeepTheirVolume) {
   for (const auto& file : files) {
     const std::string name = file.stem().string();
     if (name != "cheese" && name != "fandisk" && name != "joint" && name != "elephant") continue;
-    const InputPlc input = read_plc(file);
-    const double before = inside_volume(build_plc(input));
+    const InputPlc input = io::read_plc(file);
+    const double before = inside_volume(plc::build_plc(input));
     for (const double factor : {1.0, 2.0, 4.0}) {
       if (name == "cheese" && factor != 2) continue;  // its bores take seconds
       SCOPED_TRACE(name + " " + std::to_string(factor));
       const InputPlc result = remeshed(input, factor * mean_edge_length(input));
-      EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.02 * factor * before);
+      EXPECT_NEAR(inside_volume(plc::build_plc(result)), before, 0.02 * factor * before);
       if (name == "cheese") continue;  // the mesher takes many seconds for it
       MeshOptions options;
       options.lattice = Lattice::none;
@@ -244,10 +244,10 @@ TEST(RemeshedParts, BoresAndFilletsNarrowerThanTheEdgesMakeNoNeedles) {
     const std::string name = file.stem().string();
     if (name != "anchor" && name != "joint" && name != "pinion" && name != "rotor") continue;
     SCOPED_TRACE(name);
-    const InputPlc input = read_plc(file), result = remeshed(input, mean_edge_length(input));
+    const InputPlc input = io::read_plc(file), result = remeshed(input, mean_edge_length(input));
     EXPECT_GE(smallest_angles(result).front(), 30);
-    const double before = inside_volume(build_plc(input));
-    EXPECT_NEAR(inside_volume(build_plc(result)), before, 0.005 * before);
+    const double before = inside_volume(plc::build_plc(input));
+    EXPECT_NEAR(inside_volume(plc::build_plc(result)), before, 0.005 * before);
     MeshOptions options;
     options.lattice = Lattice::none;
     EXPECT_GT(mesh_plc(result, options).counts.tetrahedra, 0u);

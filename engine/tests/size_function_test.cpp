@@ -11,16 +11,16 @@
 namespace ccdt::test {
 namespace {
 
-constexpr std::array lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
+constexpr std::array lattices = {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc};
 
-DomainSurface surface_of(const Shape& shape) {
+lattice::DomainSurface surface_of(const Shape& shape) {
   return {shape.vertices, shape.triangles, shape.subsegments};
 }
 
 /// A cube of n^3 small cubes, of six tetrahedra each, around [-half, half]^3.
 template <class Size>
-BackgroundSizes background_cube(int n, double half, const Size& size_at) {
-  BackgroundSizes b;
+lattice::BackgroundSizes background_cube(int n, double half, const Size& size_at) {
+  lattice::BackgroundSizes b;
   const auto vertex = [n](int x, int y, int z) { return std::uint32_t(x + (n + 1) * (y + (n + 1) * z)); };
   for (int z = 0; z <= n; ++z)
     for (int y = 0; y <= n; ++y)
@@ -42,7 +42,7 @@ BackgroundSizes background_cube(int n, double half, const Size& size_at) {
   return b;
 }
 
-BackgroundSizes without_tetrahedra(BackgroundSizes b) {
+lattice::BackgroundSizes without_tetrahedra(lattice::BackgroundSizes b) {
   b.tetrahedra.clear();
   return b;
 }
@@ -70,13 +70,14 @@ double edge_length_at(const std::vector<Point3>& points, const Point3& p) {
 TEST(InterpolatedSizes, AreLinearInATetrahedronCutByABox) {
   const std::array<Point3, 4> corners = {Point3{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
   const std::array<double, 4> values = {1, 5, 9, 13};  // 1 + x + 2 y + 3 z
-  EXPECT_NEAR(least_value(corners, values, {{0.5, 0.5, 0.5}, {1, 1, 1}}), 4, 1e-12);
-  EXPECT_NEAR(least_value(corners, values, {{-1, -1, -1}, {9, 9, 9}}), 1, 1e-12);  // the tetrahedron is in the box
-  EXPECT_NEAR(least_value(corners, values, {{2, -1, -1}, {9, 9, 9}}), 3, 1e-12);   // a corner is cut off
-  EXPECT_NEAR(least_value(corners, values, {{-1, -1, 1}, {9, 9, 1}}), 4, 1e-12);   // a flat box
-  EXPECT_EQ(least_value(corners, values, {{2, 2, 2}, {3, 3, 3}}), HUGE_VAL);       // only the bounding boxes meet
+  EXPECT_NEAR(lattice::least_value(corners, values, {{0.5, 0.5, 0.5}, {1, 1, 1}}), 4, 1e-12);
+  EXPECT_NEAR(lattice::least_value(corners, values, {{-1, -1, -1}, {9, 9, 9}}), 1,
+              1e-12);  // the tetrahedron is in the box
+  EXPECT_NEAR(lattice::least_value(corners, values, {{2, -1, -1}, {9, 9, 9}}), 3, 1e-12);  // a corner is cut off
+  EXPECT_NEAR(lattice::least_value(corners, values, {{-1, -1, 1}, {9, 9, 1}}), 4, 1e-12);  // a flat box
+  EXPECT_EQ(lattice::least_value(corners, values, {{2, 2, 2}, {3, 3, 3}}), HUGE_VAL);  // only the bounding boxes meet
   const std::array<Point3, 4> flat = {corners[0], corners[1], corners[2], Point3{1, 1, 0}};
-  EXPECT_EQ(least_value(flat, values, {{0, 0, 0}, {1, 1, 1}}), HUGE_VAL);
+  EXPECT_EQ(lattice::least_value(flat, values, {{0, 0, 0}, {1, 1, 1}}), HUGE_VAL);
 }
 
 TEST(InterpolatedSizes, AreTheLeastOverAnyBoxOfAFineOrACoarseBackground) {
@@ -84,8 +85,8 @@ TEST(InterpolatedSizes, AreTheLeastOverAnyBoxOfAFineOrACoarseBackground) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   for (const int n : {1, 3, 10}) {
-    const BackgroundSizes background = background_cube(n, 1, size_at);
-    const InterpolatedSizes sizes(background);
+    const lattice::BackgroundSizes background = background_cube(n, 1, size_at);
+    const lattice::InterpolatedSizes sizes(background);
     for (int i = 0; i < 200; ++i) {
       const Point3 p{coordinate(random), coordinate(random), coordinate(random)};
       const Point3 q{coordinate(random), coordinate(random), coordinate(random)};
@@ -96,8 +97,9 @@ TEST(InterpolatedSizes, AreTheLeastOverAnyBoxOfAFineOrACoarseBackground) {
 }
 
 TEST(InterpolatedSizes, AreThoseOfTheNearestVertexOutside) {
-  const BackgroundSizes background = background_cube(1, 1, [](const Point3& p) { return p.x > 0 ? 5.0 : 2.0; });
-  const InterpolatedSizes sizes(background);
+  const lattice::BackgroundSizes background =
+      background_cube(1, 1, [](const Point3& p) { return p.x > 0 ? 5.0 : 2.0; });
+  const lattice::InterpolatedSizes sizes(background);
   EXPECT_NEAR(least_target(sizes, {{7, 1, 1}, {8, 2, 2}}), 5, 1e-9);
   EXPECT_NEAR(least_target(sizes, {{-8, 1, 1}, {-7, 2, 2}}), 2, 1e-9);
   EXPECT_NEAR(least_target(sizes, {{-1, 7, 1}, {1, 8, 2}}), 2, 1e-9);  // half and half
@@ -105,8 +107,8 @@ TEST(InterpolatedSizes, AreThoseOfTheNearestVertexOutside) {
 
 TEST(SizeField, OfABackgroundIsTheLeastOverVerticesOfSizePlusGradingTimesDistance) {
   const Shape shape = cube(2);
-  const BackgroundSizes two{{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}};
-  const SizeField field(surface_of(shape), 0, 0.5, &two);
+  const lattice::BackgroundSizes two{{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}};
+  const lattice::SizeField field(surface_of(shape), 0, 0.5, &two);
   EXPECT_NEAR(least_target(field, {{0, 0, 0}, {0, 0, 0}}), 1, 1e-9);
   EXPECT_NEAR(least_target(field, {{0, 10, 0}, {0, 10, 0}}), 6, 1e-9);
   EXPECT_NEAR(least_target(field, {{100, 0, 0}, {100, 0, 0}}), 3, 1e-9);
@@ -115,9 +117,9 @@ TEST(SizeField, OfABackgroundIsTheLeastOverVerticesOfSizePlusGradingTimesDistanc
 
 TEST(SizeField, OfABackgroundIsBoundedByTheEdgeLength) {
   const Shape shape = cube(2);
-  const BackgroundSizes background = background_cube(2, 1, [](const Point3& p) { return 3 + 2 * p.x; });
-  for (const BackgroundSizes& b : {background, without_tetrahedra(background)}) {
-    const SizeField field(surface_of(shape), 1.5, 0.5, &b);
+  const lattice::BackgroundSizes background = background_cube(2, 1, [](const Point3& p) { return 3 + 2 * p.x; });
+  for (const lattice::BackgroundSizes& b : {background, without_tetrahedra(background)}) {
+    const lattice::SizeField field(surface_of(shape), 1.5, 0.5, &b);
     EXPECT_NEAR(least_target(field, {{0.9, 0, 0}, {1, 0.1, 0.1}}), 1.5, 1e-9);
     EXPECT_NEAR(least_target(field, {{-1, 0, 0}, {-0.9, 0.1, 0.1}}), 1, 1e-9);
     EXPECT_EQ(field.reference(), 1.5);
@@ -128,9 +130,10 @@ TEST(SizeFunction, ThatIsConstantMakesTheVeryLatticeOfThatEdgeLength) {
   const Shape shape = cube(6);
   for (const double part : {0.3, 0.45, 0.7}) {
     const double edge_length = part * shape.unit;
-    const BackgroundSizes constant = background_cube(3, 4 * shape.unit, [&](const Point3&) { return edge_length; });
-    for (const Lattice kind : lattices) {
-      LatticeOptions options{kind, edge_length, 0};
+    const lattice::BackgroundSizes constant =
+        background_cube(3, 4 * shape.unit, [&](const Point3&) { return edge_length; });
+    for (const lattice::Lattice kind : lattices) {
+      lattice::LatticeOptions options{kind, edge_length, 0};
       const auto wanted = shape.place(options);
       options = {kind, 0, 0.5};
       options.background = &constant;
@@ -144,8 +147,8 @@ TEST(SizeFunction, ThatIsLinearIsFollowedWithinTheSquareRootOfTwo) {
   const double half = 6 * shape.unit;
   const auto size_at = [&](const Point3& p) { return shape.unit * (0.7 + 0.5 * p.x / half); };
   for (const int n : {1, 9}) {  // a coarse background says the same as a fine one
-    const BackgroundSizes background = background_cube(n, half, size_at);
-    LatticeOptions options;
+    const lattice::BackgroundSizes background = background_cube(n, half, size_at);
+    lattice::LatticeOptions options;
     options.background = &background;
     options.sphere_factor = 0;
     const auto points = shape.place(options);
@@ -164,9 +167,9 @@ TEST(SizeFunction, ThatIsLinearIsFollowedWithinTheSquareRootOfTwo) {
 
 TEST(SizeFunction, OfVerticesAloneIsFineAroundTheOneThatIs) {
   const Shape shape = cube(12);
-  const BackgroundSizes background{
+  const lattice::BackgroundSizes background{
       {}, {}, {shape.unit * Point3{2, 2, 2}, shape.unit * Point3{-4, -4, -4}}, {}, {0.1 * shape.unit, 2 * shape.unit}};
-  LatticeOptions options;
+  lattice::LatticeOptions options;
   options.background = &background;
   options.grading = 0.5;
   std::size_t fine = 0;
@@ -179,9 +182,9 @@ TEST(SizeFunction, OfVerticesAloneIsFineAroundTheOneThatIs) {
 
 TEST(SizeFunction, TakesThePlaceOfTheSurfacesOwnEdgeLengths) {
   const Shape coarse = cube(2), fine = cube(8);  // the same cube in grid units, twice
-  const BackgroundSizes background =
+  const lattice::BackgroundSizes background =
       background_cube(2, coarse.unit, [&](const Point3&) { return coarse.unit * 0.125; });
-  LatticeOptions options;
+  lattice::LatticeOptions options;
   options.background = &background;
   options.sphere_factor = 0;
   EXPECT_EQ(coarse.place(options), fine.place(options));
@@ -190,8 +193,9 @@ TEST(SizeFunction, TakesThePlaceOfTheSurfacesOwnEdgeLengths) {
 
 TEST(SizeFunction, ThatAsksForTooMuchIsDeclinedBeforeItFillsTheMemory) {
   const Shape shape = cube(2);
-  const BackgroundSizes tiny = background_cube(1, shape.unit, [&](const Point3&) { return 1e-4 * shape.unit; });
-  LatticeOptions options;
+  const lattice::BackgroundSizes tiny =
+      background_cube(1, shape.unit, [&](const Point3&) { return 1e-4 * shape.unit; });
+  lattice::LatticeOptions options;
   options.background = &tiny;
   EXPECT_THROW(shape.place(options), LimitError);
 }
@@ -201,7 +205,7 @@ TEST(SphereFactor, ScalesTheSpheresThatNoPointMayBeIn) {
   const double edge_length = 0.2 * shape.unit;
   std::size_t last = 0;
   for (const double factor : {1.5, 1.0, 0.7, 0.0}) {
-    LatticeOptions options{Lattice::fcc, edge_length, 0};
+    lattice::LatticeOptions options{lattice::Lattice::fcc, edge_length, 0};
     options.sphere_factor = factor;
     const auto points = shape.place(options);
     EXPECT_GT(points.size(), last);
@@ -209,7 +213,7 @@ TEST(SphereFactor, ScalesTheSpheresThatNoPointMayBeIn) {
     for (const Point3& p : points)
       for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         // All triangles are half squares, so their spheres are those of their longest edges.
-        const TrianglePoints c = surface_of(shape).corners(t);
+        const lattice::TrianglePoints c = surface_of(shape).corners(t);
         const Box box = bounding_box(c);
         EXPECT_GT(std::sqrt(squared_length(p - box.center())), factor * std::sqrt(0.5) * shape.unit);
       }
@@ -220,7 +224,7 @@ TEST(Clearance, IsTheLeastDistanceToTheSurfaceInEdgeLengths) {
   const Shape shape = cube(10);
   const double edge_length = 0.4 * shape.unit;
   for (const double clearance : {0.0, 0.25, 0.55, 1.2}) {
-    LatticeOptions options{Lattice::fcc, edge_length, 0};
+    lattice::LatticeOptions options{lattice::Lattice::fcc, edge_length, 0};
     options.sphere_factor = 0;
     options.clearance = clearance;
     double least = HUGE_VAL;

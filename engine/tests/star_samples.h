@@ -13,17 +13,18 @@
 namespace ccdt::test {
 
 struct Star {
-  std::vector<StarFace> faces;
+  std::vector<improve::StarFace> faces;
   Point3 apex;
 };
 
 /// The star of a vertex of a tetrahedralization; no faces if the vertex is on the convex hull.
-inline Star star_of(const Delaunay& delaunay, CellStar& cells, std::uint32_t vertex) {
+inline Star star_of(const delaunay::Delaunay& delaunay, delaunay::CellStar& cells, std::uint32_t vertex) {
   Star star{{}, delaunay.point(vertex)};
   for (const std::uint32_t cell : cells.around(vertex)) {
     if (!delaunay.is_finite(cell)) return {{}, star.apex};
     const auto& v = delaunay.cells[cell].vertices;
-    const auto corners = face_corners[static_cast<std::size_t>(std::find(v.begin(), v.end(), vertex) - v.begin())];
+    const auto corners =
+        delaunay::face_corners[static_cast<std::size_t>(std::find(v.begin(), v.end(), vertex) - v.begin())];
     star.faces.push_back({delaunay.point(v[corners[0]]), delaunay.point(v[corners[1]]), delaunay.point(v[corners[2]])});
   }
   return star;
@@ -42,8 +43,8 @@ inline std::vector<Star> jittered_stars(double jitter, std::uint64_t seed, doubl
     for (int j = 0; j < side; ++j)
       for (int k = i % 2 == j % 2 ? 0 : 1; k < side; k += 2)
         points.push_back(centre + Point3{place(i), place(j), place(k)});
-  const Delaunay delaunay = build_delaunay(points);
-  CellStar cells(delaunay);
+  const delaunay::Delaunay delaunay = delaunay::build_delaunay(points);
+  delaunay::CellStar cells(delaunay);
   std::vector<Star> stars;
   for (std::uint32_t v = 0; v < points.size(); ++v) {
     const Point3 from_centre = points[v] - centre;

@@ -72,7 +72,8 @@ std::vector<Case> random_cases() {
     cases.push_back({"random voxels" + number, voxels, Lattice::bcc, 0.5});
     cases.push_back({"random voxels in perspective" + number, in_perspective(voxels, 3)});
     cases.push_back({"random convex" + number, random_convex(24, random)});
-    cases.push_back({"rough sphere" + number, roughened(make_solid("sphere", 0.35), 0.3, random), Lattice::fcc});
+    cases.push_back(
+        {"rough sphere" + number, roughened(models::make_solid("sphere", 0.35), 0.3, random), Lattice::fcc});
   }
   return cases;
 }
@@ -81,28 +82,29 @@ std::vector<Case> random_cases() {
 std::vector<Case> part_cases() {
   std::vector<Case> cases;
   for (const char* name : {"piston", "bracket", "stepping-pole"}) {
-    cases.push_back({name, make_solid(name, 6), Lattice::fcc});
-    cases.push_back({std::string(name) + ", surface alone", make_solid(name, 8)});
+    cases.push_back({name, models::make_solid(name, 6), Lattice::fcc});
+    cases.push_back({std::string(name) + ", surface alone", models::make_solid(name, 8)});
   }
   if (!there_are_parts()) return cases;
   for (const char* name : {"anchor", "cube-meshed", "fandisk", "handle", "joint", "pinion", "rotor"})
-    cases.push_back({name, read_plc(folder_of_parts() / (std::string(name) + ".off")), Lattice::none});
+    cases.push_back({name, io::read_plc(folder_of_parts() / (std::string(name) + ".off")), Lattice::none});
   for (const char* name : {"anchor", "joint", "elephant"})
     cases.push_back(
-        {std::string(name) + ", filled", read_plc(folder_of_parts() / (std::string(name) + ".off")), Lattice::fcc});
+        {std::string(name) + ", filled", io::read_plc(folder_of_parts() / (std::string(name) + ".off")), Lattice::fcc});
   return cases;
 }
 
 /// Brute force over all vertices: the cell above a face (below it, if `side` is -1) is made with the vertex whose
 /// sphere holds no other vertex of that side.
-std::optional<std::uint32_t> apex_of(const std::array<VertexId, 3>& face, int side, const Delaunay& d) {
+std::optional<std::uint32_t> apex_of(const std::array<VertexId, 3>& face, int side, const delaunay::Delaunay& d) {
   const auto& [a, b, c] = face;
   std::optional<std::uint32_t> best;
   for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
-    if (v == a || v == b || v == c || orient3d(d.point(a), d.point(b), d.point(c), d.point(v)) != side) continue;
-    if (best && insphere_perturbed(d.point(a), d.point(b), d.point(c), d.point(*best), d.point(v),
-                                   {d.vertices[a].rank, d.vertices[b].rank, d.vertices[c].rank, d.vertices[*best].rank,
-                                    d.vertices[v].rank}) != side)
+    if (v == a || v == b || v == c || numbers::orient3d(d.point(a), d.point(b), d.point(c), d.point(v)) != side)
+      continue;
+    if (best && numbers::insphere_perturbed(d.point(a), d.point(b), d.point(c), d.point(*best), d.point(v),
+                                            {d.vertices[a].rank, d.vertices[b].rank, d.vertices[c].rank,
+                                             d.vertices[*best].rank, d.vertices[v].rank}) != side)
       continue;
     best = v;
   }
@@ -111,15 +113,15 @@ std::optional<std::uint32_t> apex_of(const std::array<VertexId, 3>& face, int si
 
 /// Is the face Delaunay? It is if the sphere of the cell on one side of it holds no vertex of the other side, nor one
 /// in its plane. Asks no tetrahedralization.
-bool is_delaunay_by_brute_force(const std::array<VertexId, 3>& face, const Delaunay& d) {
+bool is_delaunay_by_brute_force(const std::array<VertexId, 3>& face, const delaunay::Delaunay& d) {
   const auto& [a, b, c] = face;
   const int side = apex_of(face, 1, d) ? 1 : -1;
   const std::uint32_t apex = *apex_of(face, side, d);
   for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
     if (v == a || v == b || v == c || v == apex) continue;
-    if (insphere_perturbed(d.point(a), d.point(b), d.point(c), d.point(apex), d.point(v),
-                           {d.vertices[a].rank, d.vertices[b].rank, d.vertices[c].rank, d.vertices[apex].rank,
-                            d.vertices[v].rank}) == side)
+    if (numbers::insphere_perturbed(d.point(a), d.point(b), d.point(c), d.point(apex), d.point(v),
+                                    {d.vertices[a].rank, d.vertices[b].rank, d.vertices[c].rank, d.vertices[apex].rank,
+                                     d.vertices[v].rank}) == side)
       return false;
   }
   return true;
@@ -132,7 +134,7 @@ void expect_right_face_counts(const Case& c, const MeshCounts& counts) {
   std::uint64_t undelaunay = 0;
   for (std::size_t i = 0; i < stages.facets.triangles.size(); ++i) {
     const bool is_delaunay = is_delaunay_by_brute_force(stages.facets.triangles[i], stages.delaunay);
-    EXPECT_EQ(stages.codes[i] != no_neighbor, is_delaunay) << "face " << i;
+    EXPECT_EQ(stages.codes[i] != delaunay::no_neighbor, is_delaunay) << "face " << i;
     undelaunay += !is_delaunay;
   }
   EXPECT_EQ(counts.faces, stages.facets.triangles.size());

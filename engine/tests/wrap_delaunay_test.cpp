@@ -18,18 +18,19 @@ namespace {
 
 using namespace test;
 
-std::vector<DelaunayVertex> with_ranks(const std::vector<Point3>& points, const std::vector<std::uint32_t>& ranks) {
-  std::vector<DelaunayVertex> vertices;
+std::vector<delaunay::DelaunayVertex> with_ranks(const std::vector<Point3>& points,
+                                                 const std::vector<std::uint32_t>& ranks) {
+  std::vector<delaunay::DelaunayVertex> vertices;
   for (std::size_t i = 0; i < points.size(); ++i) vertices.push_back({points[i], ranks[i], 0});
   return vertices;
 }
 
-Delaunay wrap(const std::vector<Point3>& points, double grid_scale = 1) {
-  return wrap_delaunay(with_ranks(points, insertion_ranks(points)), grid_scale);
+delaunay::Delaunay wrap(const std::vector<Point3>& points, double grid_scale = 1) {
+  return delaunay::wrap_delaunay(with_ranks(points, delaunay::insertion_ranks(points)), grid_scale);
 }
 
 /// The corners of all ghosts, sorted.
-std::vector<Corners> sorted_ghosts(const Delaunay& d) {
+std::vector<Corners> sorted_ghosts(const delaunay::Delaunay& d) {
   std::vector<Corners> ghosts;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     if (d.is_dead(c) || !d.is_ghost(c)) continue;
@@ -40,7 +41,7 @@ std::vector<Corners> sorted_ghosts(const Delaunay& d) {
   return ghosts;
 }
 
-void expect_same(const Delaunay& wrapped, const Delaunay& inserted, const std::string& name) {
+void expect_same(const delaunay::Delaunay& wrapped, const delaunay::Delaunay& inserted, const std::string& name) {
   EXPECT_EQ(sorted_cells(wrapped), sorted_cells(inserted)) << name;
   EXPECT_EQ(sorted_ghosts(wrapped), sorted_ghosts(inserted)) << name;
   EXPECT_TRUE(is_consistent(wrapped)) << name;
@@ -129,7 +130,7 @@ std::vector<NamedPoints> hard_sets() {
 
 TEST(WrapDelaunay, GivesTheCellsOfTheDefinition) {
   for (const NamedPoints& set : tiny_sets()) {
-    const Delaunay d = wrap(set.points);
+    const delaunay::Delaunay d = wrap(set.points);
     EXPECT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << set.name;
   }
 }
@@ -138,14 +139,15 @@ TEST(WrapDelaunay, GivesTheCellsOfInsertionWhateverTheGrid) {
   auto sets = tiny_sets();
   for (auto& set : small_sets()) sets.push_back(std::move(set));
   for (const NamedPoints& set : sets) {
-    const Delaunay inserted = build_delaunay(set.points);
+    const delaunay::Delaunay inserted = delaunay::build_delaunay(set.points);
     for (const double scale : {0.3, 1.0, 2.5, 100.0})
       expect_same(wrap(set.points, scale), inserted, std::string(set.name) + ", scale " + std::to_string(scale));
   }
 }
 
 TEST(WrapDelaunay, GivesTheCellsOfInsertionOnHardSets) {
-  for (const NamedPoints& set : hard_sets()) expect_same(wrap(set.points), build_delaunay(set.points), set.name);
+  for (const NamedPoints& set : hard_sets())
+    expect_same(wrap(set.points), delaunay::build_delaunay(set.points), set.name);
 }
 
 TEST(WrapDelaunay, LeavesSpheresAndOuterHalfSpacesEmpty) {
@@ -153,24 +155,24 @@ TEST(WrapDelaunay, LeavesSpheresAndOuterHalfSpacesEmpty) {
 }
 
 /// Inserts the vertices in the order of their ranks, of which the first four have a body.
-Delaunay insert_by_rank(const std::vector<DelaunayVertex>& vertices) {
+delaunay::Delaunay insert_by_rank(const std::vector<delaunay::DelaunayVertex>& vertices) {
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t a, std::uint32_t b) { return vertices[a].rank < vertices[b].rank; });
   std::vector<Point3> first;
   for (int i = 0; i < 4; ++i) first.push_back(vertices[order[i]].point);
-  Delaunay d = build_delaunay(first);
-  Insertion insertion(d);
+  delaunay::Delaunay d = delaunay::build_delaunay(first);
+  delaunay::Insertion insertion(d);
   std::uint32_t start = 0;
   for (std::uint32_t i = 4; i < order.size(); ++i) {
     d.vertices.push_back({vertices[order[i]].point, i, 0});
     EXPECT_TRUE(insertion.find_cavity(i, start));
     start = insertion.fill_cavity();
   }
-  for (Cell& cell : d.cells)
+  for (delaunay::Cell& cell : d.cells)
     for (std::uint32_t& v : cell.vertices)
-      if (v != ghost_vertex) v = order[v];
+      if (v != delaunay::ghost_vertex) v = order[v];
   return d;
 }
 
@@ -186,9 +188,9 @@ TEST(WrapDelaunay, ObeysAnyRanks) {
         std::shuffle(ranks.begin(), ranks.end(), random);
         for (std::uint32_t v = 0; v < ranks.size(); ++v)
           if (ranks[v] < 4) low[ranks[v]] = v;
-      } while (orient3d(set.points[low[0]], set.points[low[1]], set.points[low[2]], set.points[low[3]]) == 0);
+      } while (numbers::orient3d(set.points[low[0]], set.points[low[1]], set.points[low[2]], set.points[low[3]]) == 0);
       for (std::uint32_t& rank : ranks) rank = 3 * rank + 5;
-      const Delaunay d = wrap_delaunay(with_ranks(set.points, ranks));
+      const delaunay::Delaunay d = delaunay::wrap_delaunay(with_ranks(set.points, ranks));
       expect_same(d, insert_by_rank(with_ranks(set.points, ranks)), set.name);
       for (std::size_t v = 0; v < ranks.size(); ++v) {
         ASSERT_EQ(d.vertices[v].rank, ranks[v]);
@@ -200,9 +202,9 @@ TEST(WrapDelaunay, ObeysAnyRanks) {
 
 /// Into the first points, which are built in either way, the others are inserted.
 template <class Build>
-Delaunay build_and_insert(const std::vector<Point3>& points, const Build& build) {
-  Delaunay d = build({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2)});
-  Insertion insertion(d);
+delaunay::Delaunay build_and_insert(const std::vector<Point3>& points, const Build& build) {
+  delaunay::Delaunay d = build({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2)});
+  delaunay::Insertion insertion(d);
   for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
     d.vertices.push_back({points[i], static_cast<std::uint32_t>(i), 0});
     EXPECT_TRUE(insertion.find_cavity(static_cast<std::uint32_t>(i), d.vertices[i % (points.size() / 2)].cell));
@@ -214,15 +216,16 @@ Delaunay build_and_insert(const std::vector<Point3>& points, const Build& build)
 TEST(WrapDelaunay, TakesFurtherInsertionsAsAnInsertedOneDoes) {
   for (const NamedPoints& set : small_sets()) {
     const auto wrapped = build_and_insert(set.points, [](const std::vector<Point3>& p) { return wrap(p); });
-    const auto inserted = build_and_insert(set.points, [](const std::vector<Point3>& p) { return build_delaunay(p); });
+    const auto inserted =
+        build_and_insert(set.points, [](const std::vector<Point3>& p) { return delaunay::build_delaunay(p); });
     expect_same(wrapped, inserted, set.name);
   }
 }
 
 TEST(WrapDelaunay, RanksOfInsertionAreThoseThatItGives) {
   for (const NamedPoints& set : small_sets()) {
-    const Delaunay d = build_delaunay(set.points);
-    const auto ranks = insertion_ranks(set.points);
+    const delaunay::Delaunay d = delaunay::build_delaunay(set.points);
+    const auto ranks = delaunay::insertion_ranks(set.points);
     ASSERT_EQ(ranks.size(), d.vertices.size());
     for (std::size_t v = 0; v < ranks.size(); ++v) ASSERT_EQ(ranks[v], d.vertices[v].rank) << set.name;
   }
@@ -232,7 +235,7 @@ TEST(WrapDelaunay, RefusesPointsWithoutABody) {
   const auto refuses = [](const std::vector<Point3>& points) {
     std::vector<std::uint32_t> ranks(points.size());
     std::iota(ranks.begin(), ranks.end(), 0u);
-    EXPECT_THROW(wrap_delaunay(with_ranks(points, ranks)), MeshError);
+    EXPECT_THROW(delaunay::wrap_delaunay(with_ranks(points, ranks)), MeshError);
   };
   std::vector<Point3> upright, slanted, line, vertical_line;
   for (int i = 0; i < 10; ++i) {

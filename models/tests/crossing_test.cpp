@@ -30,7 +30,7 @@ TEST(Crossings, AreFoundWhereATriangleIsFoldedOntoItsNeighbour) {
 class SolidSurface : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SolidSurface, DoesNotCrossItself) {
-  const InputPlc input = make_solid(GetParam().name, GetParam().edge_length);
+  const plc::InputPlc input = models::make_solid(GetParam().name, GetParam().edge_length);
   for (const auto& [a, b] : crossings(input.vertices, input.triangles)) {
     const Point3& at = input.vertices[input.triangles[a][0]];
     ADD_FAILURE() << "triangles " << a << " and " << b << " at " << at.x << " " << at.y << " " << at.z;

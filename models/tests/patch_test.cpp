@@ -13,14 +13,14 @@
 namespace ccdt::testing {
 namespace {
 
-Chain rectangle(ModelSurface& surface, double width, double height, double spacing) {
+models::Chain rectangle(models::ModelSurface& surface, double width, double height, double spacing) {
   const std::array<Point3, 4> p{{{0, 0, 0}, {width, 0, 0}, {width, height, 0}, {0, height, 0}}};
-  std::array<Chain, 4> sides;
-  for (std::size_t i = 0; i < 4; ++i) sides[i] = line(surface, p[i], p[(i + 1) % 4], spacing);
-  return closed_loop(sides);
+  std::array<models::Chain, 4> sides;
+  for (std::size_t i = 0; i < 4; ++i) sides[i] = models::line(surface, p[i], p[(i + 1) % 4], spacing);
+  return models::closed_loop(sides);
 }
 
-double area(const ModelSurface& surface) {
+double area(const models::ModelSurface& surface) {
   double sum = 0;
   for (const auto& [a, b, c] : surface.triangles) {
     const Point3 normal = cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]);
@@ -30,19 +30,19 @@ double area(const ModelSurface& surface) {
 }
 
 TEST(Curves, EndInTheSameVertexWhereTheyMeet) {
-  ModelSurface surface;
-  const Chain round = arc(surface, Axis::z, {10, 0, 0}, 2, 0, 90, 0.5);
-  const Chain straight = line(surface, {10, 2, 0}, {0, 2, 0}, 0.5);
+  models::ModelSurface surface;
+  const models::Chain round = models::arc(surface, models::Axis::z, {10, 0, 0}, 2, 0, 90, 0.5);
+  const models::Chain straight = models::line(surface, {10, 2, 0}, {0, 2, 0}, 0.5);
   EXPECT_EQ(round.back(), straight.front());
 }
 
 TEST(Curves, AreCutIntoEqualParts) {
-  ModelSurface surface;
-  const auto ellipse = [](double t) { return Point3{10 * cosine(180 * t), 4 * sine(180 * t), 0}; };
-  const Chain chain = curve(surface, ellipse(0), ellipse(1), ellipse, 0.2, 1);
+  models::ModelSurface surface;
+  const auto ellipse = [](double t) { return Point3{10 * models::cosine(180 * t), 4 * models::sine(180 * t), 0}; };
+  const models::Chain chain = models::curve(surface, ellipse(0), ellipse(1), ellipse, 0.2, 1);
   double shortest = 1e9, longest = 0;
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-    const double length = distance(surface.vertices[chain[i]], surface.vertices[chain[i + 1]]);
+    const double length = models::distance(surface.vertices[chain[i]], surface.vertices[chain[i + 1]]);
     shortest = std::min(shortest, length);
     longest = std::max(longest, length);
   }
@@ -51,24 +51,26 @@ TEST(Curves, AreCutIntoEqualParts) {
 }
 
 TEST(Curves, ThatDoNotMeetMakeNoLoop) {
-  ModelSurface surface;
-  const std::array chains{line(surface, {0, 0, 0}, {1, 0, 0}, 1), line(surface, {1, 1, 0}, {0, 0, 0}, 1)};
-  EXPECT_THROW(closed_loop(chains), std::logic_error);
+  models::ModelSurface surface;
+  const std::array chains{models::line(surface, {0, 0, 0}, {1, 0, 0}, 1),
+                          models::line(surface, {1, 1, 0}, {0, 0, 0}, 1)};
+  EXPECT_THROW(models::closed_loop(chains), std::logic_error);
 }
 
 TEST(Charts, LiftIsTheInverseOfFlatten) {
-  const Chart chart = cylinder_chart(Axis::x, {1, 2, 3}, 4, 120, OuterSide::towards_axis);
-  const Point3 p = on_circle(Axis::x, {7, 2, 3}, 4, 75);
+  const models::Chart chart =
+      models::cylinder_chart(models::Axis::x, {1, 2, 3}, 4, 120, models::OuterSide::towards_axis);
+  const Point3 p = models::on_circle(models::Axis::x, {7, 2, 3}, 4, 75);
   const Point3 q = chart.lift(chart.flatten(p));
-  EXPECT_NEAR(distance(p, q), 0, 1e-13);
+  EXPECT_NEAR(models::distance(p, q), 0, 1e-13);
 }
 
 TEST(SurfacePatch, CoversARectangleWithAHoleAndKeepsItsEdges) {
-  ModelSurface surface;
-  const Chain outer = rectangle(surface, 20, 12, 1);
-  const Ring hole = ring(surface, Axis::z, {8, 6, 0}, 3, 0, 1);
+  models::ModelSurface surface;
+  const models::Chain outer = rectangle(surface, 20, 12, 1);
+  const models::Ring hole = models::ring(surface, models::Axis::z, {8, 6, 0}, 3, 0, 1);
   const std::size_t border_vertices = surface.vertices.size();
-  add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 7});
+  models::add_patch(surface, {models::plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 7});
   const auto edges = static_cast<double>(hole.chain.size());
   const double polygon = edges / 2 * 9 * std::sin(2 * std::numbers::pi / edges);
   EXPECT_NEAR(area(surface), 240 - polygon, 1e-9);
@@ -79,13 +81,13 @@ TEST(SurfacePatch, CoversARectangleWithAHoleAndKeepsItsEdges) {
 }
 
 TEST(SurfacePatch, HasTheEdgesOfACutInside) {
-  ModelSurface surface;
+  models::ModelSurface surface;
   const std::array<Point3, 5> p{{{0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {10, 10, 0}, {0, 10, 0}}};
-  std::array<Chain, 5> sides;
-  for (std::size_t i = 0; i < 5; ++i) sides[i] = line(surface, p[i], p[(i + 1) % 5], 1);
-  const Chain outer = closed_loop(sides);
-  const Chain cut = line(surface, p[2], {4, 5, 0}, 1);
-  add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer}, {cut}, 1, 1});
+  std::array<models::Chain, 5> sides;
+  for (std::size_t i = 0; i < 5; ++i) sides[i] = models::line(surface, p[i], p[(i + 1) % 5], 1);
+  const models::Chain outer = models::closed_loop(sides);
+  const models::Chain cut = models::line(surface, p[2], {4, 5, 0}, 1);
+  models::add_patch(surface, {models::plane_chart({}, {0, 0, 1}), {outer}, {cut}, 1, 1});
   std::set<std::array<std::uint32_t, 2>> edges;
   for (const EdgeUse& edge : edges_of(surface.triangles)) edges.insert(edge.ends);
   for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
@@ -95,11 +97,11 @@ TEST(SurfacePatch, HasTheEdgesOfACutInside) {
 }
 
 TEST(SurfacePatch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
-  ModelSurface surface;
-  const Chain outer = rectangle(surface, 40, 40, 4);
-  const Ring hole = ring(surface, Axis::z, {20, 20, 0}, 1, 0, 4);
-  add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 4, 1});
-  InputPlc input;
+  models::ModelSurface surface;
+  const models::Chain outer = rectangle(surface, 40, 40, 4);
+  const models::Ring hole = models::ring(surface, models::Axis::z, {20, 20, 0}, 1, 0, 4);
+  models::add_patch(surface, {models::plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 4, 1});
+  plc::InputPlc input;
   input.vertices = surface.vertices;
   input.triangles = surface.triangles;
   EXPECT_GT(quantile(smallest_angles(input), 0), 25);
@@ -107,17 +109,19 @@ TEST(SurfacePatch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
 
 TEST(SurfacePatch, WhoseCurvesCrossIsRefused) {
   for (const double x : {10.0, 9.5}) {  // in vertices of one and within edges of the other, and in no vertex
-    ModelSurface surface;
-    const Chain outer = rectangle(surface, 10, 10, 1);
-    const Ring hole = ring(surface, Axis::z, {x, 5.3, 0}, 2, 0, 1);
-    EXPECT_THROW(add_patch(surface, {plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 1}), std::logic_error);
+    models::ModelSurface surface;
+    const models::Chain outer = rectangle(surface, 10, 10, 1);
+    const models::Ring hole = models::ring(surface, models::Axis::z, {x, 5.3, 0}, 2, 0, 1);
+    EXPECT_THROW(models::add_patch(surface, {models::plane_chart({}, {0, 0, 1}), {outer, hole.chain}, {}, 1, 1}),
+                 std::logic_error);
   }
 }
 
 TEST(Revolution, JoinsRingsOfDifferentCountsWithoutAGap) {
-  ModelSurface surface;
-  const Ring coarse = ring(surface, Axis::z, {}, 10, 0, 2), fine = ring(surface, Axis::z, {}, 10, 8, 0.7);
-  add_cone(surface, coarse, fine, {Axis::z, {}, 2, 1});
+  models::ModelSurface surface;
+  const models::Ring coarse = models::ring(surface, models::Axis::z, {}, 10, 0, 2),
+                     fine = models::ring(surface, models::Axis::z, {}, 10, 8, 0.7);
+  models::add_cone(surface, coarse, fine, {models::Axis::z, {}, 2, 1});
   std::size_t border = 0;
   for (const EdgeUse& edge : edges_of(surface.triangles)) {
     EXPECT_LE(edge.forwards, 1);

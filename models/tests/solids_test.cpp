@@ -25,7 +25,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class SolidMesh : public ::testing::TestWithParam<Case> {
  protected:
-  InputPlc input = make_solid(GetParam().name, GetParam().edge_length);
+  plc::InputPlc input = models::make_solid(GetParam().name, GetParam().edge_length);
 };
 
 TEST_P(SolidMesh, BoundaryIsClosedAndOrientedOutwards) {
@@ -57,7 +57,7 @@ TEST_P(SolidMesh, MarkersCountUpFromOneWithoutAGap) {
 }
 
 TEST_P(SolidMesh, IsTheSameEachTime) {
-  const InputPlc again = make_solid(GetParam().name, GetParam().edge_length);
+  const plc::InputPlc again = models::make_solid(GetParam().name, GetParam().edge_length);
   EXPECT_EQ(input.vertices, again.vertices);
   EXPECT_EQ(input.triangles, again.triangles);
   EXPECT_EQ(input.triangle_markers, again.triangle_markers);
@@ -111,8 +111,8 @@ INSTANTIATE_TEST_SUITE_P(Solids, ResolvedSolid,
 
 TEST(Solids, RangeFromHundredsToTwoHundredThousandVertices) {
   for (const auto& [name, finest] : {std::pair{"piston", 0.52}, {"bracket", 0.36}, {"stepping-pole", 0.34}}) {
-    EXPECT_LT(make_solid(name, 12).vertices.size(), 1200u) << name;
-    const InputPlc fine = make_solid(name, finest);
+    EXPECT_LT(models::make_solid(name, 12).vertices.size(), 1200u) << name;
+    const plc::InputPlc fine = models::make_solid(name, finest);
     EXPECT_GT(fine.vertices.size(), 190000u) << name;
     EXPECT_LT(fine.vertices.size(), 220000u) << name;
     EXPECT_GT(quantile(smallest_angles(fine), 0), 24) << name;
@@ -124,7 +124,8 @@ TEST(Solids, RangeFromHundredsToTwoHundredThousandVertices) {
 }
 
 TEST(Solids, CurvedPatchesAreFollowed) {
-  const InputPlc sphere = make_solid("sphere", 0.1), torus = make_solid("torus", 0.1), piston = make_solid("piston", 3);
+  const plc::InputPlc sphere = models::make_solid("sphere", 0.1), torus = models::make_solid("torus", 0.1),
+                      piston = models::make_solid("piston", 3);
   for (const Point3& p : sphere.vertices) EXPECT_NEAR(squared_length(p), 1, 1e-14);
   for (const Point3& p : torus.vertices) EXPECT_NEAR(std::hypot(std::hypot(p.x, p.y) - 1, p.z), 0.4, 1e-14);
   for (const auto& t : triangles_with_marker(piston, 5)) {
@@ -136,8 +137,8 @@ TEST(Solids, CurvedPatchesAreFollowed) {
 }
 
 TEST(Solids, PlaneFacesAlongTheAxesAreExactlyPlane) {
-  const InputPlc piston = make_solid("piston", 3), bracket = make_solid("bracket", 3);
-  const auto expect_coordinate = [](const InputPlc& input, int marker, std::size_t axis, std::set<double> values) {
+  const plc::InputPlc piston = models::make_solid("piston", 3), bracket = models::make_solid("bracket", 3);
+  const auto expect_coordinate = [](const plc::InputPlc& input, int marker, std::size_t axis, std::set<double> values) {
     for (const auto& t : triangles_with_marker(input, marker)) {
       for (const std::uint32_t v : t) EXPECT_TRUE(values.contains(as_array(input.vertices[v])[axis])) << marker;
     }
@@ -151,7 +152,7 @@ TEST(Solids, PlaneFacesAlongTheAxesAreExactlyPlane) {
 }
 
 TEST(Bracket, InteriorFaceMeetsTheBoundaryInItsEdgesAllAround) {
-  const InputPlc bracket = make_solid("bracket", 3);
+  const plc::InputPlc bracket = models::make_solid("bracket", 3);
   std::set<std::array<std::uint32_t, 2>> boundary_edges;
   for (const EdgeUse& edge : edges_of(boundary_triangles(bracket))) boundary_edges.insert(edge.ends);
   std::size_t rim = 0;
@@ -164,7 +165,7 @@ TEST(Bracket, InteriorFaceMeetsTheBoundaryInItsEdgesAllAround) {
 }
 
 TEST(Bracket, SlitBeginsAtTheBoundaryAndEndsInside) {
-  const InputPlc bracket = make_solid("bracket", 3);
+  const plc::InputPlc bracket = models::make_solid("bracket", 3);
   std::set<std::array<std::uint32_t, 2>> boundary_edges;
   for (const EdgeUse& edge : edges_of(boundary_triangles(bracket))) boundary_edges.insert(edge.ends);
   std::size_t on_boundary = 0, inside = 0;
@@ -182,37 +183,37 @@ TEST(Bracket, SlitBeginsAtTheBoundaryAndEndsInside) {
 }
 
 TEST(Bracket, EachRegionHasItsSeedInsideOnItsSideOfTheInteriorFace) {
-  const InputPlc bracket = make_solid("bracket", 6);
-  EXPECT_EQ(bracket.inside, InputPlc::Inside::seeds);
+  const plc::InputPlc bracket = models::make_solid("bracket", 6);
+  EXPECT_EQ(bracket.inside, plc::InputPlc::Inside::seeds);
   ASSERT_EQ(bracket.regions.size(), 2u);
   EXPECT_NE(bracket.regions[0].attribute, bracket.regions[1].attribute);
   EXPECT_GT(bracket.regions[0].seed.x, 16);
   EXPECT_LT(bracket.regions[1].seed.x, 16);
-  for (const InputPlc::RegionSeed& region : bracket.regions) {
+  for (const plc::InputPlc::RegionSeed& region : bracket.regions) {
     EXPECT_NEAR(winding_number(bracket.vertices, boundary_triangles(bracket), region.seed), 1, 1e-9);
   }
 }
 
 TEST(Schoenhardt, HasSixVerticesAndEightTrianglesAtEveryEdgeLength) {
   for (const double edge_length : {0.0, 1.0, 0.01}) {
-    const InputPlc input = make_solid("schoenhardt", edge_length);
+    const plc::InputPlc input = models::make_solid("schoenhardt", edge_length);
     EXPECT_EQ(input.vertices.size(), 6u);
     EXPECT_EQ(input.triangles.size(), 8u);
   }
 }
 
 TEST(Solids, HaveADefaultEdgeLengthWithinTheirLimits) {
-  ASSERT_EQ(solids().size(), 9u);
-  for (const Solid& solid : solids()) {
-    const InputPlc by_default = make_solid(solid.name, 0);
+  ASSERT_EQ(models::solids().size(), 9u);
+  for (const models::Solid& solid : models::solids()) {
+    const plc::InputPlc by_default = models::make_solid(solid.name, 0);
     EXPECT_EQ(by_default.name, solid.name);
-    EXPECT_EQ(by_default.vertices, make_solid(solid.name, solid.default_edge_length).vertices);
+    EXPECT_EQ(by_default.vertices, models::make_solid(solid.name, solid.default_edge_length).vertices);
   }
 }
 
 TEST(Solids, AnUnknownNameIsRefusedWithTheKnownOnes) {
   try {
-    make_solid("wheel", 1);
+    models::make_solid("wheel", 1);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(error.remedy().find("stepping-pole"), std::string::npos);
@@ -222,10 +223,10 @@ TEST(Solids, AnUnknownNameIsRefusedWithTheKnownOnes) {
 TEST(Solids, AnEdgeLengthWithoutSenseIsRefused) {
   for (const std::string_view name :
        {"piston", "bracket", "stepping-pole", "cube", "graded-cube", "sphere", "rough-sphere", "torus"}) {
-    EXPECT_THROW(make_solid(name, 1000), InputError) << name;
-    EXPECT_THROW(make_solid(name, 1e-9), InputError) << name;
-    EXPECT_THROW(make_solid(name, std::numeric_limits<double>::infinity()), InputError) << name;
-    EXPECT_THROW(make_solid(name, std::numeric_limits<double>::quiet_NaN()), InputError) << name;
+    EXPECT_THROW(models::make_solid(name, 1000), InputError) << name;
+    EXPECT_THROW(models::make_solid(name, 1e-9), InputError) << name;
+    EXPECT_THROW(models::make_solid(name, std::numeric_limits<double>::infinity()), InputError) << name;
+    EXPECT_THROW(models::make_solid(name, std::numeric_limits<double>::quiet_NaN()), InputError) << name;
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace ccdt::testing {
 
-Triangles boundary_triangles(const InputPlc& input) {
+Triangles boundary_triangles(const plc::InputPlc& input) {
   const bool has_interior = input.name == "bracket";
   Triangles result;
   for (std::size_t i = 0; i < input.triangles.size(); ++i) {
@@ -16,7 +16,7 @@ Triangles boundary_triangles(const InputPlc& input) {
   return result;
 }
 
-Triangles triangles_with_marker(const InputPlc& input, int marker) {
+Triangles triangles_with_marker(const plc::InputPlc& input, int marker) {
   Triangles result;
   for (std::size_t i = 0; i < input.triangles.size(); ++i) {
     if (input.triangle_markers[i] == marker) result.push_back(input.triangles[i]);
@@ -80,7 +80,7 @@ double quantile(std::vector<double> values, double fraction) {
   return values[rank];
 }
 
-std::vector<double> smallest_angles(const InputPlc& input) {
+std::vector<double> smallest_angles(const plc::InputPlc& input) {
   std::vector<double> angles;
   for (const auto& t : input.triangles) {
     double smallest = 180;
@@ -95,7 +95,7 @@ std::vector<double> smallest_angles(const InputPlc& input) {
   return angles;
 }
 
-std::vector<double> edge_lengths(const InputPlc& input) {
+std::vector<double> edge_lengths(const plc::InputPlc& input) {
   std::vector<double> lengths;
   for (const EdgeUse& edge : edges_of(input.triangles)) {
     lengths.push_back(std::sqrt(squared_length(input.vertices[edge.ends[1]] - input.vertices[edge.ends[0]])));

@@ -18,8 +18,8 @@ inline constexpr int interior_face_marker = 8;
 inline constexpr int slit_marker = 9;
 
 /// The triangles that bound the body: all but the bracket's interior ones.
-Triangles boundary_triangles(const InputPlc& input);
-Triangles triangles_with_marker(const InputPlc& input, int marker);
+Triangles boundary_triangles(const plc::InputPlc& input);
+Triangles triangles_with_marker(const plc::InputPlc& input, int marker);
 
 /// How often an edge is used in the direction from its smaller to its greater vertex, and against it.
 struct EdgeUse {
@@ -40,7 +40,7 @@ long euler_characteristic(const Triangles& triangles);
 /// The value below which that fraction of the numbers lies.
 double quantile(std::vector<double> values, double fraction);
 
-std::vector<double> smallest_angles(const InputPlc& input);  ///< one a triangle, degrees
-std::vector<double> edge_lengths(const InputPlc& input);     ///< each edge once
+std::vector<double> smallest_angles(const plc::InputPlc& input);  ///< one a triangle, degrees
+std::vector<double> edge_lengths(const plc::InputPlc& input);     ///< each edge once
 
 }  // namespace ccdt::testing

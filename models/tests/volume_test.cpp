@@ -69,7 +69,7 @@ double schoenhardt_volume() {
 }
 
 double volume_of(std::string_view name, double edge_length) {
-  const InputPlc input = make_solid(name, edge_length);
+  const plc::InputPlc input = models::make_solid(name, edge_length);
   return enclosed_volume(input.vertices, boundary_triangles(input));
 }
 

@@ -28,40 +28,42 @@ class ReportFolder : public testing::Test {
 
   void fill(const std::string& name, double seconds, double count) const {
     std::filesystem::create_directories(folder(name) / "runs");
-    RunRecord run;
+    bench::RunRecord run;
     run.mesher = {"ccdt", "0.1", "abc"};
     run.command = {"ccdt", "mesh", "models/my part.off", "-o", "meshes/x.vtu", "--report", "runs/x-1.json"};
-    write_run_record(run, folder(name) / "runs/x-1.json");
-    ExperimentResult result{.name = "table1", .title = "Table 1"};
+    bench::write_run_record(run, folder(name) / "runs/x-1.json");
+    results::ExperimentResult result{.name = "table1", .title = "Table 1"};
     result.how.scale = "paper";
-    ResultTable table{
-        "times",
-        "Seconds",
-        {{"model", "model", ColumnKind::label}, {"count", "count"}, {"seconds", "seconds", ColumnKind::time, "s"}}};
-    table.rows = {{{std::string("piston"), count, Estimate{seconds, 0.9 * seconds, 1.1 * seconds}}, {"runs/x-1.json"}}};
+    results::ResultTable table{"times",
+                               "Seconds",
+                               {{"model", "model", results::ColumnKind::label},
+                                {"count", "count"},
+                                {"seconds", "seconds", results::ColumnKind::time, "s"}}};
+    table.rows = {
+        {{std::string("piston"), count, bench::Estimate{seconds, 0.9 * seconds, 1.1 * seconds}}, {"runs/x-1.json"}}};
     result.tables = {table};
-    write_experiment_result(result, folder(name));
+    results::write_experiment_result(result, folder(name));
   }
 
  private:
   std::filesystem::path root_;
 };
 
-const ReportSection& section(const Report& report, const std::string& name) {
+const reports::ReportSection& section(const reports::Report& report, const std::string& name) {
   const auto found = std::ranges::find(report.sections, name, [](const auto& s) { return s.result.name; });
   if (found == report.sections.end()) throw std::out_of_range(name);
   return *found;
 }
 
 TEST_F(ReportFolder, LeadsFromANumberToTheCommandThatRepeatsIt) {
-  const Report report = read_report(folder("a"), {});
+  const reports::Report report = reports::read_report(folder("a"), {});
   EXPECT_EQ(report.runs.at("runs/x-1.json").command, "ccdt mesh 'models/my part.off' -o again.vtu --report again.json");
   EXPECT_EQ(report.runs.at("runs/x-1.json").status, "ok");
 }
 
 TEST_F(ReportFolder, SaysWhatIsMissingAndHowToMakeIt) {
-  const Report report = read_report(folder("a"), {});
-  const ReportSection& fig8 = section(report, "fig8");
+  const reports::Report report = reports::read_report(folder("a"), {});
+  const reports::ReportSection& fig8 = section(report, "fig8");
   EXPECT_TRUE(fig8.is_missing);
   EXPECT_NE(fig8.reason.find("fig8.json"), std::string::npos);
   EXPECT_EQ(fig8.result.how.command, "ccdt reproduce fig8 --scale paper -o .");
@@ -70,59 +72,59 @@ TEST_F(ReportFolder, SaysWhatIsMissingAndHowToMakeIt) {
 
 TEST_F(ReportFolder, TakesABrokenExperimentForAMissingOne) {
   std::ofstream(folder("a") / "fig8.json") << "{";
-  EXPECT_NE(section(read_report(folder("a"), {}), "fig8").reason.find("fig8.json"), std::string::npos);
+  EXPECT_NE(section(reports::read_report(folder("a"), {}), "fig8").reason.find("fig8.json"), std::string::npos);
 }
 
 TEST_F(ReportFolder, GoesOnWithoutARun) {
   std::filesystem::remove(folder("a") / "runs/x-1.json");
-  const RunLine run = read_report(folder("a"), {}).runs.at("runs/x-1.json");
+  const reports::RunLine run = reports::read_report(folder("a"), {}).runs.at("runs/x-1.json");
   EXPECT_EQ(run.command, "");
   EXPECT_TRUE(run.status.starts_with("missing")) << run.status;
 }
 
 TEST_F(ReportFolder, RefusesAFolderWithoutAnyExperiment) {
-  EXPECT_THROW(read_report(folder("a") / "runs", {}), InputError);
+  EXPECT_THROW(reports::read_report(folder("a") / "runs", {}), InputError);
 }
 
 TEST_F(ReportFolder, HasTheChartsWhoseTablesAreThere) {
-  const std::vector<ReportChart> charts = {{"table1", "times", "", "", {"times"}, "{}"},
-                                           {"table1", "ratios", "", "", {"times", "ratios"}, "{}"},
-                                           {"fig8", "times", "", "", {"times"}, "{}"}};
-  const Report report = read_report(folder("a"), charts);
-  const ReportSection& found = section(report, "table1");
+  const std::vector<reports::ReportChart> charts = {{"table1", "times", "", "", {"times"}, "{}"},
+                                                    {"table1", "ratios", "", "", {"times", "ratios"}, "{}"},
+                                                    {"fig8", "times", "", "", {"times"}, "{}"}};
+  const reports::Report report = reports::read_report(folder("a"), charts);
+  const reports::ReportSection& found = section(report, "table1");
   ASSERT_EQ(found.charts.size(), 1u);
   EXPECT_EQ(found.charts[0].name, "times");
 }
 
 TEST_F(ReportFolder, PutsEverythingIntoThePage) {
-  const Report report = read_report(folder("a"), {});
-  const std::string page = fill_page("<html>\n<!-- ccdt data -->\n</html>", report, folder("a"));
+  const reports::Report report = reports::read_report(folder("a"), {});
+  const std::string page = reports::fill_page("<html>\n<!-- ccdt data -->\n</html>", report, folder("a"));
   EXPECT_NE(page.find(R"(<script type="application/json" id="ccdt-report">)"), std::string::npos);
   EXPECT_NE(page.find("again.vtu"), std::string::npos);
   EXPECT_NE(page.find(R"(id="ccdt-files">eN)"), std::string::npos);
   EXPECT_TRUE(page.ends_with("</html>"));
-  EXPECT_THROW(fill_page("<html></html>", report, folder("a")), std::logic_error);
+  EXPECT_THROW(reports::fill_page("<html></html>", report, folder("a")), std::logic_error);
 }
 
 TEST_F(ReportFolder, LetsNoTextEndTheScriptOfThePage) {
-  Report report = read_report(folder("a"), {});
+  reports::Report report = reports::read_report(folder("a"), {});
   report.title = "</script><script>alert(1)";
-  const std::string page = fill_page("<!-- ccdt data -->", report, folder("a"));
+  const std::string page = reports::fill_page("<!-- ccdt data -->", report, folder("a"));
   EXPECT_EQ(page.find("</script><script>alert"), std::string::npos);
   EXPECT_NE(page.find("<\\/script>"), std::string::npos);
 }
 
-const ResultTable& table(const Report& report, const std::string& name) {
-  return *find_table(report.sections.at(0).result, name);
+const results::ResultTable& table(const reports::Report& report, const std::string& name) {
+  return *results::find_table(report.sections.at(0).result, name);
 }
 
 TEST_F(ReportFolder, ComparedWithItselfIsTheSame) {
   fill("b", 1.05, 100);
-  const Report report = compare_reports(folder("a"), folder("b"), folder("b") / "comparison", {});
+  const reports::Report report = reports::compare_reports(folder("a"), folder("b"), folder("b") / "comparison", {});
   EXPECT_TRUE(table(report, "differences").rows.empty());
   ASSERT_EQ(table(report, "times").rows.size(), 1u);
-  EXPECT_EQ(text_in(table(report, "times"), table(report, "times").rows[0], "within"), "yes");
-  EXPECT_NEAR(number_in(table(report, "times"), table(report, "times").rows[0], "ratio"), 1.05, 1e-12);
+  EXPECT_EQ(results::text_in(table(report, "times"), table(report, "times").rows[0], "within"), "yes");
+  EXPECT_NEAR(results::number_in(table(report, "times"), table(report, "times").rows[0], "ratio"), 1.05, 1e-12);
   EXPECT_TRUE(report.sections[0].result.is_good);
   EXPECT_EQ(report.sections[0].result.findings[0], "1 of 1 deterministic figures are the same, bit for bit.");
   EXPECT_EQ(report.runs.at("../runs/x-1.json").command.substr(0, 9), "cd .. && ");
@@ -130,10 +132,10 @@ TEST_F(ReportFolder, ComparedWithItselfIsTheSame) {
 
 TEST_F(ReportFolder, ComparedWithAnotherSaysWhatDiffers) {
   fill("b", 1.2, 101);
-  const Report report = compare_reports(folder("a"), folder("b"), folder("b") / "comparison", {});
+  const reports::Report report = reports::compare_reports(folder("a"), folder("b"), folder("b") / "comparison", {});
   ASSERT_EQ(table(report, "differences").rows.size(), 1u);
-  EXPECT_EQ(number_in(table(report, "differences"), table(report, "differences").rows[0], "second"), 101);
-  EXPECT_EQ(text_in(table(report, "times"), table(report, "times").rows[0], "within"), "no");
+  EXPECT_EQ(results::number_in(table(report, "differences"), table(report, "differences").rows[0], "second"), 101);
+  EXPECT_EQ(results::text_in(table(report, "times"), table(report, "times").rows[0], "within"), "no");
   EXPECT_FALSE(report.sections[0].result.is_good);
 }
 

@@ -5,20 +5,20 @@
 namespace ccdt {
 namespace {
 
-ResultTable example() {
-  ResultTable table{"times",
-                    "Seconds & more",
-                    {{"model", "model", ColumnKind::label},
-                     {"count", "tetrahedra"},
-                     {"seconds", "seconds", ColumnKind::time, "s"},
-                     {"reason", "reason", ColumnKind::note}}};
-  table.rows = {{{std::string("piston"), 1234567.0, Estimate{1.5, 1.25, 1.75}, {}}, {}},
+results::ResultTable example() {
+  results::ResultTable table{"times",
+                             "Seconds & more",
+                             {{"model", "model", results::ColumnKind::label},
+                              {"count", "tetrahedra"},
+                              {"seconds", "seconds", results::ColumnKind::time, "s"},
+                              {"reason", "reason", results::ColumnKind::note}}};
+  table.rows = {{{std::string("piston"), 1234567.0, bench::Estimate{1.5, 1.25, 1.75}, {}}, {}},
                 {{std::string("a, \"b\" 50%"), 0.1, {}, {}}, {}}};
   return table;
 }
 
 TEST(ResultText, LeavesOutEmptyColumnsAndRoundsForPeople) {
-  const TextTable text = text_table(example());
+  const reports::TextTable text = reports::text_table(example());
   ASSERT_EQ(text.size(), 3u);
   EXPECT_EQ(text[0], (std::vector<std::string>{"model", "tetrahedra", "seconds (s)"}));
   EXPECT_EQ(text[1], (std::vector<std::string>{"piston", "1,234,567", "1.50 [1.25, 1.75]"}));
@@ -26,14 +26,14 @@ TEST(ResultText, LeavesOutEmptyColumnsAndRoundsForPeople) {
 }
 
 TEST(ResultText, GivesAllDigitsAndIntervalsAsCsv) {
-  EXPECT_EQ(to_csv(example()),
+  EXPECT_EQ(reports::to_csv(example()),
             "model,count,seconds,seconds_low,seconds_high,reason\r\n"
             "piston,1234567,1.5,1.25,1.75,\r\n"
             "\"a, \"\"b\"\" 50%\",0.1,,,,\r\n");
 }
 
 TEST(ResultText, EscapesWhatLatexWouldTakeForItsOwn) {
-  const std::string text = to_latex(example(), "table1");
+  const std::string text = reports::to_latex(example(), "table1");
   EXPECT_NE(text.find("\\caption{Seconds \\& more}"), std::string::npos) << text;
   EXPECT_NE(text.find("a, \"b\" 50\\%"), std::string::npos) << text;
   EXPECT_NE(text.find("\\begin{tabular}{lrr}"), std::string::npos) << text;
@@ -42,15 +42,15 @@ TEST(ResultText, EscapesWhatLatexWouldTakeForItsOwn) {
 }
 
 TEST(ResultText, ShowsFindingsProblemsAndDefinitions) {
-  ExperimentResult result{.name = "table1", .title = "Table 1"};
+  results::ExperimentResult result{.name = "table1", .title = "Table 1"};
   result.tables = {example()};
   result.findings = {"a finding"};
   result.problems = {"a problem"};
   result.definitions = {"a definition"};
-  for (const std::string& text : {to_terminal(result), to_markdown(result)})
+  for (const std::string& text : {reports::to_terminal(result), reports::to_markdown(result)})
     for (const char* part : {"Table 1", "piston", "a finding", "a problem"})
       EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  EXPECT_NE(to_markdown(result).find("- a definition"), std::string::npos);
+  EXPECT_NE(reports::to_markdown(result).find("- a definition"), std::string::npos);
 }
 
 }  // namespace

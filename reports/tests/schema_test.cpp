@@ -55,16 +55,16 @@ std::vector<std::string> faults_of(const Json& report) {
 TEST(RunSchema, AcceptsTheRecordOfARun) {
   InputPlc input;
   input.name = "part.off";
-  RunRecord record = start_record(mesher("ccdt"), input, {});
-  record.quality = measure_quality({});
+  bench::RunRecord record = bench::start_record(baselines::mesher("ccdt"), input, {});
+  record.quality = bench::measure_quality({});
   record.notes = {"a note"};
   record.samples = {{"mesh", {1, 2}}};
   record.counts.splits_by_level = {2, 1};
-  EXPECT_EQ(faults_of(Json::parse(to_json(record))), std::vector<std::string>());
+  EXPECT_EQ(faults_of(Json::parse(bench::to_json(record))), std::vector<std::string>());
 }
 
 TEST(RunSchema, RefusesARecordThatLacksAFixedNameOrHasAWrongType) {
-  const Json good = Json::parse(to_json(RunRecord()));
+  const Json good = Json::parse(bench::to_json(bench::RunRecord()));
   ASSERT_EQ(faults_of(good), std::vector<std::string>());
   Json lacking = good;
   lacking["counts"].erase("steiner_vertices");

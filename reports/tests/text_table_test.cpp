@@ -6,7 +6,7 @@ namespace ccdt {
 namespace {
 
 TEST(TextTable, AlignsColumnsForATerminal) {
-  EXPECT_EQ(to_terminal(TextTable{{"name", "s"}, {"a", "10"}, {"long name", "5"}}),
+  EXPECT_EQ(reports::to_terminal(reports::TextTable{{"name", "s"}, {"a", "10"}, {"long name", "5"}}),
             "name        s\n"
             "---------  --\n"
             "a          10\n"
@@ -14,18 +14,18 @@ TEST(TextTable, AlignsColumnsForATerminal) {
 }
 
 TEST(TextTable, CountsCharactersAndNotBytes) {
-  EXPECT_EQ(to_terminal(TextTable{{"é", "x"}, {"ab", "y"}}), "é   x\n--  -\nab  y\n");
+  EXPECT_EQ(reports::to_terminal(reports::TextTable{{"é", "x"}, {"ab", "y"}}), "é   x\n--  -\nab  y\n");
 }
 
 TEST(TextTable, MarkdownHasARuleAndFillsShortRows) {
-  EXPECT_EQ(to_markdown(TextTable{{"name", "seconds"}, {"a"}}),
+  EXPECT_EQ(reports::to_markdown(reports::TextTable{{"name", "seconds"}, {"a"}}),
             "| name | seconds |\n"
             "|------|--------:|\n"
             "| a    |         |\n");
 }
 
 TEST(TextTable, BarsWithinMarkdownCellsAreEscaped) {
-  EXPECT_NE(to_markdown(TextTable{{"a|b"}}).find("a\\|b"), std::string::npos);
+  EXPECT_NE(reports::to_markdown(reports::TextTable{{"a|b"}}).find("a\\|b"), std::string::npos);
 }
 
 }  // namespace

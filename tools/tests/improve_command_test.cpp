@@ -36,11 +36,11 @@ class ImproveCommand : public Program {
     return false;
   }
 
-  TetMesh written() const { return read_tet_mesh(work() / "mesh.vtu"); }
+  mesh::TetMesh written() const { return io::read_tet_mesh(work() / "mesh.vtu"); }
 };
 
 TEST_F(ImproveCommand, ImprovesByEveryMeansAndReportsIt) {
-  write_plc(gridded_cube(4), work() / "cube.off");
+  io::write_plc(gridded_cube(4), work() / "cube.off");
   const double worst = mesh("cube.off", "--improve none")["quality"]["r"]["max"];
   for (const std::string improve : {"swap", "smooth", "all"})
     for (const std::string objective : {"r", "dihedral"}) {
@@ -66,7 +66,7 @@ TEST_F(ImproveCommand, ImprovesByEveryMeansAndReportsIt) {
 }
 
 TEST_F(ImproveCommand, ImprovesByAllMeansWithTheBoundaryKeptUnlessToldOtherwise) {
-  write_plc(gridded_cube(4), work() / "cube.off");
+  io::write_plc(gridded_cube(4), work() / "cube.off");
   const Json usual = mesh("cube.off", "");
   EXPECT_EQ(usual["options"]["improve"], "all");
   EXPECT_EQ(usual["options"]["objective"], "r");
@@ -78,8 +78,8 @@ TEST_F(ImproveCommand, ImprovesByAllMeansWithTheBoundaryKeptUnlessToldOtherwise)
 }
 
 TEST_F(ImproveCommand, BoundaryVerticesSlideWhereTheyMay) {
-  for (const InputPlc& plc : {gridded_plate(4, 0.1), rotated(oblique, gridded_cube(3))}) {
-    write_plc(plc, work() / "part.off");
+  for (const plc::InputPlc& plc : {gridded_plate(4, 0.1), rotated(oblique, gridded_cube(3))}) {
+    io::write_plc(plc, work() / "part.off");
     const Json report = mesh("part.off", "--boundary slide --target-dihedral 45", "--boundary slide");
     EXPECT_EQ(report["options"]["boundary"], "slide");
   }
@@ -88,13 +88,13 @@ TEST_F(ImproveCommand, BoundaryVerticesSlideWhereTheyMay) {
 TEST_F(ImproveCommand, RegionsSlitsAndDanglingPartsStay) {
   for (const auto& [name, plc] : small_inputs()) {
     SCOPED_TRACE(name);
-    write_plc(plc, work() / "part.poly");
+    io::write_plc(plc, work() / "part.poly");
     mesh("part.poly", "--edge-length 0.8 --target-dihedral 45");
   }
 }
 
 TEST_F(ImproveCommand, WithoutALatticeTheMeshStaysConstrainedDelaunayUnlessImprovementIsAskedFor) {
-  write_plc(rotated(oblique, l_shape()), work() / "part.off");
+  io::write_plc(rotated(oblique, l_shape()), work() / "part.off");
   const Json bare = mesh("part.off", "--lattice none", "--constrained-delaunay yes");
   EXPECT_EQ(bare["options"]["improve"], "none");
   EXPECT_EQ(bare["counts"]["improve"]["stop"], "none");
@@ -105,7 +105,7 @@ TEST_F(ImproveCommand, WithoutALatticeTheMeshStaysConstrainedDelaunayUnlessImpro
 }
 
 TEST_F(ImproveCommand, SaysWhyItStopped) {
-  write_plc(gridded_cube(6), work() / "cube.off");
+  io::write_plc(gridded_cube(6), work() / "cube.off");
   const auto stop = [&](const std::string& options) { return mesh("cube.off", options)["counts"]["improve"]["stop"]; };
   EXPECT_EQ(stop("--target-dihedral 1 --target-r 1000"), "target");
   EXPECT_EQ(stop("--target-dihedral 60"), "stuck");
@@ -113,7 +113,7 @@ TEST_F(ImproveCommand, SaysWhyItStopped) {
 }
 
 TEST_F(ImproveCommand, ImprovedMeshDoesNotClaimToBeDelaunay) {
-  write_plc(gridded_cube(4), work() / "cube.off");
+  io::write_plc(gridded_cube(4), work() / "cube.off");
   mesh("cube.off", "--improve none");
   EXPECT_TRUE(is_required("locally Delaunay faces"));
   const Json report = mesh("cube.off", "--target-dihedral 45");
@@ -122,16 +122,16 @@ TEST_F(ImproveCommand, ImprovedMeshDoesNotClaimToBeDelaunay) {
 }
 
 TEST_F(ImproveCommand, WritesTheSameMeshAgain) {
-  write_plc(rotated(oblique, gridded_cube(4)), work() / "cube.off");
+  io::write_plc(rotated(oblique, gridded_cube(4)), work() / "cube.off");
   mesh("cube.off", "--target-dihedral 40");
-  const TetMesh first = written();
+  const mesh::TetMesh first = written();
   mesh("cube.off", "--target-dihedral 40 --delaunay wrap --locator grid");
   EXPECT_TRUE(first.vertices == written().vertices);
   EXPECT_TRUE(first.tetrahedra == written().tetrahedra);
 }
 
 TEST_F(ImproveCommand, WrongValuesAreWrongUsage) {
-  write_plc(unit_cube(), work() / "cube.off");
+  io::write_plc(unit_cube(), work() / "cube.off");
   for (const std::string options :
        {"--improve", "--improve flip", "--improve 1", "--objective volume", "--objective", "--boundary move",
         "--boundary", "--target-dihedral 61", "--target-dihedral -1", "--target-dihedral nan", "--target-dihedral all",

@@ -21,14 +21,14 @@ class Sizes : public Program {
  protected:
   /// A unit cube with a grid on its faces, and as the background the same cube, coarser.
   Sizes() {
-    write_plc(gridded_cube(20), work() / "cube.off");
-    write_plc(gridded_cube(4), work() / "coarse.off");
+    io::write_plc(gridded_cube(20), work() / "cube.off");
+    io::write_plc(gridded_cube(4), work() / "coarse.off");
   }
 
   /// Writes a mesh of the coarse cube in the format of this name, and the sizes at its vertices.
   void write_background(const std::string& mesh, const std::string& sizes) const {
     ASSERT_EQ(run("mesh coarse.off -o " + mesh + " --lattice none").exit_code, 0);
-    const TetMesh background = read_tet_mesh(work() / mesh);
+    const mesh::TetMesh background = io::read_tet_mesh(work() / mesh);
     const std::string count = std::to_string(background.vertices.size());
     const bool medit = sizes.ends_with(".sol");
     std::string text =
@@ -39,7 +39,7 @@ class Sizes : public Program {
 
   /// The spacing of interior points is the function's within a factor of sqrt(2), told by their density in ten slabs.
   void expect_followed(const std::string& mesh) const {
-    const TetMesh result = read_tet_mesh(work() / mesh);
+    const mesh::TetMesh result = io::read_tet_mesh(work() / mesh);
     constexpr int slabs = 10;
     constexpr double low = 0.3, high = 0.7;  // in y and z: away from the surface
     std::array<double, slabs> count{};
@@ -87,14 +87,14 @@ TEST_F(Sizes, OfTetGenAreFollowedAndSayTheSame) {
 }
 
 TEST_F(Sizes, OfTheVerticesOfTheInputItselfAreTaken) {
-  write_plc(gridded_cube(10), work() / "part.poly");
-  const InputPlc part = read_plc(work() / "part.poly");
+  io::write_plc(gridded_cube(10), work() / "part.poly");
+  const plc::InputPlc part = io::read_plc(work() / "part.poly");
   std::string text = std::to_string(part.vertices.size()) + " 1\n";
   for (const Point3& p : part.vertices) text += p.x == 0 ? "0.02\n" : "0.2\n";
   write("part.mtr", text);
   ASSERT_EQ(run("mesh part.poly -o out.node --sizes part.mtr --sphere-factor 0").exit_code, 0);
   std::size_t left = 0, right = 0;
-  for (const Point3& p : read_tet_mesh(work() / "out.node").vertices) ++(p.x < 0.5 ? left : right);
+  for (const Point3& p : io::read_tet_mesh(work() / "out.node").vertices) ++(p.x < 0.5 ? left : right);
   EXPECT_GT(left, 4 * right);
 }
 

@@ -25,9 +25,9 @@ class WholeRun : public Program {
     EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
   }
 
-  void expect_verified_plain_and_rotated(const InputPlc& plc, const std::string& ending) {
-    write_plc(plc, work() / ("plain" + ending));
-    write_plc(rotated(oblique, plc), work() / ("rotated" + ending));
+  void expect_verified_plain_and_rotated(const plc::InputPlc& plc, const std::string& ending) {
+    io::write_plc(plc, work() / ("plain" + ending));
+    io::write_plc(rotated(oblique, plc), work() / ("rotated" + ending));
     for (const std::string name : {"plain", "rotated"})
       for (const std::string lattice : {"none", "fcc", "bcc", "sc"})
         expect_meshed_and_verified(name + ending, "--lattice " + lattice, "mesh.vtu");
@@ -35,7 +35,7 @@ class WholeRun : public Program {
 
   /// The tetrahedra of a mesh file as a text that does not depend on their order.
   static std::string sorted_tetrahedra(const std::filesystem::path& file) {
-    auto cells = read_tet_mesh(file).tetrahedra;
+    auto cells = io::read_tet_mesh(file).tetrahedra;
     for (auto& cell : cells) std::ranges::sort(cell);
     std::ranges::sort(cells);
     std::string text;
@@ -58,35 +58,35 @@ class WholeRun : public Program {
     EXPECT_EQ(file_count(), before);
   }
 
-  void expect_surface_refused(const InputPlc& plc, const std::vector<std::string>& words) {
-    write_plc(plc, work() / "surface.off");
+  void expect_surface_refused(const plc::InputPlc& plc, const std::vector<std::string>& words) {
+    io::write_plc(plc, work() / "surface.off");
     expect_refused("surface.off", words);
   }
 };
 
 TEST_F(WholeRun, SurfacesOfEveryFormat) {
-  const InputPlc surface = cube_with_cubic_hole();
+  const plc::InputPlc surface = cube_with_cubic_hole();
   for (const std::string ending : {".off", ".obj", ".ply", ".stl"}) {
-    write_plc(surface, work() / ("part" + ending));
+    io::write_plc(surface, work() / ("part" + ending));
     for (const std::string output : {"mesh.vtu", "mesh.mesh", "mesh.msh", "mesh.node"})
       expect_meshed_and_verified("part" + ending, "--lattice none", output);
   }
 }
 
 TEST_F(WholeRun, Surfaces) {
-  for (const InputPlc& plc : {plc_test::schoenhardt(), cube_with_cubic_hole(), two_cubes_as_surface(), two_bars()})
+  for (const plc::InputPlc& plc : {plc_test::schoenhardt(), cube_with_cubic_hole(), two_cubes_as_surface(), two_bars()})
     expect_verified_plain_and_rotated(plc, ".off");
 }
 
 TEST_F(WholeRun, ComplexesWithRegionsSlitsAndDanglingParts) {
-  for (const InputPlc& plc : {two_cubes(), cube_within_cube(), cube_with_slit(), cube_with_dangling_facet(),
-                              cube_with_dangling_segment(), cube_with_turnstile()})
+  for (const plc::InputPlc& plc : {two_cubes(), cube_within_cube(), cube_with_slit(), cube_with_dangling_facet(),
+                                   cube_with_dangling_segment(), cube_with_turnstile()})
     expect_verified_plain_and_rotated(plc, ".poly");
 }
 
 TEST_F(WholeRun, CubeWithAFineGridPlainAndRotatedNeedsNoSteinerVertex) {
-  for (const InputPlc& plc : {gridded_cube(60), rotated(oblique, gridded_cube(60))}) {
-    write_plc(plc, work() / "cube.off");
+  for (const plc::InputPlc& plc : {gridded_cube(60), rotated(oblique, gridded_cube(60))}) {
+    io::write_plc(plc, work() / "cube.off");
     expect_meshed_and_verified("cube.off", "--lattice none --report report.json", "mesh.vtu");
     EXPECT_NE(text_of(work() / "report.json").find("\"steiner_vertices\": 0,"), std::string::npos);
   }
@@ -103,8 +103,8 @@ TEST_F(WholeRun, ModelsOfTheProgramItself) {
 }
 
 TEST_F(WholeRun, RemeshedSurfacesKeepWhatTheyBound) {
-  for (const InputPlc& plc : {two_cubes(), cube_with_slit(), rotated(oblique, cube_with_dangling_facet())}) {
-    write_plc(plc, work() / "plc.poly");
+  for (const plc::InputPlc& plc : {two_cubes(), cube_with_slit(), rotated(oblique, cube_with_dangling_facet())}) {
+    io::write_plc(plc, work() / "plc.poly");
     const Outcome mesh =
         run("mesh plc.poly -o mesh.vtu --surface remesh --edge-length 0.4 --surface-output new.poly --report r.json");
     ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
@@ -116,7 +116,7 @@ TEST_F(WholeRun, RemeshedSurfacesKeepWhatTheyBound) {
 }
 
 TEST_F(WholeRun, EveryCombinationOfStrategiesWritesTheSameMesh) {
-  write_plc(rotated(oblique, two_bars()), work() / "bars.off");
+  io::write_plc(rotated(oblique, two_bars()), work() / "bars.off");
   std::set<std::string> meshes;
   for (const std::string delaunay : {"insert", "wrap"})
     for (const std::string locator : {"grid", "octree", "cavity"})
@@ -132,25 +132,25 @@ TEST_F(WholeRun, EveryCombinationOfStrategiesWritesTheSameMesh) {
 }
 
 TEST_F(WholeRun, OpenSurfaceIsRefusedWithItsBoundary) {
-  InputPlc cube = unit_cube();
+  plc::InputPlc cube = unit_cube();
   cube.triangles.pop_back();
   expect_surface_refused(cube, {"1 boundary loop, of 3 edges", "(1, 0, 0)"});
 }
 
 TEST_F(WholeRun, SelfIntersectingSurfaceIsRefusedWithBothFacets) {
-  InputPlc pierced = box({0, 0, 0}, {4, 4, 4});
+  plc::InputPlc pierced = box({0, 0, 0}, {4, 4, 4});
   const auto tip = static_cast<std::uint32_t>(pierced.vertices.size());
   pierced.vertices.insert(pierced.vertices.end(), {{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1.5, 1.25, 5}});
   const std::uint32_t corner[4] = {tip, tip + 1, tip + 2, tip + 3};
   for (const auto& t : {Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
     pierced.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
   // The top is of the facets 2 and 3, and the sides of the tetrahedron, 13 to 15, go through it.
-  write_plc(pierced, work() / "surface.off");
+  io::write_plc(pierced, work() / "surface.off");
   expect_refused("surface.off", {"cross", "facets 2, 13"});
 }
 
 TEST_F(WholeRun, FacetsThatCoverEachOtherAreRefusedWithTheirPlace) {
-  InputPlc doubled = unit_cube();
+  plc::InputPlc doubled = unit_cube();
   append(doubled, box({0.25, 0.25, 1}, {0.75, 0.75, 2}));  // stands on the top, which goes on below it
   expect_surface_refused(doubled, {"cover", "facets", "1)"});
 }
@@ -162,7 +162,7 @@ TEST_F(WholeRun, BrokenFilesAreRefused) {
   expect_refused("nan.off", {":4"});
   std::filesystem::create_directory(work() / "folder.stl");
   expect_refused("folder.stl", {"director"});
-  write_plc(unit_cube(), work() / "cube.stl");
+  io::write_plc(unit_cube(), work() / "cube.stl");
   const std::string whole = text_of(work() / "cube.stl");
   for (const std::size_t size : {std::size_t{90}, whole.size() / 2, whole.size() - 1}) {
     write("truncated.stl", whole.substr(0, size));
@@ -189,12 +189,12 @@ TEST_F(WholeRun, HeadersThatClaimGigabytesAreRefused) {
 }
 
 TEST_F(WholeRun, SegmentThatCannotBeProtectedExitsWithFour) {
-  InputPlc input = seeded_cube();
+  plc::InputPlc input = seeded_cube();
   input.vertices.insert(input.vertices.end(), {{1, 1.5, 1}, {2, 1.5, 1}});
   for (const auto& [y, z] : {std::array{1e-8, 0.0}, {-5e-9, 9e-9}, {-5e-9, -9e-9}})
     input.vertices.push_back({1.3, 1.5 + y, 1 + z});
   input.segments = {{8, 9}};
-  write_plc(input, work() / "segment.poly");
+  io::write_plc(input, work() / "segment.poly");
   const Outcome outcome = run("mesh segment.poly -o out.vtu --protection midpoint");
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
   EXPECT_NE(outcome.err.find("(1, 1.5, 1)"), std::string::npos) << outcome.err;

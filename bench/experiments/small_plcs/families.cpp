@@ -10,7 +10,7 @@
 
 #include "bench/experiments/small_plcs/tetrahedralization.h"
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 namespace {
 
 constexpr std::int64_t largest_random = 100;  ///< coordinates are 0 to this
@@ -332,4 +332,4 @@ std::vector<Polygon> convex_hull(const std::vector<Point>& vertices) {
   return hull;
 }
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

@@ -8,7 +8,7 @@
 
 #include "bench/experiments/small_plcs/small_plc.h"
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 
 /// Numbers that are the same on every machine. (The distributions of the standard library are not.)
 class Random {
@@ -42,4 +42,4 @@ Point random_point(Random& random);
 /// The convex hull, as boundary. \pre no four vertices are coplanar
 std::vector<Polygon> convex_hull(const std::vector<Point>& vertices);
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 namespace {
 
 int sign(std::int64_t value) {
@@ -235,14 +235,14 @@ bool is_valid(const SmallPlc& plc) {
   return std::ranges::all_of(plc.interior, [&](const Polygon& f) { return is_in(triangles_of(plc, f).front()); });
 }
 
-InputPlc as_input(const SmallPlc& plc) {
-  InputPlc input;
+plc::InputPlc as_input(const SmallPlc& plc) {
+  plc::InputPlc input;
   input.name = "small PLC";
-  input.inside = InputPlc::Inside::seeds;
+  input.inside = plc::InputPlc::Inside::seeds;
   for (const Point& p : plc.vertices)
     input.vertices.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
   for (const Polygon& facet : all_facets(plc)) {
-    PolygonFacet polygon;
+    plc::PolygonFacet polygon;
     polygon.polygons = {facet};
     polygon.number = static_cast<std::uint32_t>(input.polygon_facets.size());
     input.polygon_facets.push_back(polygon);
@@ -264,4 +264,4 @@ std::string in_words(const SmallPlc& plc) {
   return text.str();
 }
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

@@ -11,7 +11,7 @@
 
 /// Exact geometry of a few points with small whole coordinates, and of plain piecewise linear complexes of these. It
 /// shares nothing with the engine, so that one can be held against the other.
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 
 /// A point or a vector. No determinant overflows as long as coordinates are at most `largest_coordinate` in magnitude.
 struct Point {
@@ -110,9 +110,9 @@ bool is_generic(const SmallPlc& plc, bool may_be_cospherical = false);
 /// facets and segments inside?
 bool is_valid(const SmallPlc& plc);
 
-InputPlc as_input(const SmallPlc& plc);
+plc::InputPlc as_input(const SmallPlc& plc);
 
 /// All of it on one line, for a person who wants to build it again.
 std::string in_words(const SmallPlc& plc);
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

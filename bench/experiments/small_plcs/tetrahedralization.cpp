@@ -5,12 +5,12 @@
 #include <map>
 #include <set>
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 namespace {
 
 std::int64_t six_volumes(const SmallPlc& plc, const Tetrahedron& t) {
   const auto [a, b, c, d] = points_of(plc.vertices, t);
-  return std::abs(small::six_volumes(a, b, c, d));
+  return std::abs(small_plcs::six_volumes(a, b, c, d));
 }
 
 /// Inside or on its boundary.
@@ -149,7 +149,7 @@ class Search {
   void take_down() {
     std::vector<Tetrahedron> tetrahedra;
     for (const std::size_t c : chosen_) tetrahedra.push_back(candidates_[c]);
-    if (total_volume(plc_, tetrahedra) != small::six_volumes(plc_) || !has_all_segments(plc_, tetrahedra) ||
+    if (total_volume(plc_, tetrahedra) != small_plcs::six_volumes(plc_) || !has_all_segments(plc_, tetrahedra) ||
         !uses_all_vertices(plc_, tetrahedra))
       return;
     std::ranges::sort(tetrahedra);
@@ -212,4 +212,4 @@ SearchResult search_constrained_delaunay(const SmallPlc& plc) {
   return Search(plc).result();
 }
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

@@ -6,7 +6,7 @@
 
 #include "bench/experiments/small_plcs/small_plc.h"
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 
 using Tetrahedron = std::array<Vertex, 4>;  ///< in growing order
 
@@ -40,4 +40,4 @@ struct SearchResult {
 /// (Shewchuk 2008, the Delaunay lemma). That the tetrahedra of a DT are Delaunay is not made use of.
 SearchResult search_constrained_delaunay(const SmallPlc& plc);
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

@@ -8,7 +8,7 @@
 #include "engine/base/errors.h"
 #include "engine/mesher.h"
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 namespace {
 
 /// Half of a plane at an edge: a facet, seen from the edge.
@@ -197,4 +197,4 @@ Trial try_plc(SmallPlc plc, bool is_cospherical) {
   return trial;
 }
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

@@ -6,7 +6,7 @@
 #include "bench/experiments/small_plcs/small_plc.h"
 #include "bench/experiments/small_plcs/tetrahedralization.h"
 
-namespace ccdt::small {
+namespace ccdt::small_plcs {
 
 /// The premise of the paper's Theorem 1 (section 5.2), part by part, and what explains it.
 struct ProtectionState {
@@ -55,4 +55,4 @@ struct Trial {
 };
 Trial try_plc(SmallPlc plc, bool is_cospherical);
 
-}  // namespace ccdt::small
+}  // namespace ccdt::small_plcs

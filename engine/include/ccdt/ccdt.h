@@ -10,3 +10,15 @@
 #include "engine/mesher.h"
 #include "engine/surface/remesh_surface.h"
 #include "engine/version.h"
+
+namespace ccdt {
+
+using io::read_plc;
+using io::read_sizes;
+using io::read_tet_mesh;
+using io::write_plc;
+using io::write_tet_mesh;
+using surface::remesh_surface;
+using surface::RemeshOptions;
+
+}  // namespace ccdt
