@@ -51,7 +51,7 @@ double tetrahedra_of(const std::string& scale) {
   const bool is_within = tetrahedra >= fewest && tetrahedra <= most;
   if (!is_number || !is_within)
     throw CLI::ValidationError("--scale", "'" + scale +
-                                              "' is neither quick, paper or large nor a number of tetrahedra "
+                                              "' is not quick, paper, large or a number of tetrahedra "
                                               "from 100 to 10^8");
   return tetrahedra;
 }
