@@ -1,8 +1,9 @@
+#include "bench/verify/check_domain.h"
+
 #include <cmath>
 #include <cstdio>
 #include <unordered_set>
 
-#include "bench/verify/checks.h"
 #include "bench/verify/findings.h"
 
 namespace ccdt::verify {
@@ -95,6 +96,93 @@ class FlatTetrahedra {
   std::unordered_set<std::uint32_t> on_sheet_;
 };
 
+/// Every tetrahedron is in one region, and that is inside.
+Check check_inside(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
+  Check check{.name = "tetrahedra in the domain", .checked = mesh.tetrahedra.size()};
+  for (const std::uint32_t t : assigned.conflicts)
+    fail(check, [&] { return text_of_tetrahedron(mesh, t) + " leaks through a facet"; });
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::uint32_t c = assigned.region[t];
+    if (c == none)
+      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is connected with no facet of the input"; });
+    else if (regions.inside[c] != Inside::yes)
+      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is outside"; });
+  }
+  return check;
+}
+
+/// A tetrahedron has the attribute of the region seed in its region; without a seed, the same as all in the region.
+/// One that lies within an interior facet may have the attribute of either side.
+Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
+  Check check{.name = "regions", .checked = mesh.tetrahedra.size()};
+  const auto wanted = wanted_regions(mesh, regions, assigned);
+  const auto is_wanted = [&](int region, std::uint32_t c) {
+    return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
+  };
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::uint32_t c = assigned.region[t];
+    const int region = attribute_of(mesh, t);
+    if (c == none || is_wanted(region, c)) continue;
+    const auto other_region = assigned.other_region.find(t);
+    if (other_region != assigned.other_region.end() && is_wanted(region, other_region->second)) continue;
+    fail(check, [&] {
+      return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(region) + " instead of " +
+             std::to_string(wanted[c][0]);
+    });
+  }
+  return check;
+}
+
+/// No tetrahedron is in a region with a hole's point.
+Check check_holes(const plc::InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
+  Check check{.name = "holes", .checked = input.holes.size()};
+  std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
+  for (const std::uint32_t c : assigned.region)
+    if (c != none) ++tetrahedra[c];
+  for (std::uint32_t c = 0; c < regions.count(); ++c) {
+    if (regions.hole_seeds[c] == 0 || tetrahedra[c] == 0) continue;
+    fail(check, [&] { return "there are " + std::to_string(tetrahedra[c]) + " tetrahedra in a hole"; });
+  }
+  return check;
+}
+
+double mesh_volume(const mesh::TetMesh& mesh) {
+  Sum sum;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const Point3& o = mesh.vertices[a];
+    sum.add(dot(cross(mesh.vertices[b] - o, mesh.vertices[c] - o), mesh.vertices[d] - o) / 6);
+  }
+  return sum.value();
+}
+
+double input_volume(const Surface& surface, const Regions& regions) {
+  Sum sum;
+  if (surface.pieces() == 0) return 0;
+  const Point3 apex = surface.origin(0);
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
+    const bool above = regions.inside[regions.of_side[2 * p]] == Inside::yes;
+    const bool below = regions.inside[regions.of_side[2 * p + 1]] == Inside::yes;
+    const double cone = dot(surface.area_vector[p], surface.origin(p) - apex) / 3;
+    if (above != below) sum.add(below ? cone : -cone);
+  }
+  return sum.value();
+}
+
+/// The volumes are equal to 1e-9, and what moving the surface within the tolerance can change.
+Check check_volume(const Surface& surface, const Regions& regions, double of_mesh, double of_input) {
+  Check check{.name = "volume", .checked = 1};
+  double area = 0;
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
+    if (regions.touches_inside(p)) area += length(surface.area_vector[p]);
+  if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
+  fail(check, [&] {
+    char buffer[128];
+    std::snprintf(buffer, sizeof buffer, "the mesh has the volume %.17g, the input %.17g", of_mesh, of_input);
+    return std::string(buffer);
+  });
+  return check;
+}
+
 }  // namespace
 
 RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions,
@@ -142,90 +230,14 @@ void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions) {
     if (regions.inside[c] == Inside::unknown) regions.inside[c] = filled[c] ? Inside::yes : Inside::no;
 }
 
-Check check_domain(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
-  Check check = make_check("tetrahedra in the domain");
-  check.checked = mesh.tetrahedra.size();
-  for (const std::uint32_t t : assigned.conflicts)
-    fail(check, [&] { return text_of_tetrahedron(mesh, t) + " leaks through a facet"; });
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = assigned.region[t];
-    if (c == none)
-      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is connected with no facet of the input"; });
-    else if (regions.inside[c] != Inside::yes)
-      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is outside"; });
-  }
-  return check;
-}
-
-Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
-  Check check = make_check("regions");
-  check.checked = mesh.tetrahedra.size();
-  const auto wanted = wanted_regions(mesh, regions, assigned);
-  const auto is_wanted = [&](int region, std::uint32_t c) {
-    return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
-  };
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const std::uint32_t c = assigned.region[t];
-    const int region = attribute_of(mesh, t);
-    if (c == none || is_wanted(region, c)) continue;
-    const auto other_region = assigned.other_region.find(t);
-    if (other_region != assigned.other_region.end() && is_wanted(region, other_region->second)) continue;
-    fail(check, [&] {
-      return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(region) + " instead of " +
-             std::to_string(wanted[c][0]);
-    });
-  }
-  return check;
-}
-
-Check check_holes(const plc::InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
-  Check check = make_check("holes");
-  check.checked = input.holes.size();
-  std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
-  for (const std::uint32_t c : assigned.region)
-    if (c != none) ++tetrahedra[c];
-  for (std::uint32_t c = 0; c < regions.count(); ++c) {
-    if (regions.hole_seeds[c] == 0 || tetrahedra[c] == 0) continue;
-    fail(check, [&] { return "there are " + std::to_string(tetrahedra[c]) + " tetrahedra in a hole"; });
-  }
-  return check;
-}
-
-double mesh_volume(const mesh::TetMesh& mesh) {
-  Sum sum;
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const Point3& o = mesh.vertices[a];
-    sum.add(dot(cross(mesh.vertices[b] - o, mesh.vertices[c] - o), mesh.vertices[d] - o) / 6);
-  }
-  return sum.value();
-}
-
-double input_volume(const Surface& surface, const Regions& regions) {
-  Sum sum;
-  if (surface.pieces() == 0) return 0;
-  const Point3 apex = surface.origin(0);
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    const bool above = regions.inside[regions.of_side[2 * p]] == Inside::yes;
-    const bool below = regions.inside[regions.of_side[2 * p + 1]] == Inside::yes;
-    const double cone = dot(surface.area_vector[p], surface.origin(p) - apex) / 3;
-    if (above != below) sum.add(below ? cone : -cone);
-  }
-  return sum.value();
-}
-
-Check check_volume(const Surface& surface, const Regions& regions, double of_mesh, double of_input) {
-  Check check = make_check("volume");
-  check.checked = 1;
-  double area = 0;
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    if (regions.touches_inside(p)) area += length(surface.area_vector[p]);
-  if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
-  fail(check, [&] {
-    char buffer[128];
-    std::snprintf(buffer, sizeof buffer, "the mesh has the volume %.17g, the input %.17g", of_mesh, of_input);
-    return std::string(buffer);
-  });
-  return check;
+void check_domain(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Surface& surface, const Regions& regions,
+                  const RegionsOfTetrahedra& assigned, Verification& result) {
+  result.checks.push_back(check_inside(mesh, regions, assigned));
+  result.checks.push_back(check_holes(input, regions, assigned));
+  result.checks.push_back(check_regions(mesh, regions, assigned));
+  result.mesh_volume = mesh_volume(mesh);
+  result.input_volume = input_volume(surface, regions);
+  result.checks.push_back(check_volume(surface, regions, result.mesh_volume, result.input_volume));
 }
 
 }  // namespace ccdt::verify

@@ -7,14 +7,6 @@
 
 namespace ccdt::verify {
 
-/// A check that has looked at nothing yet.
-inline Check make_check(std::string name, bool required = true) {
-  Check check;
-  check.name = std::move(name);
-  check.required = required;
-  return check;
-}
-
 /// Counts a failure, and keeps its description if it is among the first few. The description is made only then.
 template <class Describe>
 void fail(Check& check, const Describe& describe) {

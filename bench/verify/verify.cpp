@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "bench/verify/checks.h"
+#include "bench/verify/check_domain.h"
 #include "bench/verify/embed_lines.h"
+#include "bench/verify/exact.h"
+#include "bench/verify/findings.h"
 #include "bench/verify/slide.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
@@ -21,9 +23,285 @@
 
 namespace ccdt::verify {
 
-using namespace verify;
-
 namespace {
+
+// The tetrahedra by themselves.
+
+void check_array(Check& check, const char* what, std::size_t size, std::size_t wanted) {
+  ++check.checked;
+  if (size == wanted || size == 0) return;
+  fail(check, [&] { return std::to_string(size) + " " + what + " for " + std::to_string(wanted) + " elements"; });
+}
+
+template <class Elements>
+void check_elements(Check& check, const char* what, const Elements& elements, std::size_t vertices) {
+  check.checked += elements.size();
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const auto sorted = ascending(elements[i]);
+    if (sorted.back() < vertices && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) continue;
+    fail(check, [&] {
+      std::string s = std::string(what) + " " + std::to_string(i) + " has the vertices";
+      for (const std::uint32_t v : elements[i]) s += " " + std::to_string(v);
+      return s + " of " + std::to_string(vertices);
+    });
+  }
+}
+
+/// Coordinates are finite.
+Check check_coordinates(const mesh::TetMesh& mesh) {
+  Check check{.name = "finite coordinates", .checked = mesh.vertices.size()};
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Point3& p = mesh.vertices[v];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    fail(check, [&] { return "vertex " + std::to_string(v) + " is at " + text(p); });
+  }
+  return check;
+}
+
+/// Every tetrahedron has four different vertices that exist, and attribute arrays have one entry an element.
+Check check_indices(const mesh::TetMesh& mesh) {
+  Check check{.name = "valid elements"};
+  if (mesh.tetrahedra.empty()) fail(check, [] { return std::string("the mesh has no tetrahedra"); });
+  check_elements(check, "tetrahedron", mesh.tetrahedra, mesh.vertices.size());
+  check_elements(check, "face", mesh.faces, mesh.vertices.size());
+  check_elements(check, "edge", mesh.edges, mesh.vertices.size());
+  check_array(check, "regions", mesh.regions.size(), mesh.tetrahedra.size());
+  check_array(check, "face markers", mesh.face_markers.size(), mesh.faces.size());
+  check_array(check, "edge markers", mesh.edge_markers.size(), mesh.edges.size());
+  return check;
+}
+
+/// Every tetrahedron is positively oriented, exactly.
+Check check_orientation(const mesh::TetMesh& mesh, const Progress& progress) {
+  Check check{.name = "positive orientation", .checked = mesh.tetrahedra.size()};
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    if (t % 65536 == 0) report(progress, "verify orientation", t, mesh.tetrahedra.size());
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    if (orientation(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]) > 0) continue;
+    fail(check, [&] { return "tetrahedron " + std::to_string(t) + ":" + text(mesh.vertices, mesh.tetrahedra[t]); });
+  }
+  return check;
+}
+
+/// No two vertices that tetrahedra use are in one place.
+Check check_distinct_vertices(const mesh::TetMesh& mesh, const Topology& topology) {
+  Check check{.name = "distinct vertices"};
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+    if (topology.used(v)) order.push_back(v);
+  check.checked = order.size();
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return as_array(mesh.vertices[a]) < as_array(mesh.vertices[b]); });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (mesh.vertices[order[i - 1]] != mesh.vertices[order[i]]) continue;
+    fail(check, [&] {
+      return "vertices " + std::to_string(order[i - 1]) + " and " + std::to_string(order[i]) + " are both at " +
+             text(mesh.vertices[order[i]]);
+    });
+  }
+  return check;
+}
+
+/// Every vertex is used by a tetrahedron (not required).
+Check check_used_vertices(const mesh::TetMesh& mesh, const Topology& topology) {
+  Check check{.name = "vertices in use", .checked = mesh.vertices.size(), .required = false};
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (topology.used(v)) continue;
+    fail(check, [&] { return "no tetrahedron has the vertex " + std::to_string(v) + " at " + text(mesh.vertices[v]); });
+  }
+  return check;
+}
+
+/// Every face is of one tetrahedron, or of two on opposite sides.
+Check check_shared_faces(const mesh::TetMesh& mesh, const Topology& topology) {
+  Check check{.name = "faces of one or two tetrahedra", .checked = topology.faces.size()};
+  for (const std::uint32_t f : topology.bad_faces) {
+    fail(check, [&] {
+      return "more than two tetrahedra, or two on one side, at the face" + text(mesh.vertices, topology.faces[f]);
+    });
+  }
+  return check;
+}
+
+// The facets of the input in the mesh.
+
+bool any_inside(const Regions& regions, const std::vector<std::uint32_t>& which) {
+  return std::any_of(which.begin(), which.end(), [&](std::uint32_t c) { return regions.inside[c] == Inside::yes; });
+}
+
+/// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
+Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions,
+                     const RayShooter& rays) {
+  Check check{.name = surface.slides.empty() ? "input vertices" : "input vertices that may not slide"};
+  std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
+    for (const auto& [site, next] : surface.edges_of(p)) {
+      on_surface[site] = true;
+      if (regions.touches_inside(p)) touched[site] = true;
+    }
+  for (std::size_t i = 0; i < input.vertices.size(); ++i) {
+    const std::uint32_t site = surface.sites.of_input[i];
+    if (!surface.slides.empty() && surface.slides[site]) continue;
+    ++check.checked;
+    if (surface.sites.in_mesh(site)) continue;
+    const Point3& p = input.vertices[i];
+    if (on_surface[site] ? !touched[site] : !any_inside(regions, regions_at(surface, regions, rays, p))) continue;
+    fail(check, [&] { return "the mesh has no vertex " + std::to_string(i) + " of the input, " + text(p); });
+  }
+  return check;
+}
+
+/// Every segment and every feature edge in or on the domain is a chain of mesh edges.
+Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
+                     const std::vector<bool>& features, const Regions& regions, const RayShooter& rays) {
+  Check check{.name = "input segments"};
+  for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
+    if (!features[e]) continue;
+    const auto touches_inside = [&](std::uint32_t use) { return regions.touches_inside(surface.piece_of[use]); };
+    if (!std::ranges::any_of(surface.uses.of(e), touches_inside)) continue;
+    ++check.checked;
+    if (!edges.missing(e)) continue;
+    fail(check,
+         [&] { return "no chain of mesh edges along the edge" + text(surface.sites.position, surface.edges[e]); });
+  }
+  for (std::size_t s = 0; s < surface.segments.size(); ++s) {
+    ++check.checked;
+    if (!segments.missing(s)) continue;
+    const Edge& segment = surface.segments[s];
+    const Point3 middle = 0.5 * (surface.at(segment[0]) + surface.at(segment[1]));
+    if (!any_inside(regions, regions_at(surface, regions, rays, middle))) continue;
+    fail(check, [&] { return "no chain of mesh edges along the segment" + text(surface.sites.position, segment); });
+  }
+  return check;
+}
+
+/// Every facet that the domain touches is there: as a boundary if one side is inside, else as inner faces.
+Check check_facets(const Surface& surface, const FacetMatches& matches, const Regions& regions) {
+  Check check{.name = "input facets"};
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
+    const bool above = regions.inside[regions.of_side[2 * p]] == Inside::yes;
+    const bool below = regions.inside[regions.of_side[2 * p + 1]] == Inside::yes;
+    if (!above && !below) continue;
+    ++check.checked;
+    const FoundAs wanted = above && below ? FoundAs::interior
+                           : above        ? FoundAs::boundary_of_above
+                                          : FoundAs::boundary_of_below;
+    if (matches.found[p] == wanted) continue;
+    fail(check, [&] {
+      std::string s = "facet " + std::to_string(surface.number[p]) + " with the vertices";
+      for (const auto& [site, next] : surface.edges_of(p) | std::views::take(4)) s += " " + text(surface.at(site));
+      if (matches.found[p] == FoundAs::nothing)
+        return s + " is not in the mesh" + (matches.problem[p].empty() ? "" : ": " + matches.problem[p]);
+      if (wanted == FoundAs::interior) return s + " should have tetrahedra on both sides";
+      return s + (matches.found[p] == FoundAs::interior ? " has tetrahedra on both sides"
+                                                        : " has its tetrahedra on the wrong side");
+    });
+  }
+  return check;
+}
+
+/// Every boundary face of the mesh stands for an input facet.
+Check check_boundary(const mesh::TetMesh& mesh, const Topology& topology, const FacetMatches& matches) {
+  Check check{.name = "boundary faces on input facets"};
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) check.checked += topology.on_boundary(f);
+  for (const std::uint32_t f : matches.stray_faces) {
+    fail(check,
+         [&] { return "not of the input's surface is the boundary face" + text(mesh.vertices, topology.faces[f]); });
+  }
+  return check;
+}
+
+// The Delaunay property.
+
+struct DelaunayChecks {
+  Check local;      ///< faces that are not locally Delaunay, beyond what rounding explains
+  Check explained;  ///< exactly seen not locally Delaunay, but within what rounding explains (not required)
+};
+
+/// Value of the in-sphere determinant, and bounds on how much it changes when every coordinate moves: to first order by
+/// `change` times the move, to second order by `bend` times its square. Between five points that are almost in one
+/// plane and almost on one circle the second is the larger.
+struct Sensitivity {
+  double value, change, bend;
+
+  double explained_by(double move) const { return 1.01 * change * move + bend * move * move; }
+};
+
+double norm1(const Point3& p) {
+  return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
+}
+
+/// With the last point as origin the determinant of the rows (p_i, |p_i|^2) is sum_i |p_i|^2 m_i, m_i the signed 3x3
+/// minors. Its gradient by p_i is 2 m_i p_i plus |p_j|^2 times the gradients of the other minors, which are cross
+/// products. The origin's is minus the sum of all.
+Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
+  std::array<Point3, 4> p;
+  std::array<double, 4> height, minor;
+  for (std::size_t i = 0; i < 4; ++i) {
+    p[i] = points[i] - points[4];
+    height[i] = squared_length(p[i]);
+  }
+  std::array<Point3, 4> gradient{};
+  double value = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t a = i == 0 ? 1 : 0, b = i <= 1 ? 2 : 1, c = i <= 2 ? 3 : 2;
+    const double sign = i % 2 == 0 ? -1 : 1;
+    minor[i] = sign * dot(p[a], cross(p[b], p[c]));
+    value += height[i] * minor[i];
+    gradient[i] = gradient[i] + 2 * minor[i] * p[i];
+    gradient[a] = gradient[a] + sign * height[i] * cross(p[b], p[c]);
+    gradient[b] = gradient[b] + sign * height[i] * cross(p[c], p[a]);
+    gradient[c] = gradient[c] + sign * height[i] * cross(p[a], p[b]);
+  }
+  Point3 of_origin;
+  double change = 0;
+  for (const Point3& g : gradient) {
+    of_origin = of_origin - g;
+    change += norm1(g);
+  }
+  // 72 monomials of degree 5 in differences up to `largest`, each of which moves by two units: 72 * 10 pairs * 2 * 2.
+  double largest = 0;
+  for (const Point3& q : p) largest = std::max({largest, std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
+  return {value, change + norm1(of_origin), 2880 * largest * largest * largest};
+}
+
+std::string describe_face(const mesh::TetMesh& mesh, const Face& face, std::uint32_t before, std::uint32_t behind,
+                          double ratio) {
+  return "the face" + text(mesh.vertices, face) + " between " + text(mesh.vertices[before]) + " and " +
+         text(mesh.vertices[behind]) + ", " + std::to_string(ratio) + " times what rounding explains";
+}
+
+/// Every inner face that stands for no facet is locally Delaunay: the vertex behind it is not strictly inside the
+/// circumsphere of the tetrahedron before it. By the Delaunay lemma for constrained Delaunay tetrahedralizations the
+/// mesh is then one (Shewchuk 2008).
+///
+/// The coordinates that a mesher worked with may differ from those in the mesh, because it rounds them. A violation is
+/// explained by that if moving each coordinate by `rounding` can change the sign of the determinant (to first order).
+///
+/// \param constrained  of each face: does it stand for a facet?
+DelaunayChecks check_delaunay(const mesh::TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
+                              double rounding, bool required, const Progress& progress) {
+  DelaunayChecks checks{
+      {.name = required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", .required = required},
+      {.name = "locally Delaunay without rounding", .required = false}};
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
+    if (f % 65536 == 0) report(progress, "verify Delaunay", f, topology.faces.size());
+    if (constrained[f] || topology.on_boundary(f)) continue;
+    const std::uint32_t h = topology.half_faces[f][0], other = topology.half_faces[f][1];
+    const auto [a, c, b] = outward(mesh, h);
+    const std::uint32_t before = mesh.tetrahedra[h / 4][h % 4], behind = mesh.tetrahedra[other / 4][other % 4];
+    const std::array<Point3, 5> points = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[before],
+                                          mesh.vertices[behind]};
+    ++checks.local.checked;
+    ++checks.explained.checked;
+    if (side_of_sphere(points[0], points[1], points[2], points[3], points[4]) <= 0) continue;
+    const Sensitivity sensitivity = in_sphere_sensitivity(points);
+    const double ratio = std::fabs(sensitivity.value) / sensitivity.explained_by(rounding);
+    fail(ratio > 1 ? checks.local : checks.explained,
+         [&] { return describe_face(mesh, topology.faces[f], before, behind, ratio); });
+  }
+  return checks;
+}
 
 /// The engine rounds to 2^-33 of the next power of two above the box; and the coordinates in the file are rounded to
 /// doubles.
@@ -60,12 +338,7 @@ void check_against_input(const plc::InputPlc& input, const mesh::TetMesh& mesh, 
   checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
   checks.push_back(check_facets(surface, matches, regions));
   checks.push_back(check_boundary(mesh, topology, matches));
-  checks.push_back(check_domain(mesh, regions, assigned));
-  checks.push_back(check_holes(input, regions, assigned));
-  checks.push_back(check_regions(mesh, regions, assigned));
-  result.mesh_volume = mesh_volume(mesh);
-  result.input_volume = input_volume(surface, regions);
-  checks.push_back(check_volume(surface, regions, result.mesh_volume, result.input_volume));
+  check_domain(input, mesh, surface, regions, assigned, result);
   if (options.delaunay == VerifyOptions::Delaunay::no) return;
   DelaunayChecks delaunay = check_delaunay(mesh, topology, matches.is_matched, largest_rounding(input, tolerances),
                                            wants_delaunay(options, mesh), progress);

@@ -39,11 +39,11 @@ constexpr auto names_of(VerifyOptions::Boundary) {
 
 /// One property that was checked.
 struct Check {
-  std::string name;                   ///< e.g. "positive orientation"
-  std::uint64_t checked = 0;          ///< how many things were looked at
-  std::uint64_t failed = 0;           ///< how many of them are wrong
-  bool required = true;               ///< does a failure make the mesh wrong?
-  std::vector<std::string> examples;  ///< the first few failures, with coordinates
+  std::string name;                        ///< e.g. "positive orientation"
+  std::uint64_t checked = 0;               ///< how many things were looked at
+  std::uint64_t failed = 0;                ///< how many of them are wrong
+  bool required = true;                    ///< does a failure make the mesh wrong?
+  std::vector<std::string> examples = {};  ///< the first few failures, with coordinates
 };
 
 struct Verification {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <unordered_map>
+
+#include "bench/verify/match_facets.h"
+#include "bench/verify/regions.h"
+#include "bench/verify/verify.h"
+
+namespace ccdt::verify {
+
+/// In which region of the input each tetrahedron is.
+struct RegionsOfTetrahedra {
+  std::vector<std::uint32_t> region;     ///< of each tetrahedron; `none` for those that no facet bounds
+  std::vector<std::uint32_t> conflicts;  ///< tetrahedra that are reached from two regions without crossing a facet
+  /// Of each tetrahedron that lies within an interior facet, since that is flat only within the tolerance: the region
+  /// on the other side of the facet. It could as well be there.
+  std::unordered_map<std::uint32_t, std::uint32_t> other_region;
+};
+
+/// Floods the mesh from the faces that stand for facets.
+/// \param flat  how far from its plane an interior facet reaches
+RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions,
+                                   const FacetMatches& matches, double flat);
+
+/// Decides the regions of which the input does not tell whether they are inside, by whether the mesh fills them.
+void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions);
+
+/// Checks that the mesh fills the domain and its regions, and adds the checks and both volumes to the result.
+void check_domain(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Surface& surface, const Regions& regions,
+                  const RegionsOfTetrahedra& assigned, Verification& result);
+
+}  // namespace ccdt::verify
