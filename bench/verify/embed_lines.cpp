@@ -5,7 +5,6 @@
 #include <set>
 
 #include "bench/verify/patches.h"
-#include "bench/verify/polygon_cells.h"
 
 namespace ccdt::verify {
 
@@ -168,12 +167,6 @@ void divide_patches(const Drawings& drawings, Surface& surface) {
 }
 
 }  // namespace
-
-PieceTree::PieceTree(const Surface& surface) : tolerance_(surface.tolerances.flat) {
-  std::vector<Item> items;
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) items.emplace_back(to_boost(surface.box_of_piece(p)), p);
-  tree_ = Tree(items);
-}
 
 PointOnPiece locate_on_piece(const Surface& surface, std::uint32_t piece, const Point3& p) {
   const Point3& area = surface.area_vector[piece];

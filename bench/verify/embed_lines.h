@@ -1,8 +1,5 @@
 #pragma once
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include "bench/verify/surface.h"
 
 namespace ccdt::verify {
@@ -10,27 +7,18 @@ namespace ccdt::verify {
 /// The pieces by their bounding boxes.
 class PieceTree {
  public:
-  explicit PieceTree(const Surface& surface);
+  explicit PieceTree(const Surface& surface)
+      : tolerance_(surface.tolerances.flat), tree_(surface.boxes_of_pieces(), surface.tolerances) {}
 
   /// Calls visit(piece) for all pieces whose box the box of a and b touches within the tolerance.
   template <class Visit>
   void for_each_near(const Point3& a, const Point3& b, const Visit& visit) const {
-    const BoostBox query = to_boost(expanded(hull(box_of(a), box_of(b)), tolerance_));
-    for (auto i = tree_.qbegin(boost::geometry::index::intersects(query)); i != tree_.qend(); ++i) visit(i->second);
+    tree_.for_each_meeting(expanded(hull(box_of(a), box_of(b)), tolerance_), visit);
   }
 
  private:
-  using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
-  using BoostBox = boost::geometry::model::box<Corner>;
-  using Item = std::pair<BoostBox, std::uint32_t>;
-  using Tree = boost::geometry::index::rtree<Item, boost::geometry::index::quadratic<16>>;
-
-  static BoostBox to_boost(const Box& box) {
-    return {Corner(box.low.x, box.low.y, box.low.z), Corner(box.high.x, box.high.y, box.high.z)};
-  }
-
   double tolerance_;
-  Tree tree_;
+  ScaledBoxTree tree_;
 };
 
 /// Where a point lies against a piece: in its plane and near its border, or within it.

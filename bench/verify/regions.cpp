@@ -1,7 +1,6 @@
 #include "bench/verify/regions.h"
 
 #include <cmath>
-#include <limits>
 #include <queue>
 
 #include "bench/verify/exact.h"
@@ -217,12 +216,9 @@ void place_seeds(const plc::InputPlc& input, const Surface& surface, const RaySh
 
 }  // namespace
 
-RayShooter::RayShooter(const Surface& surface) : surface_(surface) {
-  high_z_ = -std::numeric_limits<double>::infinity();
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    boxes_.push_back(surface.box_of_piece(p));
-    high_z_ = std::max(high_z_, boxes_[p].high.z);
-  }
+RayShooter::RayShooter(const Surface& surface)
+    : surface_(surface), high_z_(-HUGE_VAL), tree_(surface.boxes_of_pieces(), surface.tolerances) {
+  for (const Edge& e : surface.directed) high_z_ = std::max(high_z_, surface.at(e[0]).z);
 }
 
 Point3 RayShooter::direction(int attempt) {
@@ -233,15 +229,16 @@ std::optional<std::vector<Hit>> RayShooter::shoot(const Point3& start, int attem
   const Point3 end = start + length(start.z) * direction(attempt);
   const Box around = hull(box_of(start), box_of(end));
   std::vector<Hit> hits;
-  for (std::uint32_t p = 0; p < surface_.pieces(); ++p) {
-    if (!around.meets(boxes_[p])) continue;
-    const Crossing crossing = cross_piece(surface_, p, start, end);
-    if (crossing == Crossing::no) continue;
+  bool grazes = false;
+  tree_.for_each_meeting(around, [&](std::uint32_t p) {
+    const Crossing crossing = grazes ? Crossing::no : cross_piece(surface_, p, start, end);
+    if (crossing == Crossing::no) return;
     const Point3& n = surface_.area_vector[p];
     const double rise = dot(n, end - start);
-    if (crossing == Crossing::grazes || rise == 0) return std::nullopt;
+    grazes = crossing == Crossing::grazes || rise == 0;
     hits.push_back({p, dot(n, surface_.origin(p) - start) / rise, crossing == Crossing::down});
-  }
+  });
+  if (grazes) return std::nullopt;
   std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.along < b.along; });
   for (std::size_t i = 1; i < hits.size(); ++i)
     if (hits[i].along - hits[i - 1].along < 1e-12) return std::nullopt;

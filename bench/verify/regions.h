@@ -29,8 +29,8 @@ class RayShooter {
 
  private:
   const Surface& surface_;
-  std::vector<Box> boxes_;  // of each piece
-  double high_z_ = 0;
+  double high_z_;
+  ScaledBoxTree tree_;  // of the pieces
 };
 
 enum class Inside : std::uint8_t { no, yes, unknown };

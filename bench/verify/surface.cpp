@@ -2,73 +2,207 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
-#include "bench/verify/polygon_cells.h"
+#include "engine/base/hash_table.h"
+#include "engine/base/simplex_map.h"
 
 namespace ccdt::verify {
 
 namespace {
 
-/// Three integers that name a point, or a cell of a grid.
-using GridKey = std::array<std::int64_t, 3>;
-
-struct GridKeyHash {
-  std::size_t operator()(const GridKey& key) const {
+/// Keys of a hash table.
+struct PointTraits {
+  static constexpr Point3 none() { return {HUGE_VAL, HUGE_VAL, HUGE_VAL}; }
+  static std::size_t hash(const Point3& p) {
     std::uint64_t h = 0;
-    for (const std::int64_t part : key) {
-      h = (h ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15u;
+    for (const double part : as_array(p)) {
+      h = (h ^ std::bit_cast<std::uint64_t>(part + 0.0)) * 0x9E3779B97F4A7C15u;  // -0 is 0
       h ^= h >> 32;
     }
     return h;
   }
 };
 
-GridKey bits(const Point3& p) {
-  const auto bits_of = [](double c) { return std::bit_cast<std::int64_t>(c + 0.0); };  // -0 is 0
-  return {bits_of(p.x), bits_of(p.y), bits_of(p.z)};
-}
-
-/// Finds the nearest of a set of points within a fixed distance: a grid of cells of twice that size.
+/// Finds the nearest of the mesh's vertices in use within a tolerance of a point of the input.
 class NearestVertex {
  public:
-  explicit NearestVertex(double tolerance) : tolerance_(tolerance) {}
-
-  void add(const Point3& p, std::uint32_t vertex) { cells_.emplace(cell(p), std::pair{p, vertex}); }
+  NearestVertex(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
+                const Tolerances& tolerances)
+      : mesh_(mesh), tolerance_(tolerances.place) {
+    const Box bounds = expanded(bounding_box(input.vertices), tolerance_);
+    std::vector<Box> boxes;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+      const Box box = box_of(mesh.vertices[v]);
+      if (!topology.used(v) || !bounds.meets(box)) continue;
+      vertices_.push_back(v);
+      boxes.push_back(box);
+    }
+    tree_ = ScaledBoxTree(std::move(boxes), tolerances);
+  }
 
   std::uint32_t find(const Point3& p) const {
     double best = tolerance_ * tolerance_;
     std::uint32_t nearest = none;
-    const GridKey low = cell({p.x - tolerance_, p.y - tolerance_, p.z - tolerance_});
-    const GridKey high = cell({p.x + tolerance_, p.y + tolerance_, p.z + tolerance_});
-    for (std::int64_t x = low[0]; x <= high[0]; ++x)
-      for (std::int64_t y = low[1]; y <= high[1]; ++y)
-        for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-          const auto [begin, end] = cells_.equal_range({x, y, z});
-          for (auto i = begin; i != end; ++i) {
-            const double distance = squared_length(i->second.first - p);
-            if (distance > best) continue;
-            best = distance;
-            nearest = i->second.second;
-          }
-        }
+    tree_.for_each_meeting(expanded(box_of(p), tolerance_), [&](std::uint32_t i) {
+      const double distance = squared_length(mesh_.vertices[vertices_[i]] - p);
+      if (distance > best) return;
+      best = distance;
+      nearest = vertices_[i];
+    });
     return nearest;
   }
 
  private:
-  /// Clamped, so that a vertex far away, which is near nothing, does not overflow the integers.
-  GridKey cell(const Point3& p) const {
-    const auto index = [&](double c) {
-      return static_cast<std::int64_t>(std::fmin(std::fmax(std::floor(c / (2 * tolerance_)), -9e17), 9e17));
-    };
-    return {index(p.x), index(p.y), index(p.z)};
-  }
-
+  const mesh::TetMesh& mesh_;
   double tolerance_;
-  std::unordered_multimap<GridKey, std::pair<Point3, std::uint32_t>, GridKeyHash> cells_;
+  std::vector<std::uint32_t> vertices_;  // those near the input
+  ScaledBoxTree tree_;
 };
+
+std::vector<Edge> edges_of(const std::vector<std::uint32_t>& polygon, std::span<const std::uint32_t> site_of_input) {
+  std::vector<Edge> edges;
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n && n > 1; ++i) {
+    const Edge e = {site_of_input[polygon[i]], site_of_input[polygon[(i + 1) % n]]};
+    if (e[0] != e[1]) edges.push_back(e);
+  }
+  return edges;
+}
+
+Point3 area_vector(const PolygonCell& loop, std::span<const Point3> position) {
+  Point3 sum;
+  if (loop.empty()) return sum;
+  const Point3 origin = position[loop[0][0]];
+  for (const auto& [a, b] : loop) sum = sum + cross(position[a] - origin, position[b] - origin);
+  return sum;
+}
+
+/// A drawing of the facet seen along the axis that its plane is most across.
+struct Drawing {
+  std::size_t first = 0, second = 1;
+  std::span<const Point3> position;
+
+  std::array<double, 2> at(const Point3& p) const { return {as_array(p)[first], as_array(p)[second]}; }
+  std::array<double, 2> at(std::uint32_t site) const { return at(position[site]); }
+};
+
+Drawing draw(const Point3& normal, std::span<const Point3> position) {
+  const auto n = as_array(normal);
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::fabs(n[i]) > std::fabs(n[axis])) axis = i;
+  Drawing drawing{(axis + 1) % 3, (axis + 2) % 3, position};
+  if (n[axis] < 0) std::swap(drawing.first, drawing.second);
+  return drawing;
+}
+
+double area(const Drawing& drawing, const PolygonCell& loop) {
+  double sum = 0;
+  const auto o = drawing.at(loop[0][0]);
+  for (const auto& [u, v] : loop) {
+    const auto a = drawing.at(u), b = drawing.at(v);
+    sum += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  }
+  return sum / 2;
+}
+
+bool contains(const Drawing& drawing, std::span<const Edge> loop, const std::array<double, 2>& p) {
+  bool inside = false;
+  for (const auto& [u, v] : loop) {
+    const auto a = drawing.at(u), b = drawing.at(v);
+    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+    if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+  }
+  return inside;
+}
+
+/// Closed walks around the drawing's faces, each with its face to the left: at each vertex the next edge clockwise from
+/// the one that it came by.
+std::vector<PolygonCell> trace_loops(const Drawing& drawing, const std::set<Edge>& undirected) {
+  std::map<std::uint32_t, std::vector<std::pair<double, std::uint32_t>>> around;
+  for (const auto& [a, b] : undirected) {
+    const auto p = drawing.at(a), q = drawing.at(b);
+    around[a].push_back({std::atan2(q[1] - p[1], q[0] - p[0]), b});
+    around[b].push_back({std::atan2(p[1] - q[1], p[0] - q[0]), a});
+  }
+  for (auto& [v, out] : around) std::sort(out.begin(), out.end());
+  const auto next = [&](const Edge& e) -> Edge {
+    const auto& out = around[e[1]];
+    const auto back = std::find_if(out.begin(), out.end(), [&](const auto& o) { return o.second == e[0]; });
+    return {e[1], (back == out.begin() ? out.back() : *(back - 1)).second};
+  };
+  std::set<Edge> left;
+  for (const auto& [a, b] : undirected) left.insert({{a, b}, {b, a}});
+  std::vector<PolygonCell> loops;
+  while (!left.empty()) {
+    loops.emplace_back();
+    for (Edge e = *left.begin(); left.erase(e) > 0; e = next(e)) loops.back().push_back(e);
+  }
+  return loops;
+}
+
+bool share_a_vertex(const std::vector<Edge>& a, const std::vector<Edge>& b) {
+  for (const auto& e : a)
+    for (const auto& f : b)
+      if (e[0] == f[0]) return true;
+  return false;
+}
+
+/// The smallest of the outer loops around a point that `skip` does not rule out, or none.
+template <class Skip>
+std::size_t smallest_around(const Drawing& drawing, const std::vector<PolygonCell>& loops,
+                            const std::vector<double>& areas, const std::array<double, 2>& p, const Skip& skip) {
+  std::size_t smallest = loops.size();
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (areas[i] <= 0 || (smallest < loops.size() && areas[i] >= areas[smallest])) continue;
+    if (contains(drawing, loops[i], p) && !skip(i)) smallest = i;
+  }
+  return smallest;
+}
+
+struct PolygonCells {
+  std::vector<PolygonCell> cells;
+  std::vector<Edge> segments;  ///< edges that the polygons draw within the facet
+};
+
+/// The cells into which the polygons of a facet divide their plane, without those that hold a hole's point.
+PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
+                                std::span<const Point3> position) {
+  PolygonCells result;
+  std::vector<PolygonCell> polygons;
+  for (const auto& polygon : facet.polygons) polygons.push_back(edges_of(polygon, site_of_input));
+  if (polygons.size() == 1 && facet.holes.empty()) {
+    result.cells.push_back(polygons[0]);
+    return result;
+  }
+  Point3 normal;
+  std::set<Edge> undirected;
+  for (const auto& polygon : polygons) {
+    const Point3 n = area_vector(polygon, position);
+    if (squared_length(n) > squared_length(normal)) normal = n;
+    for (const Edge& e : polygon) undirected.insert(ascending(e));
+  }
+  const Drawing drawing = draw(normal, position);
+  const auto [loops, areas, cells] = trace_drawing(normal, undirected, position);
+  std::vector<bool> dropped(loops.size(), false);
+  for (const Point3& hole : facet.holes) {
+    const std::size_t around =
+        smallest_around(drawing, loops, areas, drawing.at(hole), [](std::size_t) { return false; });
+    if (around < loops.size()) dropped[around] = true;
+  }
+  std::set<Edge> kept;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (areas[i] <= 0 || dropped[i]) continue;
+    result.cells.push_back(cells[i]);
+    kept.insert(cells[i].begin(), cells[i].end());
+  }
+  for (const auto& [a, b] : undirected)
+    if (kept.count({a, b}) > 0 && kept.count({b, a}) > 0) result.segments.push_back({a, b});
+  return result;
+}
 
 /// Do the edges enclose nothing, because each runs there and back?
 bool is_empty(const PolygonCell& cell) {
@@ -111,7 +245,7 @@ void index_edges(Surface& surface) {
     for (const std::uint32_t use : surface.uses_of(p)) surface.piece_of[use] = p;
   std::vector<std::uint64_t> keys(n);  // compare faster than edges
   std::transform(surface.directed.begin(), surface.directed.end(), keys.begin(),
-                 [](const Edge& e) { return key(ascending(e)); });
+                 [](const Edge& e) { return edge_key(e[0], e[1]); });
   auto& [first, uses] = surface.uses;
   uses.resize(n);
   std::iota(uses.begin(), uses.end(), 0u);
@@ -160,26 +294,19 @@ void split_edges(Surface& surface) {
 
 }  // namespace
 
-Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology, double tolerance) {
+Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
+                  const Tolerances& tolerances) {
   Sites sites;
   sites.mesh_vertices = static_cast<std::uint32_t>(mesh.vertices.size());
   sites.position = mesh.vertices;
-  sites.of_input.assign(input.vertices.size(), none);
-  std::unordered_map<GridKey, std::uint32_t, GridKeyHash> exact;
+  HashTable<Point3, std::uint32_t, PointTraits> exact;
   exact.reserve(mesh.vertices.size());
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    if (topology.used(v)) exact.emplace(bits(mesh.vertices[v]), v);
-  bool all_exact = true;
-  for (std::size_t i = 0; i < input.vertices.size(); ++i) {
-    const auto found = exact.find(bits(input.vertices[i]));
-    if (found != exact.end()) sites.of_input[i] = found->second;
-    all_exact = all_exact && found != exact.end();
-  }
-  if (all_exact) return sites;
+    if (topology.used(v)) exact.insert(mesh.vertices[v], v);
+  for (const Point3& p : input.vertices) sites.of_input.push_back(exact.get(p, none));
+  if (std::ranges::count(sites.of_input, none) == 0) return sites;
 
-  NearestVertex near(tolerance);
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    if (topology.used(v)) near.add(mesh.vertices[v], v);
+  const NearestVertex near(input, mesh, topology, tolerances);
   std::vector<bool> moved(mesh.vertices.size(), false);
   for (std::size_t i = 0; i < input.vertices.size(); ++i) {
     std::uint32_t& site = sites.of_input[i];
@@ -190,7 +317,7 @@ Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const T
       sites.position[site] = input.vertices[i];
     }
     if (site != none) continue;
-    site = exact.emplace(bits(input.vertices[i]), static_cast<std::uint32_t>(sites.position.size())).first->second;
+    site = *exact.insert(input.vertices[i], static_cast<std::uint32_t>(sites.position.size())).first;
     if (site == sites.position.size()) sites.position.push_back(input.vertices[i]);
   }
   return sites;
@@ -212,10 +339,17 @@ void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_
   number.push_back(its_number);
 }
 
-Box Surface::box_of_piece(std::uint32_t piece) const {
-  Box box = box_of(origin(piece));
-  for (const auto& [site, next] : edges_of(piece)) box = hull(box, box_of(at(site)));
-  return box;
+ScaledBoxTree::ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerances)
+    : scale_(tolerances.box > 1e-300 ? std::ldexp(1, 21 - std::ilogb(tolerances.box)) : 1), tree_([&] {
+        for (Box& box : boxes) box = scaled(box);
+        return std::move(boxes);
+      }()) {}
+
+std::vector<Box> Surface::boxes_of_pieces() const {
+  std::vector<Box> boxes(pieces(), empty_box);
+  for (std::size_t i = 0; i < directed.size(); ++i)
+    boxes[piece_of[i]] = hull(boxes[piece_of[i]], box_of(at(directed[i][0])));
+  return boxes;
 }
 
 void set_pieces(Pieces pieces, Surface& surface) {
@@ -272,6 +406,31 @@ Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& 
   set_pieces(find_pieces(input, surface), surface);
   split_edges(surface);
   return surface;
+}
+
+DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected, std::span<const Point3> position) {
+  const Drawing drawing = draw(normal, position);
+  DrawnLoops drawn;
+  auto& [loops, areas, cells] = drawn;
+  loops = trace_loops(drawing, undirected);
+  double largest = 0;
+  for (const auto& loop : loops) areas.push_back(area(drawing, loop));
+  for (const double a : areas) largest = std::max(largest, std::fabs(a));
+  for (double& a : areas)
+    if (std::fabs(a) < 1e-14 * largest) a = 0;  // a walk around edges that enclose nothing
+  cells = loops;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (areas[i] > 0) continue;
+    const std::size_t around = smallest_around(drawing, loops, areas, drawing.at(loops[i][0][0]),
+                                               [&](std::size_t j) { return share_a_vertex(loops[i], loops[j]); });
+    if (around < loops.size()) cells[around].insert(cells[around].end(), loops[i].begin(), loops[i].end());
+  }
+  return drawn;
+}
+
+bool encloses(const Point3& normal, std::span<const Edge> loop, std::span<const Point3> position, const Point3& point) {
+  const Drawing drawing = draw(normal, position);
+  return contains(drawing, loop, drawing.at(point));
 }
 
 }  // namespace ccdt::verify

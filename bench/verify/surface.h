@@ -2,10 +2,11 @@
 
 #include <functional>
 #include <ranges>
+#include <set>
 #include <span>
 
 #include "bench/verify/topology.h"
-#include "engine/base/box.h"
+#include "engine/base/box_tree.h"
 #include "engine/plc/input.h"
 
 namespace ccdt::verify {
@@ -29,8 +30,46 @@ struct Sites {
   bool in_mesh(std::uint32_t site) const { return site < mesh_vertices; }
 };
 
-/// Matches exact coordinates first, then the nearest vertex in use within `tolerance`.
-Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology, double tolerance);
+/// Matches exact coordinates first, then the nearest vertex in use within `tolerances.place`.
+Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
+                  const Tolerances& tolerances);
+
+/// A tree of boxes in the units of the input, kept in units that suit the tree whatever the size of the input.
+class ScaledBoxTree {
+ public:
+  ScaledBoxTree() : tree_({}) {}
+  ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerances);
+
+  /// Calls visit(i) for all boxes that meet the given one.
+  template <class Visit>
+  void for_each_meeting(const Box& box, const Visit& visit) const {
+    tree_.for_each_meeting(scaled(box), visit);
+  }
+
+ private:
+  Box scaled(const Box& box) const { return {scale_ * box.low, scale_ * box.high}; }
+
+  double scale_ = 1;
+  BoxTree tree_;
+};
+
+/// A part of a facet without inner edges: the directed edges of its outer loop and of the loops of what is cut out of
+/// it, with the cell to their left.
+using PolygonCell = std::vector<Edge>;
+
+/// The faces of a planar drawing.
+struct DrawnLoops {
+  std::vector<PolygonCell> loops;  ///< closed walks, each with a face to its left
+  std::vector<double> areas;       ///< of each loop; positive if it is the outer loop of its face
+  std::vector<PolygonCell> cells;  ///< of each outer loop: with the loops of what lies within
+};
+
+/// \param normal      of the plane, from the side that it is seen from
+/// \param undirected  ascending
+DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected, std::span<const Point3> position);
+
+/// Is a point within a loop of edges, or an odd number of them, seen along the plane's normal?
+bool encloses(const Point3& normal, std::span<const Edge> loop, std::span<const Point3> position, const Point3& point);
 
 /// Parts of the input's facets that are bounded by directed edges between sites: triangles, and cells of polygons with
 /// holes. A piece is seen from *above* where its outer loop is counterclockwise.
@@ -68,7 +107,7 @@ struct Surface : Pieces {
   const Point3& at(std::uint32_t site) const { return sites.position[site]; }
   /// Some point of the piece's plane.
   const Point3& origin(std::uint32_t piece) const { return at(directed[piece_begin[piece]][0]); }
-  Box box_of_piece(std::uint32_t piece) const;
+  std::vector<Box> boxes_of_pieces() const;
   bool is_triangle(std::uint32_t piece) const { return edges_of(piece).size() == 3; }
   /// Does the directed edge run from the smaller site to the larger?
   bool is_forward(std::uint32_t use) const { return directed[use][0] < directed[use][1]; }

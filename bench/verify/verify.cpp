@@ -320,7 +320,7 @@ void check_against_input(const plc::InputPlc& input, const mesh::TetMesh& mesh, 
                          const VerifyOptions& options, const Progress& progress, Verification& result) {
   const Tolerances tolerances = find_tolerances(input, options.flatness);
   report(progress, "verify facets", 0, 0);
-  Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances.place), tolerances);
+  Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances), tolerances);
   embed_lines(surface);
   Regions regions = find_regions(input, surface);
   if (options.boundary == VerifyOptions::Boundary::slide) let_vertices_slide(surface, regions);
