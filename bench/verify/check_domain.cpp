@@ -47,54 +47,42 @@ std::vector<std::vector<int>> wanted_regions(const mesh::TetMesh& mesh, const Re
   return wanted;
 }
 
+/// Empties a queue of tetrahedra. Calls enter(neighbor, tetrahedron) for those behind the faces that `is_open` names,
+/// which may put more into the queue.
+template <class IsOpen, class Enter>
+void flood(const Topology& topology, std::vector<std::uint32_t>& queue, const IsOpen& is_open, const Enter& enter) {
+  while (!queue.empty()) {
+    const std::uint32_t t = queue.back();
+    queue.pop_back();
+    for (std::uint32_t corner = 0; corner < 4; ++corner) {
+      const std::uint32_t f = topology.face_of[4 * t + corner];
+      if (!topology.on_boundary(f) && is_open(f)) enter(topology.across(f, t), t);
+    }
+  }
+}
+
 /// Finds the tetrahedra between two sheets of faces that both span an interior facet: those with all four vertices on
 /// the sheet that was taken and near its plane, that a way through such connects with it.
-class FlatTetrahedra {
- public:
-  FlatTetrahedra(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions, double flat,
-                 RegionsOfTetrahedra& assigned)
-      : mesh_(mesh), topology_(topology), regions_(regions), flat_(flat), assigned_(assigned) {}
-
-  void find(std::span<const MatchedFace> sheet, const Plane& plane) {
-    const std::uint32_t a = regions_.of_side[2 * sheet[0].piece], b = regions_.of_side[2 * sheet[0].piece + 1];
-    if (a == b) return;
-    on_sheet_.clear();
-    for (const MatchedFace& f : sheet) on_sheet_.insert(topology_.faces[f.face].begin(), topology_.faces[f.face].end());
-    std::vector<std::uint32_t> queue;
-    const auto enter = [&](std::uint32_t tet) {
-      const std::uint32_t c = assigned_.region[tet];
-      if ((c != a && c != b) || !is_within(tet, plane)) return;
-      if (assigned_.other_region.try_emplace(tet, c == a ? b : a).second) queue.push_back(tet);
-    };
-    for (const MatchedFace& f : sheet) {
-      enter(f.tet_above);
-      enter(f.tet_below);
-    }
-    while (!queue.empty()) {
-      const std::uint32_t t = queue.back();
-      queue.pop_back();
-      for (std::uint32_t corner = 0; corner < 4; ++corner) {
-        const std::uint32_t f = topology_.face_of[4 * t + corner];
-        if (!topology_.on_boundary(f)) enter(topology_.across(f, t));
-      }
-    }
-  }
-
- private:
-  bool is_within(std::uint32_t tet, const Plane& plane) const {
-    const auto& corners = mesh_.tetrahedra[tet];
-    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-      return std::fabs(dot(plane.normal, mesh_.vertices[v] - plane.point)) <= flat_ && on_sheet_.count(v) > 0;
-    });
-  }
-
-  const mesh::TetMesh& mesh_;
-  const Topology& topology_;
-  const Regions& regions_;
-  double flat_;
-  RegionsOfTetrahedra& assigned_;
-  std::unordered_set<std::uint32_t> on_sheet_;
-};
+void find_flat_tetrahedra(const Topology& topology, const Regions& regions, std::span<const MatchedFace> sheet,
+                          const Plane& plane, double flat, RegionsOfTetrahedra& assigned) {
+  const std::uint32_t a = regions.of_side[2 * sheet[0].piece], b = regions.of_side[2 * sheet[0].piece + 1];
+  if (a == b) return;
+  std::unordered_set<std::uint32_t> on_sheet;
+  for (const MatchedFace& f : sheet) on_sheet.insert(topology.faces[f.face].begin(), topology.faces[f.face].end());
+  const auto is_on_sheet = [&](std::uint32_t v) {
+    return std::fabs(dot(plane.normal, topology.mesh.vertices[v] - plane.point)) <= flat && on_sheet.count(v) > 0;
+  };
+  std::vector<std::uint32_t> queue;
+  const auto enter = [&](std::uint32_t tet, std::uint32_t) {
+    const std::uint32_t c = assigned.region[tet];
+    if ((c != a && c != b) || !std::ranges::all_of(topology.mesh.tetrahedra[tet], is_on_sheet)) return;
+    if (assigned.other_region.try_emplace(tet, c == a ? b : a).second) queue.push_back(tet);
+  };
+  for (const MatchedFace& f : sheet)
+    for (const std::uint32_t tet : {f.tet_above, f.tet_below}) enter(tet, none);
+  flood(
+      topology, queue, [](std::uint32_t) { return true; }, enter);
+}
 
 /// Every tetrahedron is in one region, and that is inside.
 Check check_inside(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
@@ -185,10 +173,10 @@ Check check_volume(const Surface& surface, const Regions& regions, double of_mes
 
 }  // namespace
 
-RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions,
-                                   const FacetMatches& matches, double flat) {
+RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regions, const FacetMatches& matches,
+                                   double flat) {
   RegionsOfTetrahedra assigned;
-  assigned.region.assign(mesh.tetrahedra.size(), none);
+  assigned.region.assign(topology.mesh.tetrahedra.size(), none);
   std::vector<std::uint32_t> queue;
   const auto enter = [&](std::uint32_t tet, std::uint32_t region) {
     if (tet == none) return;
@@ -203,20 +191,15 @@ RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& to
     enter(f.tet_above, regions.of_side[2 * f.piece]);
     enter(f.tet_below, regions.of_side[2 * f.piece + 1]);
   }
-  while (!queue.empty()) {
-    const std::uint32_t t = queue.back();
-    queue.pop_back();
-    for (std::uint32_t corner = 0; corner < 4; ++corner) {
-      const std::uint32_t f = topology.face_of[4 * t + corner];
-      if (!matches.is_matched[f] && !topology.on_boundary(f)) enter(topology.across(f, t), assigned.region[t]);
-    }
-  }
+  flood(
+      topology, queue, [&](std::uint32_t face) { return !matches.is_matched[face]; },
+      [&](std::uint32_t tet, std::uint32_t from) { enter(tet, assigned.region[from]); });
   sort_and_unique(assigned.conflicts);
-  FlatTetrahedra flat_tetrahedra(mesh, topology, regions, flat, assigned);
   for (auto begin = matches.faces.begin(); begin != matches.faces.end();) {
     const auto end =
         std::find_if(begin, matches.faces.end(), [&](const MatchedFace& f) { return f.plane != begin->plane; });
-    if (begin->plane != none) flat_tetrahedra.find({begin, end}, matches.planes[begin->plane]);
+    if (begin->plane != none)
+      find_flat_tetrahedra(topology, regions, {begin, end}, matches.planes[begin->plane], flat, assigned);
     begin = end;
   }
   return assigned;

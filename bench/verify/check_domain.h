@@ -19,8 +19,8 @@ struct RegionsOfTetrahedra {
 
 /// Floods the mesh from the faces that stand for facets.
 /// \param flat  how far from its plane an interior facet reaches
-RegionsOfTetrahedra assign_regions(const mesh::TetMesh& mesh, const Topology& topology, const Regions& regions,
-                                   const FacetMatches& matches, double flat);
+RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regions, const FacetMatches& matches,
+                                   double flat);
 
 /// Decides the regions of which the input does not tell whether they are inside, by whether the mesh fills them.
 void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions);

@@ -1,19 +1,18 @@
 #include "bench/verify/match_facets.h"
 
 #include <cmath>
-#include <unordered_set>
+#include <set>
 
+#include "engine/base/simplex_map.h"
 #include "engine/base/union_find.h"
 
 namespace ccdt::verify {
 
 namespace {
 
-/// The number of something at an edge of the mesh, behind the `key` of the edge's ascending ends.
-using EdgeEntry = std::pair<std::uint64_t, std::uint32_t>;
-
-std::span<const EdgeEntry> entries_at(const std::vector<EdgeEntry>& sorted, const Edge& e) {
-  const auto found = std::ranges::equal_range(sorted, key(ascending(e)), {}, &EdgeEntry::first);
+/// The entries of an edge in a sorted list.
+std::span<const AtEdge> entries_at(const std::vector<AtEdge>& sorted, const Edge& e) {
+  const auto found = std::ranges::equal_range(sorted, edge_key(e[0], e[1]), {}, &AtEdge::edge);
   return {found.begin(), found.end()};
 }
 
@@ -25,17 +24,17 @@ std::array<Edge, 3> edges_of(const Face& v) {
 struct Boundary {
   std::vector<std::uint32_t> faces;
   std::vector<Face> corners;
-  std::vector<EdgeEntry> at_edges;  ///< each edge with the faces at it, sorted
+  std::vector<AtEdge> at_edges;  ///< each edge with the faces at it, sorted
 };
 
-Boundary find_boundary(const mesh::TetMesh& mesh, const Topology& topology) {
+Boundary find_boundary(const Topology& topology) {
   Boundary boundary;
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
     if (!topology.on_boundary(f)) continue;
     const auto n = static_cast<std::uint32_t>(boundary.faces.size());
     boundary.faces.push_back(f);
-    boundary.corners.push_back(outward(mesh, topology.half_faces[f][0]));
-    for (const Edge& e : edges_of(boundary.corners.back())) boundary.at_edges.push_back({key(ascending(e)), n});
+    boundary.corners.push_back(outward(topology.mesh, topology.half_faces[f][0]));
+    for (const Edge& e : edges_of(boundary.corners.back())) boundary.at_edges.push_back({edge_key(e[0], e[1]), n});
   }
   std::sort(boundary.at_edges.begin(), boundary.at_edges.end());
   return boundary;
@@ -69,19 +68,14 @@ struct BoundaryPart {
 
 class BoundaryMatcher {
  public:
-  BoundaryMatcher(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, const Chains& chains,
-                  FacetMatches& matches)
-      : mesh_(mesh),
-        topology_(topology),
-        surface_(surface),
-        matches_(matches),
-        boundary_(find_boundary(mesh, topology)) {
+  BoundaryMatcher(const Topology& topology, const Surface& surface, const Chains& chains, FacetMatches& matches)
+      : topology_(topology), surface_(surface), matches_(matches), boundary_(find_boundary(topology)) {
     const std::vector<bool> joined = find_joined(surface, chains, boundary_);
     patches_ = group_pieces(surface, chains, joined);
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
       const auto chain = chains.of(e);
       for (std::size_t k = 1; k < chain.size() && !joined[e]; ++k)
-        walls_.push_back({key(ascending(Edge{chain[k - 1], chain[k]})), e});
+        walls_.push_back({edge_key(chain[k - 1], chain[k]), e});
     }
     std::sort(walls_.begin(), walls_.end());
   }
@@ -97,14 +91,12 @@ class BoundaryMatcher {
 
  private:
   /// Sets of boundary faces that no wall divides.
-  IndexLists divide_boundary() const {
-    const auto& at_edges = boundary_.at_edges;
+  IndexLists divide_boundary() {
     UnionFind sets(boundary_.faces.size());
-    for (std::size_t i = 0, end = 0; i < at_edges.size(); i = end) {
-      while (end < at_edges.size() && at_edges[end].first == at_edges[i].first) ++end;
-      const bool is_wall = std::ranges::binary_search(walls_, at_edges[i].first, {}, &EdgeEntry::first);
-      if (end - i == 2 && !is_wall) sets.join(at_edges[i].second, at_edges[i + 1].second);
-    }
+    for_each_edge_group(boundary_.at_edges, [&](std::span<const AtEdge> group) {
+      const bool is_wall = std::ranges::binary_search(walls_, group[0].edge, {}, &AtEdge::edge);
+      if (group.size() == 2 && !is_wall) sets.join(group[0].value, group[1].value);
+    });
     return make_index_lists(boundary_.faces.size(), [&](const auto& add) {
       for (std::uint32_t n = 0; n < boundary_.faces.size(); ++n) add(sets.find(n), n);
     });
@@ -141,7 +133,7 @@ class BoundaryMatcher {
       for (const std::uint32_t patch : find_candidates(part)) {
         if (patches_.open[patch] || patches_.links[patch] != part.links) continue;
         const std::uint32_t piece = patches_.pieces.of(patch)[0];
-        std::string problem = compare_with_patch(mesh_, surface_, patches_, patch, part.faces);
+        std::string problem = compare_with_patch(topology_.mesh, surface_, patches_, patch, part.faces);
         if (problem.empty() && matches_.found[piece] != FoundAs::nothing)
           problem = "two sheets of the boundary are on it";
         if (problem.empty()) {
@@ -166,13 +158,12 @@ class BoundaryMatcher {
     }
   }
 
-  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Surface& surface_;
   FacetMatches& matches_;
   Boundary boundary_;
   Patches patches_;
-  std::vector<EdgeEntry> walls_;  // links of the chains of edges that part patches, with the edge; sorted
+  std::vector<AtEdge> walls_;  // links of the chains of edges that part patches, with the edge; sorted
 };
 
 /// Spreads a sheet of inner faces of the mesh over a patch, from the links around it inwards.
@@ -182,16 +173,14 @@ class BoundaryMatcher {
 /// sheet.
 class Sheet {
  public:
-  Sheet(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, const Patches& patches,
-        std::uint32_t patch)
-      : mesh_(mesh),
-        topology_(topology),
+  Sheet(const Topology& topology, const Surface& surface, const Patches& patches, std::uint32_t patch)
+      : topology_(topology),
         patches_(patches),
         patch_(patch),
+        open_(patches.links[patch]),
         flat_(surface.tolerances.flat),
         greatest_area_(1.001 * patches.area[patch] + surface.tolerances.flat * patches.perimeter[patch]) {
-    for (const Edge& link : patches.links[patch]) walls_.insert(key(link));
-    open_ = patches.links[patch];
+    walls_.insert(open_.begin(), open_.end());
   }
 
   std::vector<Face> faces;           ///< seen from above
@@ -200,16 +189,15 @@ class Sheet {
   /// \return whether the sheet spans the patch
   bool spread() {
     while (!open_.empty()) {
-      const auto [a, b] = open_.back();
+      const Edge edge = open_.back();
       open_.pop_back();
-      if (done_.count(key({a, b})) > 0) continue;
-      if (!add_face(a, b)) return false;
+      if (done_.count(edge) == 0 && !add_face(edge[0], edge[1])) return false;
     }
     return true;
   }
 
  private:
-  const Point3& at(std::uint32_t v) const { return mesh_.vertices[v]; }
+  const Point3& at(std::uint32_t v) const { return topology_.mesh.vertices[v]; }
 
   bool in_plane(std::uint32_t v) const { return std::fabs(patches_.height(patch_, at(v))) <= flat_; }
 
@@ -228,12 +216,12 @@ class Sheet {
     std::uint32_t best = none, best_tet = none;
     std::pair<bool, double> best_rank = {false, least_area};  // is it topmost? its area
     for (const std::uint32_t t : topology_.stars.of(a)) {
-      const auto& tet = mesh_.tetrahedra[t];
+      const auto& tet = topology_.mesh.tetrahedra[t];
       if (std::find(tet.begin(), tet.end(), b) == tet.end()) continue;
       for (std::uint32_t corner = 0; corner < 4; ++corner) {
         const std::uint32_t apex = tet[corner];
         if (apex == a || apex == b) continue;
-        const auto [u, v, w] = outward(mesh_, 4 * t + corner);
+        const auto [u, v, w] = outward(topology_.mesh, 4 * t + corner);
         const std::uint32_t third = u != a && u != b ? u : v != a && v != b ? v : w;
         // Seen from within the tetrahedron, which is to be above, the face runs the other way round than outward.
         const bool runs = (u == b && v == a) || (v == b && w == a) || (w == b && u == a);
@@ -255,27 +243,40 @@ class Sheet {
   /// An edge of a new face: a link, or to be shared with the next face.
   bool close(const Edge& e) {
     const Edge reverse = {e[1], e[0]};
-    if (!done_.insert(key(e)).second) return false;
-    if (walls_.count(key(e)) == 0 && done_.count(key(reverse)) == 0) open_.push_back(reverse);
+    if (!done_.insert(e).second) return false;
+    if (walls_.count(e) == 0 && done_.count(reverse) == 0) open_.push_back(reverse);
     return true;
   }
 
-  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Patches& patches_;
   std::uint32_t patch_;
-  double flat_, greatest_area_, area_ = 0;
-  std::unordered_set<std::uint64_t> walls_, done_;
   std::vector<Edge> open_;
+  double flat_, greatest_area_, area_ = 0;
+  std::set<Edge> walls_, done_;
 };
 
 class InteriorMatcher {
  public:
-  InteriorMatcher(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, FacetMatches& matches)
-      : mesh_(mesh), topology_(topology), surface_(surface), matches_(matches) {}
+  InteriorMatcher(const Topology& topology, const Surface& surface, FacetMatches& matches)
+      : topology_(topology), surface_(surface), matches_(matches) {}
 
+  /// Whole facets first, since the sheets of a facet need not agree about its inner edges; then as small as the mesh's
+  /// edges allow, for facets that are bent a little.
+  void match(const Chains& chains, const std::vector<bool>& features) {
+    const auto is_left = [&](std::uint32_t use) { return matches_.found[surface_.piece_of[use]] == FoundAs::nothing; };
+    std::vector<bool> joined(surface_.edges.size());
+    for (const bool whole : {true, false}) {
+      for (std::uint32_t e = 0; e < surface_.edges.size(); ++e)
+        joined[e] = surface_.use_count(e) == 2 && std::ranges::all_of(surface_.uses.of(e), is_left) &&
+                    (chains.missing(e) || (whole && !features[e]));
+      match_patches(group_pieces(surface_, chains, joined));
+    }
+  }
+
+ private:
   /// Matches what is left of the pieces patch by patch.
-  void match(const Patches& patches) {
+  void match_patches(const Patches& patches) {
     for (std::uint32_t n = 0; n < patches.count(); ++n) {
       const auto pieces = patches.pieces.of(n);
       if (std::ranges::any_of(pieces, [&](std::uint32_t p) { return matches_.found[p] != FoundAs::nothing; })) continue;
@@ -286,7 +287,6 @@ class InteriorMatcher {
     }
   }
 
- private:
   std::uint32_t last_plane() const { return static_cast<std::uint32_t>(matches_.planes.size() - 1); }
 
   /// Each piece is a face of the mesh as it is.
@@ -299,7 +299,7 @@ class InteriorMatcher {
       const Face corners = {edges[0][0], edges[1][0], edges[2][0]};
       const std::uint32_t f = find_face(topology_, corners);
       if (f == none || topology_.on_boundary(f)) return false;
-      const auto out = outward(mesh_, topology_.half_faces[f][0]);
+      const auto out = outward(topology_.mesh, topology_.half_faces[f][0]);
       const bool first_is_below = std::find(out.begin(), out.end(), corners[0]) - out.begin() ==
                                   (std::find(out.begin(), out.end(), corners[1]) - out.begin() + 2) % 3;
       const std::uint32_t first = topology_.half_faces[f][0] / 4, second = topology_.half_faces[f][1] / 4;
@@ -311,10 +311,10 @@ class InteriorMatcher {
   }
 
   void match_by_sheet(const Patches& patches, std::uint32_t n) {
-    Sheet sheet(mesh_, topology_, surface_, patches, n);
+    Sheet sheet(topology_, surface_, patches, n);
     const std::uint32_t piece = patches.pieces.of(n)[0];
-    const std::string problem =
-        sheet.spread() ? compare_with_patch(mesh_, surface_, patches, n, sheet.faces) : "no sheet of faces spans it";
+    const std::string problem = sheet.spread() ? compare_with_patch(topology_.mesh, surface_, patches, n, sheet.faces)
+                                               : "no sheet of faces spans it";
     if (!problem.empty()) {
       matches_.problem[piece] = problem;
       return;
@@ -334,39 +334,22 @@ class InteriorMatcher {
     matches_.faces.insert(matches_.faces.end(), faces.begin(), faces.end());
   }
 
-  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   const Surface& surface_;
   FacetMatches& matches_;
 };
 
-void match_interior(InteriorMatcher& interior, const Surface& surface, const Chains& chains,
-                    const std::vector<bool>& features, const FacetMatches& matches) {
-  // Whole facets first, since the sheets of a facet need not agree about its inner edges; then as small as the mesh's
-  // edges allow, for facets that are bent a little.
-  const auto is_left = [&](std::uint32_t use) { return matches.found[surface.piece_of[use]] == FoundAs::nothing; };
-  std::vector<bool> joined(surface.edges.size());
-  for (const bool whole : {true, false}) {
-    for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
-      joined[e] = surface.use_count(e) == 2 && std::ranges::all_of(surface.uses.of(e), is_left) &&
-                  (chains.missing(e) || (whole && !features[e]));
-    interior.match(group_pieces(surface, chains, joined));
-  }
-}
-
 }  // namespace
 
-FacetMatches match_facets(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
-                          const Chains& chains, const std::vector<bool>& features) {
+FacetMatches match_facets(const Topology& topology, const Surface& surface, const Chains& chains,
+                          const std::vector<bool>& features) {
   FacetMatches matches;
   matches.found.assign(surface.pieces(), FoundAs::nothing);
   matches.problem.resize(surface.pieces());
   matches.is_matched.assign(topology.faces.size(), false);
-  BoundaryMatcher(mesh, topology, surface, chains, matches).match();
-  if (std::ranges::count(matches.found, FoundAs::nothing) > 0) {
-    InteriorMatcher interior(mesh, topology, surface, matches);
-    match_interior(interior, surface, chains, features, matches);
-  }
+  BoundaryMatcher(topology, surface, chains, matches).match();
+  if (std::ranges::count(matches.found, FoundAs::nothing) > 0)
+    InteriorMatcher(topology, surface, matches).match(chains, features);
   for (const MatchedFace& f : matches.faces) matches.is_matched[f.face] = true;
   return matches;
 }

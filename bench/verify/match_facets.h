@@ -31,7 +31,7 @@ struct FacetMatches {
 /// Matches the boundary of the mesh with facets first, then inner faces with the facets that are left.
 /// \param chains    of the surface's edges
 /// \param features  of the surface's edges, see `find_features`
-FacetMatches match_facets(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
-                          const Chains& chains, const std::vector<bool>& features);
+FacetMatches match_facets(const Topology& topology, const Surface& surface, const Chains& chains,
+                          const std::vector<bool>& features);
 
 }  // namespace ccdt::verify

@@ -48,9 +48,8 @@ bool folds_back(const Surface& surface, std::uint32_t edge) {
 /// Walks from one end of an edge to the other over mesh edges that lie along it.
 class EdgeWalk {
  public:
-  EdgeWalk(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface, Edge ends)
-      : mesh_(mesh),
-        topology_(topology),
+  EdgeWalk(const Topology& topology, const Surface& surface, Edge ends)
+      : topology_(topology),
         ends_(ends),
         origin_(surface.at(ends[0])),
         axis_(surface.at(ends[1]) - surface.at(ends[0])),
@@ -85,9 +84,9 @@ class EdgeWalk {
   std::vector<std::pair<double, std::uint32_t>> ahead_of(std::uint32_t vertex, double from) const {
     std::vector<std::pair<double, std::uint32_t>> ahead;
     for (const std::uint32_t t : topology_.stars.of(vertex))
-      for (const std::uint32_t v : mesh_.tetrahedra[t]) {
+      for (const std::uint32_t v : topology_.mesh.tetrahedra[t]) {
         if (seen_.count(v) > 0) continue;
-        const Point3 p = mesh_.vertices[v] - origin_;
+        const Point3 p = topology_.mesh.vertices[v] - origin_;
         const double along = v == ends_[1] ? length_ : dot(p, axis_);
         if (along <= from || along > length_) continue;
         if (v != ends_[1] && squared_length(p - along * axis_) > tolerance_ * tolerance_) continue;
@@ -98,7 +97,6 @@ class EdgeWalk {
     return ahead;
   }
 
-  const mesh::TetMesh& mesh_;
   const Topology& topology_;
   Edge ends_;
   Point3 origin_, axis_;
@@ -192,17 +190,16 @@ std::vector<bool> find_features(const Surface& surface) {
   return features;
 }
 
-Chains find_chains(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
-                   std::span<const Edge> edges) {
+Chains find_chains(const Topology& topology, const Surface& surface, std::span<const Edge> edges) {
   Chains chains;
   chains.first.reserve(edges.size() + 1);
   chains.first.push_back(0);
   std::vector<std::uint32_t> chain;
   for (const auto& [a, b] : edges) {
     if (surface.sites.in_mesh(a) && surface.sites.in_mesh(b)) {
-      if (has_edge(mesh, topology, a, b))
+      if (has_edge(topology, a, b))
         chains.items.insert(chains.items.end(), {a, b});
-      else if (EdgeWalk(mesh, topology, surface, {a, b}).run(chain))
+      else if (EdgeWalk(topology, surface, {a, b}).run(chain))
         chains.items.insert(chains.items.end(), chain.begin(), chain.end());
     }
     chains.first.push_back(static_cast<std::uint32_t>(chains.items.size()));

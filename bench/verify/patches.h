@@ -16,8 +16,7 @@ struct Chains : IndexLists {
 };
 
 /// A vertex is on an edge if it is within `tolerances.place` of it.
-Chains find_chains(const mesh::TetMesh& mesh, const Topology& topology, const Surface& surface,
-                   std::span<const Edge> edges);
+Chains find_chains(const Topology& topology, const Surface& surface, std::span<const Edge> edges);
 
 /// Sets of pieces that the mesh may triangulate as it likes, because their common edges are not in the mesh or need not
 /// be.

@@ -131,13 +131,9 @@ void merge_flat_patches(Surface& surface, Regions& regions) {
 void drop_segments_on_features(Surface& surface) {
   const std::vector<bool> features = find_features(surface);
   std::set<Edge> kept;
-  for (const Edge& segment : surface.segments) {
-    const Edge e = ascending(segment);
-    const auto found = std::lower_bound(surface.edges.begin(), surface.edges.end(), e);
-    const bool is_feature = found != surface.edges.end() && *found == e &&
-                            features[static_cast<std::size_t>(found - surface.edges.begin())];
-    if (!is_feature) kept.insert(e);
-  }
+  for (const Edge& segment : surface.segments) kept.insert(ascending(segment));
+  for (std::size_t e = 0; e < surface.edges.size(); ++e)
+    if (features[e]) kept.erase(surface.edges[e]);
   surface.segments.assign(kept.begin(), kept.end());
 }
 

@@ -29,15 +29,14 @@ struct PointTraits {
 /// Finds the nearest of the mesh's vertices in use within a tolerance of a point of the input.
 class NearestVertex {
  public:
-  NearestVertex(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
-                const Tolerances& tolerances)
-      : mesh_(mesh), tolerance_(tolerances.place) {
+  NearestVertex(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances)
+      : vertices_(topology.mesh.vertices), tolerance_(tolerances.place) {
     const Box bounds = expanded(bounding_box(input.vertices), tolerance_);
     std::vector<Box> boxes;
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-      const Box box = box_of(mesh.vertices[v]);
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+      const Box box = box_of(vertices_[v]);
       if (!topology.used(v) || !bounds.meets(box)) continue;
-      vertices_.push_back(v);
+      near_input_.push_back(v);
       boxes.push_back(box);
     }
     tree_ = ScaledBoxTree(std::move(boxes), tolerances);
@@ -47,18 +46,18 @@ class NearestVertex {
     double best = tolerance_ * tolerance_;
     std::uint32_t nearest = none;
     tree_.for_each_meeting(expanded(box_of(p), tolerance_), [&](std::uint32_t i) {
-      const double distance = squared_length(mesh_.vertices[vertices_[i]] - p);
+      const double distance = squared_length(vertices_[near_input_[i]] - p);
       if (distance > best) return;
       best = distance;
-      nearest = vertices_[i];
+      nearest = near_input_[i];
     });
     return nearest;
   }
 
  private:
-  const mesh::TetMesh& mesh_;
+  const std::vector<Point3>& vertices_;  // of the mesh
   double tolerance_;
-  std::vector<std::uint32_t> vertices_;  // those near the input
+  std::vector<std::uint32_t> near_input_;
   ScaledBoxTree tree_;
 };
 
@@ -72,7 +71,8 @@ std::vector<Edge> edges_of(const std::vector<std::uint32_t>& polygon, std::span<
   return edges;
 }
 
-Point3 area_vector(const PolygonCell& loop, std::span<const Point3> position) {
+/// Twice the area.
+Point3 area_vector(std::span<const Edge> loop, std::span<const Point3> position) {
   Point3 sum;
   if (loop.empty()) return sum;
   const Point3 origin = position[loop[0][0]];
@@ -294,20 +294,20 @@ void split_edges(Surface& surface) {
 
 }  // namespace
 
-Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
-                  const Tolerances& tolerances) {
+Sites match_sites(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances) {
+  const auto& vertices = topology.mesh.vertices;
   Sites sites;
-  sites.mesh_vertices = static_cast<std::uint32_t>(mesh.vertices.size());
-  sites.position = mesh.vertices;
+  sites.mesh_vertices = static_cast<std::uint32_t>(vertices.size());
+  sites.position = vertices;
   HashTable<Point3, std::uint32_t, PointTraits> exact;
-  exact.reserve(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    if (topology.used(v)) exact.insert(mesh.vertices[v], v);
+  exact.reserve(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (topology.used(v)) exact.insert(vertices[v], v);
   for (const Point3& p : input.vertices) sites.of_input.push_back(exact.get(p, none));
   if (std::ranges::count(sites.of_input, none) == 0) return sites;
 
-  const NearestVertex near(input, mesh, topology, tolerances);
-  std::vector<bool> moved(mesh.vertices.size(), false);
+  const NearestVertex near(input, topology, tolerances);
+  std::vector<bool> moved(vertices.size(), false);
   for (std::size_t i = 0; i < input.vertices.size(); ++i) {
     std::uint32_t& site = sites.of_input[i];
     if (site != none) continue;
@@ -355,13 +355,9 @@ std::vector<Box> Surface::boxes_of_pieces() const {
 void set_pieces(Pieces pieces, Surface& surface) {
   static_cast<Pieces&>(surface) = std::move(pieces);
   index_edges(surface);
-  surface.area_vector.resize(surface.pieces());
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    const Point3 origin = surface.origin(p);
-    Point3 sum;
-    for (const auto& [a, b] : surface.edges_of(p)) sum = sum + cross(surface.at(a) - origin, surface.at(b) - origin);
-    surface.area_vector[p] = 0.5 * sum;
-  }
+  surface.area_vector.clear();
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
+    surface.area_vector.push_back(0.5 * area_vector(surface.edges_of(p), surface.sites.position));
 }
 
 void split_directed(const std::function<std::vector<std::uint32_t>(std::uint32_t edge)>& within, Surface& surface) {

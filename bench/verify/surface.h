@@ -31,8 +31,7 @@ struct Sites {
 };
 
 /// Matches exact coordinates first, then the nearest vertex in use within `tolerances.place`.
-Sites match_sites(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
-                  const Tolerances& tolerances);
+Sites match_sites(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances);
 
 /// A tree of boxes in the units of the input, kept in units that suit the tree whatever the size of the input.
 class ScaledBoxTree {

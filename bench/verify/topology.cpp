@@ -21,7 +21,7 @@ Face outward(const mesh::TetMesh& mesh, std::uint32_t half_face) {
 Topology find_topology(const mesh::TetMesh& mesh) {
   const std::size_t vertices = mesh.vertices.size();
   const auto half_faces = static_cast<std::uint32_t>(4 * mesh.tetrahedra.size());
-  Topology topology;
+  Topology topology{mesh, {}, {}, {}, {}, {}};
   topology.stars = make_index_lists(vertices, [&](const auto& add) {
     for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
       for (const std::uint32_t v : mesh.tetrahedra[t]) add(v, t);
@@ -63,9 +63,9 @@ std::uint32_t find_face(const Topology& topology, const Face& vertices) {
   return static_cast<std::uint32_t>(found - topology.faces.begin());
 }
 
-bool has_edge(const mesh::TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b) {
+bool has_edge(const Topology& topology, std::uint32_t a, std::uint32_t b) {
   return std::ranges::any_of(topology.stars.of(a), [&](std::uint32_t t) {
-    return std::ranges::find(mesh.tetrahedra[t], b) != mesh.tetrahedra[t].end();
+    return std::ranges::find(topology.mesh.tetrahedra[t], b) != topology.mesh.tetrahedra[t].end();
   });
 }
 

@@ -22,11 +22,6 @@ std::array<std::uint32_t, n> ascending(std::array<std::uint32_t, n> vertices) {
   return vertices;
 }
 
-/// Both ends of an edge in one number.
-inline std::uint64_t key(const Edge& e) {
-  return (std::uint64_t{e[0]} << 32) | e[1];
-}
-
 template <class T>
 void sort_and_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
@@ -35,6 +30,7 @@ void sort_and_unique(std::vector<T>& values) {
 
 /// Which tetrahedra and faces of a mesh share what. A *half-face* is 4 * tetrahedron + the corner opposite to it.
 struct Topology {
+  const mesh::TetMesh& mesh;
   std::vector<Face> faces;               ///< vertices of each face, ascending; in lexicographic order
   std::vector<Edge> half_faces;          ///< of each face, the first two half-faces; the second may be `none`
   std::vector<std::uint32_t> face_of;    ///< of each half-face
@@ -51,7 +47,7 @@ struct Topology {
   }
 };
 
-/// \pre all indices are in range
+/// \pre all indices are in range; the mesh lives as long as its topology
 Topology find_topology(const mesh::TetMesh& mesh);
 
 /// The vertices of a half-face, counterclockwise seen from outside its tetrahedron if that is positively oriented.
@@ -60,6 +56,6 @@ Face outward(const mesh::TetMesh& mesh, std::uint32_t half_face);
 /// The face with these vertices, in any order, or `none`.
 std::uint32_t find_face(const Topology& topology, const Face& vertices);
 
-bool has_edge(const mesh::TetMesh& mesh, const Topology& topology, std::uint32_t a, std::uint32_t b);
+bool has_edge(const Topology& topology, std::uint32_t a, std::uint32_t b);
 
 }  // namespace ccdt::verify

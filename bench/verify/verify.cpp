@@ -84,40 +84,44 @@ Check check_orientation(const mesh::TetMesh& mesh, const Progress& progress) {
 }
 
 /// No two vertices that tetrahedra use are in one place.
-Check check_distinct_vertices(const mesh::TetMesh& mesh, const Topology& topology) {
+Check check_distinct_vertices(const Topology& topology) {
   Check check{.name = "distinct vertices"};
   std::vector<std::uint32_t> order;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+  for (std::uint32_t v = 0; v < topology.mesh.vertices.size(); ++v)
     if (topology.used(v)) order.push_back(v);
   check.checked = order.size();
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return as_array(mesh.vertices[a]) < as_array(mesh.vertices[b]); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return as_array(topology.mesh.vertices[a]) < as_array(topology.mesh.vertices[b]);
+  });
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (mesh.vertices[order[i - 1]] != mesh.vertices[order[i]]) continue;
+    if (topology.mesh.vertices[order[i - 1]] != topology.mesh.vertices[order[i]]) continue;
     fail(check, [&] {
       return "vertices " + std::to_string(order[i - 1]) + " and " + std::to_string(order[i]) + " are both at " +
-             text(mesh.vertices[order[i]]);
+             text(topology.mesh.vertices[order[i]]);
     });
   }
   return check;
 }
 
 /// Every vertex is used by a tetrahedron (not required).
-Check check_used_vertices(const mesh::TetMesh& mesh, const Topology& topology) {
-  Check check{.name = "vertices in use", .checked = mesh.vertices.size(), .required = false};
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+Check check_used_vertices(const Topology& topology) {
+  Check check{.name = "vertices in use", .checked = topology.mesh.vertices.size(), .required = false};
+  for (std::uint32_t v = 0; v < topology.mesh.vertices.size(); ++v) {
     if (topology.used(v)) continue;
-    fail(check, [&] { return "no tetrahedron has the vertex " + std::to_string(v) + " at " + text(mesh.vertices[v]); });
+    fail(check, [&] {
+      return "no tetrahedron has the vertex " + std::to_string(v) + " at " + text(topology.mesh.vertices[v]);
+    });
   }
   return check;
 }
 
 /// Every face is of one tetrahedron, or of two on opposite sides.
-Check check_shared_faces(const mesh::TetMesh& mesh, const Topology& topology) {
+Check check_shared_faces(const Topology& topology) {
   Check check{.name = "faces of one or two tetrahedra", .checked = topology.faces.size()};
   for (const std::uint32_t f : topology.bad_faces) {
     fail(check, [&] {
-      return "more than two tetrahedra, or two on one side, at the face" + text(mesh.vertices, topology.faces[f]);
+      return "more than two tetrahedra, or two on one side, at the face" +
+             text(topology.mesh.vertices, topology.faces[f]);
     });
   }
   return check;
@@ -201,22 +205,18 @@ Check check_facets(const Surface& surface, const FacetMatches& matches, const Re
 }
 
 /// Every boundary face of the mesh stands for an input facet.
-Check check_boundary(const mesh::TetMesh& mesh, const Topology& topology, const FacetMatches& matches) {
+Check check_boundary(const Topology& topology, const FacetMatches& matches) {
   Check check{.name = "boundary faces on input facets"};
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) check.checked += topology.on_boundary(f);
   for (const std::uint32_t f : matches.stray_faces) {
-    fail(check,
-         [&] { return "not of the input's surface is the boundary face" + text(mesh.vertices, topology.faces[f]); });
+    fail(check, [&] {
+      return "not of the input's surface is the boundary face" + text(topology.mesh.vertices, topology.faces[f]);
+    });
   }
   return check;
 }
 
 // The Delaunay property.
-
-struct DelaunayChecks {
-  Check local;      ///< faces that are not locally Delaunay, beyond what rounding explains
-  Check explained;  ///< exactly seen not locally Delaunay, but within what rounding explains (not required)
-};
 
 /// Value of the in-sphere determinant, and bounds on how much it changes when every coordinate moves: to first order by
 /// `change` times the move, to second order by `bend` times its square. Between five points that are almost in one
@@ -279,26 +279,29 @@ std::string describe_face(const mesh::TetMesh& mesh, const Face& face, std::uint
 /// explained by that if moving each coordinate by `rounding` can change the sign of the determinant (to first order).
 ///
 /// \param constrained  of each face: does it stand for a facet?
-DelaunayChecks check_delaunay(const mesh::TetMesh& mesh, const Topology& topology, const std::vector<bool>& constrained,
-                              double rounding, bool required, const Progress& progress) {
-  DelaunayChecks checks{
-      {.name = required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", .required = required},
-      {.name = "locally Delaunay without rounding", .required = false}};
+/// \return             faces that are not locally Delaunay beyond what rounding explains, and those within (not
+/// required)
+std::array<Check, 2> check_delaunay(const Topology& topology, const std::vector<bool>& constrained, double rounding,
+                                    bool required, const Progress& progress) {
+  std::array<Check, 2> checks{
+      {{.name = required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", .required = required},
+       {.name = "locally Delaunay without rounding", .required = false}}};
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
     if (f % 65536 == 0) report(progress, "verify Delaunay", f, topology.faces.size());
     if (constrained[f] || topology.on_boundary(f)) continue;
     const std::uint32_t h = topology.half_faces[f][0], other = topology.half_faces[f][1];
-    const auto [a, c, b] = outward(mesh, h);
-    const std::uint32_t before = mesh.tetrahedra[h / 4][h % 4], behind = mesh.tetrahedra[other / 4][other % 4];
-    const std::array<Point3, 5> points = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[before],
-                                          mesh.vertices[behind]};
-    ++checks.local.checked;
-    ++checks.explained.checked;
+    const auto [a, c, b] = outward(topology.mesh, h);
+    const std::uint32_t before = topology.mesh.tetrahedra[h / 4][h % 4],
+                        behind = topology.mesh.tetrahedra[other / 4][other % 4];
+    const std::array<Point3, 5> points = {topology.mesh.vertices[a], topology.mesh.vertices[b],
+                                          topology.mesh.vertices[c], topology.mesh.vertices[before],
+                                          topology.mesh.vertices[behind]};
+    for (Check& check : checks) ++check.checked;
     if (side_of_sphere(points[0], points[1], points[2], points[3], points[4]) <= 0) continue;
     const Sensitivity sensitivity = in_sphere_sensitivity(points);
     const double ratio = std::fabs(sensitivity.value) / sensitivity.explained_by(rounding);
-    fail(ratio > 1 ? checks.local : checks.explained,
-         [&] { return describe_face(mesh, topology.faces[f], before, behind, ratio); });
+    fail(checks[ratio > 1 ? 0 : 1],
+         [&] { return describe_face(topology.mesh, topology.faces[f], before, behind, ratio); });
   }
   return checks;
 }
@@ -316,20 +319,20 @@ bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {
   return options.delaunay == VerifyOptions::Delaunay::yes;
 }
 
-void check_against_input(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Topology& topology,
-                         const VerifyOptions& options, const Progress& progress, Verification& result) {
+void check_against_input(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
+                         const Progress& progress, Verification& result) {
   const Tolerances tolerances = find_tolerances(input, options.flatness);
   report(progress, "verify facets", 0, 0);
-  Surface surface = find_surface(input, match_sites(input, mesh, topology, tolerances), tolerances);
+  Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
   embed_lines(surface);
   Regions regions = find_regions(input, surface);
   if (options.boundary == VerifyOptions::Boundary::slide) let_vertices_slide(surface, regions);
   const std::vector<bool> features = find_features(surface);
-  const Chains edges = find_chains(mesh, topology, surface, surface.edges);
-  const Chains segments = find_chains(mesh, topology, surface, surface.segments);
-  const FacetMatches matches = match_facets(mesh, topology, surface, edges, features);
+  const Chains edges = find_chains(topology, surface, surface.edges);
+  const Chains segments = find_chains(topology, surface, surface.segments);
+  const FacetMatches matches = match_facets(topology, surface, edges, features);
   report(progress, "verify domain", 0, 0);
-  const RegionsOfTetrahedra assigned = assign_regions(mesh, topology, regions, matches, tolerances.flat);
+  const RegionsOfTetrahedra assigned = assign_regions(topology, regions, matches, tolerances.flat);
   resolve_unknown(assigned, regions);
 
   const RayShooter rays(surface);
@@ -337,13 +340,12 @@ void check_against_input(const plc::InputPlc& input, const mesh::TetMesh& mesh, 
   checks.push_back(check_vertices(input, surface, regions, rays));
   checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
   checks.push_back(check_facets(surface, matches, regions));
-  checks.push_back(check_boundary(mesh, topology, matches));
-  check_domain(input, mesh, surface, regions, assigned, result);
+  checks.push_back(check_boundary(topology, matches));
+  check_domain(input, topology.mesh, surface, regions, assigned, result);
   if (options.delaunay == VerifyOptions::Delaunay::no) return;
-  DelaunayChecks delaunay = check_delaunay(mesh, topology, matches.is_matched, largest_rounding(input, tolerances),
-                                           wants_delaunay(options, mesh), progress);
-  checks.push_back(std::move(delaunay.local));
-  checks.push_back(std::move(delaunay.explained));
+  auto delaunay = check_delaunay(topology, matches.is_matched, largest_rounding(input, tolerances),
+                                 wants_delaunay(options, topology.mesh), progress);
+  checks.insert(checks.end(), delaunay.begin(), delaunay.end());
 }
 
 std::string line_of(const Check& check, std::size_t width) {
@@ -370,10 +372,10 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
   checks.push_back(check_orientation(mesh, progress));
   report(progress, "verify faces", 0, 0);
   const Topology topology = find_topology(mesh);
-  checks.push_back(check_shared_faces(mesh, topology));
-  checks.push_back(check_distinct_vertices(mesh, topology));
-  checks.push_back(check_used_vertices(mesh, topology));
-  check_against_input(input, mesh, topology, options, progress, result);
+  checks.push_back(check_shared_faces(topology));
+  checks.push_back(check_distinct_vertices(topology));
+  checks.push_back(check_used_vertices(topology));
+  check_against_input(input, topology, options, progress, result);
   return result;
 }
 
