@@ -49,22 +49,12 @@
 namespace ccdt::benchmarks {
 namespace {
 
-/// Beyond that, wrapping takes seconds.
-constexpr std::int64_t largest_wrapped = 100000;
-
 /// Points of one kind, by size.
 struct PointSet {
   std::string name;
   std::vector<std::int64_t> sizes;  ///< empty: there is but one
   std::function<std::vector<Point3>(std::int64_t size)> make;
 };
-
-const std::vector<Point3>& kept_points(const PointSet& set, std::int64_t size) {
-  static std::map<std::pair<std::string, std::int64_t>, std::vector<Point3>> made;
-  auto& points = made[{set.name, size}];
-  if (points.empty()) points = set.make(size);
-  return points;
-}
 
 /// What two correct results have in common.
 struct Outcome {
@@ -94,7 +84,7 @@ struct Insert {
 
 struct Wrap {
   static constexpr const char* name = "wrap";
-  static constexpr std::int64_t largest = largest_wrapped;
+  static constexpr std::int64_t largest = 100000;  // beyond that, wrapping takes seconds
   using Input = std::vector<delaunay::DelaunayVertex>;
   using Result = delaunay::Delaunay;
 
@@ -179,21 +169,30 @@ struct TetGen {
 };
 #endif
 
-/// What insertion makes of a set; once for each.
-const Outcome& reference(const PointSet& set, std::int64_t size) {
-  static std::map<std::pair<std::string, std::int64_t>, Outcome> known;
-  const auto at = known.find({set.name, size});
-  if (at != known.end()) return at->second;
-  return known[{set.name, size}] = Insert::outcome(delaunay::build_delaunay(kept_points(set, size)));
+/// Points, and what insertion makes of them.
+struct Reference {
+  std::vector<Point3> points;
+  Outcome inserted;
+};
+
+/// Made once for each set and size.
+const Reference& reference(const PointSet& set, std::int64_t size) {
+  static std::map<std::pair<std::string, std::int64_t>, Reference> made;
+  const auto [at, is_new] = made.try_emplace({set.name, size});
+  if (is_new) {
+    at->second.points = set.make(size);
+    at->second.inserted = Insert::outcome(Insert::build(at->second.points));
+  }
+  return at->second;
 }
 
 /// Why a result is not right; empty if it is.
 template <class Program>
 std::string find_fault(const PointSet& set, std::int64_t size) {
-  const std::vector<Point3>& points = kept_points(set, size);
+  const auto& [points, ours] = reference(set, size);
   if constexpr (std::is_same_v<Program, Insert>) {
     // The hull of random points is nearly known; apart from that, all others are compared with this one.
-    const double cube = 0x1p156, volume = reference(set, size).volume;
+    const double cube = 0x1p156, volume = ours.volume;
     const bool fills_cube = volume > 0.9 * cube && volume <= cube;
     return set.name == "random" && !fills_cube ? "it does not fill the cube" : "";
   } else if constexpr (std::is_same_v<Program, Wrap>) {
@@ -202,7 +201,6 @@ std::string find_fault(const PointSet& set, std::int64_t size) {
                ? ""
                : "insert and wrap have different cells";
   } else {
-    const Outcome& ours = reference(set, size);
     const Outcome theirs = Program::outcome(Program::build(Program::prepare(points)));
     if (set.name == "random" && ours.cells != theirs.cells)
       return "it has " + std::to_string(theirs.cells) + " cells, insert " + std::to_string(ours.cells);
@@ -232,7 +230,7 @@ void add(const PointSet& set) {
                 .complexity = benchmark::oN,
                 .find_fault = [set](std::int64_t size) { return find_fault<Program>(set, size); },
                 .measure = [set](benchmark::State& state,
-                                 std::int64_t size) { measure<Program>(state, kept_points(set, size)); }};
+                                 std::int64_t size) { measure<Program>(state, reference(set, size).points); }};
   std::erase_if(family.sizes, [](std::int64_t size) { return size > Program::largest; });
   add_family(family);
 }

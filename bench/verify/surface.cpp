@@ -264,16 +264,6 @@ void index_edges(Surface& surface) {
   first.push_back(static_cast<std::uint32_t>(n));
 }
 
-/// The sites strictly within an edge out of those in the order of their x.
-std::vector<std::uint32_t> sites_within(const Surface& surface, const Edge& edge,
-                                        const std::vector<std::uint32_t>& sites) {
-  const double a = surface.at(edge[0]).x, b = surface.at(edge[1]).x, tolerance = surface.tolerances.place;
-  const auto x = [&](std::uint32_t site) { return surface.at(site).x; };
-  const auto begin = std::ranges::lower_bound(sites, std::min(a, b) - tolerance, {}, x);
-  const auto end = std::ranges::upper_bound(sites, std::max(a, b) + tolerance, {}, x);
-  return select_within(surface, edge, {begin, end});
-}
-
 /// Splits edges that do not have two facets at the ends of others of that kind. (An edge between two facets is complete
 /// as it is.)
 void split_edges(Surface& surface) {
@@ -282,12 +272,17 @@ void split_edges(Surface& surface) {
     if (surface.use_count(e) != 2) sites.insert(sites.end(), surface.edges[e].begin(), surface.edges[e].end());
   if (sites.empty()) return;
   sort_and_unique(sites);
-  std::sort(sites.begin(), sites.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return surface.at(a).x < surface.at(b).x; });
+  std::vector<Box> places;
+  for (const std::uint32_t s : sites) places.push_back(box_of(surface.at(s)));
+  const ScaledBoxTree tree(std::move(places), surface.tolerances);
   split_directed(
       [&](std::uint32_t e) {
-        return surface.use_count(e) == 2 ? std::vector<std::uint32_t>{}
-                                         : sites_within(surface, surface.edges[e], sites);
+        std::vector<std::uint32_t> near;
+        if (surface.use_count(e) == 2) return near;
+        const Box box = hull(box_of(surface.at(surface.edges[e][0])), box_of(surface.at(surface.edges[e][1])));
+        tree.for_each_meeting(expanded(box, surface.tolerances.place),
+                              [&](std::uint32_t i) { near.push_back(sites[i]); });
+        return select_within(surface, surface.edges[e], near);
       },
       surface);
 }

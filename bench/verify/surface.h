@@ -100,7 +100,8 @@ struct Surface : Pieces {
   std::vector<Edge> edges;     ///< ascending sites
   IndexLists uses;             ///< the directed edges along each edge
   std::vector<Edge> segments;  ///< that the input asks for by themselves
-  std::vector<bool> slides;    ///< of each site: a mesh need not have it (slide.h); empty: it must have them all
+  std::vector<bool>
+      slides;  ///< of each site: a mesh need not have it (`let_vertices_slide`); empty: it must have them all
 
   std::size_t use_count(std::uint32_t edge) const { return uses.of(edge).size(); }
   const Point3& at(std::uint32_t site) const { return sites.position[site]; }

@@ -6,10 +6,9 @@
 #include <limits>
 
 #include "bench/verify/check_domain.h"
-#include "bench/verify/embed_lines.h"
+#include "bench/verify/edit_surface.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
-#include "bench/verify/slide.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
