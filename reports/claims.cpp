@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/results/numbers.h"
-
 namespace ccdt::reports {
 namespace {
 
-using Results = std::span<const results::ExperimentResult>;
+using Results = std::span<const ExperimentResult>;
 
 /// A row of an experiment's table.
 struct ClaimRow {
   std::string experiment;
-  const results::ResultTable* table;
-  const results::ResultRow* row;
+  const ResultTable* table;
+  const ResultRow* row;
   std::string text(std::string_view column) const { return results::text_in(*table, *row, column); }
   double number(std::string_view column) const { return results::number_in(*table, *row, column); }
   /// Null if the cell holds no estimate.
@@ -27,10 +25,10 @@ struct ClaimRow {
 std::vector<ClaimRow> rows_of(Results results, const std::string& experiment, std::string_view table,
                               const std::map<std::string, std::string>& texts = {}) {
   std::vector<ClaimRow> rows;
-  const auto result = std::ranges::find(results, experiment, &results::ExperimentResult::name);
-  const results::ResultTable* found = result == results.end() ? nullptr : results::find_table(*result, table);
+  const auto result = std::ranges::find(results, experiment, &ExperimentResult::name);
+  const ResultTable* found = result == results.end() ? nullptr : results::find_table(*result, table);
   if (found == nullptr) return rows;
-  for (const results::ResultRow& row : found->rows) {
+  for (const ResultRow& row : found->rows) {
     const ClaimRow candidate{experiment, found, &row};
     if (std::ranges::all_of(texts, [&](const auto& t) { return candidate.text(t.first) == t.second; }))
       rows.push_back(candidate);
@@ -39,14 +37,14 @@ std::vector<ClaimRow> rows_of(Results results, const std::string& experiment, st
 }
 
 /// A measure that a row of a table gives.
-ClaimMeasure measure_of(const ClaimRow& row, std::string what, results::Cell value, std::string bound,
-                        experiments::BoundTest strong, experiments::BoundTest weak) {
+ClaimMeasure measure_of(const ClaimRow& row, std::string what, Cell value, std::string bound, BoundTest strong,
+                        BoundTest weak) {
   return {std::move(what), std::move(value), std::move(bound), strong, weak,
           row.experiment,  row.table->name,  row.row->runs};
 }
 
-experiments::BoundTest yes_or_no(bool holds) {
-  return holds ? experiments::BoundTest::holds : experiments::BoundTest::fails;
+BoundTest yes_or_no(bool holds) {
+  return holds ? BoundTest::holds : BoundTest::fails;
 }
 
 /// "Little" is up to this; the paper's own ratios are 1.02 to 1.04. The weaker form is its "same order of magnitude".
@@ -59,7 +57,7 @@ constexpr double least_saving = 8, any_saving = 1;
 constexpr double linear = 1.10, nearly_linear = 1.30;
 
 /// A test of one form of a bound.
-using TestOfBound = experiments::BoundTest (*)(const bench::Estimate&, double);
+using TestOfBound = BoundTest (*)(const bench::Estimate&, double);
 
 /// Adds a measure for each row of `ratios` that has this name.
 void add_ratios(Results results, const std::string& ratio, TestOfBound test, double strong, double weak,
@@ -74,12 +72,12 @@ void add_ratios(Results results, const std::string& ratio, TestOfBound test, dou
 PaperClaim linear_claim(Results results, const std::string& id, const std::string& section, const std::string& sentence,
                         const std::string& strategy, const std::string& quantity) {
   PaperClaim claim{id, section, sentence, {"fig8"}};
-  claim.weaker = "The exponents are at most " + results::rounded(nearly_linear) + ".";
+  claim.weaker = "The exponents are at most " + rounded(nearly_linear) + ".";
   for (const ClaimRow& row : rows_of(results, "fig8", "fits", {{"strategy", strategy}, {"quantity", quantity}}))
     if (const bench::Estimate* exponent = row.estimate("exponent"))
-      claim.measured.push_back(measure_of(
-          row, row.text("model") + ": exponent, " + strategy, *exponent, "at most " + results::rounded(linear),
-          experiments::is_at_most(*exponent, linear), experiments::is_at_most(*exponent, nearly_linear)));
+      claim.measured.push_back(measure_of(row, row.text("model") + ": exponent, " + strategy, *exponent,
+                                          "at most " + rounded(linear), experiments::is_at_most(*exponent, linear),
+                                          experiments::is_at_most(*exponent, nearly_linear)));
   return claim;
 }
 
@@ -91,9 +89,9 @@ PaperClaim others_claim(Results results) {
                    {"fig8"}};
   for (const ClaimRow& row : rows_of(results, "fig8", "fits", {{"mesher", "tetgen"}}))
     if (const bench::Estimate* exponent = row.estimate("exponent")) {
-      const experiments::BoundTest outcome = experiments::is_at_least(*exponent, linear);
+      const BoundTest outcome = experiments::is_at_least(*exponent, linear);
       claim.measured.push_back(measure_of(row, row.text("model") + ": exponent of TetGen", *exponent,
-                                          "more than " + results::rounded(linear), outcome, outcome));
+                                          "more than " + rounded(linear), outcome, outcome));
     }
   return claim;
 }
@@ -104,9 +102,9 @@ void add_time_claims(Results results, std::vector<PaperClaim>& claims) {
                    "With the face protection check, the CDT takes hardly longer than the Delaunay tetrahedralization "
                    "that it starts from.",
                    {"table1"}};
-  check.weaker = "They are of the same order: less than " + results::rounded(same_order, 1) + " times.";
+  check.weaker = "They are of the same order: less than " + rounded(same_order, 1) + " times.";
   add_ratios(results, "with check / Delaunay", experiments::is_at_most, little, same_order,
-             "at most " + results::rounded(little), check);
+             "at most " + rounded(little), check);
   claims.push_back(check);
 
   PaperClaim saving{"check-saves-a-factor",
@@ -115,7 +113,7 @@ void add_time_claims(Results results, std::vector<PaperClaim>& claims) {
                     {"table1"}};
   saving.weaker = "The check saves time.";
   add_ratios(results, "without / with check", experiments::is_at_least, least_saving, any_saving,
-             "at least " + results::rounded(least_saving, 1) + "; in the paper 16 to 23", saving);
+             "at least " + rounded(least_saving, 1) + "; in the paper 16 to 23", saving);
   claims.push_back(saving);
 
   claims.push_back(linear_claim(results, "linear-with-check", "6, Fig. 8",
@@ -154,12 +152,11 @@ void add_figure(Results results, const std::string& figure, PaperClaim& claim) {
   const ClaimRow &ours = all_ours.front(), &theirs = all_theirs.front();
   for (const QualityMeasure& m : measures) {
     const double our_value = ours.number(m.column), their_value = theirs.number(m.column);
-    const experiments::BoundTest outcome =
-        yes_or_no(m.larger_is_better ? our_value > their_value : our_value < their_value);
+    const BoundTest outcome = yes_or_no(m.larger_is_better ? our_value > their_value : our_value < their_value);
     claim.measured.push_back(
         measure_of(ours, ours.text("model") + ": " + m.words, our_value,
-                   (m.larger_is_better ? "more than " : "less than ") + results::rounded(their_value, 4) + " (TetGen)",
-                   outcome, &m == &measures.front() ? outcome : experiments::BoundTest::holds));
+                   (m.larger_is_better ? "more than " : "less than ") + rounded(their_value, 4) + " (TetGen)", outcome,
+                   &m == &measures.front() ? outcome : BoundTest::holds));
     claim.measured.back().runs = {ours.row->runs.front(), theirs.row->runs.front()};
   }
 }
@@ -169,11 +166,11 @@ void add_lattices(Results results, PaperClaim& claim) {
   for (const ClaimRow& row : rows_of(results, "lattices", "best", {{"improved", "no"}})) {
     const double cases = row.number("cases"), fcc = row.number("fcc"), bcc = row.number("bcc"), sc = row.number("sc");
     if (cases == 0) continue;
-    claim.measured.push_back(measure_of(row, "best lattice by " + row.text("criterion"),
-                                        "FCC in " + results::rounded(fcc, 1) + ", BCC in " + results::rounded(bcc, 1) +
-                                            ", SC in " + results::rounded(sc, 1),
-                                        "FCC in all " + results::rounded(cases, 1) + " cases, alone",
-                                        yes_or_no(row.text("confirmed") == "yes"), yes_or_no(fcc > bcc && fcc > sc)));
+    claim.measured.push_back(
+        measure_of(row, "best lattice by " + row.text("criterion"),
+                   "FCC in " + rounded(fcc, 1) + ", BCC in " + rounded(bcc, 1) + ", SC in " + rounded(sc, 1),
+                   "FCC in all " + rounded(cases, 1) + " cases, alone", yes_or_no(row.text("confirmed") == "yes"),
+                   yes_or_no(fcc > bcc && fcc > sc)));
   }
 }
 
@@ -202,10 +199,10 @@ void add_zeros(const std::vector<ClaimRow>& rows, const char* label, const char*
                const std::string& words, PaperClaim& claim) {
   for (const ClaimRow& row : rows) {
     if (!(row.number(whole) > 0)) continue;
-    const experiments::BoundTest outcome = yes_or_no(row.number(part) == 0);
-    claim.measured.push_back(measure_of(
-        row, row.text(label) + ": " + words, row.number(part),
-        "0 of " + results::with_separators(static_cast<std::uint64_t>(row.number(whole))), outcome, outcome));
+    const BoundTest outcome = yes_or_no(row.number(part) == 0);
+    claim.measured.push_back(measure_of(row, row.text(label) + ": " + words, row.number(part),
+                                        "0 of " + with_separators(static_cast<std::uint64_t>(row.number(whole))),
+                                        outcome, outcome));
   }
 }
 
@@ -241,10 +238,10 @@ struct EndedCount {
 
 void add_ended(const std::string& kind, const EndedCount& count, const char* table, PaperClaim& claim) {
   if (count.cases == 0) return;
-  const experiments::BoundTest outcome = yes_or_no(count.ended == count.cases);
+  const BoundTest outcome = yes_or_no(count.ended == count.cases);
   claim.measured.push_back({kind + ": inputs where it ended", count.ended,
-                            "all " + results::with_separators(static_cast<std::uint64_t>(count.cases)), outcome,
-                            outcome, "termination", table, count.runs});
+                            "all " + with_separators(static_cast<std::uint64_t>(count.cases)), outcome, outcome,
+                            "termination", table, count.runs});
 }
 
 void add_termination(Results results, std::vector<PaperClaim>& claims) {
@@ -287,15 +284,8 @@ void add_existence_claims(Results results, std::vector<PaperClaim>& claims) {
   claims.push_back(harmless);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 /// What the measures are of for which a form of the claim came out so.
-std::string names_of_measures(const PaperClaim& claim, experiments::BoundTest ClaimMeasure::*form,
-                              experiments::BoundTest outcome) {
+std::string names_of_measures(const PaperClaim& claim, BoundTest ClaimMeasure::*form, BoundTest outcome) {
   std::vector<std::string> names;
   for (const ClaimMeasure& m : claim.measured)
     if (m.*form == outcome) names.push_back(m.what);
@@ -305,11 +295,11 @@ std::string names_of_measures(const PaperClaim& claim, experiments::BoundTest Cl
   return joined(names) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
 
-bool all(const PaperClaim& claim, experiments::BoundTest ClaimMeasure::*form, experiments::BoundTest outcome) {
+bool all(const PaperClaim& claim, BoundTest ClaimMeasure::*form, BoundTest outcome) {
   return std::ranges::all_of(claim.measured, [&](const ClaimMeasure& m) { return m.*form == outcome; });
 }
 
-bool any(const PaperClaim& claim, experiments::BoundTest ClaimMeasure::*form, experiments::BoundTest outcome) {
+bool any(const PaperClaim& claim, BoundTest ClaimMeasure::*form, BoundTest outcome) {
   return std::ranges::any_of(claim.measured, [&](const ClaimMeasure& m) { return m.*form == outcome; });
 }
 
@@ -319,35 +309,32 @@ void judge(PaperClaim& claim) {
   if (claim.measured.empty()) {
     claim.verdict = ClaimVerdict::not_testable;
     claim.reason = "Nothing was measured: it takes " + joined(claim.experiments) + ".";
-  } else if (all(claim, &ClaimMeasure::strong, experiments::BoundTest::holds)) {
+  } else if (all(claim, &ClaimMeasure::strong, BoundTest::holds)) {
     claim.verdict = ClaimVerdict::confirmed;
     claim.reason = "All that was measured is as the paper says.";
-  } else if (any(claim, &ClaimMeasure::weak, experiments::BoundTest::fails)) {
+  } else if (any(claim, &ClaimMeasure::weak, BoundTest::fails)) {
     claim.verdict = ClaimVerdict::refuted;
-    claim.reason =
-        "Contradicted by: " + names_of_measures(claim, &ClaimMeasure::weak, experiments::BoundTest::fails) + ".";
-  } else if (!all(claim, &ClaimMeasure::weak, experiments::BoundTest::holds)) {
+    claim.reason = "Contradicted by: " + names_of_measures(claim, &ClaimMeasure::weak, BoundTest::fails) + ".";
+  } else if (!all(claim, &ClaimMeasure::weak, BoundTest::holds)) {
     claim.verdict = ClaimVerdict::not_testable;
-    if (any(claim, &ClaimMeasure::strong, experiments::BoundTest::fails))
+    if (any(claim, &ClaimMeasure::strong, BoundTest::fails))
       claim.reason =
-          "Not as the paper has it: " + names_of_measures(claim, &ClaimMeasure::strong, experiments::BoundTest::fails) +
-          ". ";
+          "Not as the paper has it: " + names_of_measures(claim, &ClaimMeasure::strong, BoundTest::fails) + ". ";
     claim.reason += (claim.weaker.empty() ? "The" : "For the weaker form (" + claim.weaker + ") the") +
                     std::string(" intervals are too wide: ") +
-                    names_of_measures(claim, &ClaimMeasure::weak, experiments::BoundTest::undecided) +
+                    names_of_measures(claim, &ClaimMeasure::weak, BoundTest::undecided) +
                     ". More runs or larger models narrow them.";
   } else {
     claim.verdict = ClaimVerdict::reservation;
-    claim.reason = claim.weaker + " Not as the paper has it: " +
-                   names_of_measures(claim, &ClaimMeasure::strong, experiments::BoundTest::fails);
-    const std::string open = names_of_measures(claim, &ClaimMeasure::strong, experiments::BoundTest::undecided);
-    if (!any(claim, &ClaimMeasure::strong, experiments::BoundTest::fails))
-      claim.reason = claim.weaker + " Not decided: " + open;
+    claim.reason =
+        claim.weaker + " Not as the paper has it: " + names_of_measures(claim, &ClaimMeasure::strong, BoundTest::fails);
+    const std::string open = names_of_measures(claim, &ClaimMeasure::strong, BoundTest::undecided);
+    if (!any(claim, &ClaimMeasure::strong, BoundTest::fails)) claim.reason = claim.weaker + " Not decided: " + open;
     claim.reason += ".";
   }
 }
 
-std::vector<PaperClaim> judge_claims(std::span<const results::ExperimentResult> results) {
+std::vector<PaperClaim> judge_claims(std::span<const ExperimentResult> results) {
   std::vector<PaperClaim> claims;
   add_time_claims(results, claims);
   add_quality_claims(results, claims);

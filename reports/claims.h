@@ -10,6 +10,16 @@
 
 namespace ccdt::reports {
 
+using experiments::BoundTest;
+using results::Cell;
+using results::ExperimentResult;
+using results::joined;
+using results::KeptMesh;
+using results::ResultRow;
+using results::ResultTable;
+using results::rounded;
+using results::with_separators;
+
 /// The result of testing a claim of the paper.
 enum class ClaimVerdict {
   confirmed,    ///< all that was measured is as the claim says
@@ -27,11 +37,11 @@ constexpr auto names_of(ClaimVerdict) {
 
 /// One number that a claim stands or falls with.
 struct ClaimMeasure {
-  std::string what;                                               ///< for people
-  results::Cell value;                                            ///< with its interval, if it has one
-  std::string bound;                                              ///< what the claim asks of it, for people
-  experiments::BoundTest strong = experiments::BoundTest::fails;  ///< does it hold as the paper has it?
-  experiments::BoundTest weak = experiments::BoundTest::fails;    ///< and in its weaker form?
+  std::string what;                                  ///< for people
+  Cell value;                                        ///< with its interval, if it has one
+  std::string bound;                                 ///< what the claim asks of it, for people
+  BoundTest strong = experiments::BoundTest::fails;  ///< does it hold as the paper has it?
+  BoundTest weak = experiments::BoundTest::fails;    ///< and in its weaker form?
   std::string experiment, table;
   std::vector<std::string> runs = {};
 };
@@ -53,6 +63,6 @@ struct PaperClaim {
 void judge(PaperClaim& claim);
 
 /// All claims, judged by what these experiments found. A claim whose experiments are missing is not testable here.
-std::vector<PaperClaim> judge_claims(std::span<const results::ExperimentResult> results);
+std::vector<PaperClaim> judge_claims(std::span<const ExperimentResult> results);
 
 }  // namespace ccdt::reports

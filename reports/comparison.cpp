@@ -1,34 +1,40 @@
-#include "reports/comparison.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/tables.h"
+#include "bench/experiments/experiment.h"
+#include "reports/report.h"
 
 namespace ccdt::reports {
 namespace {
 
+using experiments::add_row;
+using experiments::figure_column;
+using experiments::label_column;
+using experiments::table_of;
+using experiments::time_column;
+using results::Column;
+using results::ColumnKind;
+
 /// The labels of a row.
-std::string key_of(const results::ResultTable& table, const results::ResultRow& row) {
-  std::string key;
+std::string key_of(const ResultTable& table, const ResultRow& row) {
+  std::vector<std::string> labels;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (table.columns[c].kind == results::ColumnKind::label)
+    if (table.columns[c].kind == ColumnKind::label)
       if (const auto* text = std::get_if<std::string>(&row.cells[c]); text != nullptr && !text->empty())
-        key += (key.empty() ? "" : ", ") + *text;
-  return key;
+        labels.push_back(*text);
+  return joined(labels);
 }
 
 /// The row of the other table with the same labels: of several the one at the same place among them.
-const results::ResultRow* counterpart(const results::ResultTable& table, std::size_t number,
-                                      const results::ResultTable& other) {
+const ResultRow* counterpart(const ResultTable& table, std::size_t number, const ResultTable& other) {
   const std::string key = key_of(table, table.rows[number]);
-  const auto is_alike = [&](const results::ResultTable& t) {
-    return [&t, &key](const results::ResultRow& row) { return key_of(t, row) == key; };
+  const auto is_alike = [&](const ResultTable& t) {
+    return [&t, &key](const ResultRow& row) { return key_of(t, row) == key; };
   };
   auto before = std::ranges::count_if(table.rows.begin(), table.rows.begin() + static_cast<std::ptrdiff_t>(number),
                                       is_alike(table));
-  for (const results::ResultRow& row : other.rows)
+  for (const ResultRow& row : other.rows)
     if (is_alike(other)(row) && before-- == 0) return &row;
   return nullptr;
 }
@@ -36,27 +42,21 @@ const results::ResultRow* counterpart(const results::ResultTable& table, std::si
 /// The tables of the new section while they are filled.
 struct ComparisonTables {
   std::string first, second;  ///< folders, relative to that of the new report
-  results::ResultTable summary{
-      "summary",
-      "In all",
-      {experiments::label_column("experiment"), experiments::figure_column("figures", "deterministic figures"),
-       experiments::figure_column("different", "of these different"),
-       experiments::figure_column("others_different", "different, of other meshers"),
-       experiments::figure_column("times"),
-       experiments::figure_column("outside", "of these outside the first's interval"),
-       experiments::figure_column("unmatched", "rows without a counterpart")}};
-  results::ResultTable times{
-      "times",
-      "Times",
-      {experiments::label_column("experiment"), experiments::label_column("table"), experiments::label_column("row"),
-       experiments::label_column("quantity"), experiments::time_column("first"), experiments::time_column("second"),
-       experiments::time_column("ratio", "second / first"),
-       experiments::figure_column("within", "within the first's interval")}};
-  results::ResultTable differences{"differences",
-                                   "Figures that differ, though they should not",
-                                   {experiments::label_column("experiment"), experiments::label_column("table"),
-                                    experiments::label_column("row"), experiments::label_column("quantity"),
-                                    experiments::figure_column("first"), experiments::figure_column("second")}};
+  ResultTable summary =
+      table_of("summary", "In all",
+               {label_column("experiment"), figure_column("figures", "deterministic figures"),
+                figure_column("different", "of these different"),
+                figure_column("others_different", "different, of other meshers"), figure_column("times"),
+                figure_column("outside", "of these outside the first's interval"),
+                figure_column("unmatched", "rows without a counterpart")});
+  ResultTable times =
+      table_of("times", "Times",
+               {label_column("experiment"), label_column("table"), label_column("row"), label_column("quantity"),
+                time_column("first"), time_column("second"), time_column("ratio", "second / first"),
+                figure_column("within", "within the first's interval")});
+  ResultTable differences = table_of("differences", "Figures that differ, though they should not",
+                                     {label_column("experiment"), label_column("table"), label_column("row"),
+                                      label_column("quantity"), figure_column("first"), figure_column("second")});
 };
 
 /// Of one experiment: a row of the summary.
@@ -65,8 +65,8 @@ struct ComparisonCounts {
 };
 
 /// Others' programs need not repeat themselves.
-bool is_of_another_mesher(const results::ResultTable& table, const results::ResultRow& row) {
-  const auto mesher = std::ranges::find(table.columns, "mesher", &results::Column::name);
+bool is_of_another_mesher(const ResultTable& table, const ResultRow& row) {
+  const auto mesher = std::ranges::find(table.columns, "mesher", &Column::name);
   return mesher != table.columns.end() && results::text_in(table, row, "mesher") != "ccdt";
 }
 
@@ -76,15 +76,15 @@ class ExperimentComparison {
   ExperimentComparison(std::string experiment, ComparisonTables& tables)
       : experiment_(std::move(experiment)), tables_(tables) {}
 
-  void compare_tables(const results::ResultTable& first, const results::ResultTable& second) {
+  void compare_tables(const ResultTable& first, const ResultTable& second) {
     for (std::size_t r = 0; r < first.rows.size(); ++r) {
-      const results::ResultRow* other = counterpart(first, r, second);
+      const ResultRow* other = counterpart(first, r, second);
       if (other == nullptr) {
         ++counts_.unmatched;
         continue;
       }
       for (std::size_t c = 0; c < first.columns.size(); ++c) {
-        const auto same = std::ranges::find(second.columns, first.columns[c].name, &results::Column::name);
+        const auto same = std::ranges::find(second.columns, first.columns[c].name, &Column::name);
         if (same - second.columns.begin() == static_cast<std::ptrdiff_t>(c))
           compare_cells(first, c, first.rows[r], *other);
       }
@@ -93,22 +93,21 @@ class ExperimentComparison {
 
   void add_summary() {
     const ComparisonCounts& n = counts_;
-    experiments::add_row(tables_.summary, {}, experiment_, n.figures, n.different, n.others_different, n.times,
-                         n.outside, n.unmatched);
+    add_row(tables_.summary, {}, experiment_, n.figures, n.different, n.others_different, n.times, n.outside,
+            n.unmatched);
   }
 
  private:
-  void compare_cells(const results::ResultTable& table, std::size_t column, const results::ResultRow& a,
-                     const results::ResultRow& b) {
-    const results::Column& c = table.columns[column];
-    const results::Cell &first = a.cells[column], &second = b.cells[column];
-    const auto add = [&](results::ResultTable& to, const auto&... more) {
+  void compare_cells(const ResultTable& table, std::size_t column, const ResultRow& a, const ResultRow& b) {
+    const Column& c = table.columns[column];
+    const Cell &first = a.cells[column], &second = b.cells[column];
+    const auto add = [&](ResultTable& to, const auto&... more) {
       std::vector<std::string> runs;
       for (const std::string& run : a.runs) runs.push_back(tables_.first + "/" + run);
       for (const std::string& run : b.runs) runs.push_back(tables_.second + "/" + run);
-      experiments::add_row(to, runs, experiment_, table.title, key_of(table, a), c.title, first, second, more...);
+      add_row(to, runs, experiment_, table.title, key_of(table, a), c.title, first, second, more...);
     };
-    if (c.kind == results::ColumnKind::figure) {
+    if (c.kind == ColumnKind::figure) {
       const bool is_same = results::cell_json(first) == results::cell_json(second);
       if (is_of_another_mesher(table, a)) {
         counts_.others_different += !is_same;
@@ -119,7 +118,7 @@ class ExperimentComparison {
       if (!is_same) add(tables_.differences);
     }
     const auto *e = std::get_if<bench::Estimate>(&first), *f = std::get_if<bench::Estimate>(&second);
-    if (c.kind != results::ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
+    if (c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
     const bool is_within = f->value >= e->low && f->value <= e->high;
     ++counts_.times;
     counts_.outside += !is_within;
@@ -131,29 +130,26 @@ class ExperimentComparison {
   ComparisonCounts counts_;
 };
 
-void compare_experiments(const results::ExperimentResult& first, const results::ExperimentResult& second,
-                         ComparisonTables& tables) {
+void compare_experiments(const ExperimentResult& first, const ExperimentResult& second, ComparisonTables& tables) {
   ExperimentComparison comparison(first.name, tables);
-  for (const results::ResultTable& table : first.tables)
-    if (const results::ResultTable* other = results::find_table(second, table.name))
-      comparison.compare_tables(table, *other);
+  for (const ResultTable& table : first.tables)
+    if (const ResultTable* other = results::find_table(second, table.name)) comparison.compare_tables(table, *other);
   comparison.add_summary();
 }
 
-results::ResultTable verdicts_table(const Report& first, const Report& second) {
-  results::ResultTable table{
-      "verdicts",
-      "Verdicts",
-      {experiments::label_column("claim"), experiments::note_column("first"), experiments::note_column("second")}};
+ResultTable verdicts_table(const Report& first, const Report& second) {
+  ResultTable table =
+      table_of("verdicts", "Verdicts",
+               {label_column("claim"), experiments::note_column("first"), experiments::note_column("second")});
   for (const PaperClaim& claim : first.claims)
     if (const auto other = std::ranges::find(second.claims, claim.id, &PaperClaim::id); other != second.claims.end())
-      experiments::add_row(table, {}, claim.sentence, name_of(claim.verdict), name_of(other->verdict));
+      add_row(table, {}, claim.sentence, name_of(claim.verdict), name_of(other->verdict));
   return table;
 }
 
-std::string finding_of(const results::ResultTable& summary, const char* all, const char* different, const char* words) {
+std::string finding_of(const ResultTable& summary, const char* all, const char* different, const char* words) {
   double total = 0, wrong = 0;
-  for (const results::ResultRow& row : summary.rows) {
+  for (const ResultRow& row : summary.rows) {
     total += results::number_in(summary, row, all);
     wrong += results::number_in(summary, row, different);
   }

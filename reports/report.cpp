@@ -26,25 +26,13 @@ ReportChart read_chart(const std::filesystem::path& file) {
   }
 }
 
-std::string quoted_for_shell(const std::string& word) {
-  const bool is_plain = !word.empty() && word.find_first_not_of(
-                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                             "0123456789-_./=:,+@%") == std::string::npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
 /// The command, but for its results, which go to files of their own.
 std::string repeating(std::vector<std::string> command) {
   for (std::size_t i = 0; i + 1 < command.size(); ++i) {
     const std::string ending = std::filesystem::path(command[i + 1]).extension().string();
     if (command[i] == "-o" || command[i] == "--report") command[i + 1] = "again" + ending;
   }
-  std::string text;
-  for (const std::string& word : command) text += (text.empty() ? "" : " ") + quoted_for_shell(word);
-  return text;
+  return experiments::command_line(command);
 }
 
 RunLine run_line(const std::filesystem::path& file) {
@@ -62,9 +50,9 @@ void add_runs(const std::filesystem::path& folder, const ReportSection& section,
   const auto add = [&](const std::string& file) {
     if (!file.empty() && !report.runs.contains(file)) report.runs[file] = run_line(folder / file);
   };
-  for (const results::ResultTable& table : section.result.tables)
-    for (const results::ResultRow& row : table.rows) std::ranges::for_each(row.runs, add);
-  for (const results::KeptMesh& mesh : section.result.meshes) add(mesh.run);
+  for (const ResultTable& table : section.result.tables)
+    for (const ResultRow& row : table.rows) std::ranges::for_each(row.runs, add);
+  for (const KeptMesh& mesh : section.result.meshes) add(mesh.run);
 }
 
 /// The scale that the other experiments of the folder have.
@@ -93,84 +81,78 @@ ReportSection read_section(const std::filesystem::path& folder, const experiment
   return section;
 }
 
-template <class Item>
-bench::Json array_of(const std::vector<Item>& items, bench::Json (*json_of)(const Item&)) {
-  bench::Json array = bench::Json::array();
-  for (const Item& item : items) array.push_back(json_of(item));
-  return array;
+std::string_view status_of(const ReportSection& section) {
+  if (section.is_missing) return "missing";
+  return section.result.is_good ? "ok" : "failed";
 }
 
-bench::Json chart_json(const ReportChart& chart) {
-  return {{"name", chart.name},
+}  // namespace
+
+/// \name The parts of a report as JSON.
+/// @{
+static void to_json(bench::Json& json, const ReportChart& chart) {
+  json = {{"name", chart.name},
           {"title", chart.title},
           {"caption", chart.caption},
           {"tables", chart.tables},
           {"spec", bench::Json::parse(chart.spec)}};
 }
 
-bench::Json measure_json(const ClaimMeasure& m) {
-  return {
-      {"what", m.what},
-      {"value", results::cell_json(m.value)},
-      {"bound", m.bound},
-      {"holds", m.strong == experiments::BoundTest::undecided ? bench::Json(nullptr)
-                                                              : bench::Json(m.strong == experiments::BoundTest::holds)},
-      {"experiment", m.experiment},
-      {"table", m.table},
-      {"runs", m.runs}};
+static void to_json(bench::Json& json, const ClaimMeasure& m) {
+  const bool is_open = m.strong == BoundTest::undecided;
+  json = {{"what", m.what},
+          {"value", results::cell_json(m.value)},
+          {"bound", m.bound},
+          {"holds", is_open ? bench::Json(nullptr) : bench::Json(m.strong == BoundTest::holds)},
+          {"experiment", m.experiment},
+          {"table", m.table},
+          {"runs", m.runs}};
 }
 
-bench::Json claim_json(const PaperClaim& claim) {
-  return {{"id", claim.id},
+static void to_json(bench::Json& json, const PaperClaim& claim) {
+  json = {{"id", claim.id},
           {"section", claim.section},
           {"sentence", claim.sentence},
           {"experiments", claim.experiments},
-          {"measured", array_of(claim.measured, measure_json)},
+          {"measured", claim.measured},
           {"verdict", name_of(claim.verdict)},
           {"reason", claim.reason}};
 }
 
-std::string_view status_of(const ReportSection& section) {
-  if (section.is_missing) return "missing";
-  return section.result.is_good ? "ok" : "failed";
-}
-
-bench::Json section_json(const ReportSection& section) {
-  const results::ExperimentResult& result = section.result;
-  bench::Json json = {{"name", result.name},
-                      {"title", result.title},
-                      {"section", result.section},
-                      {"status", status_of(section)},
-                      {"reason", section.reason},
-                      {"command", result.how.command},
-                      {"definitions", result.definitions},
-                      {"findings", result.findings},
-                      {"problems", result.problems},
-                      {"tables", result.tables},
-                      {"charts", array_of(section.charts, chart_json)},
-                      {"meshes", result.meshes},
-                      {"raw_files", result.raw_files}};
-  if (section.is_missing) return json;
+static void to_json(bench::Json& json, const ReportSection& section) {
+  const ExperimentResult& result = section.result;
+  json = {{"name", result.name},
+          {"title", result.title},
+          {"section", result.section},
+          {"status", status_of(section)},
+          {"reason", section.reason},
+          {"command", result.how.command},
+          {"definitions", result.definitions},
+          {"findings", result.findings},
+          {"problems", result.problems},
+          {"tables", result.tables},
+          {"charts", section.charts},
+          {"meshes", result.meshes},
+          {"raw_files", result.raw_files}};
+  if (section.is_missing) return;
   json["scale"] = result.how.scale;
   json["tetrahedra"] = result.how.tetrahedra;
   json["runs"] = result.how.runs;
   json["confidence"] = result.how.confidence;
   json["limits"] = {{"seconds", result.how.limits.seconds}, {"memory_bytes", result.how.limits.memory_bytes}};
   json["environment"] = result.how.environment;
-  return json;
 }
 
-bench::Json run_json(const RunLine& run) {
+static void to_json(bench::Json& json, const RunLine& run) {
   bench::Json settings = bench::Json::object();
   for (const auto& [name, words] : run.settings) settings[name] = words;
-  return {{"command", run.command},
+  json = {{"command", run.command},
           {"status", run.status},
           {"mesher", run.mesher},
           {"version", run.version},
           {"settings", settings}};
 }
-
-}  // namespace
+/// @}
 
 std::vector<ReportChart> read_charts(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -186,7 +168,7 @@ std::vector<ReportChart> read_charts(const std::filesystem::path& folder) {
 void add_charts(std::span<const ReportChart> charts, ReportSection& section) {
   for (const ReportChart& chart : charts) {
     const bool has_tables = std::ranges::all_of(chart.tables, [&](const std::string& name) {
-      const results::ResultTable* table = results::find_table(section.result, name);
+      const ResultTable* table = results::find_table(section.result, name);
       return table != nullptr && !table->rows.empty();
     });
     if (chart.experiment == section.result.name && has_tables) section.charts.push_back(chart);
@@ -208,7 +190,7 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
     place.file = folder.string();
     throw InputError("there is no experiment in this folder", place, "fill one with `ccdt reproduce -o DIR`");
   }
-  std::vector<results::ExperimentResult> results;
+  std::vector<ExperimentResult> results;
   for (ReportSection& section : report.sections) {
     if (section.is_missing)
       section.result.how.command =
@@ -221,18 +203,15 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
 }
 
 bench::Json report_json(const Report& report) {
-  bench::Json sections = bench::Json::array(), runs = bench::Json::object();
-  for (const ReportSection& section : report.sections) sections.push_back(section_json(section));
-  for (const auto& [file, run] : report.runs) runs[file] = run_json(run);
   return {{"schema", "ccdt.report/1"},
           {"title", report.title},
-          {"claims", array_of(report.claims, claim_json)},
-          {"experiments", sections},
-          {"runs", runs}};
+          {"claims", report.claims},
+          {"experiments", report.sections},
+          {"runs", report.runs}};
 }
 
 bench::Json claims_json(const Report& report) {
-  return {{"schema", "ccdt.claims/1"}, {"claims", array_of(report.claims, claim_json)}};
+  return {{"schema", "ccdt.claims/1"}, {"claims", report.claims}};
 }
 
 }  // namespace ccdt::reports

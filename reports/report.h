@@ -25,7 +25,7 @@ std::vector<ReportChart> read_charts(const std::filesystem::path& folder);
 
 /// An experiment as a report shows it.
 struct ReportSection {
-  results::ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
+  ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
   bool is_missing = false;
   std::string reason;  ///< why it is missing
   std::vector<ReportChart> charts;
@@ -59,5 +59,14 @@ void add_charts(std::span<const ReportChart> charts, ReportSection& section);
 /// As JSON of schema `ccdt.report/1`, and of schema `ccdt.claims/1` its claims alone.
 bench::Json report_json(const Report& report);
 bench::Json claims_json(const Report& report);
+
+/// Two folders beside each other, as a report of one section: which deterministic figures differ, which times are
+/// outside of the interval that the first folder states, and which verdicts have changed. Rows belong together that
+/// have the same labels.
+///
+/// \param into  the folder of the new report, which its files are named from
+/// \throw InputError  one of the folders has no experiment
+Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
+                       const std::filesystem::path& into, std::span<const ReportChart> charts);
 
 }  // namespace ccdt::reports

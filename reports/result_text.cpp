@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "bench/json.h"
 #include "bench/results/numbers.h"
+#include "engine/base/digits.h"
 
 namespace ccdt::reports {
 namespace {
+
+using results::Cell;
+using results::Column;
+using results::ResultRow;
+using results::rounded;
+using results::with_interval;
+using results::with_separators;
 
 /// How many columns of a terminal a UTF-8 text takes: continuation bytes take none.
 std::size_t width(const std::string& text) {
@@ -41,32 +51,28 @@ std::string number_text(double value) {
   constexpr double largest = 1e15;
   if (!std::isfinite(value)) return std::isnan(value) ? "" : "infinite";
   if (value == std::floor(value) && std::abs(value) < largest)
-    return (value < 0 ? "-" : "") + results::with_separators(static_cast<std::uint64_t>(std::abs(value)));
-  return results::rounded(value, 4);
+    return (value < 0 ? "-" : "") + with_separators(static_cast<std::uint64_t>(std::abs(value)));
+  return rounded(value, 4);
 }
 
-std::string cell_text(const results::Cell& cell) {
+std::string cell_text(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* number = std::get_if<double>(&cell)) return number_text(*number);
-  if (const auto* estimate = std::get_if<bench::Estimate>(&cell)) return results::with_interval(*estimate);
+  if (const auto* estimate = std::get_if<bench::Estimate>(&cell)) return with_interval(*estimate);
   return "";
 }
 
-std::string heading(const results::Column& column) {
+std::string heading(const Column& column) {
   return column.unit.empty() ? column.title : column.title + " (" + column.unit + ")";
 }
 
-bool is_empty(const results::ResultTable& table, std::size_t column) {
-  return std::ranges::all_of(table.rows,
-                             [&](const results::ResultRow& row) { return cell_text(row.cells[column]).empty(); });
+bool is_empty(const ResultTable& table, std::size_t column) {
+  return std::ranges::all_of(table.rows, [&](const ResultRow& row) { return cell_text(row.cells[column]).empty(); });
 }
 
 /// With all digits that are needed to read the same number back.
 std::string all_digits(double value) {
-  if (!std::isfinite(value)) return "";
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
+  return std::isfinite(value) ? digits(value) : "";
 }
 
 std::string csv_quoted(const std::string& text) {
@@ -76,13 +82,12 @@ std::string csv_quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-bool has_estimates(const results::ResultTable& table, std::size_t column) {
-  return std::ranges::any_of(table.rows, [&](const results::ResultRow& row) {
-    return std::holds_alternative<bench::Estimate>(row.cells[column]);
-  });
+bool has_estimates(const ResultTable& table, std::size_t column) {
+  return std::ranges::any_of(
+      table.rows, [&](const ResultRow& row) { return std::holds_alternative<bench::Estimate>(row.cells[column]); });
 }
 
-std::string csv_cell(const results::Cell& cell, bool as_estimate) {
+std::string csv_cell(const Cell& cell, bool as_estimate) {
   if (const auto* e = std::get_if<bench::Estimate>(&cell))
     return all_digits(e->value) + "," + all_digits(e->low) + "," + all_digits(e->high);
   std::string text;
@@ -119,8 +124,8 @@ std::string markdown_list(const std::string& title, const std::vector<std::strin
 }
 
 std::string machine(const bench::Environment& e) {
-  std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + results::rounded(e.load_average, 2) +
-                     "; " + e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
+  std::string text = e.cpu + ", " + std::to_string(e.cores) + " cores, load " + rounded(e.load_average, 2) + "; " +
+                     e.system + "; " + e.compiler + " " + e.flags + "; revision " + e.revision;
   for (const auto& [name, version] : e.libraries) text.append("; ").append(name).append(" ").append(version);
   return text;
 }
@@ -128,7 +133,63 @@ std::string machine(const bench::Environment& e) {
 std::string how_measured(const results::Circumstances& how) {
   if (how.runs <= 1) return "One run of each; all but the seconds is the same in every run.";
   return "Medians of " + std::to_string(how.runs) + " runs in turn after one that is not counted, with " +
-         results::rounded(100 * how.confidence, 2) + "% intervals.";
+         rounded(100 * how.confidence, 2) + "% intervals.";
+}
+
+std::string stages(const StageSeconds& s) {
+  const std::array<std::pair<const char*, double>, 10> all = {{{"plc", s.plc},
+                                                               {"protect", s.protect},
+                                                               {"facets", s.facets},
+                                                               {"lattice", s.lattice},
+                                                               {"delaunay", s.delaunay},
+                                                               {"face check", s.face_check},
+                                                               {"front", s.front},
+                                                               {"label", s.label},
+                                                               {"finish", s.finish},
+                                                               {"improve", s.improve}}};
+  std::string text;
+  for (const auto& [name, seconds] : all)
+    if (seconds > 0) text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds)));
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+/// Nothing if no edge was in danger.
+std::string protection(const MeshCounts& c) {
+  std::string text;
+  for (const std::uint64_t splits : c.splits_by_level)
+    text += (text.empty() ? "splits by level " : ", ") + with_separators(splits);
+  if (c.dropped_interior_vertices > 0)
+    text += (text.empty() ? "" : "; ") + with_separators(c.dropped_interior_vertices) +
+            " interior dropped for the sake of edges";
+  return text.empty() ? "" : "protection  " + text + "\n";
+}
+
+std::string measure_words(const bench::Quality::Measure& m) {
+  return "mean " + rounded(m.mean) + ", 99% below " + rounded(m.p99) + ", worst " + rounded(m.max);
+}
+
+std::string quality_lines(const bench::Quality& q) {
+  return "quality     r: " + measure_words(q.r) + "; dihedral angles " + rounded(q.dihedral_degrees.min) + " to " +
+         rounded(q.dihedral_degrees.max) + " degrees\n            aspect ratio: " + measure_words(q.aspect_ratio) +
+         "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
+}
+
+/// Nothing if none was asked for.
+std::string improvement(const ImproveCounts& c) {
+  if (c.stop == ImproveStop::none) return "";
+  std::string text = "improvement " + with_separators(c.bad_cells) +
+                     " tetrahedra to improve: " + with_separators(c.removed_edges) + " edges and " +
+                     with_separators(c.removed_faces) + " faces removed, " + with_separators(c.moved_vertices) +
+                     " vertices moved, " + with_separators(c.inserted_vertices) + " inserted, " +
+                     with_separators(c.collapsed_edges) + " collapsed; ";
+  if (c.stop == ImproveStop::target) return text + "all reach the target\n";
+  return text + with_separators(c.bad_cells_left) + " are left, " +
+         (c.stop == ImproveStop::time ? "the time was up" : "which nothing makes better") + "\n";
+}
+
+std::string check_word(const verify::Check& check) {
+  if (check.failed == 0) return "ok";
+  return check.required ? "FAILED" : "differs";
 }
 
 }  // namespace
@@ -169,7 +230,7 @@ std::string to_markdown(const TextTable& table) {
   return text;
 }
 
-TextTable text_table(const results::ResultTable& table) {
+TextTable text_table(const ResultTable& table) {
   TextTable text(table.rows.size() + 1);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     if (is_empty(table, c)) continue;
@@ -179,7 +240,7 @@ TextTable text_table(const results::ResultTable& table) {
   return text;
 }
 
-std::string to_csv(const results::ResultTable& table) {
+std::string to_csv(const ResultTable& table) {
   std::vector<bool> is_estimate;
   std::string text;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -189,7 +250,7 @@ std::string to_csv(const results::ResultTable& table) {
     if (is_estimate[c]) text.append(",").append(name).append("_low,").append(name).append("_high");
   }
   text += "\r\n";
-  for (const results::ResultRow& row : table.rows) {
+  for (const ResultRow& row : table.rows) {
     for (std::size_t c = 0; c < row.cells.size(); ++c)
       text += (c == 0 ? "" : ",") + csv_cell(row.cells[c], is_estimate[c]);
     text += "\r\n";
@@ -197,7 +258,7 @@ std::string to_csv(const results::ResultTable& table) {
   return text;
 }
 
-std::string to_latex(const results::ResultTable& table, const std::string& experiment) {
+std::string to_latex(const ResultTable& table, const std::string& experiment) {
   const TextTable cells = text_table(table);
   std::string columns;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
@@ -213,22 +274,69 @@ std::string to_latex(const results::ResultTable& table, const std::string& exper
   return text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
 }
 
-std::string to_terminal(const results::ExperimentResult& result) {
+std::string to_terminal(const ExperimentResult& result) {
   std::string text = result.title + "\n\n";
-  for (const results::ResultTable& table : result.tables)
+  for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty()) text += table.title + "\n\n" + to_terminal(text_table(table)) + "\n";
   return text + list("What this says", "  ", result.findings) + list("What went wrong", "  ", result.problems) +
          how_measured(result.how) + "\n";
 }
 
-std::string to_markdown(const results::ExperimentResult& result) {
+std::string to_markdown(const ExperimentResult& result) {
   std::string text = "# " + result.title + "\n\n" + how_measured(result.how) + "\n\n";
   text += markdown_list("What this says", result.findings) + markdown_list("What went wrong", result.problems);
-  for (const results::ResultTable& table : result.tables)
+  for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty())
       text += "## " + table.title + "\n\n" + to_markdown(text_table(table)) + "\n";
   return text + markdown_list("What the rows mean", result.definitions) + "## How it was measured\n\n`" +
          result.how.command + "`\n\n" + machine(result.how.environment) + "\n";
+}
+
+std::string summarize(const bench::RunRecord& r) {
+  const MeshCounts& c = r.counts;
+  std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
+                     " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
+  text += protection(c);
+  text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
+  text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
+          results::mebibytes(r.peak_rss_bytes) + "\n";
+  text += quality_lines(r.quality);
+  text += improvement(c.improve);
+  for (const std::string& note : r.notes) text += "note        " + note + "\n";
+  return text;
+}
+
+std::string to_terminal(const verify::Verification& verification) {
+  std::size_t width = 0;
+  for (const verify::Check& check : verification.checks) width = std::max(width, check.name.size());
+  std::string text;
+  for (const verify::Check& check : verification.checks) {
+    const std::string word = check_word(check);
+    text += word + std::string(9 - word.size(), ' ') + check.name + std::string(width + 2 - check.name.size(), ' ');
+    text += check.failed == 0 ? with_separators(check.checked)
+                              : with_separators(check.failed) + " of " + with_separators(check.checked);
+    text += "\n";
+    for (const std::string& example : check.examples) text += "           " + example + "\n";
+  }
+  return text + "volume   " + rounded(verification.mesh_volume, 12) + ", of the input " +
+         rounded(verification.input_volume, 12) + "\n";
+}
+
+std::string to_json(const verify::Verification& verification, const std::string& input, const std::string& mesh) {
+  bench::Json checks = bench::Json::array();
+  for (const verify::Check& check : verification.checks)
+    checks.push_back({{"name", check.name},
+                      {"checked", check.checked},
+                      {"failed", check.failed},
+                      {"required", check.required},
+                      {"examples", check.examples}});
+  return bench::to_text({{"schema", "ccdt.verify/1"},
+                         {"input", input},
+                         {"mesh", mesh},
+                         {"ok", verification.ok()},
+                         {"mesh_volume", verification.mesh_volume},
+                         {"input_volume", verification.input_volume},
+                         {"checks", checks}});
 }
 
 }  // namespace ccdt::reports

@@ -23,9 +23,9 @@ void write_text(const std::string& text, const std::filesystem::path& file) {
 
 void write_tables(const ReportSection& section, const std::filesystem::path& folder) {
   if (section.is_missing) return;
-  const results::ExperimentResult& result = section.result;
+  const ExperimentResult& result = section.result;
   write_text(to_markdown(result), folder / (result.name + ".md"));
-  for (const results::ResultTable& table : result.tables) {
+  for (const ResultTable& table : result.tables) {
     const std::string stem = result.name + "-" + table.name;
     write_text(to_csv(table), folder / "tables" / (stem + ".csv"));
     if (table.is_data || table.rows.empty()) continue;
@@ -91,7 +91,7 @@ bench::Json contents_of(const std::set<std::string>& files, const std::filesyste
 std::set<std::string> mesh_files(const Report& report) {
   std::set<std::string> files;
   for (const ReportSection& section : report.sections)
-    for (const results::KeptMesh& mesh : section.result.meshes) files.insert(mesh.file);
+    for (const KeptMesh& mesh : section.result.meshes) files.insert(mesh.file);
   return files;
 }
 

@@ -10,7 +10,7 @@
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/surface/remesh_surface.h"
-#include "reports/command_output.h"
+#include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"

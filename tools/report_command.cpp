@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "reports/comparison.h"
+#include "reports/report.h"
 #include "reports/result_text.h"
 #include "reports/write_report.h"
 #include "tools/commands.h"

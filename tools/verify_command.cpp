@@ -5,7 +5,7 @@
 #include "engine/io/output_file.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "reports/command_output.h"
+#include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"

@@ -1,5 +1,3 @@
-#include "bench/experiments/delaunay.h"
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -7,9 +5,9 @@
 #include <optional>
 #include <tuple>
 
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
 #include "engine/io/file_bytes.h"
 
@@ -54,23 +52,6 @@ std::vector<std::string> wanted_methods(const ExperimentOptions& options) {
   if (is_measured(options, "cgal-delaunay")) methods.emplace_back("cgal");
   if (is_measured(options, "tetgen")) methods.emplace_back("tetgen");
   return methods;
-}
-
-/// "a|b|c"
-std::string any_of(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "|") + word;
-  return text;
-}
-
-/// As one would type it.
-std::string in_a_shell(const std::vector<std::string>& command) {
-  std::string line;
-  for (const std::string& word : command) {
-    const bool is_plain = word.find_first_of(" '\"\\|()$&;*?<>[]{}") == std::string::npos;
-    line += (line.empty() ? "" : " ") + (is_plain ? word : "'" + word + "'");
-  }
-  return line;
 }
 
 std::vector<std::string> definitions(const std::string& command) {
@@ -158,17 +139,16 @@ std::vector<MeasuredMethod> measured_in(const bench::Json& json) {
   return all;
 }
 
-bench::Estimate scaled(const bench::Estimate& e, double factor) {
+Estimate scaled(const Estimate& e, double factor) {
   return {e.value * factor, e.low * factor, e.high * factor};
 }
 
-void add_times_row(const MeasuredMethod& m, results::ResultTable& times) {
+void add_times_row(const MeasuredMethod& m, ResultTable& times) {
   if (!m.fault.empty() || m.seconds.empty())
-    return add_row(times, {}, m.points, m.size, m.method, "failed", results::Cell(), results::Cell(), results::Cell(),
-                   results::Cell(), m.fault);
-  const bench::Estimate seconds = bench::median_estimate(m.seconds);
+    return add_row(times, {}, m.points, m.size, m.method, "failed", Cell(), Cell(), Cell(), Cell(), m.fault);
+  const Estimate seconds = bench::median_estimate(m.seconds);
   add_row(times, {}, m.points, m.size, m.method, "ok", m.vertices, m.tetrahedra, seconds,
-          scaled(seconds, 1e6 / m.vertices), results::Cell());
+          scaled(seconds, 1e6 / m.vertices), Cell());
 }
 
 /// The methods on the same points.
@@ -180,15 +160,14 @@ const MeasuredMethod* find(const PointsGroup& group, std::string_view method) {
   return found == group.end() || (*found)->seconds.empty() ? nullptr : *found;
 }
 
-std::optional<bench::Estimate> ratio(const PointsGroup& group, std::string_view numerator,
-                                     std::string_view denominator) {
+std::optional<Estimate> ratio(const PointsGroup& group, std::string_view numerator, std::string_view denominator) {
   const MeasuredMethod *above = find(group, numerator), *below = find(group, denominator);
   if (above == nullptr || below == nullptr || bench::quantile(below->seconds, 0) <= 0) return {};
   return bench::ratio_of_medians(above->seconds, below->seconds);
 }
 
 std::string subject(const MeasuredMethod& m) {
-  return m.points + ", " + results::with_separators(static_cast<std::uint64_t>(m.vertices)) + " points";
+  return m.points + ", " + with_separators(static_cast<std::uint64_t>(m.vertices)) + " points";
 }
 
 /// "piston, 10,521 points: insert takes 0.50 [0.49, 0.52] times as long as CGAL, so it is faster."
@@ -199,39 +178,37 @@ void add_comparison(const PointsGroup& group, const char* method, const char* ot
   const std::string verdict = is_at_most(*estimate, 1) == BoundTest::holds    ? "it is faster"
                               : is_at_least(*estimate, 1) == BoundTest::holds ? "it is slower"
                                                                               : "neither is surely faster";
-  findings.push_back(subject(*find(group, other)) + ": " + std::string(method) + " takes " +
-                     results::with_interval(*estimate) + " times as long as " + other + ": " + verdict + ".");
+  findings.push_back(subject(*find(group, other)) + ": " + std::string(method) + " takes " + with_interval(*estimate) +
+                     " times as long as " + other + ": " + verdict + ".");
 }
 
 /// How the time of a vertex grows from the smallest to the largest set of these points.
 void add_growth(const PointsGroup& small, const PointsGroup& large, std::vector<std::string>& findings) {
-  std::string growths;
+  std::vector<std::string> growths;
   for (const auto& [name, method] : methods) {
     const MeasuredMethod *first = find(small, method), *last = find(large, method);
     if (first == nullptr || last == nullptr) continue;
-    const bench::Estimate r = bench::ratio_of_medians(last->seconds, first->seconds);
+    const Estimate r = bench::ratio_of_medians(last->seconds, first->seconds);
     const double scale = first->vertices / last->vertices;
-    growths += (growths.empty() ? "" : ", ") + std::string(method) + " " + results::with_interval(scaled(r, scale));
+    growths.push_back(std::string(method) + " " + with_interval(scaled(r, scale)));
   }
   if (!growths.empty())
-    findings.push_back(small[0]->points +
-                       ": the largest set takes so many times as long a vertex as the smallest: " + growths + ".");
+    findings.push_back(small[0]->points + ": the largest set takes so many times as long a vertex as the smallest: " +
+                       joined(growths) + ".");
 }
 
 /// What the timed results must have in common.
-void check_counts(const PointsGroup& group, results::ExperimentResult& result) {
+void check_counts(const PointsGroup& group, ExperimentResult& result) {
   const MeasuredMethod* inserted = find(group, "insert");
   for (const MeasuredMethod* m : group) {
     const bool is_ours = m->method == "insert" || m->method == "wrap";
     if (!m->fault.empty()) {
-      result.problems.push_back(m->points + " " + m->size + ", " + m->method + ": " + m->fault);
-      result.is_good = result.is_good && !is_ours;
+      add_problem(result, m->points + " " + m->size + ", " + m->method + ": " + m->fault, is_ours);
       continue;
     }
     const bool has_no_ties = m->points == title_of(sets, "random");
     if (inserted == nullptr || m->tetrahedra == inserted->tetrahedra || !(is_ours || has_no_ties)) continue;
-    result.problems.push_back(subject(*m) + ": " + m->method + " has not as many tetrahedra as insert");
-    result.is_good = result.is_good && !is_ours;
+    add_problem(result, subject(*m) + ": " + m->method + " has not as many tetrahedra as insert", is_ours);
   }
 }
 
@@ -257,19 +234,17 @@ void add_findings(const std::vector<PointsGroup>& groups, std::vector<std::strin
 }
 
 /// Of a child that left no JSON: a row for all that it was to measure.
-void add_failure(const ExperimentOptions& options, const baselines::ProcessResult& child,
-                 results::ExperimentResult& result) {
+void add_failure(const ExperimentOptions& options, const baselines::ProcessResult& child, ExperimentResult& result) {
   evaluate_delaunay(R"({"benchmarks": []})", result);
   for (const std::string& set : point_sets(options))
     for (const std::string& method : wanted_methods(options))
-      add_row(result.tables[0], {}, set, "", method, name_of(child.status), results::Cell(), results::Cell(),
-              results::Cell(), results::Cell(), child.reason);
-  result.problems.push_back(std::string(program_name) + " did not end well: " + child.reason);
-  result.is_good = false;
+      add_row(result.tables[0], {}, set, "", method, name_of(child.status), Cell(), Cell(), Cell(), Cell(),
+              child.reason);
+  add_problem(result, std::string(program_name) + " did not end well: " + child.reason);
 }
 
 /// The JSON that the program wrote, and whether it is whole.
-bool evaluate_file(const std::filesystem::path& file, results::ExperimentResult& result) {
+bool evaluate_file(const std::filesystem::path& file, ExperimentResult& result) {
   try {
     evaluate_delaunay(io::read_whole_file(file).bytes, result);
     return true;
@@ -293,8 +268,8 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
                                       "--largest",
                                       std::to_string(largest_size(options.tetrahedra)),
                                       "--no-complexity",
-                                      "--benchmark_filter=^delaunay/(" + any_of(wanted_methods(options)) + ")/(" +
-                                          any_of(point_sets(options)) + ")(/[0-9]+)?$",
+                                      "--benchmark_filter=^delaunay/(" + joined(wanted_methods(options), "|") + ")/(" +
+                                          joined(point_sets(options), "|") + ")(/[0-9]+)?$",
                                       "--benchmark_repetitions=" + std::to_string(options.runs),
                                       "--benchmark_enable_random_interleaving=true",
                                       "--benchmark_min_time=0.001",
@@ -305,44 +280,41 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
   return command;
 }
 
-void evaluate_delaunay(const std::string& benchmark_json, results::ExperimentResult& result) {
+void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& result) {
   std::vector<MeasuredMethod> all;
   try {
     all = measured_in(bench::Json::parse(benchmark_json));
   } catch (const nlohmann::json::exception& error) {
     throw InputError("no JSON of Google Benchmark: " + std::string(error.what()), {}, "measure again");
   }
-  results::ResultTable times{
-      "times",
-      "Delaunay tetrahedralization",
-      {label_column("points"), label_column("size"), label_column("method"), label_column("status"),
-       figure_column("vertices"), figure_column("tetrahedra"), time_column("seconds", "", "s"),
-       time_column("microseconds_per_vertex", "time a vertex", "µs"), note_column("reason")}};
-  results::ResultTable ratios{
-      "ratios",
-      "How the times compare",
-      {label_column("points"), label_column("size"), figure_column("vertices"),
-       time_column("insert_over_cgal", "insert / CGAL"), time_column("wrap_over_insert", "wrap / insert"),
-       time_column("tetgen_over_insert", "TetGen / insert")}};
+  ResultTable times =
+      table_of("times", "Delaunay tetrahedralization",
+               {label_column("points"), label_column("size"), label_column("method"), label_column("status"),
+                figure_column("vertices"), figure_column("tetrahedra"), time_column("seconds", "", "s"),
+                time_column("microseconds_per_vertex", "time a vertex", "µs"), note_column("reason")});
+  ResultTable ratios =
+      table_of("ratios", "How the times compare",
+               {label_column("points"), label_column("size"), figure_column("vertices"),
+                time_column("insert_over_cgal", "insert / CGAL"), time_column("wrap_over_insert", "wrap / insert"),
+                time_column("tetgen_over_insert", "TetGen / insert")});
   const std::vector<PointsGroup> groups = groups_of(all);
   for (const MeasuredMethod& m : all) add_times_row(m, times);
   for (const PointsGroup& group : groups) {
     const MeasuredMethod* any = find(group, "insert");
-    add_row(ratios, {}, group[0]->points, group[0]->size,
-            any == nullptr ? results::Cell() : results::Cell(any->vertices), ratio(group, "insert", "CGAL"),
-            ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
+    add_row(ratios, {}, group[0]->points, group[0]->size, any == nullptr ? Cell() : Cell(any->vertices),
+            ratio(group, "insert", "CGAL"), ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
     check_counts(group, result);
   }
   add_findings(groups, result.findings);
   result.tables = {times, ratios};
 }
 
-results::ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress) {
-  results::ExperimentResult result{.how = start_experiment(options, options.runs)};
+ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress) {
+  ExperimentResult result{.how = start_experiment(options, options.runs)};
   const auto file = options.folder / output_file;
   const auto program = find_bench_delaunay(options.program);
   check_something_is_measured(point_sets(options).size(), "delaunay");
-  result.definitions = definitions(in_a_shell(bench_delaunay_command(program_name, options, output_file)));
+  result.definitions = definitions(command_line(bench_delaunay_command(program_name, options, output_file)));
   std::filesystem::create_directories(file.parent_path());
   std::filesystem::remove(file);  // or that of an earlier experiment would be taken for this one's
   if (program.empty()) {

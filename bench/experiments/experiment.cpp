@@ -4,12 +4,24 @@
 #include <cmath>
 
 #include "baselines/mesher.h"
-#include "bench/results/numbers.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::experiments {
+namespace {
 
-results::Circumstances start_experiment(const ExperimentOptions& options, int runs) {
+std::string quoted_for_shell(const std::string& word) {
+  const bool is_plain = !word.empty() && word.find_first_not_of(
+                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                             "0123456789-_./=:,+@%") == std::string::npos;
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+Circumstances start_experiment(const ExperimentOptions& options, int runs) {
   for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
   return {.environment = bench::capture_environment(),
           .runs = runs,
@@ -52,12 +64,12 @@ void check_something_is_measured(std::size_t cases, std::string_view experiment)
                      "leave out --models, and it measures all that it has");
 }
 
-BoundTest is_at_most(const bench::Estimate& estimate, double bound) {
+BoundTest is_at_most(const Estimate& estimate, double bound) {
   if (estimate.high <= bound) return BoundTest::holds;
   return estimate.low > bound ? BoundTest::fails : BoundTest::undecided;
 }
 
-BoundTest is_at_least(const bench::Estimate& estimate, double bound) {
+BoundTest is_at_least(const Estimate& estimate, double bound) {
   if (estimate.low >= bound) return BoundTest::holds;
   return estimate.high < bound ? BoundTest::fails : BoundTest::undecided;
 }
@@ -66,8 +78,19 @@ std::string choose(BoundTest test, std::string_view holds, std::string_view unde
   return std::string(test == BoundTest::holds ? holds : test == BoundTest::fails ? fails : undecided);
 }
 
+void add_problem(ExperimentResult& result, std::string problem, bool is_ours) {
+  result.problems.push_back(std::move(problem));
+  result.is_good = result.is_good && !is_ours;
+}
+
+std::string command_line(const std::vector<std::string>& command) {
+  std::string line;
+  for (const std::string& word : command) line += (line.empty() ? "" : " ") + quoted_for_shell(word);
+  return line;
+}
+
 std::string share_words(std::uint64_t part, std::uint64_t whole) {
-  return results::with_separators(part) + " of " + results::with_separators(whole);
+  return with_separators(part) + " of " + with_separators(whole);
 }
 
 }  // namespace ccdt::experiments

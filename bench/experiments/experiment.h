@@ -1,17 +1,38 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "baselines/process.h"
 #include "bench/results/experiment_result.h"
+#include "bench/results/numbers.h"
+#include "bench/results/result_table.h"
+#include "bench/run_record.h"
 #include "bench/statistics.h"
 #include "engine/base/progress.h"
 
 namespace ccdt::experiments {
+
+using bench::Estimate;
+using bench::RunRecord;
+using results::Cell;
+using results::Circumstances;
+using results::Column;
+using results::ColumnKind;
+using results::ExperimentResult;
+using results::joined;
+using results::KeptMesh;
+using results::ResultRow;
+using results::ResultTable;
+using results::rounded;
+using results::with_interval;
+using results::with_separators;
 
 /// The options of every experiment of `ccdt reproduce`.
 struct ExperimentOptions {
@@ -31,7 +52,7 @@ struct ExperimentOptions {
 ///
 /// \param runs  counted runs a case
 /// \return      the circumstances, as they are before the first run
-results::Circumstances start_experiment(const ExperimentOptions& options, int runs);
+Circumstances start_experiment(const ExperimentOptions& options, int runs);
 
 /// The factor of an edge length that makes about 100,000 tetrahedra, to make as many as are wanted.
 double edge_factor(const ExperimentOptions& options);
@@ -69,13 +90,78 @@ enum class BoundTest {
   undecided,  ///< the bound is inside
   fails       ///< all of the interval is on the wrong side
 };
-BoundTest is_at_most(const bench::Estimate& estimate, double bound);
-BoundTest is_at_least(const bench::Estimate& estimate, double bound);
+BoundTest is_at_most(const Estimate& estimate, double bound);
+BoundTest is_at_least(const Estimate& estimate, double bound);
 
 /// The text for the outcome of a test.
 std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails);
 
+/// Adds what went wrong. A result is bad if anything of our own did.
+void add_problem(ExperimentResult& result, std::string problem, bool is_ours = true);
+
+/// A command as one types it in a shell.
+std::string command_line(const std::vector<std::string>& command);
+
 /// "20 of 1,000"
 std::string share_words(std::uint64_t part, std::uint64_t whole);
+
+/// A column of the given kind. Without a title, the title is the name with spaces.
+inline Column column(ColumnKind kind, std::string name, std::string title = {}, std::string unit = {}) {
+  if (title.empty()) {
+    title = name;
+    std::ranges::replace(title, '_', ' ');
+  }
+  return {std::move(name), std::move(title), kind, std::move(unit)};
+}
+inline Column label_column(std::string name, std::string title = {}) {
+  return column(ColumnKind::label, std::move(name), std::move(title));
+}
+inline Column figure_column(std::string name, std::string title = {}, std::string unit = {}) {
+  return column(ColumnKind::figure, std::move(name), std::move(title), std::move(unit));
+}
+inline Column time_column(std::string name, std::string title = {}, std::string unit = {}) {
+  return column(ColumnKind::time, std::move(name), std::move(title), std::move(unit));
+}
+inline Column note_column(std::string name, std::string title = {}) {
+  return column(ColumnKind::note, std::move(name), std::move(title));
+}
+
+/// A table that has no rows yet.
+inline ResultTable table_of(std::string name, std::string title, std::vector<Column> columns, bool is_data = false) {
+  return {std::move(name), std::move(title), std::move(columns), {}, is_data};
+}
+
+template <class Items>
+void append(std::vector<typename Items::value_type>& to, const Items& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+template <class Value>
+Cell as_cell(const Value& value) {
+  if constexpr (std::is_convertible_v<const Value&, Cell>)
+    return value;
+  else
+    return results::cell_of(value);
+}
+
+/// The value, if it is known; else an empty cell.
+template <class Value>
+Cell cell_if(bool is_known, const Value& value) {
+  return is_known ? as_cell(value) : Cell();
+}
+
+/// Cells of any values: texts, numbers, estimates, yes or no, and those that may be missing.
+template <class... Values>
+std::vector<Cell> cells(const Values&... values) {
+  return {as_cell(values)...};
+}
+
+/// Appends a row with a cell for each value.
+///
+/// \param runs  the files of the runs that the row stands on
+template <class... Values>
+void add_row(ResultTable& table, const std::vector<std::string>& runs, const Values&... values) {
+  table.rows.push_back({cells(values...), runs});
+}
 
 }  // namespace ccdt::experiments

@@ -1,13 +1,11 @@
-#include "bench/experiments/fig8.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "baselines/mesher.h"
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"
 #include "models/solids.h"
 
@@ -90,9 +88,9 @@ std::vector<MeasuredCase> plan(const ExperimentOptions& options, const PaperMode
 
 Fig8Point point_of(const MeasuredCase& measured, const ModelSize& size) {
   const bool is_ours = measured.call.mesher == "ccdt";
-  Fig8Point point{outcome_of(measured, is_ours ? cdt_seconds : mesh_seconds), size.edge_length};
+  Fig8Point point{outcome_of(measured, is_ours ? SecondsOf(cdt_seconds) : &StageSeconds::mesh), size.edge_length};
   if (point.ok())
-    for (const bench::RunRecord& run : measured.counted) point.stages.push_back(run.seconds);
+    for (const RunRecord& run : measured.counted) point.stages.push_back(run.seconds);
   return point;
 }
 
@@ -138,13 +136,13 @@ std::vector<std::string> definitions() {
 
 /// Appends a row that begins with the labels of a series.
 template <class... Values>
-void add_series_row(results::ResultTable& table, const std::string& model, const Fig8Series& series,
+void add_series_row(ResultTable& table, const std::string& model, const Fig8Series& series,
                     const std::vector<std::string>& runs, const Values&... values) {
   add_row(table, runs, model, series.mesher, series.label, values...);
 }
 
-std::vector<results::Column> series_columns(const std::vector<results::Column>& more) {
-  std::vector<results::Column> columns = {label_column("model"), label_column("mesher"), label_column("strategy")};
+std::vector<Column> series_columns(const std::vector<Column>& more) {
+  std::vector<Column> columns = {label_column("model"), label_column("mesher"), label_column("strategy")};
   append(columns, more);
   return columns;
 }
@@ -155,16 +153,16 @@ std::vector<std::string> all_runs(const Fig8Series& series) {
   return runs;
 }
 
-bench::Estimate in_microseconds(const bench::Estimate& e) {
+Estimate in_microseconds(const Estimate& e) {
   return {1e6 * e.value, 1e6 * e.low, 1e6 * e.high};
 }
 
-void add_rows(const std::string& model, const Fig8Series& series, results::ResultTable& points,
-              results::ResultTable& fits, results::ResultTable& lines) {
+void add_rows(const std::string& model, const Fig8Series& series, ResultTable& points, ResultTable& fits,
+              ResultTable& lines) {
   for (const Fig8Point& p : series.points)
     add_series_row(points, model, series, p.runs, name_of(p.status), p.edge_length,
-                   p.seconds ? as_cell(p.counts.vertices) : results::Cell(),
-                   p.seconds ? as_cell(p.counts.tetrahedra) : results::Cell(), p.seconds, p.reason);
+                   cell_if(p.seconds.has_value(), p.counts.vertices),
+                   cell_if(p.seconds.has_value(), p.counts.tetrahedra), p.seconds, p.reason);
   const std::vector<std::string> runs = all_runs(series);
   for (const Fig8Fit& fit : series.fits)
     add_series_row(fits, model, series, runs, fit.quantity, fit.points, fit.power.slope, fit.power.r_squared,
@@ -175,33 +173,31 @@ void add_rows(const std::string& model, const Fig8Series& series, results::Resul
     add_series_row(lines, model, series, runs, vertices, fit.line.intercept + vertices * fit.line.slope.value);
 }
 
-void add_finding(const std::string& model, const Fig8Series& series, results::ExperimentResult& result) {
+void add_finding(const std::string& model, const Fig8Series& series, ExperimentResult& result) {
   const std::string who = model + ", " + series.label + ": ";
   if (series.fits.empty()) {
     result.findings.push_back(who + "too few sizes for a fit");
     return;
   }
-  const bench::Estimate& exponent = series.fits.front().power.slope;
-  result.findings.push_back(who + "the exponent is " + results::with_interval(exponent) + "; that it is at most " +
-                            results::rounded(claimed_exponent) + ": " +
+  const Estimate& exponent = series.fits.front().power.slope;
+  result.findings.push_back(who + "the exponent is " + with_interval(exponent) + "; that it is at most " +
+                            rounded(claimed_exponent) + ": " +
                             choose(is_at_most(exponent, claimed_exponent), "holds",
                                    "undecided, the bound is within the interval", "does not hold"));
 }
 
-void add_problems(const std::string& model, const Fig8Series& series, results::ExperimentResult& result) {
-  for (const Fig8Point& p : series.points) {
-    if (p.seconds) continue;
-    result.problems.push_back(model + ", " + series.label + ", edge length " + results::rounded(p.edge_length) + ": " +
-                              p.failure());
-    result.is_good = result.is_good && series.mesher != "ccdt";
-  }
+void add_problems(const std::string& model, const Fig8Series& series, ExperimentResult& result) {
+  for (const Fig8Point& p : series.points)
+    if (!p.seconds)
+      add_problem(result, model + ", " + series.label + ", edge length " + rounded(p.edge_length) + ": " + p.failure(),
+                  series.mesher == "ccdt");
 }
 
 }  // namespace
 
 std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
   std::vector<Fig8Fit> fits;
-  const auto add = [&](const char* quantity, SecondsOf seconds_of) {
+  const auto add = [&](const char* quantity, const SecondsOf& seconds_of) {
     std::vector<double> vertices, medians;
     for (const Fig8Point& point : series.points) {
       if (!point.seconds) continue;
@@ -217,12 +213,12 @@ std::vector<Fig8Fit> fit_series(const Fig8Series& series) {
                     bench::fit_power(vertices, medians)});
   };
   if (series.mesher != "ccdt") {
-    add("mesh", mesh_seconds);
+    add("mesh", &StageSeconds::mesh);
     return fits;
   }
   add("cdt", cdt_seconds);
-  add("delaunay", delaunay_seconds);
-  if (series.id.starts_with("without_check")) add("front", front_seconds);
+  add("delaunay", &StageSeconds::delaunay);
+  if (series.id.starts_with("without_check")) add("front", &StageSeconds::front);
   return fits;
 }
 
@@ -240,23 +236,20 @@ Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress) {
   return fig8;
 }
 
-results::ExperimentResult result_of(const Fig8& fig8) {
-  results::ResultTable fits{
-      "fits", "How the seconds grow with the number of vertices",
-      series_columns({label_column("quantity", "seconds of"), figure_column("points", "sizes"), time_column("exponent"),
-                      time_column("exponent_r2", "R2 of the exponent"),
-                      time_column("microseconds_per_vertex", "slope, a vertex", "us"),
-                      time_column("seconds_at_zero", "", "s"), time_column("r2", "R2 of the line")})};
-  results::ResultTable points{
+ExperimentResult result_of(const Fig8& fig8) {
+  ResultTable fits =
+      table_of("fits", "How the seconds grow with the number of vertices",
+               series_columns({label_column("quantity", "seconds of"), figure_column("points", "sizes"),
+                               time_column("exponent"), time_column("exponent_r2", "R2 of the exponent"),
+                               time_column("microseconds_per_vertex", "slope, a vertex", "us"),
+                               time_column("seconds_at_zero", "", "s"), time_column("r2", "R2 of the line")}));
+  ResultTable points = table_of(
       "points", "Seconds against size",
       series_columns({label_column("status"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
-                      figure_column("tetrahedra"), time_column("seconds", "", "s"), note_column("reason")})};
-  results::ResultTable lines{"lines",
-                             "Straight lines through the points",
-                             series_columns({figure_column("vertices"), time_column("seconds", "", "s")}),
-                             {},
-                             true};
-  results::ExperimentResult result{.how = fig8.how, .definitions = definitions()};
+                      figure_column("tetrahedra"), time_column("seconds", "", "s"), note_column("reason")}));
+  ResultTable lines = table_of("lines", "Straight lines through the points",
+                               series_columns({figure_column("vertices"), time_column("seconds", "", "s")}), true);
+  ExperimentResult result{.how = fig8.how, .definitions = definitions()};
   for (const Fig8Model& model : fig8.models)
     for (const Fig8Series& series : model.series) {
       add_rows(model.name, series, points, fits, lines);

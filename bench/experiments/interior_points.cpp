@@ -1,12 +1,10 @@
-#include "bench/experiments/interior_points.h"
-
 #include <algorithm>
 
-#include "bench/experiments/small_plcs/families.h"
-#include "bench/experiments/small_plcs/tetrahedralization.h"
+#include "bench/experiments/existence_experiments.h"
+#include "bench/experiments/experiment.h"
+#include "bench/experiments/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
 
 namespace ccdt::experiments {
 namespace {
@@ -28,7 +26,7 @@ std::vector<std::string> options_of(InteriorRule rule) {
   return {};
 }
 
-bool has_constrained_delaunay(const small_plcs::SmallPlc& plc) {
+bool has_constrained_delaunay(const SmallPlc& plc) {
   return search_constrained_delaunay(plc).constrained_delaunay > 0;
 }
 
@@ -37,7 +35,7 @@ InteriorCase run(const ExperimentOptions& options, const SurfaceFile& surface, L
   std::vector<std::string> words = options_of(rule);
   append(words, std::vector<std::string>{"--improve", "none", "--lattice", std::string(name_of(lattice))});
   const std::string record = "runs/interior-points-" + std::to_string(number) + ".json";
-  const bench::RunRecord run =
+  const RunRecord run =
       run_call(options, {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},
                options.folder / record);
   return {{run.status, run.reason, {record}, run.counts}, surface.name, surface.edge_length, lattice, rule};
@@ -60,21 +58,19 @@ std::vector<std::string> definitions() {
   };
 }
 
-std::vector<results::ResultTable> tables_of(const InteriorPoints& points) {
+std::vector<ResultTable> tables_of(const InteriorPoints& points) {
   const char* dropped_title = "points that would have destroyed a protected edge";
-  results::ResultTable existence{"existence",
-                                 "Existence with one interior point more, by exhaustion",
-                                 {label_column("family"), figure_column("cases", "PLCs with a CDT"),
-                                  figure_column("lost", "of these without one with the point"),
-                                  note_column("counterexample", "the smallest, its last vertex the point")}};
+  ResultTable existence = table_of("existence", "Existence with one interior point more, by exhaustion",
+                                   {label_column("family"), figure_column("cases", "PLCs with a CDT"),
+                                    figure_column("lost", "of these without one with the point"),
+                                    note_column("counterexample", "the smallest, its last vertex the point")});
   for (const ExistenceTrials& trials : points.existence)
     add_row(existence, {}, trials.family, trials.cases, trials.lost,
-            trials.lost > 0 ? results::Cell(small_plcs::in_words(trials.counterexample)) : results::Cell());
-  results::ResultTable rules_table{
-      "rules",
-      "What the rules let through",
+            cell_if(trials.lost > 0, small_plcs::in_words(trials.counterexample)));
+  ResultTable rules_table = table_of(
+      "rules", "What the rules let through",
       {label_column("rule"), label_column("lattice"), figure_column("cases"), figure_column("interior_vertices"),
-       figure_column("dropped", dropped_title), figure_column("harmed", "cases with such points")}};
+       figure_column("dropped", dropped_title), figure_column("harmed", "cases with such points")});
   const auto add = [&](InteriorRule rule, std::string_view lattice, const InteriorSummary& s) {
     add_row(rules_table, {}, name_of(rule), lattice, s.cases, s.placed, s.dropped, s.harmed);
   };
@@ -82,13 +78,12 @@ std::vector<results::ResultTable> tables_of(const InteriorPoints& points) {
     for (const Lattice lattice : lattices) add(rule, name_of(lattice), summarize(points.cases, rule, lattice));
     add(rule, "all", summarize(points.cases, rule));
   }
-  results::ResultTable cases{"cases",
-                             "The cases",
-                             {label_column("model"), label_column("edge_length"), label_column("rule"),
-                              label_column("lattice"), label_column("status"), figure_column("interior_vertices"),
-                              figure_column("dropped", dropped_title), note_column("reason")}};
+  ResultTable cases = table_of("cases", "The cases",
+                               {label_column("model"), label_column("edge_length"), label_column("rule"),
+                                label_column("lattice"), label_column("status"), figure_column("interior_vertices"),
+                                figure_column("dropped", dropped_title), note_column("reason")});
   for (const InteriorCase& c : points.cases)
-    add_row(cases, c.runs, c.input, c.edge_length > 0 ? results::rounded(c.edge_length) : "", name_of(c.rule),
+    add_row(cases, c.runs, c.input, c.edge_length > 0 ? rounded(c.edge_length) : "", name_of(c.rule),
             name_of(c.lattice), name_of(c.status), c.counts.interior_vertices, c.counts.dropped_interior_vertices,
             c.reason);
   return {existence, rules_table, cases};
@@ -111,11 +106,11 @@ std::vector<std::string> findings_of(const InteriorPoints& points) {
     if (s.cases == 0)
       lines.push_back(rule_words + "no case to judge by");
     else if (s.harmed == 0)
-      lines.push_back(rule_words + "no point did harm in " + results::with_separators(s.cases) + " cases with " +
-                      results::with_separators(s.placed) + " interior vertices");
+      lines.push_back(rule_words + "no point did harm in " + with_separators(s.cases) + " cases with " +
+                      with_separators(s.placed) + " interior vertices");
     else
-      lines.push_back(rule_words + "points do harm: " + results::with_separators(s.dropped) + " points of " +
-                      results::with_separators(s.placed + s.dropped) + " would have destroyed a protected edge, in " +
+      lines.push_back(rule_words + "points do harm: " + with_separators(s.dropped) + " points of " +
+                      with_separators(s.placed + s.dropped) + " would have destroyed a protected edge, in " +
                       share_words(s.harmed, s.cases) + " cases");
   }
   return lines;
@@ -123,7 +118,7 @@ std::vector<std::string> findings_of(const InteriorPoints& points) {
 
 }  // namespace
 
-small_plcs::SmallPlc with_interior_point(const small_plcs::SmallPlc& plc, std::uint64_t seed) {
+SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed) {
   constexpr int most_draws = 50;
   small_plcs::Random random(seed);
   small_plcs::Point low = plc.vertices.front(), high = low;
@@ -132,7 +127,7 @@ small_plcs::SmallPlc with_interior_point(const small_plcs::SmallPlc& plc, std::u
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const auto last = static_cast<small_plcs::Vertex>(plc.vertices.size());
-  small_plcs::SmallPlc more = plc;
+  SmallPlc more = plc;
   more.vertices.emplace_back();
   for (int draw = 0; draw < most_draws; ++draw) {
     more.vertices.back() = {random.between(low.x, high.x), random.between(low.y, high.y),
@@ -145,13 +140,13 @@ small_plcs::SmallPlc with_interior_point(const small_plcs::SmallPlc& plc, std::u
 std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
   std::vector<ExistenceTrials> all;
   std::uint64_t seed = 1;
-  for (const small_plcs::Family& family : small_plcs::families()) {
+  for (const Family& family : small_plcs::families()) {
     if (family.is_cospherical) continue;
     ExistenceTrials trials{.family = std::string(family.name)};
     small_plcs::Random random(++seed);
     for (std::uint64_t i = 0; i < cases_a_family; ++i) {
-      const small_plcs::SmallPlc plc = next_plc(family, random);
-      const small_plcs::SmallPlc more = with_interior_point(plc, ++seed);
+      const SmallPlc plc = next_plc(family, random);
+      const SmallPlc more = with_interior_point(plc, ++seed);
       if (more.vertices.empty() || !has_constrained_delaunay(plc)) continue;
       ++trials.cases;
       if (has_constrained_delaunay(more)) continue;
@@ -197,15 +192,14 @@ InteriorPoints measure_interior_points(const ExperimentOptions& options, const P
   return points;
 }
 
-results::ExperimentResult result_of(const InteriorPoints& points) {
-  results::ExperimentResult result{
+ExperimentResult result_of(const InteriorPoints& points) {
+  ExperimentResult result{
       .how = points.how, .definitions = definitions(), .tables = tables_of(points), .findings = findings_of(points)};
   for (const InteriorCase& c : points.cases) {
     if (c.ok()) continue;
-    const std::string at = c.edge_length > 0 ? " at " + results::rounded(c.edge_length) : "";
-    result.problems.push_back(c.input + at + ", " + std::string(name_of(c.lattice)) + ", " +
-                              std::string(name_of(c.rule)) + ": " + c.failure());
-    result.is_good = false;
+    const std::string at = c.edge_length > 0 ? " at " + rounded(c.edge_length) : "";
+    add_problem(result, c.input + at + ", " + std::string(name_of(c.lattice)) + ", " + std::string(name_of(c.rule)) +
+                            ": " + c.failure());
   }
   return result;
 }

@@ -1,10 +1,8 @@
-#include "bench/experiments/locators.h"
-
 #include <algorithm>
 
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"
 
 namespace ccdt::experiments {
@@ -64,10 +62,10 @@ std::vector<LocatorsGroup> plan(const ExperimentOptions& options) {
 LocatorsCase evaluate(const LocatorsGroup& group) {
   LocatorsCase result = group.result;
   for (std::size_t i = 0; i < all_locators.size(); ++i) {
-    result.rows.push_back({outcome_of(group.cases[i], front_seconds), all_locators[i]});
+    result.rows.push_back({outcome_of(group.cases[i], &StageSeconds::front), all_locators[i]});
     if (result.rows.back().ok()) result.counts = result.rows.back().counts;
   }
-  const auto over_grid = [&](const LocatorsRow& row) -> std::optional<bench::Estimate> {
+  const auto over_grid = [&](const LocatorsRow& row) -> std::optional<Estimate> {
     const LocatorsRow& grid = result.rows[0];
     if (!row.seconds || !grid.seconds || bench::quantile(grid.samples, 0) <= 0) return {};
     return bench::ratio_of_medians(row.samples, grid.samples);
@@ -93,27 +91,25 @@ std::string check_words(const LocatorsCase& c) {
   return c.face_protection ? "on" : "off";
 }
 
-results::ResultTable table_of(std::string name, std::string title, const std::vector<results::Column>& more) {
-  results::ResultTable table{std::move(name),
-                             std::move(title),
-                             {label_column("model"), label_column("kind"), label_column("face_protection", "check")}};
+ResultTable case_table(std::string name, std::string title, const std::vector<Column>& more) {
+  ResultTable table = table_of(std::move(name), std::move(title),
+                               {label_column("model"), label_column("kind"), label_column("face_protection", "check")});
   append(table.columns, more);
   return table;
 }
 
-std::vector<results::ResultTable> tables_of(const Locators& locators) {
-  results::ResultTable front =
-      table_of("front", "Seconds of the front",
-               {label_column("locator"), label_column("status"), time_column("seconds", "", "s"),
-                figure_column("front_tetrahedra", "tetrahedra of the front"), note_column("reason")});
-  results::ResultTable ratios =
-      table_of("ratios", "Beside the paper's grid", {label_column("ratio"), time_column("value", "here")});
-  results::ResultTable sizes =
-      table_of("sizes", "The surfaces",
-               {figure_column("edge_ratio", "longest edge over shortest"), figure_column("vertices"),
-                figure_column("faces"), figure_column("undelaunay_faces", "faces that are not Delaunay")});
+std::vector<ResultTable> tables_of(const Locators& locators) {
+  ResultTable front = case_table("front", "Seconds of the front",
+                                 {label_column("locator"), label_column("status"), time_column("seconds", "", "s"),
+                                  figure_column("front_tetrahedra", "tetrahedra of the front"), note_column("reason")});
+  ResultTable ratios =
+      case_table("ratios", "Beside the paper's grid", {label_column("ratio"), time_column("value", "here")});
+  ResultTable sizes =
+      case_table("sizes", "The surfaces",
+                 {figure_column("edge_ratio", "longest edge over shortest"), figure_column("vertices"),
+                  figure_column("faces"), figure_column("undelaunay_faces", "faces that are not Delaunay")});
   for (const LocatorsCase& c : locators.cases) {
-    const auto add = [&](results::ResultTable& table, const std::vector<std::string>& runs, const auto&... values) {
+    const auto add = [&](ResultTable& table, const std::vector<std::string>& runs, const auto&... values) {
       add_row(table, runs, c.name, name_of(c.kind), check_words(c), values...);
     };
     std::vector<std::string> runs;
@@ -136,11 +132,11 @@ std::vector<std::string> findings_of(const Locators& locators) {
     const auto claim = expectation(c);
     if (!claim) continue;
     const bool is_graded = c.kind == SurfaceKind::graded;
-    lines.push_back(
-        c.name + ": that the " + (is_graded ? "octree is faster than the grid" : "grid is faster than the octree") +
-        " where edges " + (is_graded ? "differ by a factor of " + results::rounded(c.edge_ratio) : "are even") + ": " +
-        choose(*claim, "holds", "undecided", "does not hold") + " (octree / grid " +
-        results::with_interval(*c.octree_over_grid) + ")");
+    lines.push_back(c.name + ": that the " +
+                    (is_graded ? "octree is faster than the grid" : "grid is faster than the octree") +
+                    " where edges " + (is_graded ? "differ by a factor of " + rounded(c.edge_ratio) : "are even") +
+                    ": " + choose(*claim, "holds", "undecided", "does not hold") + " (octree / grid " +
+                    with_interval(*c.octree_over_grid) + ")");
   }
   return lines;
 }
@@ -167,17 +163,16 @@ Locators measure_locators(const ExperimentOptions& options, const Progress& prog
   return locators;
 }
 
-results::ExperimentResult result_of(const Locators& locators) {
-  results::ExperimentResult result{.how = locators.how,
-                                   .definitions = definitions(),
-                                   .tables = tables_of(locators),
-                                   .findings = findings_of(locators)};
+ExperimentResult result_of(const Locators& locators) {
+  ExperimentResult result{.how = locators.how,
+                          .definitions = definitions(),
+                          .tables = tables_of(locators),
+                          .findings = findings_of(locators)};
   for (const LocatorsCase& c : locators.cases)
     for (const LocatorsRow& row : c.rows) {
       if (row.ok()) continue;
-      result.problems.push_back(c.name + ", check " + check_words(c) + ", " + std::string(name_of(row.locator)) + ": " +
-                                row.failure());
-      result.is_good = false;
+      const std::string locator(name_of(row.locator));
+      add_problem(result, c.name + ", check " + check_words(c) + ", " + locator + ": " + row.failure());
     }
   return result;
 }

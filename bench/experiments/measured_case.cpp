@@ -34,17 +34,15 @@ std::vector<std::string> command_of(const ExperimentOptions& options, const Mesh
 }
 
 /// The record of a child that ended before it wrote a report.
-bench::RunRecord record_without_report(const MeshCall& call, const std::vector<std::string>& command) {
-  bench::RunRecord record;
+RunRecord record_without_report(const MeshCall& call, const std::vector<std::string>& command) {
+  RunRecord record;
   record.environment = bench::capture_environment();
   const baselines::Mesher& asked = baselines::mesher(call.mesher);
   record.mesher = {asked.name, baselines::version_of(asked), asked.name == "ccdt" ? record.environment.revision : ""};
   record.command = command;
   record.command.front() = "ccdt";
   record.input.name = command[2];
-  std::string words;
-  for (const std::string& option : call.options) words += (words.empty() ? "" : " ") + option;
-  record.options = {{"command_line", words}};
+  record.options = {{"command_line", joined(call.options, " ")}};
   return record;
 }
 
@@ -54,13 +52,13 @@ std::string run_file(const MeasuredCase& measured, std::size_t number) {
 
 }  // namespace
 
-bench::RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report) {
+RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report) {
   std::filesystem::remove(report);  // or that of an earlier experiment would be taken for this one's
   const std::vector<std::string> command = command_of(options, call, report);
   const baselines::ProcessResult child =
       baselines::run_program(command, {.folder = options.folder, .limits = options.limits});
   const bool wrote_one = std::filesystem::exists(report);
-  bench::RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(call, command);
+  RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(call, command);
   // A child that has failed by itself says more in its own record than its last words do; but what it wrote before it
   // crashed says only what it was to do.
   const bool ended_by_itself = child.status == baselines::RunStatus::ok || child.status == baselines::RunStatus::failed;
@@ -80,7 +78,7 @@ bool is_counted(const ExperimentOptions& options, const MeasuredCase& measured, 
 void run_once(const ExperimentOptions& options, MeasuredCase& measured, int number) {
   if (measured.failed() || !is_counted(options, measured, number)) return;
   const auto report = options.folder / run_file(measured, static_cast<std::size_t>(number));
-  bench::RunRecord record = run_call(options, measured.call, report);
+  RunRecord record = run_call(options, measured.call, report);
   if (number > 0 && record.status == baselines::RunStatus::ok) {
     measured.counted.push_back(record);
   } else {
@@ -107,7 +105,7 @@ std::vector<std::string> run_files(const MeasuredCase& measured) {
   return files;
 }
 
-results::KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title) {
+KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title) {
   const std::string file = "meshes/" + measured.stem + ".json";
   results::write_kept_mesh(io::read_tet_mesh(measured.call.output), title, options.folder / file);
   return {file, title, run_files(measured).front()};
@@ -117,21 +115,9 @@ double cdt_seconds(const StageSeconds& s) {
   return s.delaunay + s.face_check + s.front + s.label;
 }
 
-double mesh_seconds(const StageSeconds& s) {
-  return s.mesh;
-}
-
-double front_seconds(const StageSeconds& s) {
-  return s.front;
-}
-
-double delaunay_seconds(const StageSeconds& s) {
-  return s.delaunay;
-}
-
-std::vector<double> samples_of(const MeasuredCase& measured, SecondsOf seconds) {
+std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds) {
   std::vector<double> samples;
-  for (const bench::RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));
+  for (const RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));
   return samples;
 }
 
@@ -143,7 +129,7 @@ CaseOutcome outcome_of(const MeasuredCase& measured) {
   return {measured.first.status, measured.first.reason, run_files(measured), measured.first.counts};
 }
 
-CaseOutcome outcome_of(const MeasuredCase& measured, SecondsOf seconds) {
+CaseOutcome outcome_of(const MeasuredCase& measured, const SecondsOf& seconds) {
   CaseOutcome outcome = outcome_of(measured);
   if (measured.failed()) return outcome;
   outcome.samples = samples_of(measured, seconds);

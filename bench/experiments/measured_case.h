@@ -23,9 +23,9 @@ struct MeasuredCase {
   std::string name;  ///< within its group
   std::string stem;  ///< of the names of its records: "piston-with_check"
   MeshCall call;
-  std::vector<bench::RunRecord> counted = {};
-  bench::RunRecord first = {};  ///< of the run that is not counted, or of the one that failed
-  std::size_t first_run = 0;    ///< the number of that run
+  std::vector<RunRecord> counted = {};
+  RunRecord first = {};       ///< of the run that is not counted, or of the one that failed
+  std::size_t first_run = 0;  ///< the number of that run
   bool failed() const { return first.status != baselines::RunStatus::ok; }
 };
 
@@ -36,7 +36,7 @@ struct MeasuredCase {
 /// wherever that folder has been moved to.
 ///
 /// \throw OutputError  the record cannot be written
-bench::RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report);
+RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const std::filesystem::path& report);
 
 /// Is the run of this number still to be made, now that the case has been run once? Cases of which a run takes long are
 /// counted three times at most. What is long depends on the scale: a second with 10,000 tetrahedra a model.
@@ -60,21 +60,17 @@ std::vector<std::string> run_files(const MeasuredCase& measured);
 /// Keeps the mesh that the case has just made, for pictures: in meshes/STEM.json.
 /// \pre it has not failed, and its mesh is still there
 /// \throw OutputError
-results::KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title);
+KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measured, const std::string& title);
 
 /// The seconds of a run that are of interest.
-using SecondsOf = double (*)(const StageSeconds&);
+using SecondsOf = std::function<double(const StageSeconds&)>;
 
 /// Seconds of the constrained Delaunay tetrahedralization of given vertices, the paper's CDT times: Delaunay, face
 /// check, front and labeling.
 double cdt_seconds(const StageSeconds& seconds);
-/// Seconds of meshing alone.
-double mesh_seconds(const StageSeconds& seconds);
-double front_seconds(const StageSeconds& seconds);
-double delaunay_seconds(const StageSeconds& seconds);
 
 /// One number of each counted run.
-std::vector<double> samples_of(const MeasuredCase& measured, SecondsOf seconds);
+std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
 /// What the rows of all experiments say of a case.
 struct CaseOutcome {
@@ -82,14 +78,14 @@ struct CaseOutcome {
   std::string reason = {};             ///< why the status is not ok
   std::vector<std::string> runs = {};  ///< files of the runs
   MeshCounts counts = {};
-  std::vector<double> samples = {};             ///< seconds of the counted runs, in order
-  std::optional<bench::Estimate> seconds = {};  ///< their median; none if a run failed
+  std::vector<double> samples = {};      ///< seconds of the counted runs, in order
+  std::optional<Estimate> seconds = {};  ///< their median; none if a run failed
   bool ok() const { return status == baselines::RunStatus::ok; }
   /// "timeout: limit of 600 s"
   std::string failure() const;
 };
 /// Without seconds.
 CaseOutcome outcome_of(const MeasuredCase& measured);
-CaseOutcome outcome_of(const MeasuredCase& measured, SecondsOf seconds);
+CaseOutcome outcome_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
 }  // namespace ccdt::experiments

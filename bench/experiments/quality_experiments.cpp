@@ -5,8 +5,7 @@
 #include <map>
 
 #include "baselines/mesher.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/experiment.h"
 #include "engine/base/digits.h"
 
 namespace ccdt::experiments {
@@ -30,21 +29,19 @@ std::vector<QualityVariant> mesher_variants(const ExperimentOptions& options) {
   return variants;
 }
 
-results::ResultTable verdicts_table(const MesherQuality& quality) {
-  results::ResultTable table{
-      "verdicts",
-      "Better than all others?",
-      {label_column("model"), label_column("variant"), label_column("criterion", "by"),
-       figure_column("better", "better than all others"), figure_column("ours"),
-       figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")}};
+ResultTable verdicts_table(const MesherQuality& quality) {
+  ResultTable table =
+      table_of("verdicts", "Better than all others?",
+               {label_column("model"), label_column("variant"), label_column("criterion", "by"),
+                figure_column("better", "better than all others"), figure_column("ours"),
+                figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")});
   for (const QualityCase& c : quality.cases)
     for (const QualityRow& row : c.rows) {
       if (!row.is_ours) continue;
       for (const QualityComparison& v : compare_with_others(c, row)) {
         const bool is_alone = v.best_variant.empty();
-        add_row(table, row.runs, c.name, row.variant, name_of(v.criterion),
-                is_alone ? results::Cell() : as_cell(v.is_better()), v.ours,
-                is_alone ? results::Cell() : results::Cell(v.best), v.best_variant);
+        add_row(table, row.runs, c.name, row.variant, name_of(v.criterion), cell_if(!is_alone, v.is_better()), v.ours,
+                cell_if(!is_alone, v.best), v.best_variant);
       }
     }
   return table;
@@ -53,7 +50,7 @@ results::ResultTable verdicts_table(const MesherQuality& quality) {
 /// In how many cases each variant of ours is better than all others, by each criterion.
 std::vector<std::string> verdict_findings(const MesherQuality& quality) {
   struct Score {
-    int better = 0, cases = 0;
+    std::uint64_t better = 0, cases = 0;
   };
   std::map<std::string, std::map<Criterion, Score>> scores;
   for (const QualityCase& c : quality.cases)
@@ -66,14 +63,10 @@ std::vector<std::string> verdict_findings(const MesherQuality& quality) {
       }
   std::vector<std::string> lines;
   for (const auto& [variant, by_criterion] : scores) {
-    std::string line = variant + " is better than all others";
-    const char* separator = " in ";
-    for (const auto& [criterion, score] : by_criterion) {
-      line += separator + std::string(name_of(criterion)) + " in " + std::to_string(score.better) + " of " +
-              std::to_string(score.cases);
-      separator = ", ";
-    }
-    lines.push_back(line + " cases");
+    std::vector<std::string> parts;
+    for (const auto& [criterion, score] : by_criterion)
+      parts.push_back(std::string(name_of(criterion)) + " in " + share_words(score.better, score.cases));
+    lines.push_back(variant + " is better than all others in " + joined(parts) + " cases");
   }
   return lines;
 }
@@ -107,13 +100,12 @@ void add_case(const QualityCase& c, LatticeClaim& claim) {
 }
 
 /// In how many cases each lattice is the best.
-results::ResultTable best_lattice_table(const std::vector<LatticeClaim>& claims) {
-  results::ResultTable table{
-      "best",
-      "The best lattice",
-      {label_column("criterion", "by"), label_column("improved"),
-       figure_column("confirmed", "FCC alone is the best in every case"), figure_column("cases"),
-       figure_column("fcc", "FCC best"), figure_column("bcc", "BCC best"), figure_column("sc", "SC best")}};
+ResultTable best_lattice_table(const std::vector<LatticeClaim>& claims) {
+  ResultTable table =
+      table_of("best", "The best lattice",
+               {label_column("criterion", "by"), label_column("improved"),
+                figure_column("confirmed", "FCC alone is the best in every case"), figure_column("cases"),
+                figure_column("fcc", "FCC best"), figure_column("bcc", "BCC best"), figure_column("sc", "SC best")});
   for (const LatticeClaim& claim : claims)
     add_row(table, {}, name_of(claim.criterion), claim.improved, claim.is_confirmed(), claim.cases, claim.best[0],
             claim.best[1], claim.best[2]);
@@ -123,15 +115,14 @@ results::ResultTable best_lattice_table(const std::vector<LatticeClaim>& claims)
 std::vector<std::string> lattice_findings(const std::vector<LatticeClaim>& claims) {
   std::vector<std::string> lines;
   for (const bool improved : {false, true}) {
-    std::string confirmed, refuted;
+    std::vector<std::string> confirmed, refuted;
     for (const LatticeClaim& claim : claims) {
       if (claim.improved != improved || claim.cases == 0) continue;
-      std::string& list = claim.is_confirmed() ? confirmed : refuted;
-      list += (list.empty() ? "" : ", ") + std::string(name_of(claim.criterion));
+      (claim.is_confirmed() ? confirmed : refuted).emplace_back(name_of(claim.criterion));
     }
     const std::string meshes = improved ? "after improvement by: " : "before improvement by: ";
-    if (!confirmed.empty()) lines.push_back(("That FCC is best is confirmed " + meshes).append(confirmed));
-    if (!refuted.empty()) lines.push_back(("That FCC is best is not confirmed " + meshes).append(refuted));
+    if (!confirmed.empty()) lines.push_back("That FCC is best is confirmed " + meshes + joined(confirmed));
+    if (!refuted.empty()) lines.push_back("That FCC is best is not confirmed " + meshes + joined(refuted));
   }
   return lines;
 }
@@ -145,11 +136,10 @@ bool is_best(const QualityCase& c, const QualityRow& row, Criterion criterion) {
 }
 
 /// In how many cases each part is the best, alone or with others.
-results::ResultTable best_part_table(const ImprovementParts& parts) {
-  results::ResultTable table{"best",
-                             "The best in so many cases",
-                             {label_column("improve", "improvement"), label_column("criterion", "by"),
-                              figure_column("cases"), figure_column("best", "best in")}};
+ResultTable best_part_table(const ImprovementParts& parts) {
+  ResultTable table = table_of("best", "The best in so many cases",
+                               {label_column("improve", "improvement"), label_column("criterion", "by"),
+                                figure_column("cases"), figure_column("best", "best in")});
   if (parts.cases.empty()) return table;
   for (std::size_t i = 0; i < parts.cases.front().rows.size(); ++i)
     for (const Criterion criterion : judged_criteria) {
@@ -202,15 +192,14 @@ SettingSummary summary_of(const LatticeSetting& setting, std::size_t number,
   return sum;
 }
 
-results::ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
-  results::ResultTable table{
-      "settings",
-      "The settings",
-      {label_column("setting"), figure_column("rank"), figure_column("mean_r"),
-       figure_column("p99_r", "99% of r below"), figure_column("worst_r"),
-       figure_column("largest_worst_r", "worst r of all"), figure_column("smallest_dihedral", "", "degrees"),
-       figure_column("least_dihedral", "smallest of all", "degrees"),
-       time_column("improve_seconds", "improvement", "s")}};
+ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
+  ResultTable table =
+      table_of("settings", "The settings",
+               {label_column("setting"), figure_column("rank"), figure_column("mean_r"),
+                figure_column("p99_r", "99% of r below"), figure_column("worst_r"),
+                figure_column("largest_worst_r", "worst r of all"), figure_column("smallest_dihedral", "", "degrees"),
+                figure_column("least_dihedral", "smallest of all", "degrees"),
+                time_column("improve_seconds", "improvement", "s")});
   for (const SettingSummary& s : summaries)
     add_row(table, {}, text_of(s.setting), s.rank, s.mean_r, s.p99_r, s.worst_r, s.largest_worst_r, s.smallest_dihedral,
             s.least_dihedral, s.improve_seconds);
@@ -223,12 +212,11 @@ std::vector<std::string> setting_findings(const std::vector<SettingSummary>& sum
   auto best = std::ranges::min_element(summaries, {}, &SettingSummary::rank);
   if (usual->rank <= best->rank) best = usual;  // as good as any
   std::vector<std::string> lines = {"The best setting is " + text_of(best->setting) + ", with a mean rank of " +
-                                    results::rounded(best->rank) + " among " + std::to_string(summaries.size())};
+                                    rounded(best->rank) + " among " + std::to_string(summaries.size())};
   if (best->setting == usual->setting)
     lines.emplace_back("It is the default");
   else
-    lines.push_back("The default, " + text_of(usual->setting) + ", has a mean rank of " +
-                    results::rounded(usual->rank));
+    lines.push_back("The default, " + text_of(usual->setting) + ", has a mean rank of " + rounded(usual->rank));
   return lines;
 }
 
@@ -283,7 +271,7 @@ MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std
   return {measure_study(options, plan, progress)};
 }
 
-results::ExperimentResult result_of(const MesherQuality& quality) {
+ExperimentResult result_of(const MesherQuality& quality) {
   const std::vector<std::string> definitions = {
       "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
       "Rows that are more than 15% away from that number are shown, and not compared with.",
@@ -293,7 +281,7 @@ results::ExperimentResult result_of(const MesherQuality& quality) {
       "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
       "What takes long has at most three counted runs.",
   };
-  results::ExperimentResult result = study_result(quality, definitions);
+  ExperimentResult result = study_result(quality, definitions);
   result.tables.insert(result.tables.begin() + 1, verdicts_table(quality));
   result.findings = verdict_findings(quality);
   return result;
@@ -320,14 +308,14 @@ Lattices measure_lattices(const ExperimentOptions& options, const Progress& prog
   return {measure_study(options, plan, progress)};
 }
 
-results::ExperimentResult result_of(const Lattices& lattices) {
+ExperimentResult result_of(const Lattices& lattices) {
   const std::vector<std::string> definitions = {
       "The paper, section 3: of a unit cell, the tetrahedra of the FCC lattice are better than others.",
       "All lattices have the same number of vertices per volume, and the same surface.",
       "The claim is confirmed by a measure if FCC alone is the best in every case.",
       "Improvement stops at a target: lattices that all reach it differ in worst values by chance.",
   };
-  results::ExperimentResult result = study_result(lattices, definitions);
+  ExperimentResult result = study_result(lattices, definitions);
   const std::vector<LatticeClaim> claims = lattice_claims(lattices);
   result.tables.insert(result.tables.begin(), best_lattice_table(claims));
   result.findings = lattice_findings(claims);
@@ -344,14 +332,14 @@ ImprovementParts measure_improvement(const ExperimentOptions& options, const Pro
   return {measure_study(options, plan, progress)};
 }
 
-results::ExperimentResult result_of(const ImprovementParts& parts) {
+ExperimentResult result_of(const ImprovementParts& parts) {
   const std::vector<std::string> definitions = {
       "none: the constrained Delaunay tetrahedralization with its FCC lattice.",
       "swap: other tetrahedra of the same vertices. smooth: other places for them.",
       "all: both, and vertices inside are inserted and taken out.",
       "Improve: median seconds of the improvement, which are part of the seconds.",
   };
-  results::ExperimentResult result = study_result(parts, definitions);
+  ExperimentResult result = study_result(parts, definitions);
   result.tables.insert(result.tables.begin(), best_part_table(parts));
   return result;
 }
@@ -398,7 +386,7 @@ LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress&
   return {measure_study(options, plan, progress)};
 }
 
-results::ExperimentResult result_of(const LatticeFit& fit) {
+ExperimentResult result_of(const LatticeFit& fit) {
   const std::vector<std::string> definitions = {
       "Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
       "Clearance: none nearer to the surface than --clearance edge lengths.",
@@ -407,7 +395,7 @@ results::ExperimentResult result_of(const LatticeFit& fit) {
       "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
       "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together.",
   };
-  results::ExperimentResult result = study_result(fit, definitions);
+  ExperimentResult result = study_result(fit, definitions);
   const std::vector<SettingSummary> summaries = summarize(fit);
   result.tables.insert(result.tables.begin(), settings_table(summaries));
   result.findings = setting_findings(summaries);

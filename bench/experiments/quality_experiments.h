@@ -4,10 +4,78 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/quality_study.h"
+#include "bench/experiments/measured_case.h"
+#include "bench/experiments/surfaces.h"
+#include "bench/quality.h"
 #include "engine/base/enum_names.h"
 
 namespace ccdt::experiments {
+
+/// How far the numbers of tetrahedra of two meshes may be apart for their quality to be compared, as a fraction.
+inline constexpr double equal_count_tolerance = 0.15;
+
+/// One way to fill a surface: a mesher with options.
+struct QualityVariant {
+  std::string name;                      ///< for people
+  std::string mesher;                    ///< as in `--mesher`
+  std::vector<std::string> words;        ///< options of `ccdt mesh`, but for `--edge-length` and `--grading`
+  std::vector<std::string> labels = {};  ///< what tells its rows from others: a value for each label of the plan
+};
+
+/// A variant on a surface. Seconds are of meshing.
+struct QualityRow : CaseOutcome {
+  std::string variant;
+  std::vector<std::string> labels;
+  double edge_length = 0;      ///< that it was asked for
+  double improve_seconds = 0;  ///< median; 0 for meshers that do not tell
+  bench::Quality quality = {};
+  bool is_comparable = false;  ///< about as many tetrahedra as the first row has
+  bool is_ours = true;         ///< made by our engine
+};
+
+/// A surface at one size, filled by all variants.
+struct QualityCase {
+  std::string name;          ///< of the solid or of the file
+  std::uint64_t wanted = 0;  ///< tetrahedra
+  EvenSurface surface;
+  std::vector<QualityRow> rows;  ///< none if there is no surface
+  std::string reason;            ///< why there is none
+};
+
+struct QualityStudy {
+  Circumstances how;
+  std::vector<Column> labels;  ///< of the variants
+  std::vector<QualityCase> cases;
+  std::vector<KeptMesh> meshes = {};
+};
+
+/// What is measured on every surface.
+struct StudyPlan {
+  std::string experiment;           ///< begins the names of its files
+  std::vector<std::string> models;  ///< solids; the user's files come after them
+  std::vector<Column> labels;       ///< of the variants
+  std::vector<QualityVariant> variants;
+  bool equal_counts = false;  ///< gives each variant the edge length for as many tetrahedra as the first has made
+  bool once = false;          ///< the results are always the same and times do not matter: one run of each
+  bool keeps_meshes = false;  ///< for the viewer, those that are small enough
+};
+
+/// Meshes with more tetrahedra are not kept: a page could not hold them.
+inline constexpr std::uint64_t most_kept_tetrahedra = 150000;
+
+/// Measures the plan's models and the user's files, each with a surface of triangles of nearly one size on which our
+/// FCC lattice, unimproved, makes the wanted number of tetrahedra. The variants take turns. Searches for edge lengths
+/// are not counted.
+///
+/// \throw InputError   there is nothing to measure
+/// \throw OutputError  a file of the experiment cannot be written
+QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& plan, const Progress& progress);
+
+/// The definitions and tables that all studies have, with the problems that came up: a row a mesh, its histograms, the
+/// surfaces.
+///
+/// \param definitions  more of what the rows mean, one sentence each
+ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions);
 
 /// The criteria by which a comparison of quality is made.
 enum class Criterion { mean_r, p99_r, worst_r, smallest_dihedral, largest_dihedral };
@@ -50,7 +118,7 @@ std::vector<QualityComparison> compare_with_others(const QualityCase& c, const Q
 MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std::string& experiment,
                                      const std::vector<std::string>& models, const Progress& progress = {});
 
-results::ExperimentResult result_of(const MesherQuality& quality);
+ExperimentResult result_of(const MesherQuality& quality);
 
 /// The three lattices, each before and after improvement.
 struct Lattices : QualityStudy {};
@@ -77,7 +145,7 @@ std::vector<LatticeClaim> lattice_claims(const Lattices& lattices);
 /// \throw InputError, OutputError  as `measure_study`
 Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress = {});
 
-results::ExperimentResult result_of(const Lattices& lattices);
+ExperimentResult result_of(const Lattices& lattices);
 
 /// What each part of the improvement does alone: nothing, swaps, smoothing, all.
 struct ImprovementParts : QualityStudy {};
@@ -87,7 +155,7 @@ struct ImprovementParts : QualityStudy {};
 /// \throw InputError, OutputError  as `measure_study`
 ImprovementParts measure_improvement(const ExperimentOptions& options, const Progress& progress = {});
 
-results::ExperimentResult result_of(const ImprovementParts& parts);
+ExperimentResult result_of(const ImprovementParts& parts);
 
 /// How near to the surface lattice points may be.
 struct LatticeSetting {
@@ -124,6 +192,6 @@ std::vector<SettingSummary> summarize(const LatticeFit& fit);
 /// \throw InputError, OutputError  as `measure_study`
 LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress = {});
 
-results::ExperimentResult result_of(const LatticeFit& fit);
+ExperimentResult result_of(const LatticeFit& fit);
 
 }  // namespace ccdt::experiments

@@ -1,5 +1,3 @@
-#include "bench/experiments/quality_study.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,8 +6,8 @@
 
 #include "baselines/mesher_input.h"
 #include "bench/experiments/count_search.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/experiment.h"
+#include "bench/experiments/quality_experiments.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 
@@ -37,7 +35,7 @@ struct SourceStudy {
   const SurfaceSource& source;
   std::string stem;                      ///< of the names of its files
   std::vector<MeasuredCase> cases = {};  ///< one a variant
-  std::vector<results::KeptMesh> meshes = {};
+  std::vector<KeptMesh> meshes = {};
 
   std::filesystem::path mesh() const { return options.folder / "meshes" / (plan.experiment + ".vtu"); }
 
@@ -128,11 +126,11 @@ double asked_edge_length(const MeasuredCase& measured) {
 }
 
 QualityRow row_of(const MeasuredCase& measured, const QualityVariant& variant, const MeasuredCase& reference) {
-  QualityRow row{outcome_of(measured, mesh_seconds), measured.name, variant.labels};
+  QualityRow row{outcome_of(measured, &StageSeconds::mesh), measured.name, variant.labels};
   row.is_ours = variant.mesher == "ccdt";
   row.edge_length = asked_edge_length(measured);
   if (measured.failed()) return row;
-  row.improve_seconds = bench::median(samples_of(measured, [](const StageSeconds& s) { return s.improve; }));
+  row.improve_seconds = bench::median(samples_of(measured, &StageSeconds::improve));
   row.quality = measured.first.quality;
   const double ratio =
       static_cast<double>(row.counts.tetrahedra) / static_cast<double>(reference.first.counts.tetrahedra);
@@ -192,47 +190,49 @@ std::vector<std::string> study_definitions() {
   };
 }
 
-/// The columns that tell whose a row is.
-std::vector<results::Column> label_columns(const QualityStudy& study) {
-  std::vector<results::Column> columns = {label_column("model")};
+/// The columns that say whose a row is, and more.
+std::vector<Column> columns_of(const QualityStudy& study, const std::vector<Column>& more) {
+  std::vector<Column> columns = {label_column("model")};
   append(columns, study.labels);
+  append(columns, more);
   return columns;
 }
 
-std::vector<results::Cell> label_cells(const QualityCase& c, const QualityRow& row) {
-  std::vector<results::Cell> labels = {c.name};
-  append(labels, std::vector<results::Cell>(row.labels.begin(), row.labels.end()));
+std::vector<Cell> label_cells(const QualityCase& c, const QualityRow& row) {
+  std::vector<Cell> labels = {c.name};
+  append(labels, std::vector<Cell>(row.labels.begin(), row.labels.end()));
   return labels;
 }
 
 /// A single run has no interval.
-results::Cell seconds_of(const QualityRow& row) {
-  return row.samples.size() > 1 ? results::Cell(*row.seconds) : results::Cell(row.seconds->value);
+Cell seconds_of(const QualityRow& row) {
+  return row.samples.size() > 1 ? Cell(*row.seconds) : Cell(row.seconds->value);
 }
 
 /// Million tetrahedra a second, where the clock could tell.
-results::Cell speed_of(const QualityRow& row) {
+Cell speed_of(const QualityRow& row) {
   const double millions = static_cast<double>(row.counts.tetrahedra) / 1e6;
-  return row.seconds->value > 0 ? results::Cell(millions / row.seconds->value) : results::Cell();
+  return row.seconds->value > 0 ? Cell(millions / row.seconds->value) : Cell();
 }
 
-results::ResultTable quality_table(const QualityStudy& study) {
-  results::ResultTable table{"quality", "Quality", label_columns(study)};
-  append(table.columns,
-         std::vector<results::Column>{
-             label_column("status"), figure_column("tetrahedra"), figure_column("mean_r"), figure_column("median_r"),
-             figure_column("p99_r", "99% of r below"), figure_column("worst_r"),
-             figure_column("smallest_dihedral", "", "degrees"), figure_column("largest_dihedral", "", "degrees"),
-             figure_column("mean_aspect", "mean aspect ratio"), figure_column("worst_aspect", "worst aspect ratio"),
-             figure_column("mean_radius_edge", "mean radius-edge ratio"),
-             figure_column("worst_radius_edge", "worst radius-edge ratio"),
-             figure_column("edge_length", "edge length asked for"),
-             figure_column("comparable", "comparable number of tetrahedra"), time_column("seconds", "", "s"),
-             time_column("improve_seconds", "of these improvement", "s"),
-             time_column("speed", "million tetrahedra a second"), note_column("reason")});
+ResultTable quality_table(const QualityStudy& study) {
+  ResultTable table = table_of(
+      "quality", "Quality",
+      columns_of(
+          study,
+          {label_column("status"), figure_column("tetrahedra"), figure_column("mean_r"), figure_column("median_r"),
+           figure_column("p99_r", "99% of r below"), figure_column("worst_r"),
+           figure_column("smallest_dihedral", "", "degrees"), figure_column("largest_dihedral", "", "degrees"),
+           figure_column("mean_aspect", "mean aspect ratio"), figure_column("worst_aspect", "worst aspect ratio"),
+           figure_column("mean_radius_edge", "mean radius-edge ratio"),
+           figure_column("worst_radius_edge", "worst radius-edge ratio"),
+           figure_column("edge_length", "edge length asked for"),
+           figure_column("comparable", "comparable number of tetrahedra"), time_column("seconds", "", "s"),
+           time_column("improve_seconds", "of these improvement", "s"),
+           time_column("speed", "million tetrahedra a second"), note_column("reason")}));
   for (const QualityCase& c : study.cases)
     for (const QualityRow& row : c.rows) {
-      std::vector<results::Cell> values = label_cells(c, row);
+      std::vector<Cell> values = label_cells(c, row);
       values.push_back(as_cell(name_of(row.status)));
       const bench::Quality& q = row.quality;
       if (row.ok())
@@ -249,19 +249,19 @@ results::ResultTable quality_table(const QualityStudy& study) {
 
 /// A row a bin. The histograms have as many bins as the quality's.
 template <class HistogramOf>
-results::ResultTable histogram_table(const QualityStudy& study, std::string name, std::string title,
-                                     const std::string& unit, HistogramOf histogram_of) {
-  results::ResultTable table{std::move(name), std::move(title), label_columns(study), {}, true};
-  append(table.columns,
-         std::vector<results::Column>{figure_column("low", "from", unit), figure_column("high", "to", unit),
-                                      figure_column("count"), figure_column("percent")});
+ResultTable histogram_table(const QualityStudy& study, std::string name, std::string title, const std::string& unit,
+                            HistogramOf histogram_of) {
+  ResultTable table = table_of(std::move(name), std::move(title),
+                               columns_of(study, {figure_column("low", "from", unit), figure_column("high", "to", unit),
+                                                  figure_column("count"), figure_column("percent")}),
+                               true);
   for (const QualityCase& c : study.cases)
     for (const QualityRow& row : c.rows) {
       if (!row.ok()) continue;
       const bench::Histogram& h = histogram_of(row.quality);
       const auto total = static_cast<double>(std::accumulate(h.counts.begin(), h.counts.end(), std::uint64_t{0}));
       for (std::size_t bin = 0; bin < h.counts.size(); ++bin) {
-        std::vector<results::Cell> values = label_cells(c, row);
+        std::vector<Cell> values = label_cells(c, row);
         const double percent = total > 0 ? 100 * static_cast<double>(h.counts[bin]) / total : 0;
         append(values, cells(h.edges[bin], h.edges[bin + 1], h.counts[bin], percent));
         table.rows.push_back({std::move(values), {row.runs.front()}});
@@ -271,18 +271,17 @@ results::ResultTable histogram_table(const QualityStudy& study, std::string name
 }
 
 std::string coordinates(const Point3& p) {
-  return "(" + results::rounded(p.x, 5) + ", " + results::rounded(p.y, 5) + ", " + results::rounded(p.z, 5) + ")";
+  return "(" + rounded(p.x, 5) + ", " + rounded(p.y, 5) + ", " + rounded(p.z, 5) + ")";
 }
 
-results::ResultTable surfaces_table(const QualityStudy& study) {
-  results::ResultTable table{
-      "surfaces",
-      "The surfaces",
+ResultTable surfaces_table(const QualityStudy& study) {
+  ResultTable table = table_of(
+      "surfaces", "The surfaces",
       {label_column("model"), figure_column("edge_length"), figure_column("vertices"), figure_column("triangles"),
        figure_column("made"), figure_column("smallest_angle", "smallest angle of a triangle", "degrees"),
        figure_column("smallest_angle_at", "at"),
        figure_column("smallest_facet_angle", "smallest angle between facets", "degrees"),
-       figure_column("smallest_facet_angle_at", "at")}};
+       figure_column("smallest_facet_angle_at", "at")});
   for (const QualityCase& c : study.cases) {
     if (!c.reason.empty()) continue;
     const EvenSurface& s = c.surface;
@@ -295,7 +294,7 @@ results::ResultTable surfaces_table(const QualityStudy& study) {
 
 /// "piston, 10,000 tetrahedra"
 std::string title_of(const QualityCase& c) {
-  return c.name + ", " + results::with_separators(c.wanted) + " tetrahedra";
+  return c.name + ", " + with_separators(c.wanted) + " tetrahedra";
 }
 
 std::vector<std::string> problems_of(const QualityStudy& study) {
@@ -307,9 +306,9 @@ std::vector<std::string> problems_of(const QualityStudy& study) {
       if (!row.ok())
         lines.push_back(who + row.failure());
       else if (!row.is_comparable)
-        lines.push_back(who + results::with_separators(row.counts.tetrahedra) +
+        lines.push_back(who + with_separators(row.counts.tetrahedra) +
                         " tetrahedra are not comparable: no edge length was found that makes about " +
-                        results::with_separators(c.rows.front().counts.tetrahedra));
+                        with_separators(c.rows.front().counts.tetrahedra));
     }
   }
   return lines;
@@ -326,8 +325,8 @@ QualityStudy measure_study(const ExperimentOptions& options, const StudyPlan& pl
   return study;
 }
 
-results::ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions) {
-  results::ExperimentResult result{.how = study.how, .definitions = study_definitions()};
+ExperimentResult study_result(const QualityStudy& study, const std::vector<std::string>& definitions) {
+  ExperimentResult result{.how = study.how, .definitions = study_definitions()};
   append(result.definitions, definitions);
   result.tables = {
       quality_table(study),

@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "bench/experiments/delaunay.h"
-#include "bench/experiments/fig8.h"
-#include "bench/experiments/interior_points.h"
-#include "bench/experiments/locators.h"
+#include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/quality_experiments.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/table1.h"
-#include "bench/experiments/termination.h"
-#include "bench/experiments/theorem1.h"
+#include "bench/experiments/timing_experiments.h"
 
 namespace ccdt::experiments {
 namespace {
 
-using Measure = std::function<results::ExperimentResult(const ExperimentOptions&, const Progress&)>;
+using Measure = std::function<ExperimentResult(const ExperimentOptions&, const Progress&)>;
 
 /// Of an experiment that first measures and then says what it found.
 template <class Measured>
@@ -35,14 +30,14 @@ Measure quality_figure(const std::string& name, const std::string& model) {
   };
 }
 
-results::ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
+ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
   return result_of(measure_mesher_quality(options, "quality", names_of_paper_models(), progress));
 }
 
 /// Gives the result the names that all other results of the experiment have.
 Measure named(const KnownExperiment& known) {
   return [known](const ExperimentOptions& options, const Progress& progress) {
-    results::ExperimentResult result = known.measure(options, progress);
+    ExperimentResult result = known.measure(options, progress);
     result.name = known.name;
     result.title = known.title;
     result.section = known.section;

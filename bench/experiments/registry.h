@@ -19,7 +19,7 @@ struct KnownExperiment {
   bool is_claimed = true;  ///< a claim of the paper is tested by it
 
   /// Measures. The result has name, title and section of this entry.
-  std::function<results::ExperimentResult(const ExperimentOptions&, const Progress&)> measure;
+  std::function<ExperimentResult(const ExperimentOptions&, const Progress&)> measure;
 };
 
 /// In the order in which reports show them.
@@ -32,6 +32,6 @@ const KnownExperiment* known_experiment(std::string_view name);
 /// as are wanted, but not more than a picture can show.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
-results::ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& progress = {});
+ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& progress = {});
 
 }  // namespace ccdt::experiments

@@ -1,11 +1,9 @@
-#include "bench/experiments/table1.h"
-
 #include <algorithm>
 #include <array>
 
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "models/solids.h"
@@ -114,34 +112,32 @@ Table1Ratio check_ratio(const MeasuredCase& with_check, const PaperTimes& paper)
 }
 
 Table1Costs costs_of(const MeasuredCase& with_check, const MeasuredCase& without_check) {
-  const auto cost = [](const MeasuredCase& measured, SecondsOf seconds, std::uint64_t units) {
+  const auto cost = [](const MeasuredCase& measured, const SecondsOf& seconds, std::uint64_t units) {
     return 1e6 * bench::median(samples_of(measured, seconds)) / static_cast<double>(units);
   };
   const auto check = [](const StageSeconds& s) { return cdt_seconds(s) - s.delaunay; };
   const std::uint64_t vertices = with_check.first.counts.vertices;
-  return {cost(with_check, delaunay_seconds, vertices), cost(with_check, check, vertices),
-          cost(without_check, front_seconds, without_check.first.counts.front_tetrahedra)};
+  return {cost(with_check, &StageSeconds::delaunay, vertices), cost(with_check, check, vertices),
+          cost(without_check, &StageSeconds::front, without_check.first.counts.front_tetrahedra)};
 }
 
 Table1Model ModelExperiment::evaluate(const std::vector<MeasuredCase>& cases) const {
-  Table1Model model;
-  model.name = paper_.model.name;
-  model.edge_length = edge_length_;
-  const auto add = [&](const char* name, const char* id, const char* label, SecondsOf seconds,
+  Table1Model model{.name = paper_.model.name, .edge_length = edge_length_};
+  const auto add = [&](const char* name, const char* id, const char* label, const SecondsOf& seconds,
                        std::optional<double> paper = {}) {
     const auto found = std::ranges::find(cases, name, &MeasuredCase::name);
     if (found != cases.end()) model.rows.push_back({outcome_of(*found, seconds), id, label, paper});
   };
-  add("with_check", "delaunay", "Delaunay", delaunay_seconds, paper_.delaunay_seconds);
+  add("with_check", "delaunay", "Delaunay", &StageSeconds::delaunay, paper_.delaunay_seconds);
   add("with_check", "with_check", "CDT with face protection check", cdt_seconds, paper_.with_check_seconds);
   add("without_check", "without_check", "CDT without", cdt_seconds, paper_.without_check_seconds);
   add("without_check_grid", "without_check_grid", "CDT without, paper's grid", cdt_seconds,
       paper_.without_check_seconds);
-  add("with_check", "ccdt_mesh", "ccdt, whole mesh", mesh_seconds);
-  add("cgal_delaunay", "cgal_delaunay", "CGAL Delaunay, same vertices", mesh_seconds);
-  add("tetgen_cdt", "tetgen_cdt", "TetGen CDT, same vertices", mesh_seconds);
-  add("tetgen_quality", "tetgen_quality", "TetGen, its own vertices", mesh_seconds);
-  add("mesh3", "mesh3", "CGAL Mesh_3, its own vertices", mesh_seconds);
+  add("with_check", "ccdt_mesh", "ccdt, whole mesh", &StageSeconds::mesh);
+  add("cgal_delaunay", "cgal_delaunay", "CGAL Delaunay, same vertices", &StageSeconds::mesh);
+  add("tetgen_cdt", "tetgen_cdt", "TetGen CDT, same vertices", &StageSeconds::mesh);
+  add("tetgen_quality", "tetgen_quality", "TetGen, its own vertices", &StageSeconds::mesh);
+  add("mesh3", "mesh3", "CGAL Mesh_3, its own vertices", &StageSeconds::mesh);
 
   model.ratios = {check_ratio(cases[0], paper_),
                   ratio_of(model, "without_check/delaunay", "without check / Delaunay", "without_check", "delaunay"),
@@ -177,36 +173,32 @@ std::vector<std::string> definitions() {
   };
 }
 
-std::vector<results::ResultTable> tables_of(const Table1& table) {
-  results::ResultTable ratios{"ratios",
-                              "Ratios",
-                              {label_column("model"), label_column("ratio"), time_column("value", "here"),
-                               column(results::ColumnKind::paper, "paper_value", "in the paper")}};
-  results::ResultTable times{
-      "times",
-      "Seconds",
-      {label_column("model"), label_column("what", "what is timed"), label_column("status"),
-       time_column("seconds", "", "s"), column(results::ColumnKind::paper, "paper_seconds", "in the paper", "s"),
-       figure_column("vertices"), figure_column("tetrahedra"), note_column("reason")}};
-  results::ResultTable sizes{"sizes",
-                             "The meshes",
-                             {label_column("model"), figure_column("edge_length", "", "mm"), figure_column("vertices"),
-                              figure_column("steiner_vertices", "Steiner vertices"), figure_column("interior_vertices"),
-                              figure_column("tetrahedra"), figure_column("faces"),
-                              figure_column("undelaunay_faces", "faces that are not Delaunay"),
-                              figure_column("same_tetrahedra", "same tetrahedra without the check")}};
-  results::ResultTable costs{"costs",
-                             "What a unit of work costs",
-                             {label_column("model"), time_column("delaunay", "Delaunay, a vertex", "us"),
-                              time_column("check", "face check, front and labels, a vertex", "us"),
-                              time_column("front", "front without the check, a tetrahedron", "us")}};
+std::vector<ResultTable> tables_of(const Table1& table) {
+  ResultTable ratios = table_of("ratios", "Ratios",
+                                {label_column("model"), label_column("ratio"), time_column("value", "here"),
+                                 column(ColumnKind::paper, "paper_value", "in the paper")});
+  ResultTable times =
+      table_of("times", "Seconds",
+               {label_column("model"), label_column("what", "what is timed"), label_column("status"),
+                time_column("seconds", "", "s"), column(ColumnKind::paper, "paper_seconds", "in the paper", "s"),
+                figure_column("vertices"), figure_column("tetrahedra"), note_column("reason")});
+  ResultTable sizes = table_of("sizes", "The meshes",
+                               {label_column("model"), figure_column("edge_length", "", "mm"),
+                                figure_column("vertices"), figure_column("steiner_vertices", "Steiner vertices"),
+                                figure_column("interior_vertices"), figure_column("tetrahedra"), figure_column("faces"),
+                                figure_column("undelaunay_faces", "faces that are not Delaunay"),
+                                figure_column("same_tetrahedra", "same tetrahedra without the check")});
+  ResultTable costs = table_of("costs", "What a unit of work costs",
+                               {label_column("model"), time_column("delaunay", "Delaunay, a vertex", "us"),
+                                time_column("check", "face check, front and labels, a vertex", "us"),
+                                time_column("front", "front without the check, a tetrahedron", "us")});
   for (const Table1Model& model : table.models) {
     for (const Table1Ratio& ratio : model.ratios)
       if (ratio.value) add_row(ratios, ratio.runs, model.name, ratio.label, ratio.value, ratio.paper);
     for (const Table1Row& row : model.rows)
       add_row(times, row.runs, model.name, row.label, name_of(row.status), row.seconds, row.paper_seconds,
-              row.seconds ? as_cell(row.counts.vertices) : results::Cell(),
-              row.seconds ? as_cell(row.counts.tetrahedra) : results::Cell(), row.reason);
+              cell_if(row.seconds.has_value(), row.counts.vertices),
+              cell_if(row.seconds.has_value(), row.counts.tetrahedra), row.reason);
     const Table1Row& row = model.rows.front();
     const MeshCounts& c = row.counts;
     add_row(sizes, row.runs, model.name, model.edge_length, c.vertices, c.steiner_vertices, c.interior_vertices,
@@ -225,8 +217,7 @@ const Table1Ratio* ratio(const Table1Model& model, std::string_view id) {
 
 /// "1.21 [1.20, 1.22] times as long as Delaunay (paper: 1.019): ".
 std::string times_delaunay(const Table1Ratio& ratio) {
-  return results::with_interval(*ratio.value) +
-         " times as long as Delaunay (paper: " + results::rounded(*ratio.paper, 4) + "): ";
+  return with_interval(*ratio.value) + " times as long as Delaunay (paper: " + rounded(*ratio.paper, 4) + "): ";
 }
 
 std::string check_sentence(const Table1Model& model, const Table1Ratio& check) {
@@ -238,21 +229,21 @@ std::string check_sentence(const Table1Model& model, const Table1Ratio& check) {
 std::string front_sentence(const Table1Model& model, const Table1Ratio& front) {
   return model.name + ": without the check, it takes " + times_delaunay(front) +
          choose(is_at_least(*front.value, least_gain), "at least ", "not surely ", "less than ") +
-         results::rounded(least_gain, 1) + ".";
+         rounded(least_gain, 1) + ".";
 }
 
 std::string check_reason(const Table1Model& model) {
   const Table1Costs& costs = *model.costs;
   return model.name + ": the check is one pass over the cells, labelling another; together they take " +
-         results::rounded(costs.check_per_vertex) +
+         rounded(costs.check_per_vertex) +
          " microseconds a vertex. That is linear, but the Delaunay stage that it is compared with takes only " +
-         results::rounded(costs.delaunay_per_vertex) +
+         rounded(costs.delaunay_per_vertex) +
          " microseconds a vertex. (The paper's Delaunay took 26 to 36 s; it does not say for how many vertices.)";
 }
 
 std::string front_reason(const Table1Model& model) {
   return model.name + ": without the check, the front finds each apex in " +
-         results::rounded(model.costs->front_per_tetrahedron) +
+         rounded(model.costs->front_per_tetrahedron) +
          " microseconds a tetrahedron; the cheaper that is, the less there is for the check to save.";
 }
 
@@ -272,17 +263,12 @@ void add_differences(const Table1Model& model, std::vector<std::string>& lines) 
   }
 }
 
-void add_problems(const Table1Model& model, results::ExperimentResult& result) {
-  for (const Table1Row& row : model.rows) {
-    if (row.ok()) continue;
-    result.problems.push_back(model.name + ", " + row.label + ": " + row.failure());
-    result.is_good = result.is_good && !row.paper_seconds;
-  }
-  if (!model.same_tetrahedra) {
-    result.problems.push_back(model.name +
-                              ": with and without the check, the tetrahedra differ, which is an error of ccdt");
-    result.is_good = false;
-  }
+void add_problems(const Table1Model& model, ExperimentResult& result) {
+  for (const Table1Row& row : model.rows)
+    if (!row.ok())
+      add_problem(result, model.name + ", " + row.label + ": " + row.failure(), row.paper_seconds.has_value());
+  if (!model.same_tetrahedra)
+    add_problem(result, model.name + ": with and without the check, the tetrahedra differ, which is an error of ccdt");
 }
 
 }  // namespace
@@ -312,8 +298,8 @@ Table1 measure_table1(const ExperimentOptions& options, const Progress& progress
   return table;
 }
 
-results::ExperimentResult result_of(const Table1& table) {
-  results::ExperimentResult result{.how = table.how, .definitions = definitions()};
+ExperimentResult result_of(const Table1& table) {
+  ExperimentResult result{.how = table.how, .definitions = definitions()};
   if (table.models.empty()) return result;
   result.tables = tables_of(table);
   for (const Table1Model& model : table.models) {

@@ -1,5 +1,3 @@
-#include "bench/experiments/termination.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,9 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "bench/experiments/existence_experiments.h"
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"
@@ -234,8 +232,8 @@ std::vector<std::string> definitions() {
 }
 
 /// Nothing where a run has not come so far.
-results::Cell number_if(bool is_known, double value) {
-  return is_known && std::isfinite(value) ? results::Cell(value) : results::Cell{};
+Cell number_if(bool is_known, double value) {
+  return is_known && std::isfinite(value) ? Cell(value) : Cell{};
 }
 
 std::string case_label(const TerminationCase& c) {
@@ -247,8 +245,8 @@ std::string words_of(const TerminationCase& c) {
 }
 
 /// One row a run.
-results::ResultTable runs_table(const std::string& name, const std::string& title, const Cases& cases) {
-  results::ResultTable table{
+ResultTable runs_table(const std::string& name, const std::string& title, const Cases& cases) {
+  ResultTable table{
       name,
       title,
       {label_column("group", "input"), label_column("case"), label_column("protection"), label_column("status"),
@@ -258,15 +256,15 @@ results::ResultTable runs_table(const std::string& name, const std::string& titl
     const Termination termination = termination_of(*c);
     add_row(table, c->runs, c->group, case_label(*c), name_of(c->protection), name_of(c->status),
             number_if(true, c->smallest_angle),
-            termination == Termination::unknown ? results::Cell() : as_cell(termination == Termination::ended),
+            termination == Termination::unknown ? Cell() : as_cell(termination == Termination::ended),
             number_if(c->ok(), steiner_vertices(*c)), number_if(c->ok(), deepest_level(*c)),
-            c->reason.empty() ? results::Cell() : results::Cell(c->reason));
+            c->reason.empty() ? Cell() : Cell(c->reason));
   }
   return table;
 }
 
 /// One way of protection over all variants of a star at one angle: in how many it ended, and what it took at most.
-std::vector<results::Cell> summary_of(const Cases& cases) {
+std::vector<Cell> summary_of(const Cases& cases) {
   double steiner = 0, deepest = 0;
   for (const TerminationCase* c : cases) {
     steiner = std::max(steiner, steiner_vertices(*c));
@@ -276,15 +274,14 @@ std::vector<results::Cell> summary_of(const Cases& cases) {
   return cells(ended, number_if(ended > 0, steiner), number_if(ended > 0, deepest));
 }
 
-results::ResultTable stars_table(std::span<const TerminationCase> cases) {
-  results::ResultTable table{
-      "stars",
-      "Segments that meet at small angles",
+ResultTable stars_table(std::span<const TerminationCase> cases) {
+  ResultTable table = table_of(
+      "stars", "Segments that meet at small angles",
       {label_column("star"), figure_column("degrees", "angle", "degrees"), figure_column("cases"),
        figure_column("midpoint_ended"), figure_column("midpoint_steiner_vertices", "midpoint: most Steiner vertices"),
        figure_column("midpoint_deepest_level", "midpoint: deepest level"), figure_column("shell_ended"),
        figure_column("shell_steiner_vertices", "shell: most Steiner vertices"),
-       figure_column("shell_deepest_level", "shell: deepest level")}};
+       figure_column("shell_deepest_level", "shell: deepest level")});
   std::vector<std::pair<std::string, double>> groups;
   for (const TerminationCase& c : cases) {
     const std::pair group(c.group, c.degrees);
@@ -297,7 +294,7 @@ results::ResultTable stars_table(std::span<const TerminationCase> cases) {
       });
     };
     const Cases by_midpoint = of(Protection::midpoint), by_shell = of(Protection::shell);
-    results::ResultRow row{cells(star, degrees, by_midpoint.size())};
+    ResultRow row{cells(star, degrees, by_midpoint.size())};
     for (const Cases& all : {by_midpoint, by_shell}) {
       append(row.cells, summary_of(all));
       for (const TerminationCase* c : all) append(row.runs, c->runs);
@@ -376,8 +373,8 @@ Termination termination_of(const TerminationCase& c) {
   return is_limit ? Termination::stopped : Termination::unknown;
 }
 
-results::ExperimentResult termination_result(std::span<const TerminationCase> cases) {
-  results::ExperimentResult result;
+ExperimentResult termination_result(std::span<const TerminationCase> cases) {
+  ExperimentResult result;
   result.definitions = definitions();
   result.tables = {stars_table(cases),
                    runs_table("solids", "Solids and files", select(cases, [](const auto& c) { return !is_star(c); })),
@@ -386,19 +383,19 @@ results::ExperimentResult termination_result(std::span<const TerminationCase> ca
   result.findings = findings_of(cases);
   for (const TerminationCase& c : cases) {
     if (termination_of(c) != Termination::unknown) continue;
-    result.problems.push_back(words_of(c) + ", " + std::string(name_of(c.protection)) + ": " + c.failure());
-    if (c.group != "file") result.is_good = false;
+    add_problem(result, words_of(c) + ", " + std::string(name_of(c.protection)) + ": " + c.failure(),
+                c.group != "file");
   }
   return result;
 }
 
-results::ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress) {
-  results::Circumstances how = start_experiment(options, 1);
+ExperimentResult measure_termination(const ExperimentOptions& options, const Progress& progress) {
+  Circumstances how = start_experiment(options, 1);
   std::vector<TerminationInput> inputs;
   add_stars(options, inputs);
   for (const SurfaceFile& surface : write_solids(options, "termination", coarsenings))
-    inputs.push_back({"solid", surface.name + " at " + results::rounded(surface.edge_length), 0,
-                      surface.file.stem().string(), surface.file});
+    inputs.push_back(
+        {"solid", surface.name + " at " + rounded(surface.edge_length), 0, surface.file.stem().string(), surface.file});
   for (const SurfaceFile& surface : input_files(options))
     inputs.push_back({"file", surface.name, 0, "termination-" + surface.file.filename().string(), surface.file});
   check_something_is_measured(inputs.size(), "termination");
@@ -410,7 +407,7 @@ results::ExperimentResult measure_termination(const ExperimentOptions& options, 
     for (const Protection protection : {Protection::midpoint, Protection::shell})
       cases.push_back(measure(options, inputs[i], smallest, protection));
   }
-  results::ExperimentResult result = termination_result(cases);
+  ExperimentResult result = termination_result(cases);
   result.how = std::move(how);
   return result;
 }

@@ -1,11 +1,9 @@
-#include "bench/experiments/theorem1.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "bench/experiments/small_plcs/families.h"
-#include "bench/experiments/tables.h"
-#include "bench/results/numbers.h"
+#include "bench/experiments/existence_experiments.h"
+#include "bench/experiments/experiment.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 #include "bench/results/result_table.h"
 #include "engine/io/plc_files.h"
 
@@ -32,7 +30,7 @@ std::string model_file(const FamilyTrials& family) {
   return "models/theorem1-" + name + ".poly";
 }
 
-FamilyTrials measure(const small_plcs::Family& family, std::uint64_t cases, StepCounter& steps) {
+FamilyTrials measure(const Family& family, std::uint64_t cases, StepCounter& steps) {
   FamilyTrials trials{.name = std::string(family.name), .is_cospherical = family.is_cospherical};
   small_plcs::Random random(seed);
   for (std::uint64_t i = 0; i < cases; ++i) {
@@ -55,32 +53,28 @@ std::vector<std::string> definitions() {
       "The engine agrees if it adds no Steiner vertex and finds all faces Delaunay exactly where the premise holds,",
       "and if its mesh is the CDT wherever it adds no Steiner vertex.",
   };
-  for (const small_plcs::Family& family : small_plcs::families())
+  for (const Family& family : small_plcs::families())
     all.push_back(std::string(family.name) + ": " + std::string(family.what));
   return all;
 }
 
-results::ResultTable families_table(std::span<const FamilyTrials> families) {
-  results::ResultTable table{"families",
-                             "Small random PLCs held against Theorem 1",
-                             {label_column("family"), label_column("position"), figure_column("cases", "PLCs"),
-                              figure_column("premise", "edges and faces protected"), figure_column("dt", "with a DT"),
-                              figure_column("against_if", "protected, without a DT"),
-                              figure_column("against_only_if", "with a DT, not protected"),
-                              figure_column("edges_alone", "faces protected, an edge not"),
-                              figure_column("edges_alone_loose", "of these, the edge is of no facet"),
-                              figure_column("edge_protected", "edges protected"),
-                              figure_column("edge_protected_without_cdt", "of these, without a CDT"),
-                              figure_column("engine_agrees", "the engine agrees"),
-                              note_column("counterexample", "the smallest counterexample")}};
+ResultTable families_table(std::span<const FamilyTrials> families) {
+  ResultTable table = table_of("families", "Small random PLCs held against Theorem 1",
+                               {label_column("family"), label_column("position"), figure_column("cases", "PLCs"),
+                                figure_column("premise", "edges and faces protected"), figure_column("dt", "with a DT"),
+                                figure_column("against_if", "protected, without a DT"),
+                                figure_column("against_only_if", "with a DT, not protected"),
+                                figure_column("edges_alone", "faces protected, an edge not"),
+                                figure_column("edges_alone_loose", "of these, the edge is of no facet"),
+                                figure_column("edge_protected", "edges protected"),
+                                figure_column("edge_protected_without_cdt", "of these, without a CDT"),
+                                figure_column("engine_agrees", "the engine agrees"),
+                                note_column("counterexample", "the smallest counterexample")});
   for (const FamilyTrials& f : families) {
-    const results::Cell agreements = f.is_cospherical ? results::Cell() : as_cell(f.cases - f.disagreements);
-    const results::Cell note = has_counterexample(f)
-                                   ? results::Cell(model_file(f) + ": " + small_plcs::in_words(f.counterexample))
-                                   : results::Cell();
+    const std::string counterexample = model_file(f) + ": " + small_plcs::in_words(f.counterexample);
     add_row(table, {}, f.name, f.is_cospherical ? "one sphere" : "general", f.cases, f.premise, f.dt, f.against_if,
             f.against_only_if, f.edges_alone, f.edges_alone_loose, f.edge_protected, f.edge_protected_without_cdt,
-            agreements, note);
+            cell_if(!f.is_cospherical, f.cases - f.disagreements), cell_if(has_counterexample(f), counterexample));
   }
   return table;
 }
@@ -134,31 +128,30 @@ void add_trial(const small_plcs::Trial& trial, FamilyTrials& family) {
   ++(premise ? family.against_if : family.against_only_if);
 }
 
-results::ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
-  results::ExperimentResult result;
+ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
+  ExperimentResult result;
   result.definitions = definitions();
   result.tables = {families_table(families)};
   result.findings = findings_of(families);
   for (const FamilyTrials& family : families) {
     if (family.disagreements == 0) continue;
-    result.problems.push_back(family.name + ": " + results::with_separators(family.disagreements) +
-                              " PLCs; the first: " + family.first_disagreement);
-    result.is_good = false;
+    add_problem(result, family.name + ": " + with_separators(family.disagreements) +
+                            " PLCs; the first: " + family.first_disagreement);
   }
   return result;
 }
 
-results::ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress) {
-  results::Circumstances how = start_experiment(options, 1);
+ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress) {
+  Circumstances how = start_experiment(options, 1);
   const auto cases = static_cast<std::uint64_t>(std::max(1.0, std::round(options.tetrahedra / tetrahedra_per_case)));
   std::vector<FamilyTrials> families;
   StepCounter steps(progress, cases * small_plcs::families().size());
-  for (const small_plcs::Family& family : small_plcs::families()) {
+  for (const Family& family : small_plcs::families()) {
     families.push_back(measure(family, cases, steps));
     if (has_counterexample(families.back()))
       io::write_plc(small_plcs::as_input(families.back().counterexample), options.folder / model_file(families.back()));
   }
-  results::ExperimentResult result = theorem1_result(families);
+  ExperimentResult result = theorem1_result(families);
   result.how = std::move(how);
   return result;
 }

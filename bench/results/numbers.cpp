@@ -52,4 +52,10 @@ std::string mebibytes(std::uint64_t bytes) {
   return with_separators((bytes + (1u << 19)) >> 20) + " MiB";
 }
 
+std::string joined(const std::vector<std::string>& words, std::string_view separator) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text.append(i == 0 ? "" : separator).append(words[i]);
+  return text;
+}
+
 }  // namespace ccdt::results

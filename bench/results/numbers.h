@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "bench/statistics.h"
 
@@ -18,5 +20,8 @@ std::string with_separators(std::uint64_t count);
 
 /// Bytes as "12 MiB".
 std::string mebibytes(std::uint64_t bytes);
+
+/// The words with the separator between them: "a, b, c".
+std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 }  // namespace ccdt::results

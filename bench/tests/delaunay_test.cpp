@@ -1,5 +1,3 @@
-#include "bench/experiments/delaunay.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baselines/external_program.h"
+#include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
 #include "engine/io/file_bytes.h"
 

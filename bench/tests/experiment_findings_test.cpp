@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/experiments/fig8.h"
-#include "bench/experiments/interior_points.h"
-#include "bench/experiments/locators.h"
+#include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/quality_experiments.h"
+#include "bench/experiments/timing_experiments.h"
 
 namespace ccdt {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/table1.h"
+#include "bench/experiments/timing_experiments.h"
 #include "bench/results/kept_mesh.h"
 #include "engine/base/errors.h"
 

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <set>
 
-#include "bench/experiments/fig8.h"
-#include "bench/experiments/interior_points.h"
-#include "bench/experiments/locators.h"
+#include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/measured_case.h"
 #include "bench/experiments/registry.h"
-#include "bench/experiments/small_plcs/tetrahedralization.h"
+#include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
+#include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {

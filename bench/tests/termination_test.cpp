@@ -1,9 +1,8 @@
-#include "bench/experiments/termination.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "bench/experiments/existence_experiments.h"
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 

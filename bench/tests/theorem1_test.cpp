@@ -1,10 +1,9 @@
-#include "bench/experiments/theorem1.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "bench/experiments/small_plcs/families.h"
+#include "bench/experiments/existence_experiments.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 
 namespace ccdt {
 namespace {

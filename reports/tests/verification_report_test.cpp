@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/command_output.h"
+#include "reports/result_text.h"
 
 namespace ccdt {
 namespace {

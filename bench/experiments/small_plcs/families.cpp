@@ -1,5 +1,3 @@
-#include "bench/experiments/small_plcs/families.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/experiments/small_plcs/tetrahedralization.h"
+#include "bench/experiments/small_plcs/trial.h"
 
 namespace ccdt::small_plcs {
 namespace {
