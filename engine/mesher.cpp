@@ -7,7 +7,6 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
-#include "engine/front/face_check.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
@@ -159,7 +158,7 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
 
   if (ImproveOptions improve = options.improve; (improve.improvement = improvement_of(options)) != Improvement::none) {
     t.counts.improve = timed(s.improve, [&] {
-      return improve::improve_mesh(t.plc, t.chains, std::move(t.facet_of_face), t.first_interior, improve, t.points,
+      return improve::improve_mesh({t.plc, t.chains, std::move(t.facet_of_face), t.first_interior}, improve, t.points,
                                    t.mesh, progress);
     });
     t.counts.interior_vertices = t.points.size() - t.first_interior;

@@ -34,7 +34,6 @@
 #include "bench/benchmarks/point_sets.h"
 #include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/delaunay/wrap_delaunay.h"
 
 #ifdef CCDT_WITH_CGAL_MESHERS
 #include <CGAL/Delaunay_triangulation_3.h>

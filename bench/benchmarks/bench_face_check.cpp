@@ -12,7 +12,7 @@
 #include <array>
 
 #include "bench/benchmarks/benchmark_main.h"
-#include "engine/front/face_check.h"
+#include "engine/front/advance_front.h"
 
 namespace ccdt::benchmarks {
 namespace {

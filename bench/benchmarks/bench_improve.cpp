@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "bench/benchmarks/benchmark_main.h"
-#include "engine/improve/cell_quality.h"
+#include "engine/improve/cell_complex.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
@@ -59,7 +59,7 @@ improve::ImproveOptions options_of(improve::Improvement improvement) {
 }
 
 improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement, Unimproved& u) {
-  return improve::improve_mesh(s.plc, s.chains, std::move(u.facet_of_face), s.lattice.vertices.size(),
+  return improve::improve_mesh({s.plc, s.chains, std::move(u.facet_of_face), s.lattice.vertices.size()},
                                options_of(improvement), u.points, u.mesh);
 }
 

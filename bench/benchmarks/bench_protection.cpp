@@ -16,7 +16,7 @@
 #include <algorithm>
 
 #include "bench/benchmarks/benchmark_main.h"
-#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/protection/protect_edges.h"
 
 namespace ccdt::benchmarks {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "engine/front/face_check.h"
+#include "engine/front/advance_front.h"
 #include "engine/io/plc_files.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"

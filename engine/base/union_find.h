@@ -17,13 +17,11 @@ class UnionFind {
     return i;
   }
 
-  void join(std::uint32_t i, std::uint32_t j) {
+  /// \return  the representative of both
+  std::uint32_t join(std::uint32_t i, std::uint32_t j) {
     i = find(i);
     j = find(j);
-    if (i < j)
-      parent_[j] = i;
-    else
-      parent_[i] = j;
+    return i < j ? parent_[j] = i : parent_[i] = j;
   }
 
  private:

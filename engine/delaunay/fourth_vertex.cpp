@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/box.h"
-
 namespace ccdt::delaunay {
 namespace {
 
@@ -13,20 +11,12 @@ void add_block(VertexGrid& g, const UniformGrid::CellIndex& from) {
   GridBlock block;
   block.from = from;
   for (int i = 0; i < 3; ++i) block.to[i] = std::min(from[i] + GridBlock::side, g.grid.cells[i]) - 1;
-  auto [low, high] = empty_box;
-  for (int z = block.from[2]; z <= block.to[2]; ++z) {
-    for (int y = block.from[1]; y <= block.to[1]; ++y) {
-      const std::size_t row = g.grid.number({0, y, z});
-      for (std::uint32_t v = g.first[row + block.from[0]]; v < g.first[row + block.to[0] + 1]; ++v) {
-        const Point3& p = g.vertices[v].point;
-        low = componentwise_min(low, p), high = componentwise_max(high, p);
-      }
-    }
-  }
-  if (low.x > high.x) return;
+  Box box = empty_box;
+  g.for_each_vertex(block.from, block.to, [&](const Point3& p) { box = hull(box, box_of(p)); });
+  if (box.low.x > box.high.x) return;
   const double margin = 1e-15 * std::max({g.extent.x, g.extent.y, g.extent.z});
-  block.center = 0.5 * (low + high);
-  block.half = 0.5 * (high - low) + Point3{margin, margin, margin};
+  block.center = box.center();
+  block.half = 0.5 * (box.high - box.low) + Point3{margin, margin, margin};
   g.blocks.push_back(block);
 }
 
@@ -270,10 +260,7 @@ class ApexSearch {
 VertexGrid make_vertex_grid(std::span<const DelaunayVertex> vertices, double scale) {
   VertexGrid g;
   if (vertices.empty()) return g;
-  Point3 low = vertices[0].point, high = low;
-  for (const DelaunayVertex& v : vertices) {
-    low = componentwise_min(low, v.point), high = componentwise_max(high, v.point);
-  }
+  const auto [low, high] = bounding_box(vertices);
   g.extent = high - low;
   g.grid = make_uniform_grid({{}, g.extent}, vertices.size(), scale);
   IndexLists lists = make_index_lists(g.grid.size(), [&](const auto& emit) {
@@ -306,13 +293,7 @@ double BlockTops::top(Direction& direction, std::size_t block) const {
   if (!std::isnan(top)) return top;
   const GridBlock& b = grid_.blocks[block];
   double highest = -std::numeric_limits<double>::infinity();
-  for (int z = b.from[2]; z <= b.to[2]; ++z) {
-    for (int y = b.from[1]; y <= b.to[1]; ++y) {
-      const std::size_t row = grid_.grid.number({0, y, z});
-      for (std::uint32_t v = grid_.first[row + b.from[0]]; v < grid_.first[row + b.to[0] + 1]; ++v)
-        highest = std::max(highest, dot(direction.normal, grid_.vertices[v].point));
-    }
-  }
+  grid_.for_each_vertex(b.from, b.to, [&](const Point3& p) { highest = std::max(highest, dot(direction.normal, p)); });
   top = highest + 1e-15 * (grid_.extent.x + grid_.extent.y + grid_.extent.z);
   return top;
 }

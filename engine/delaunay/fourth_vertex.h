@@ -28,6 +28,17 @@ struct VertexGrid {
   std::vector<std::uint32_t> first;
   std::vector<GridVertex> vertices;
   std::vector<GridBlock> blocks;
+
+  /// Calls visit(point) for the vertices of a box of cells, both ends included.
+  template <class Visit>
+  void for_each_vertex(const UniformGrid::CellIndex& from, const UniformGrid::CellIndex& to, const Visit& visit) const {
+    for (int z = from[2]; z <= to[2]; ++z) {
+      for (int y = from[1]; y <= to[1]; ++y) {
+        const std::size_t row = grid.number({0, y, z});
+        for (std::uint32_t v = first[row + from[0]]; v < first[row + to[0] + 1]; ++v) visit(vertices[v].point);
+      }
+    }
+  }
 };
 
 /// \param scale  factor of the paper's cell size

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/sort/spreadsort/integer_sort.hpp>
 
 #include "engine/base/box.h"
 #include "engine/base/morton.h"
@@ -47,12 +46,11 @@ std::uint64_t random_bits(std::uint64_t i) {
   return i ^ (i >> 31);
 }
 
-struct KeyedPoint {
-  std::uint64_t key;
-  std::uint32_t index;
-};
-
 constexpr std::uint8_t no_local = 0xFF;
+
+/// The face of a new cell that is opposite to the k-th vertex of its border face, by where the ghost was among them (3:
+/// nowhere); see the order of vertices in `make_cell`.
+constexpr std::uint8_t opposite[4][3] = {{3, 1, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 2}};
 
 }  // namespace
 
@@ -64,7 +62,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
   // A round has eight times the points of the one before; small sets need none.
   int rounds = 0;
   for (std::size_t n = points.size(); n > 2000 && rounds < 6; n /= 8) ++rounds;
-  std::vector<KeyedPoint> keyed(points.size());
+  std::vector<KeyedIndex> keyed(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point3& p = points[i];
     const auto cell = [&](double c, double l) { return static_cast<std::uint32_t>((c - l) * scale); };
@@ -73,12 +71,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
     keyed[i] = {round << round_shift | hilbert_distance({cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)}),
                 static_cast<std::uint32_t>(i)};
   }
-  boost::sort::spreadsort::integer_sort(
-      keyed.begin(), keyed.end(), [](const KeyedPoint& k, unsigned offset) { return k.key >> offset; },
-      [](const KeyedPoint& a, const KeyedPoint& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
-  std::vector<std::uint32_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
-  return order;
+  return sorted_by_key(std::move(keyed));
 }
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
@@ -122,8 +115,7 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
         mark[next] = Mark::outside;
         outside_.add(next);
       }
-      const auto& corner = face_corners[f];
-      border_.add({{cell.vertices[corner[0]], cell.vertices[corner[1]], cell.vertices[corner[2]]}, code});
+      border_.add({corners_of_face(cell.vertices, f), code});
     }
   }
 }
@@ -167,10 +159,8 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
     for (std::uint32_t k = 0; k < 4 && exit == 4; ++k) {
       const std::uint32_t f = (turn_ + k) & 3;
       if (cell.neighbors[f] == from) continue;
-      const auto& corner = face_corners[f];
-      if (numbers::orient3d(d_.point(cell.vertices[corner[0]]), d_.point(cell.vertices[corner[1]]),
-                            d_.point(cell.vertices[corner[2]]), p) < 0)
-        exit = f;
+      const auto [a, b, c] = corners_of_face(cell.vertices, f);
+      if (numbers::orient3d(d_.point(a), d_.point(b), d_.point(c), p) < 0) exit = f;
     }
     if (exit == 4) return here;
     from = face_code(here, exit);
@@ -231,14 +221,6 @@ void Insertion::number_border_vertices() {
   }
 }
 
-namespace {
-
-/// The face of a new cell that is opposite to the k-th vertex of its border face, by where the ghost was among them (3:
-/// nowhere); see the order of vertices in `make_cell`.
-constexpr std::uint8_t opposite[4][3] = {{3, 1, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 2}};
-
-}  // namespace
-
 /// Joins a face of the border to the new vertex.
 /// \return where the ghost was among the face's vertices, 3 if it was not
 inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t place) const {
@@ -266,7 +248,6 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
 /// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
 /// pass in opposite directions: the first to come leaves its code in the table, the second finds it.
 void Insertion::connect_by_table() {
-  Cell* const cells = d_.cells.data();
   std::uint64_t* const table = table_.data();
   const std::uint64_t stamp = insertions_ << 32;
   for (std::size_t i = 0; i < border_.size; ++i) {
@@ -280,9 +261,7 @@ void Insertion::connect_by_table() {
       const std::uint32_t here = face_code(place, opposite_faces[k]);
       const std::uint64_t other = table[to * table_side + from];
       if ((other & ~std::uint64_t{0xFFFFFFFF}) == stamp) {
-        const auto there = static_cast<std::uint32_t>(other);
-        cells[place].neighbors[opposite_faces[k]] = there;
-        cells[cell_of(there)].neighbors[face_of(there)] = here;
+        join_faces(d_.cells, here, static_cast<std::uint32_t>(other));
       } else {
         table[from * table_side + to] = stamp | here;
       }
@@ -292,26 +271,15 @@ void Insertion::connect_by_table() {
 
 /// The same for a cavity with more vertices than the table has rows: edges are paired by sorting.
 void Insertion::connect_by_search() {
-  struct Edge {
-    std::uint64_t key;
-    std::uint32_t code;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * border_.size);
+  std::vector<AtEdge> faces;
+  faces.reserve(3 * border_.size);
   for (std::size_t i = 0; i < border_.size; ++i) {
-    const CavityFace& face = border_.slots[i];
-    const auto& opposite_faces = opposite[make_cell(face, places_[i])];
-    for (int k = 0; k < 3; ++k) {
-      edges.push_back(
-          {edge_key(face.vertices[(k + 1) % 3], face.vertices[(k + 2) % 3]), face_code(places_[i], opposite_faces[k])});
-    }
+    const auto& v = border_.slots[i].vertices;
+    const auto& opposite_faces = opposite[make_cell(border_.slots[i], places_[i])];
+    for (int k = 0; k < 3; ++k)
+      faces.push_back({edge_key(v[(k + 1) % 3], v[(k + 2) % 3]), face_code(places_[i], opposite_faces[k])});
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key < b.key; });
-  for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-    const std::uint32_t a = edges[i].code, b = edges[i + 1].code;
-    d_.cells[cell_of(a)].neighbors[face_of(a)] = b;
-    d_.cells[cell_of(b)].neighbors[face_of(b)] = a;
-  }
+  for_each_edge_group(faces, [&](std::span<const AtEdge> pair) { join_faces(d_.cells, pair[0].value, pair[1].value); });
 }
 
 }  // namespace ccdt::delaunay

@@ -1,5 +1,3 @@
-#include "engine/delaunay/wrap_delaunay.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/fourth_vertex.h"
 #include "engine/numbers/predicates.h"
 
@@ -22,11 +21,14 @@ constexpr std::uint32_t none = VertexId::none_value;
 // Straight up, about as far as points can be apart, so that the filters of the predicates work as for any points.
 constexpr Point3 upwards = {0, 0, 0x1p51};
 
-/// Wraps the hull; every function passes over all vertices once and is exact.
+/// Finds a face of the Delaunay tetrahedralization from which it can be built face by face: one of the convex hull, by
+/// wrapping a plane around the points: a vertex, an edge, the plane of a hull face, a Delaunay triangle in that plane.
+/// Each step is one pass over the vertices and is exact.
 class HullWrapping {
  public:
   explicit HullWrapping(std::span<const GridVertex> vertices) : v_(vertices) {}
 
+  /// \return  the corners of the face, the outside of the hull above them; nothing if all vertices are in one plane
   std::optional<FaceCorners> face() const {
     if (v_.size() < 4) return {};
     const std::uint32_t a = lowest();
@@ -121,46 +123,13 @@ class HullWrapping {
   std::span<const GridVertex> v_;
 };
 
-/// A face of the Delaunay tetrahedralization from which it can be built face by face: one of the convex hull, found by
-/// wrapping a plane around the points: a vertex, an edge, the plane of a hull face, a Delaunay triangle in that plane.
-/// Each step is one pass over the vertices.
-///
-/// \return  its corners, the outside of the hull above them; nothing if all vertices are in one plane
-std::optional<FaceCorners> find_first_face(std::span<const GridVertex> vertices) {
-  return HullWrapping(vertices).face();
-}
-
-// ---- The open faces
-
-/// The faces that have a cell on one side only, by their corners: the front of a construction face by face.
-class OpenFaces {
- public:
-  /// Closes the face with the open one that has the same corners, and makes them neighbors; if there is none, the face
-  /// stays open. \return was it closed?
-  bool close_or_open(std::vector<Cell>& cells, std::uint32_t code) {
-    const auto& v = cells[cell_of(code)].vertices;
-    const auto& corner = face_corners[face_of(code)];
-    const auto [open, is_new] = faces_.insert(face_key(v[corner[0]], v[corner[1]], v[corner[2]]), code);
-    if (is_new) return false;
-    const std::uint32_t other = *open;
-    cells[cell_of(code)].neighbors[face_of(code)] = other;
-    cells[cell_of(other)].neighbors[face_of(other)] = code;
-    faces_.erase(open);
-    return true;
-  }
-
- private:
-  HashTable<FaceKey, std::uint32_t> faces_;
-};
+// ---- The hull
 
 /// The corners of a face, such that the vertex opposite to it is below them.
 FaceCorners outward_corners(const std::vector<Cell>& cells, std::uint32_t code) {
-  const auto& v = cells[cell_of(code)].vertices;
-  const auto& corner = face_corners[face_of(code)];
-  return {v[corner[0]], v[corner[2]], v[corner[1]]};
+  const auto [a, b, c] = corners_of_face(cells[cell_of(code)].vertices, face_of(code));
+  return {a, c, b};
 }
-
-// ---- The hull
 
 /// An open face, and a vertex strictly above it as seen from outside (`ghost_vertex`: one is to be searched for).
 struct UnfinishedFace {
@@ -248,15 +217,12 @@ void add_ghosts(std::vector<Cell>& cells, std::span<const std::uint32_t> faces) 
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
     Cell& ghost = cells[first + f];
     ghost.vertices = {corners[f][0], corners[f][1], corners[f][2], ghost_vertex};
-    ghost.neighbors[3] = faces[f];
-    cells[cell_of(faces[f])].neighbors[face_of(faces[f])] = face_code(first + f, 3);
+    join_faces(cells, face_code(first + f, 3), faces[f]);
   }
   const auto sides = sides_by_edge(corners);
   for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
-    const std::uint32_t s = face_code(first + sides[i].face, sides[i].opposite);
-    const std::uint32_t t = face_code(first + sides[i + 1].face, sides[i + 1].opposite);
-    cells[cell_of(s)].neighbors[face_of(s)] = t;
-    cells[cell_of(t)].neighbors[face_of(t)] = s;
+    join_faces(cells, face_code(first + sides[i].face, sides[i].opposite),
+               face_code(first + sides[i + 1].face, sides[i + 1].opposite));
   }
 }
 
@@ -316,24 +282,35 @@ class Wrap {
     const auto cell = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back({{face[0], face[1], face[2], apex}, {no_neighbor, no_neighbor, no_neighbor, no_neighbor}});
     for (std::uint32_t f = 4; f-- > 0;)
-      if (!open_.close_or_open(cells_, face_code(cell, f))) front_.push_back(face_code(cell, f));
+      if (!close_or_open(face_code(cell, f))) front_.push_back(face_code(cell, f));
     if ((cell & 0x3FFFF) == 0x3FFFF) report(progress_, "delaunay", cell, 0);
+  }
+
+  /// Closes the face with the open one that has the same corners, and makes them neighbors; if there is none, the face
+  /// stays open. \return was it closed?
+  bool close_or_open(std::uint32_t code) {
+    const auto [a, b, c] = corners_of_face(cells_[cell_of(code)].vertices, face_of(code));
+    const auto [other, is_new] = open_.insert(face_key(a, b, c), code);
+    if (is_new) return false;
+    join_faces(cells_, code, *other);
+    open_.erase(other);
+    return true;
   }
 
   const VertexGrid& grid_;
   FourthVertexSearch search_;
   const Progress& progress_;
   std::vector<Cell> cells_;
-  OpenFaces open_;
-  std::vector<std::uint32_t> front_;      ///< faces to look at next; some have been closed since
-  std::vector<std::uint32_t> postponed_;  ///< open faces without a vertex nearby: of the hull, or at a wide gap
+  HashTable<FaceKey, std::uint32_t> open_;  ///< faces that have a cell on one side only: the codes by the corners
+  std::vector<std::uint32_t> front_;        ///< faces to look at next; some have been closed since
+  std::vector<std::uint32_t> postponed_;    ///< open faces without a vertex nearby: of the hull, or at a wide gap
 };
 
 }  // namespace
 
 Delaunay wrap_delaunay(std::vector<DelaunayVertex> vertices, double grid_scale, const Progress& progress) {
   const VertexGrid grid = make_vertex_grid(vertices, grid_scale);
-  const auto hull_face = find_first_face(grid.vertices);
+  const auto hull_face = HullWrapping(grid.vertices).face();
   if (!hull_face) refuse_flat_points();
   Delaunay d;
   d.vertices = std::move(vertices);

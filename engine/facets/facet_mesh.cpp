@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/base/simplex_map.h"
-#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
 #include "engine/plc/integer_points.h"

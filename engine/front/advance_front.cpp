@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "engine/base/hash_table.h"
-#include "engine/delaunay/cell_star.h"
+#include "engine/base/simplex_map.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
 #include "engine/locate/cavity_locator.h"
 #include "engine/locate/grid_locator.h"
@@ -15,9 +16,11 @@
 namespace ccdt::front {
 namespace {
 
+constexpr std::uint32_t no_cavity = locate::CavityLocator::no_cavity;
+
 /// For tables.
 struct OrientedFaceTraits {
-  static OrientedFace none() { return {delaunay::ghost_vertex, delaunay::ghost_vertex, delaunay::ghost_vertex}; }
+  static OrientedFace none() { return {ghost_vertex, ghost_vertex, ghost_vertex}; }
   static std::size_t hash(const OrientedFace& f) {
     std::uint64_t h =
         f.corners[0] * 0x9E3779B97F4A7C15u ^ f.corners[1] * 0xC2B2AE3D27D4EB4Fu ^ f.corners[2] * 0x165667B19E3779F9u;
@@ -47,7 +50,7 @@ class WholeModelFinder {
     return find_apex(locator_, facets_, d_, face);
   }
 
-  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return locate::CavityLocator::no_cavity; }
+  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
 
   /// The triangles that the front can meet.
   std::vector<std::uint32_t> triangles() const { return all_triangles(facets_); }
@@ -69,12 +72,12 @@ class CavityFinder {
   std::optional<std::uint32_t> find(const OrientedFace& face, std::uint32_t& cavity) {
     if (all_faces_) {
       const auto& [a, b, c] = face.corners;
-      if (const std::uint32_t code = star_.find_face(a, b, c); code != delaunay::no_neighbor) {
-        cavity = locator_.cavity_of_cell(delaunay::cell_of(code));
-        if (cavity == locate::CavityLocator::no_cavity) return apex_of_cell(code);
+      if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
+        cavity = locator_.cavity_of_cell(cell_of(code));
+        if (cavity == no_cavity) return apex_of_cell(code);
       }
     }
-    if (cavity == locate::CavityLocator::no_cavity) return std::nullopt;
+    if (cavity == no_cavity) return std::nullopt;
     return find_apex(locator_.cavity(cavity), facets_, d_, face);
   }
 
@@ -84,8 +87,8 @@ class CavityFinder {
 
  private:
   std::optional<std::uint32_t> apex_of_cell(std::uint32_t code) const {
-    if (d_.is_ghost(delaunay::cell_of(code))) return std::nullopt;
-    return d_.cells[delaunay::cell_of(code)].vertices[delaunay::face_of(code)];
+    if (d_.is_ghost(cell_of(code))) return std::nullopt;
+    return d_.cells[cell_of(code)].vertices[face_of(code)];
   }
 
   const facets::FacetMesh& facets_;
@@ -102,9 +105,7 @@ FrontFace state_of(const FrontInput& in, std::size_t side) {
   const plc::Facet& facet = in.plc.facets[in.facets.facet[side / 2]];
   const std::uint32_t code = in.codes[side / 2];
   if (side % 2 == above) return {facet.above, code};
-  return {facet.below, code == delaunay::no_neighbor
-                           ? delaunay::no_neighbor
-                           : in.delaunay.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]};
+  return {facet.below, code == no_neighbor ? code : in.delaunay.across(code)};
 }
 
 /// The sides of the PLC's faces that the domain is on.
@@ -126,24 +127,103 @@ class Front {
       : in_(input), face_protection_(face_protection), star_(star), plc_open_(sides_within(input)) {}
 
   template <class Finder>
-  void advance(Finder&& finder, const Progress& progress);
-  FrontResult finish();
+  void advance(Finder&& finder, const Progress& progress) {
+    add_plc_faces(finder);
+    std::uint64_t done = 0;
+    while (!undelaunay_.empty() && !result_.stuck) {
+      const OrientedFace face = undelaunay_.back();
+      undelaunay_.pop_back();
+      State state;
+      if (!close(faces_.find(face), state)) continue;
+      const auto apex = finder.find(face, state.cavity);
+      if (!apex) return fail(face, "the front found no vertex that is visible from a face");
+      add_tetrahedron(face, *apex, state);
+      if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
+    }
+  }
+
+  /// What is left of the front: faces of the PLC and of its own.
+  FrontResult finish() {
+    for (std::size_t side = 0; side < plc_open_.size(); ++side)
+      if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
+    faces_.for_each([&](const OrientedFace&, const State& state) {
+      if (state.side == no_side) result_.open.push_back(state.face);
+    });
+    return std::move(result_);
+  }
 
  private:
   static constexpr std::uint32_t no_side = 0xFFFFFFFFu;
 
   struct State {
     FrontFace face;
-    std::uint32_t cavity = locate::CavityLocator::no_cavity;  // of the tetrahedron below, or of the missing face
-    std::uint32_t side = no_side;  // of the PLC, if any: such entries stay when they are closed
+    std::uint32_t cavity = no_cavity;  // of the tetrahedron below, or of the missing face
+    std::uint32_t side = no_side;      // of the PLC, if any: such entries stay when they are closed
   };
 
-  void fail(const OrientedFace& face, const char* what);
+  /// Notes that the front is stuck at a face; the first time counts.
+  void fail(const OrientedFace& face, const char* what) {
+    if (result_.stuck) return;
+    Place place;
+    place.file = in_.plc.name;
+    for (const std::uint32_t v : face.corners)
+      place.points.push_back(as_array(in_.plc.grid.to_world(in_.delaunay.point(v))));
+    result_.stuck.emplace(what, place,
+                          "the facets near these points are almost but not quite flat: try another --flatness");
+  }
+
   template <class Finder>
-  void add_plc_faces(const Finder& finder);
-  bool close(State* found, State& state);
-  void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state);
-  void pass(const OrientedFace& inner, const State& state);
+  void add_plc_faces(const Finder& finder) {
+    const std::vector<std::uint32_t> triangles = finder.triangles();
+    faces_.reserve(2 * triangles.size());
+    for (const std::uint32_t i : triangles) {
+      const auto& t = in_.facets.triangles[i];
+      const std::uint32_t cavity = finder.cavity_of_triangle(i);
+      for (const Side side : {above, below}) {
+        const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
+        const auto number = static_cast<std::uint32_t>(2 * i + side);
+        faces_.insert(face, {state_of(in_, number), cavity, number});
+        if (plc_open_[number] && in_.codes[i] == no_neighbor) undelaunay_.push_back(face);
+      }
+    }
+    result_.undelaunay_faces = undelaunay_.size();
+  }
+
+  /// Takes a face from the front, if it is there.
+  bool close(State* found, State& state) {
+    if (found == nullptr) return false;
+    state = *found;
+    if (state.side == no_side) {
+      faces_.erase(found);
+      return true;
+    }
+    return std::exchange(plc_open_[state.side], false) != 0;
+  }
+
+  void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state) {
+    const auto& [a, b, c] = base.corners;
+    result_.tetrahedra.push_back({a, b, c, apex});
+    result_.regions.push_back(state.face.region);
+    // The other faces, with the tetrahedron above them.
+    pass({a, c, apex}, state);
+    pass({c, b, apex}, state);
+    pass({b, a, apex}, state);
+  }
+
+  /// Closes a face that waited for this tetrahedron, or opens its other side (paper, section 5.3).
+  void pass(const OrientedFace& inner, const State& state) {
+    State* waiting = faces_.find(inner);
+    if (State closed; close(waiting, closed)) return;
+    if (waiting != nullptr) return fail(inner, "the front passed a facet");
+    const OrientedFace outer = inner.reversed();
+    const std::uint32_t code =
+        face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
+    if (!faces_.insert(outer, {{state.face.region, code}, state.cavity, no_side}).second)
+      return fail(outer, "two tetrahedra of the front overlap");
+    if (code != no_neighbor) return;
+    undelaunay_.push_back(outer);
+    ++result_.undelaunay_faces;
+  }
 
   const FrontInput& in_;
   const bool face_protection_;
@@ -153,96 +233,6 @@ class Front {
   std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
   FrontResult result_;
 };
-
-/// Notes that the front is stuck at a face; the first time counts.
-void Front::fail(const OrientedFace& face, const char* what) {
-  if (result_.stuck) return;
-  Place place;
-  place.file = in_.plc.name;
-  for (const std::uint32_t v : face.corners)
-    place.points.push_back(as_array(in_.plc.grid.to_world(in_.delaunay.point(v))));
-  result_.stuck.emplace(what, place,
-                        "the facets near these points are almost but not quite flat: try another --flatness");
-}
-
-template <class Finder>
-void Front::add_plc_faces(const Finder& finder) {
-  const std::vector<std::uint32_t> triangles = finder.triangles();
-  faces_.reserve(2 * triangles.size());
-  for (const std::uint32_t i : triangles) {
-    const auto& t = in_.facets.triangles[i];
-    const std::uint32_t cavity = finder.cavity_of_triangle(i);
-    for (const Side side : {above, below}) {
-      const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
-      const auto number = static_cast<std::uint32_t>(2 * i + side);
-      faces_.insert(face, {state_of(in_, number), cavity, number});
-      if (plc_open_[number] && in_.codes[i] == delaunay::no_neighbor) undelaunay_.push_back(face);
-    }
-  }
-  result_.undelaunay_faces = undelaunay_.size();
-}
-
-/// Takes a face from the front, if it is there.
-bool Front::close(State* found, State& state) {
-  if (found == nullptr) return false;
-  state = *found;
-  if (state.side == no_side) {
-    faces_.erase(found);
-    return true;
-  }
-  return std::exchange(plc_open_[state.side], false) != 0;
-}
-
-template <class Finder>
-void Front::advance(Finder&& finder, const Progress& progress) {
-  add_plc_faces(finder);
-  std::uint64_t done = 0;
-  while (!undelaunay_.empty() && !result_.stuck) {
-    const OrientedFace face = undelaunay_.back();
-    undelaunay_.pop_back();
-    State state;
-    if (!close(faces_.find(face), state)) continue;
-    const auto apex = finder.find(face, state.cavity);
-    if (!apex) return fail(face, "the front found no vertex that is visible from a face");
-    add_tetrahedron(face, *apex, state);
-    if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
-  }
-}
-
-void Front::add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state) {
-  const auto& [a, b, c] = base.corners;
-  result_.tetrahedra.push_back({a, b, c, apex});
-  result_.regions.push_back(state.face.region);
-  // The other faces, with the tetrahedron above them.
-  pass({a, c, apex}, state);
-  pass({c, b, apex}, state);
-  pass({b, a, apex}, state);
-}
-
-/// Closes a face that waited for this tetrahedron, or opens its other side (paper, section 5.3).
-void Front::pass(const OrientedFace& inner, const State& state) {
-  State* waiting = faces_.find(inner);
-  if (State closed; close(waiting, closed)) return;
-  if (waiting != nullptr) return fail(inner, "the front passed a facet");
-  const OrientedFace outer = inner.reversed();
-  const std::uint32_t code =
-      face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : delaunay::no_neighbor;
-  if (!faces_.insert(outer, {{state.face.region, code}, state.cavity, no_side}).second)
-    return fail(outer, "two tetrahedra of the front overlap");
-  if (code != delaunay::no_neighbor) return;
-  undelaunay_.push_back(outer);
-  ++result_.undelaunay_faces;
-}
-
-/// What is left of the front: faces of the PLC and of its own.
-FrontResult Front::finish() {
-  for (std::size_t side = 0; side < plc_open_.size(); ++side)
-    if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
-  faces_.for_each([&](const OrientedFace&, const State& state) {
-    if (state.side == no_side) result_.open.push_back(state.face);
-  });
-  return std::move(result_);
-}
 
 /// The front that need not advance: all faces of the PLC.
 FrontResult standing_front(const FrontInput& in) {
@@ -256,9 +246,35 @@ FrontResult standing_front(const FrontInput& in) {
 
 }  // namespace
 
+std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
+  std::vector<std::uint32_t> codes(facets.triangles.size(), no_neighbor);
+  std::uint32_t vertices = 0;  // ids from here on are of vertices that no face has
+  for (const auto& t : facets.triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  const FaceMap faces(facets.triangles, vertices);
+  // One pass over the cells, most of which are inside and passed over at once. (The ghosts' faces are theirs too.)
+  for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
+    const delaunay::Cell& cell = delaunay.cells[c];
+    const auto& v = cell.vertices;
+    const unsigned inner = (v[0] >= vertices) + (v[1] >= vertices) + (v[2] >= vertices) + (v[3] >= vertices);
+    if (inner > 1 || delaunay.is_dead(c)) continue;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (inner == 1 && v[f] < vertices) continue;
+      if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
+      const auto [p, q, r] = delaunay::corners_of_face(v, f);
+      const std::uint32_t face = faces.find(p, q, r);
+      if (face == FaceMap::none) continue;
+      // The cell is above the face if it sees the corners in their order.
+      const auto& t = facets.triangles[face];
+      const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
+      codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
+    }
+  }
+  return codes;
+}
+
 FrontResult advance_front(const FrontInput& in, const FrontOptions& options, const Progress& progress) {
   const auto& [plc, facets, codes, delaunay] = in;
-  if (std::ranges::find(codes, delaunay::no_neighbor) == codes.end()) return standing_front(in);
+  if (std::ranges::find(codes, no_neighbor) == codes.end()) return standing_front(in);
   delaunay::CellStar star(delaunay);
   Front front(in, options.face_protection, star);
   switch (options.locator) {

@@ -1,11 +1,49 @@
 #include "engine/improve/cell_complex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
+
+QualityGoal goal_of(const ImproveOptions& options) {
+  return {options.objective, 1 / options.target_r, std::sin(options.target_dihedral * std::numbers::pi / 180)};
+}
+
+double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const Point3 u = a - d, v = b - d, w = c - d;
+  const double det = dot(u, cross(w, v));
+  const double mean =
+      0.5 * (squared_length(u) + squared_length(v) + squared_length(w)) - (dot(u, v) + dot(v, w) + dot(w, u)) / 3;
+  return std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
+}
+
+double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const Point3 u = a - d, v = b - d, w = c - d;
+  const Point3 vw = cross(w, v), wu = cross(u, w), uv = cross(v, u);
+  const double det = dot(u, vw);
+  // Squares of twice the areas of the faces opposite to a, b, c, d, inverted.
+  const double fa = 1 / squared_length(vw), fb = 1 / squared_length(wu), fc = 1 / squared_length(uv);
+  const double fd = 1 / squared_length(vw + wu + uv);
+  const double least =
+      std::min({squared_length(u) * fb * fc, squared_length(v) * fa * fc, squared_length(w) * fa * fb,
+                squared_length(v - u) * fc * fd, squared_length(w - v) * fa * fd, squared_length(u - w) * fb * fd});
+  return det * std::sqrt(least);
+}
+
+double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  if (goal.objective == Objective::dihedral) return least_sine(a, b, c, d);
+  const double shape = inverse_r(a, b, c, d);
+  return shape < goal.inverse_r ? shape : 1 + least_sine(a, b, c, d);
+}
+
+double goal_quality(const QualityGoal& goal) {
+  return goal.objective == Objective::dihedral ? goal.sine : 1 + goal.sine;
+}
+
 namespace {
 
 /// A face of a cell, or a face of the mesh on a facet, among those with the same least corner.
@@ -25,12 +63,12 @@ FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   return face_key(a, b, c);
 }
 
-FaceBuckets sort_faces(const std::vector<delaunay::Cell>& cells, const std::vector<std::array<std::uint32_t, 3>>& faces,
+FaceBuckets sort_faces(const std::vector<Cell>& cells, const std::vector<std::array<std::uint32_t, 3>>& faces,
                        std::size_t vertices) {
   const auto visit_faces = [&](const auto& visit) {
     for (std::uint32_t c = 0; c < cells.size(); ++c)
-      for (std::uint32_t f = 0; f < 4; ++f) visit(key_of_face(cells[c].vertices, f), delaunay::face_code(c, f));
-    for (const auto& face : faces) visit(face_key(face[0], face[1], face[2]), delaunay::no_neighbor);
+      for (std::uint32_t f = 0; f < 4; ++f) visit(key_of_face(cells[c].vertices, f), face_code(c, f));
+    for (const auto& face : faces) visit(face_key(face[0], face[1], face[2]), no_neighbor);
   };
   FaceBuckets buckets;
   buckets.begin.assign(vertices + 2, 0);
@@ -63,7 +101,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
     : goal_(goal),
       points_(std::move(points)),
       first_interior_(first_interior),
-      cell_at_(points_.size(), delaunay::no_neighbor),
+      cell_at_(points_.size(), no_neighbor),
       changed_at_(points_.size(), 0),
       cells_(mesh.tetrahedra.size()),
       walls_(cells_.size(), 0),
@@ -73,8 +111,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
   for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-    cells_[c] = {mesh.tetrahedra[c],
-                 {delaunay::no_neighbor, delaunay::no_neighbor, delaunay::no_neighbor, delaunay::no_neighbor}};
+    cells_[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
     qualities_[c] = quality_of(mesh.tetrahedra[c]);
     for (const std::uint32_t v : mesh.tetrahedra[c]) cell_at_[v] = c;
   }
@@ -87,8 +124,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
 }
 
 void CellComplex::set_wall(std::uint32_t code) {
-  walls_[delaunay::cell_of(code)] =
-      static_cast<std::uint8_t>(walls_[delaunay::cell_of(code)] | 1u << delaunay::face_of(code));
+  walls_[cell_of(code)] |= static_cast<std::uint8_t>(1u << face_of(code));
 }
 
 /// Joins the entries that are the same face: two cells at most, and a face on a facet.
@@ -100,18 +136,17 @@ void CellComplex::find_neighbors() {
       for (std::size_t j = i + 1; j < buckets.begin[v + 1]; ++j) {
         if (entries[i].rest != entries[j].rest) continue;
         const std::uint32_t a = entries[i].code, b = entries[j].code;
-        if (a != delaunay::no_neighbor && b != delaunay::no_neighbor) {
-          cells_[delaunay::cell_of(a)].neighbors[delaunay::face_of(a)] = b;
-          cells_[delaunay::cell_of(b)].neighbors[delaunay::face_of(b)] = a;
-        } else if (a != delaunay::no_neighbor || b != delaunay::no_neighbor) {
-          set_wall(a != delaunay::no_neighbor ? a : b);
+        if (a != no_neighbor && b != no_neighbor) {
+          join_faces(cells_, a, b);
+        } else if (a != no_neighbor || b != no_neighbor) {
+          set_wall(a != no_neighbor ? a : b);
         }
       }
     }
   }
   for (std::uint32_t c = 0; c < cells_.size(); ++c)
     for (std::uint32_t f = 0; f < 4; ++f)
-      if (cells_[c].neighbors[f] == delaunay::no_neighbor) set_wall(delaunay::face_code(c, f));
+      if (cells_[c].neighbors[f] == no_neighbor) set_wall(face_code(c, f));
 }
 
 double CellComplex::worst_of(std::span<const std::uint32_t> cells) const {
@@ -137,16 +172,16 @@ void CellComplex::open_hull(const Change& change, CellMarks& marks) {
   for (const std::uint32_t c : change.old_cells) {
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t outside = cells_[c].neighbors[f];
-      if (outside != delaunay::no_neighbor && marks.is_marked(delaunay::cell_of(outside))) continue;
-      open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(delaunay::face_code(c, f))});
+      if (outside != no_neighbor && marks.is_marked(cell_of(outside))) continue;
+      open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
     }
   }
 }
 
 void CellComplex::free_cells(const std::vector<std::uint32_t>& cells) {
   for (const std::uint32_t c : cells) {
-    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = delaunay::no_neighbor;
-    cells_[c].vertices[0] = delaunay::ghost_vertex;
+    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = no_neighbor;
+    cells_[c].vertices[0] = ghost_vertex;
     ++generations_[c];
     free_.push_back(c);
   }
@@ -169,19 +204,18 @@ std::uint32_t CellComplex::take_place() {
 
 /// Joins a face of a new cell to what waits for it, or lets it wait.
 void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flips) {
-  const FaceKey key = key_of_face(cells_[delaunay::cell_of(code)].vertices, delaunay::face_of(code));
+  const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
   const bool becomes_wall = !flips.empty() && is_new_wall(flips, key);
   for (OpenFace& face : open_) {
     if (face.key != key) continue;
-    cells_[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)] = face.code;
-    if (face.code != delaunay::no_neighbor)
-      cells_[delaunay::cell_of(face.code)].neighbors[delaunay::face_of(face.code)] = code;
+    cells_[cell_of(code)].neighbors[face_of(code)] = face.code;
+    if (face.code != no_neighbor) cells_[cell_of(face.code)].neighbors[face_of(face.code)] = code;
     if (face.is_wall || becomes_wall) set_wall(code);
     face = open_.back();
     open_.pop_back();
     return;
   }
-  cells_[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)] = delaunay::no_neighbor;
+  cells_[cell_of(code)].neighbors[face_of(code)] = no_neighbor;
   if (becomes_wall) set_wall(code);
   open_.push_back({key, code, becomes_wall});
 }
@@ -203,7 +237,7 @@ void CellComplex::flip_walls(const FacetFlip& flip) {
 void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made) {
   if (change.new_vertex) {
     points_.push_back(*change.new_vertex);
-    cell_at_.push_back(delaunay::no_neighbor);
+    cell_at_.push_back(no_neighbor);
     changed_at_.push_back(0);
   }
   open_hull(change, marks);
@@ -216,7 +250,7 @@ void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std:
     walls_[c] = 0;
     regions_[c] = cell.region;
     qualities_[c] = cell.quality;
-    for (std::uint32_t f = 0; f < 4; ++f) connect(delaunay::face_code(c, f), change.flips);
+    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.flips);
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
   }
   // What a flip has left open on a boundary facet: its two old triangles are gone, the two new ones are walls already.
@@ -241,7 +275,7 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   points.reserve(points_.size());
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
     number[v] = static_cast<std::uint32_t>(points.size());
-    if (!is_interior(v) || cell_at_[v] != delaunay::no_neighbor) points.push_back(points_[v]);
+    if (!is_interior(v) || cell_at_[v] != no_neighbor) points.push_back(points_[v]);
   }
   mesh.tetrahedra.clear();
   mesh.regions.clear();

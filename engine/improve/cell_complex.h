@@ -9,10 +9,40 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/improve/cell_quality.h"
+#include "engine/improve/options.h"
 #include "engine/mesh/tet_mesh.h"
 
 namespace ccdt::improve {
+
+using delaunay::Cell, delaunay::cell_of, delaunay::corners_of_face, delaunay::face_code, delaunay::face_of,
+    delaunay::ghost_vertex, delaunay::join_faces, delaunay::no_neighbor;
+
+/// What is good enough, as numbers that can be compared with 1 / r and the least sine.
+struct QualityGoal {
+  Objective objective = Objective::r;
+  double inverse_r = 0.5;
+  double sine = 0.34;
+};
+
+QualityGoal goal_of(const ImproveOptions& options);
+
+/// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m the mean square of the six edges. The apex d
+/// is above abc in a positive tetrahedron.
+double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// Of the dihedral angle at an edge of length l between faces of areas A and B in a tetrahedron of volume V, the sine
+/// is 3 V l / (2 A B).
+double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// The quality of a tetrahedron by the objective: greater is better, and 0 or less is flat or inverted. That of a set
+/// of tetrahedra is that of its worst.
+///
+/// For `Objective::r` it is 1 / r up to the goal; from there on, it is 1 plus the least sine of the dihedral angles: r
+/// comes first, angles decide where r is good.
+double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// The quality from which a tetrahedron is good enough.
+double goal_quality(const QualityGoal& goal);
 
 /// A cell to be made.
 struct NewCell {
@@ -80,8 +110,8 @@ class CellComplex {
   /// Dead cells included, whose places wait to be used again.
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t dead_count() const { return free_.size(); }
-  const delaunay::Cell& cell(std::uint32_t c) const { return cells_[c]; }
-  bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == delaunay::ghost_vertex; }
+  const Cell& cell(std::uint32_t c) const { return cells_[c]; }
+  bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
   int region(std::uint32_t c) const { return regions_[c]; }
   double quality(std::uint32_t c) const { return qualities_[c]; }
   /// How often the place of the cell was given to another one.
@@ -91,9 +121,11 @@ class CellComplex {
     const auto& all = cells_[c].vertices;
     return all[0] == v ? 0 : all[1] == v ? 1 : all[2] == v ? 2 : 3;
   }
-  bool is_wall(std::uint32_t code) const {
-    return (walls_[delaunay::cell_of(code)] >> delaunay::face_of(code) & 1) != 0;
-  }
+  /// The face of a code, as the cell on its other side calls it.
+  std::uint32_t across(std::uint32_t code) const { return cells_[cell_of(code)].neighbors[face_of(code)]; }
+  /// The vertex opposite to the face in its cell.
+  std::uint32_t apex_of(std::uint32_t code) const { return cells_[cell_of(code)].vertices[face_of(code)]; }
+  bool is_wall(std::uint32_t code) const { return (walls_[cell_of(code)] >> face_of(code) & 1) != 0; }
 
   /// The faces on facets, and the facet of each.
   const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
@@ -156,7 +188,7 @@ class CellComplex {
   std::vector<std::uint64_t> changed_at_;
 
   // By cell.
-  std::vector<delaunay::Cell> cells_;
+  std::vector<Cell> cells_;
   std::vector<std::uint8_t> walls_;  // bit f is set if face f is a wall
   std::vector<int> regions_;
   std::vector<double> qualities_;
@@ -171,11 +203,5 @@ class CellComplex {
 
   std::vector<OpenFace> open_;  // working memory of `apply`
 };
-
-/// The corners of face f of a cell with these vertices.
-inline std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
-  const auto& corner = delaunay::face_corners[f];
-  return {v[corner[0]], v[corner[1]], v[corner[2]]};
-}
 
 }  // namespace ccdt::improve

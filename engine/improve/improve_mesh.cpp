@@ -38,7 +38,22 @@ class Improver {
         improvement_(options.improvement.value_or(Improvement::all)),
         begin_(Clock::now()) {}
 
-  ImproveCounts run(const Progress& progress);
+  ImproveCounts run(const Progress& progress) {
+    for (std::uint32_t c = 0; c < x_.cell_count(); ++c) add_bad(c);
+    counts_.bad_cells = found_.size();
+    Effort effort = Effort::usual;
+    while (!found_.empty() && !time_is_up()) {
+      const bool changed = pass(effort, progress);
+      if (changed) continue;
+      if (effort == Effort::greatest || improvement_ == Improvement::swap) break;
+      effort = Effort::greatest;
+      for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
+    }
+    tidy(found_);
+    counts_.bad_cells_left = found_.size();
+    counts_.stop = found_.empty() ? ImproveStop::target : time_is_up() ? ImproveStop::time : ImproveStop::stuck;
+    return counts_;
+  }
 
  private:
   bool is_bad(std::uint32_t cell) const { return !(x_.quality(cell) >= goal_quality(x_.goal())); }
@@ -53,16 +68,129 @@ class Improver {
     return options_.time > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= options_.time;
   }
 
-  void tidy(std::vector<BadCell>& bad) const;
-  bool pass(Effort effort, const Progress& progress);
-  bool improve(std::uint32_t cell, Effort effort);
-  bool swap(std::uint32_t cell);
-  bool smooth(std::uint32_t cell, Effort effort);
-  bool move(std::uint32_t vertex, Effort effort);
-  bool insert_or_collapse(std::uint32_t cell);
-  void apply(const Change& change);
   void add_bad(std::uint32_t cell) {
     if (is_bad(cell)) found_.push_back({x_.quality(cell), cell, x_.generation(cell)});
+  }
+
+  /// Leaves one entry for each cell that is still bad, the least tried, and the worst first. A cell that a moved vertex
+  /// has made good and another one bad again has two.
+  void tidy(std::vector<BadCell>& bad) const {
+    std::erase_if(bad, [&](const BadCell& b) { return is_stale(b); });
+    for (BadCell& b : bad) b.quality = x_.quality(b.cell);
+    std::ranges::sort(bad, [](const BadCell& a, const BadCell& b) {
+      return std::tie(a.quality, a.cell, a.tries, a.tried_at) < std::tie(b.quality, b.cell, b.tries, b.tried_at);
+    });
+    const auto rest = std::ranges::unique(bad, {}, &BadCell::cell);
+    bad.erase(rest.begin(), rest.end());
+  }
+
+  /// Tries each bad cell once, unless nothing around it has changed since it was tried in vain.
+  /// \return has anything been improved?
+  bool pass(Effort effort, const Progress& progress) {
+    queue_.swap(found_);
+    found_.clear();
+    tidy(queue_);
+    const std::uint64_t changes = x_.change_count();
+    std::uint64_t done = 0;
+    for (BadCell& bad : queue_) {
+      if (done++ % 256 == 0) {
+        report(progress, "improve", done, queue_.size());
+        if (time_is_up()) {
+          found_.insert(found_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(done) - 1, queue_.end());
+          break;
+        }
+      }
+      if (is_stale(bad)) continue;
+      if (should_be_tried(bad)) {
+        if (improve(bad.cell, effort) && is_stale(bad)) continue;
+        bad.tried_at = x_.change_count() + 1;
+        ++bad.tries;
+      }
+      found_.push_back(bad);
+    }
+    return x_.change_count() != changes;
+  }
+
+  bool improve(std::uint32_t cell, Effort effort) {
+    const bool swaps = improvement_ != Improvement::smooth;
+    const bool smooths = improvement_ != Improvement::swap;
+    if (swaps && swap(cell)) return true;
+    bool improved = false;
+    if (smooths && smooth(cell, effort)) {
+      improved = true;
+      if (!is_bad(cell)) return true;
+    }
+    const bool everything = effort == Effort::greatest && improvement_ == Improvement::all;
+    return (everything && insert_or_collapse(cell)) || improved;
+  }
+
+  /// The best of all swaps that a cell has part in.
+  bool swap(std::uint32_t cell) {
+    double least = x_.quality(cell);
+    std::uint64_t* count = nullptr;  // of what the best plan removes
+    const auto consider = [&](bool is_better, std::uint64_t& removed) {
+      if (!is_better) return;
+      least = worst_of(plan_.new_cells);
+      count = &removed;
+      std::swap(plan_, best_);
+    };
+    for (std::uint32_t edge = 0; edge < 6; ++edge)
+      consider(plan_edge_removal(x_, cell, edge, least, plan_), counts_.removed_edges);
+    for (std::uint32_t face = 0; face < 4; ++face)
+      consider(plan_face_removal(x_, cell, face, least, plan_), counts_.removed_faces);
+    if (count == nullptr || !x_.all_positive(best_)) return false;
+    ++*count;
+    counts_.facet_flips += best_.flips.size();
+    apply(best_);
+    return true;
+  }
+
+  void apply(const Change& change) {
+    x_.apply(change, scratch_.marks, new_cells_);
+    for (const std::uint32_t c : new_cells_) add_bad(c);
+  }
+
+  bool smooth(std::uint32_t cell, Effort effort) {
+    bool moved = false;
+    const auto corners = x_.cell(cell).vertices;
+    for (const std::uint32_t v : corners) {
+      if (!move(v, effort)) continue;
+      moved = true;
+      if (!is_bad(cell)) break;
+    }
+    return moved;
+  }
+
+  /// Interior vertices first: those on the boundary slide only where that was not enough.
+  bool move(std::uint32_t vertex, Effort effort) {
+    Freedom freedom;
+    if (!x_.is_interior(vertex)) {
+      if (effort == Effort::usual || freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
+      freedom = freedom_[vertex];
+    }
+    gather_star(x_, vertex, scratch_.marks, star_);
+    const double worst = x_.worst_of(star_.cells);
+    Point3 apex = x_.point(vertex);
+    if (!(move_apex(star_.faces, x_.goal(), freedom, worst, scratch_.move, apex) > worst)) return false;
+    good_cells_.clear();
+    std::ranges::copy_if(star_.cells, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
+    x_.move_vertex(vertex, apex, star_.cells);
+    ++counts_.moved_vertices;
+    for (const std::uint32_t c : good_cells_) add_bad(c);
+    return true;
+  }
+
+  bool insert_or_collapse(std::uint32_t cell) {
+    const double least = x_.quality(cell);
+    if (plan_collapse(x_, cell, least, scratch_, plan_) && x_.all_positive(plan_)) {
+      ++counts_.collapsed_edges;
+      apply(plan_);
+      return true;
+    }
+    if (!plan_insertion(x_, cell, least, scratch_, plan_)) return false;
+    ++counts_.inserted_vertices;
+    apply(plan_);
+    return true;
   }
 
   CellComplex& x_;
@@ -79,144 +207,6 @@ class Improver {
   VertexStar star_;
   std::vector<std::uint32_t> new_cells_, good_cells_;
 };
-
-ImproveCounts Improver::run(const Progress& progress) {
-  for (std::uint32_t c = 0; c < x_.cell_count(); ++c) add_bad(c);
-  counts_.bad_cells = found_.size();
-  Effort effort = Effort::usual;
-  while (!found_.empty() && !time_is_up()) {
-    const bool changed = pass(effort, progress);
-    if (changed) continue;
-    if (effort == Effort::greatest || improvement_ == Improvement::swap) break;
-    effort = Effort::greatest;
-    for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
-  }
-  tidy(found_);
-  counts_.bad_cells_left = found_.size();
-  counts_.stop = found_.empty() ? ImproveStop::target : time_is_up() ? ImproveStop::time : ImproveStop::stuck;
-  return counts_;
-}
-
-/// Leaves one entry for each cell that is still bad, the least tried, and the worst first. A cell that a moved vertex
-/// has made good and another one bad again has two.
-void Improver::tidy(std::vector<BadCell>& bad) const {
-  std::erase_if(bad, [&](const BadCell& b) { return is_stale(b); });
-  for (BadCell& b : bad) b.quality = x_.quality(b.cell);
-  std::ranges::sort(bad, [](const BadCell& a, const BadCell& b) {
-    return std::tie(a.quality, a.cell, a.tries, a.tried_at) < std::tie(b.quality, b.cell, b.tries, b.tried_at);
-  });
-  const auto rest = std::ranges::unique(bad, {}, &BadCell::cell);
-  bad.erase(rest.begin(), rest.end());
-}
-
-/// Tries each bad cell once, unless nothing around it has changed since it was tried in vain.
-/// \return has anything been improved?
-bool Improver::pass(Effort effort, const Progress& progress) {
-  queue_.swap(found_);
-  found_.clear();
-  tidy(queue_);
-  const std::uint64_t changes = x_.change_count();
-  std::uint64_t done = 0;
-  for (BadCell& bad : queue_) {
-    if (done++ % 256 == 0) {
-      report(progress, "improve", done, queue_.size());
-      if (time_is_up()) {
-        found_.insert(found_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(done) - 1, queue_.end());
-        break;
-      }
-    }
-    if (is_stale(bad)) continue;
-    if (should_be_tried(bad)) {
-      if (improve(bad.cell, effort) && is_stale(bad)) continue;
-      bad.tried_at = x_.change_count() + 1;
-      ++bad.tries;
-    }
-    found_.push_back(bad);
-  }
-  return x_.change_count() != changes;
-}
-
-bool Improver::improve(std::uint32_t cell, Effort effort) {
-  const bool swaps = improvement_ != Improvement::smooth;
-  const bool smooths = improvement_ != Improvement::swap;
-  if (swaps && swap(cell)) return true;
-  bool improved = false;
-  if (smooths && smooth(cell, effort)) {
-    improved = true;
-    if (!is_bad(cell)) return true;
-  }
-  const bool everything = effort == Effort::greatest && improvement_ == Improvement::all;
-  return (everything && insert_or_collapse(cell)) || improved;
-}
-
-/// The best of all swaps that a cell has part in.
-bool Improver::swap(std::uint32_t cell) {
-  double least = x_.quality(cell);
-  std::uint64_t* count = nullptr;  // of what the best plan removes
-  const auto consider = [&](bool is_better, std::uint64_t& removed) {
-    if (!is_better) return;
-    least = worst_of(plan_.new_cells);
-    count = &removed;
-    std::swap(plan_, best_);
-  };
-  for (std::uint32_t edge = 0; edge < 6; ++edge)
-    consider(plan_edge_removal(x_, cell, edge, least, plan_), counts_.removed_edges);
-  for (std::uint32_t face = 0; face < 4; ++face)
-    consider(plan_face_removal(x_, cell, face, least, plan_), counts_.removed_faces);
-  if (count == nullptr || !x_.all_positive(best_)) return false;
-  ++*count;
-  counts_.facet_flips += best_.flips.size();
-  apply(best_);
-  return true;
-}
-
-void Improver::apply(const Change& change) {
-  x_.apply(change, scratch_.marks, new_cells_);
-  for (const std::uint32_t c : new_cells_) add_bad(c);
-}
-
-bool Improver::smooth(std::uint32_t cell, Effort effort) {
-  bool moved = false;
-  const auto corners = x_.cell(cell).vertices;
-  for (const std::uint32_t v : corners) {
-    if (!move(v, effort)) continue;
-    moved = true;
-    if (!is_bad(cell)) break;
-  }
-  return moved;
-}
-
-/// Interior vertices first: those on the boundary slide only where that was not enough.
-bool Improver::move(std::uint32_t vertex, Effort effort) {
-  Freedom freedom;
-  if (!x_.is_interior(vertex)) {
-    if (effort == Effort::usual || freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
-    freedom = freedom_[vertex];
-  }
-  gather_star(x_, vertex, scratch_.marks, star_);
-  const double worst = x_.worst_of(star_.cells);
-  Point3 apex = x_.point(vertex);
-  if (!(move_apex(star_.faces, x_.goal(), freedom, worst, scratch_.move, apex) > worst)) return false;
-  good_cells_.clear();
-  std::ranges::copy_if(star_.cells, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
-  x_.move_vertex(vertex, apex, star_.cells);
-  ++counts_.moved_vertices;
-  for (const std::uint32_t c : good_cells_) add_bad(c);
-  return true;
-}
-
-bool Improver::insert_or_collapse(std::uint32_t cell) {
-  const double least = x_.quality(cell);
-  if (plan_collapse(x_, cell, least, scratch_, plan_) && x_.all_positive(plan_)) {
-    ++counts_.collapsed_edges;
-    apply(plan_);
-    return true;
-  }
-  if (!plan_insertion(x_, cell, least, scratch_, plan_)) return false;
-  ++counts_.inserted_vertices;
-  apply(plan_);
-  return true;
-}
 
 using Tetrahedron = std::array<std::uint32_t, 4>;
 
@@ -240,7 +230,6 @@ Tetrahedron in_order(Tetrahedron t) {
 /// Brings the tetrahedra, with their regions, and the corners of each into an order that depends on nothing but the set
 /// of tetrahedra: what is done cell by cell has the same result whatever strategy made the mesh. Neighbors in space
 /// are mostly near to each other in it, as interior vertices are numbered along a space-filling curve.
-void sort_cells(mesh::TetMesh& mesh);
 void sort_cells(mesh::TetMesh& mesh) {
   // A counting sort by the first vertex leaves a few cells a bucket.
   std::vector<std::uint32_t> begin;
@@ -274,15 +263,13 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
   return Improver(complex, freedom, options).run(progress);
 }
 
-ImproveCounts improve_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                           std::vector<std::uint32_t> facet_of_face, std::size_t first_interior,
-                           const ImproveOptions& options, std::vector<Point3>& points, mesh::TetMesh& mesh,
-                           const Progress& progress) {
+ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, std::vector<Point3>& points,
+                           mesh::TetMesh& mesh, const Progress& progress) {
   std::vector<Freedom> freedom;
-  if (options.boundary == BoundaryRule::slide) freedom = find_freedom(plc, chains, points.size());
+  if (options.boundary == BoundaryRule::slide) freedom = find_freedom(input.plc, input.chains, points.size());
   sort_cells(mesh);
-  CellComplex complex(mesh, std::move(points), std::move(facet_of_face), static_cast<std::uint32_t>(first_interior),
-                      goal_of(options));
+  CellComplex complex(mesh, std::move(points), std::move(input.facet_of_face),
+                      static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;
   points = std::move(complex).take_mesh(mesh);

@@ -4,12 +4,8 @@
 #include <vector>
 
 #include "engine/base/progress.h"
-#include "engine/facets/facet_mesh.h"
-#include "engine/improve/cell_complex.h"
 #include "engine/improve/counts.h"
-#include "engine/improve/options.h"
 #include "engine/improve/smoothing.h"
-#include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
@@ -24,15 +20,20 @@ namespace ccdt::improve {
 ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& freedom, const ImproveOptions& options,
                             const Progress& progress = {});
 
+/// What `improve_mesh` is told of a mesh.
+struct ImproveInput {
+  const plc::Plc& plc;
+  const protection::SegmentChains& chains;
+  std::vector<std::uint32_t> facet_of_face;  ///< of each of the mesh's faces
+  std::size_t first_interior;                ///< the least interior vertex
+};
+
 /// Improves a whole mesh (paper, section 5: edge-face swaps and smoothing). Its boundary, segments and facets stay what
 /// they are, with the vertices of the input where they are; `BoundaryRule::slide` says what may move on them.
 ///
-/// \param facet_of_face  the facet of each of the mesh's faces
-/// \param points         the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
-/// \param mesh           without coordinates
-ImproveCounts improve_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                           std::vector<std::uint32_t> facet_of_face, std::size_t first_interior,
-                           const ImproveOptions& options, std::vector<Point3>& points, mesh::TetMesh& mesh,
-                           const Progress& progress = {});
+/// \param points  the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
+/// \param mesh    without coordinates
+ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, std::vector<Point3>& points,
+                           mesh::TetMesh& mesh, const Progress& progress = {});
 
 }  // namespace ccdt::improve

@@ -1,12 +1,298 @@
 #include "engine/improve/smoothing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
+
+// ---- The functions of a star
+
+namespace {
+
+/// How much more the quality of the star may grow than a 1 / r above its goal shrinks.
+constexpr double surplus_weight = 4;
+
+// The loops that follow have no branches and no calls, so that compilers turn them into vector instructions.
+
+void compute_inverse_r(const Point3& p, ScaledStar& star) {
+  const std::size_t size = star.size();
+  const double *nx = star.normal.x.data(), *ny = star.normal.y.data(), *nz = star.normal.z.data(),
+               *gx = star.centroid.x.data(), *gy = star.centroid.y.data(), *gz = star.centroid.z.data(),
+               *height = star.height.data(), *mean_square = star.mean_square.data();
+  double* result = star.inverse_r.data();
+  const double half_square = 0.5 * squared_length(p);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double det = nx[i] * p.x + ny[i] * p.y + nz[i] * p.z - height[i];
+    const double mean = half_square - (gx[i] * p.x + gy[i] * p.y + gz[i] * p.z) + mean_square[i];
+    result[i] = std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
+  }
+}
+
+inline double smaller(double a, double b) {
+  return b < a ? b : a;
+}
+
+void compute_sines(const Point3& p, ScaledStar& star) {
+  const std::size_t size = star.size();
+  const double *ax = star.a.x.data(), *ay = star.a.y.data(), *az = star.a.z.data();
+  const double *bx = star.b.x.data(), *by = star.b.y.data(), *bz = star.b.z.data();
+  const double *cx = star.c.x.data(), *cy = star.c.y.data(), *cz = star.c.z.data();
+  const double *nx = star.normal.x.data(), *ny = star.normal.y.data(), *nz = star.normal.z.data();
+  const double *height = star.height.data(), *inverse_area = star.inverse_area.data();
+  double* result = star.sine.data();
+  for (std::size_t i = 0; i < size; ++i) {
+    const Point3 a{ax[i], ay[i], az[i]}, b{bx[i], by[i], bz[i]}, c{cx[i], cy[i], cz[i]};
+    const Point3 u = a - p, v = b - p, w = c - p;
+    const double fa = 1 / squared_length(cross(v, w)), fb = 1 / squared_length(cross(w, u)),
+                 fc = 1 / squared_length(cross(u, v)), fd = inverse_area[i];
+    const double at_apex =
+        smaller(squared_length(u) * fb * fc, smaller(squared_length(v) * fc * fa, squared_length(w) * fa * fb));
+    const double at_face =
+        smaller(squared_length(b - a) * fc, smaller(squared_length(c - b) * fa, squared_length(a - c) * fb));
+    const double det = nx[i] * p.x + ny[i] * p.y + nz[i] * p.z - height[i];
+    result[i] = det * std::sqrt(smaller(at_apex, at_face * fd));
+  }
+}
+
+/// 1 / r = sqrt(2) det / m^(3/2). The gradient of det is the normal, that of m the way from the face's centroid.
+void add_inverse_r(const ScaledStar& star, std::size_t i, const Point3& p, double weight, double value,
+                   LinearModels& models) {
+  const Point3 normal = star.normal[i], from_centroid = p - star.centroid[i];
+  const double mean = 0.5 * squared_length(p) - dot(star.centroid[i], p) + star.mean_square[i];
+  const double by_det = weight * std::numbers::sqrt2 / (mean * std::sqrt(mean));
+  const double by_mean = -1.5 * weight * star.inverse_r[i] / mean;
+  models.add(value, by_det * normal + by_mean * from_centroid);
+}
+
+/// The sine at an edge of length l between faces of doubled areas F and G is det l / (F G). So its gradient is the sine
+/// times the sum of those of the logarithms; only for det, which may be zero, not by its logarithm.
+void add_sines(const ScaledStar& star, std::size_t i, const Point3& p, double offset, double below,
+               LinearModels& models) {
+  const Point3 a = star.a[i], b = star.b[i], c = star.c[i], normal = star.normal[i];
+  const Point3 u = a - p, v = b - p, w = c - p;
+  const Point3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  const double fa = 1 / squared_length(vw), fb = 1 / squared_length(wu), fc = 1 / squared_length(uv),
+               fd = star.inverse_area[i];
+  const Point3 by_fa = fa * cross(c - b, vw), by_fb = fb * cross(a - c, wu), by_fc = fc * cross(b - a, uv);
+  const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
+  const double det = dot(normal, p) - star.height[i];
+  const auto add = [&](double ratio, const auto& by_rest) {
+    const double root = std::sqrt(ratio), sine = det * root;
+    if (offset + sine < below) models.add(offset + sine, root * normal + sine * by_rest());
+  };
+  add(uu * fb * fc, [&] { return by_fb + by_fc - (1 / uu) * u; });
+  add(vv * fc * fa, [&] { return by_fc + by_fa - (1 / vv) * v; });
+  add(ww * fa * fb, [&] { return by_fa + by_fb - (1 / ww) * w; });
+  add(squared_length(b - a) * fc * fd, [&] { return by_fc; });
+  add(squared_length(c - b) * fa * fd, [&] { return by_fa; });
+  add(squared_length(a - c) * fb * fd, [&] { return by_fb; });
+}
+
+double least(const std::vector<double>& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
+}  // namespace
+
+void LinearModels::clear() {
+  value.clear();
+  gradient.resize(0);
+}
+
+void LinearModels::add(double v, const Point3& g) {
+  value.push_back(v);
+  gradient.x.push_back(g.x), gradient.y.push_back(g.y), gradient.z.push_back(g.z);
+}
+
+void load_star(std::span<const StarFace> faces, const Point3& apex, ScaledStar& star) {
+  const std::size_t size = faces.size();
+  for (Coordinates* const part : {&star.a, &star.b, &star.c, &star.normal, &star.centroid}) part->resize(size);
+  for (std::vector<double>* const part :
+       {&star.height, &star.mean_square, &star.inverse_area, &star.inverse_r, &star.sine})
+    part->resize(size);
+  double squares = 0;
+  for (const StarFace& face : faces)
+    squares += squared_length(face.a - apex) + squared_length(face.b - apex) + squared_length(face.c - apex);
+  star.scale = std::sqrt(squares / static_cast<double>(3 * size));
+  star.mean = {};
+  const double inverse_scale = 1 / star.scale;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Point3 a = inverse_scale * (faces[i].a - apex), b = inverse_scale * (faces[i].b - apex),
+                 c = inverse_scale * (faces[i].c - apex);
+    const Point3 normal = cross(b - a, c - a), centroid = (1.0 / 3) * (a + b + c);
+    star.a.set(i, a), star.b.set(i, b), star.c.set(i, c);
+    star.normal.set(i, normal), star.centroid.set(i, centroid);
+    star.height[i] = dot(normal, a);
+    star.mean_square[i] = (squared_length(a) + squared_length(b) + squared_length(c) + squared_length(b - a) +
+                           squared_length(c - b) + squared_length(a - c)) /
+                          6;
+    star.inverse_area[i] = 1 / squared_length(normal);
+    star.mean = star.mean + centroid;
+  }
+  star.mean = (1 / static_cast<double>(size)) * star.mean;
+}
+
+double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star) {
+  if (goal.objective == Objective::r) {
+    compute_inverse_r(x, star);
+    if (const double worst = least(star.inverse_r); worst < goal.inverse_r) return worst;
+  }
+  compute_sines(x, star);
+  return (goal.objective == Objective::r ? 1 : 0) + least(star.sine);
+}
+
+void model_star(const QualityGoal& goal, const Point3& x, double least, double reach, const ScaledStar& star,
+                LinearModels& models) {
+  models.clear();
+  const double below = least + reach;
+  const bool by_r = goal.objective == Objective::r;
+  if (by_r && least < goal.inverse_r) {
+    for (std::size_t i = 0; i < star.size(); ++i)
+      if (star.inverse_r[i] < below) add_inverse_r(star, i, x, 1, star.inverse_r[i], models);
+    return;
+  }
+  const double offset = by_r ? 1 : 0;
+  for (std::size_t i = 0; i < star.size(); ++i)
+    if (offset + star.sine[i] < below) add_sines(star, i, x, offset, below, models);
+  if (!by_r) return;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const double surplus = surplus_weight * (star.inverse_r[i] - goal.inverse_r);
+    if (surplus < reach) add_inverse_r(star, i, x, surplus_weight, least + surplus, models);
+  }
+}
+
+namespace {
+
+/// Gradients in space have four that are affinely independent; one more joins before another leaves.
+constexpr int most_in_support = 5;
+
+/// Models with their shares in the combination: the shares are positive, their sum is 1.
+struct Support {
+  int size = 0;
+  std::array<std::size_t, most_in_support> model;
+  std::array<double, most_in_support> share, value;
+  std::array<Point3, most_in_support> gradient;
+
+  void add(const LinearModels& models, std::size_t i, double its_share) {
+    model[size] = i, share[size] = its_share, value[size] = models.value[i], gradient[size] = models.gradient[i];
+    ++size;
+  }
+  void remove(int k) {
+    --size;
+    for (int i = k; i < size; ++i)
+      model[i] = model[i + 1], share[i] = share[i + 1], value[i] = value[i + 1], gradient[i] = gradient[i + 1];
+  }
+  Point3 combination() const {
+    Point3 sum;
+    for (int i = 0; i < size; ++i) sum = sum + share[i] * gradient[i];
+    return sum;
+  }
+};
+
+/// The shares, of any sign, with the sum 1, that minimize sum of share * value + length / 2 * |combination|^2.
+/// By Cholesky's decomposition of the matrix of the differences to the first gradient.
+std::array<double, most_in_support> free_shares(const Support& support, double length) {
+  constexpr double regularization = 1e-12;
+  const int n = support.size - 1;
+  std::array<Point3, most_in_support - 1> difference;
+  std::array<std::array<double, most_in_support - 1>, most_in_support - 1> matrix;
+  std::array<double, most_in_support - 1> x;
+  double trace = 0;
+  for (int i = 0; i < n; ++i) {
+    difference[i] = support.gradient[i + 1] - support.gradient[0];
+    x[i] = support.value[0] - support.value[i + 1] - length * dot(difference[i], support.gradient[0]);
+    for (int j = 0; j <= i; ++j) matrix[i][j] = length * dot(difference[i], difference[j]);
+    trace += matrix[i][i];
+  }
+  for (int i = 0; i < n; ++i) {
+    matrix[i][i] += regularization * (trace + 1e-100);
+    for (int j = 0; j <= i; ++j) {
+      double sum = matrix[i][j];
+      for (int k = 0; k < j; ++k) sum -= matrix[i][k] * matrix[j][k];
+      matrix[i][j] =
+          i == j ? std::sqrt(std::max(sum, regularization * regularization * trace + 1e-200)) : sum / matrix[j][j];
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < i; ++k) x[i] -= matrix[i][k] * x[k];
+    x[i] /= matrix[i][i];
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int k = i + 1; k < n; ++k) x[i] -= matrix[k][i] * x[k];
+    x[i] /= matrix[i][i];
+  }
+  std::array<double, most_in_support> shares;
+  shares[0] = 1;
+  for (int i = 0; i < n; ++i) shares[i + 1] = x[i], shares[0] -= x[i];
+  return shares;
+}
+
+/// Goes from the shares towards the free ones until one becomes zero, and on without that, until all are positive.
+void settle(double length, Support& support) {
+  while (support.size > 1) {
+    const std::array<double, most_in_support> target = free_shares(support, length);
+    int first = -1;
+    double way = 1;
+    for (int i = 0; i < support.size; ++i) {
+      if (target[i] > 0) continue;
+      const double until = support.share[i] / (support.share[i] - target[i]);
+      if (first < 0 || until < way) first = i, way = until;
+    }
+    for (int i = 0; i < support.size; ++i) support.share[i] += way * (target[i] - support.share[i]);
+    if (first < 0) return;
+    support.remove(first);
+  }
+  support.share[0] = 1;
+}
+
+struct Lowest {
+  std::size_t model = 0;
+  double value = 0;
+};
+
+Lowest find_lowest(const LinearModels& models, const Point3& step) {
+  const double *value = models.value.data(), *x = models.gradient.x.data(), *y = models.gradient.y.data(),
+               *z = models.gradient.z.data();
+  Lowest lowest{0, value[0] + x[0] * step.x + y[0] * step.y + z[0] * step.z};
+  for (std::size_t i = 1; i < models.size(); ++i) {
+    const double there = value[i] + x[i] * step.x + y[i] * step.y + z[i] * step.z;
+    if (there < lowest.value) lowest = {i, there};
+  }
+  return lowest;
+}
+
+}  // namespace
+
+ProximalStep proximal_step(const LinearModels& models, double length) {
+  constexpr int most_rounds = 16;
+  constexpr double enough = 0.02;  // of the gain may be missing
+  Lowest lowest = find_lowest(models, {});
+  const double now = lowest.value;
+  Support support;
+  support.add(models, lowest.model, 1);
+  ProximalStep found{{}, now};
+  for (int round = 0; round < most_rounds; ++round) {
+    found.step = length * support.combination();
+    lowest = find_lowest(models, found.step);
+    found.least = lowest.value;
+    // All models of the support agree there, and no combination can promise more.
+    const double promised = support.value[0] + dot(support.gradient[0], found.step);
+    if (promised - lowest.value <= enough * (promised - now)) break;
+    const auto end = support.model.begin() + support.size;
+    if (support.size == most_in_support || std::find(support.model.begin(), end, lowest.model) != end) break;
+    support.add(models, lowest.model, 0);
+    settle(length, support);
+  }
+  return found;
+}
+
+// ---- The ascent
+
 namespace {
 
 // Lengths are in units of the mean edge from the apex to its star.
@@ -122,13 +408,12 @@ void gather_cells(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, 
   marks.mark(first);
   cells.push_back(first);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const delaunay::Cell& cell = x.cell(cells[i]);
+    const Cell& cell = x.cell(cells[i]);
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t next = cell.neighbors[f];
-      if (cell.vertices[f] == vertex || next == delaunay::no_neighbor || marks.is_marked(delaunay::cell_of(next)))
-        continue;
-      marks.mark(delaunay::cell_of(next));
-      cells.push_back(delaunay::cell_of(next));
+      if (cell.vertices[f] == vertex || next == no_neighbor || marks.is_marked(cell_of(next))) continue;
+      marks.mark(cell_of(next));
+      cells.push_back(cell_of(next));
     }
   }
 }

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/improve/cell_complex.h"
-#include "engine/improve/star_functions.h"
 
 namespace ccdt::improve {
+
+/// A face that the apex of a star sees: the tetrahedron a b c apex is positive.
+struct StarFace {
+  Point3 a, b, c;
+};
 
 /// The cells around a vertex, and the faces opposite to it, as it sees them.
 struct VertexStar {
@@ -29,6 +34,70 @@ struct Freedom {
 
 /// The quality of the worst tetrahedron of a star.
 double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex);
+
+/// Coordinates in one array for each axis.
+struct Coordinates {
+  std::vector<double> x, y, z;
+
+  void resize(std::size_t size) { x.resize(size), y.resize(size), z.resize(size); }
+  Point3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, const Point3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
+};
+
+/// The faces of a star in the order of their computation: relative to where its apex was, in units of the length of its
+/// edges, with all that does not depend on the apex. Scratch: to be used again, for it keeps its memory.
+struct ScaledStar {
+  double scale = 1;  ///< grid units in one unit
+  Point3 mean = {};  ///< of the corners of the faces
+  Coordinates a, b, c;
+  Coordinates normal;                   ///< (b - a) x (c - a)
+  Coordinates centroid;                 ///< of a face
+  std::vector<double> height;           ///< normal . a
+  std::vector<double> mean_square;      ///< of the six edges of the tetrahedron, less what depends on the apex
+  std::vector<double> inverse_area;     ///< 1 / normal^2
+  std::vector<double> inverse_r, sine;  ///< of the tetrahedra with the apex at which they were last computed
+
+  std::size_t size() const { return height.size(); }
+};
+
+/// Functions of the place of the apex near some place, each by its value and its gradient there.
+struct LinearModels {
+  std::vector<double> value;
+  Coordinates gradient;
+
+  std::size_t size() const { return value.size(); }
+  void clear();
+  void add(double v, const Point3& g);
+};
+
+/// \param faces  in grid units, at least one
+void load_star(std::span<const StarFace> faces, const Point3& apex, ScaledStar& star);
+
+/// The quality of the worst tetrahedron with the apex at `x`; see `cell_quality`. Leaves `inverse_r` and `sine` for `x`
+/// in the star, as far as they matter.
+double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star);
+
+/// Models the functions whose least value is the quality of the star: each tetrahedron's 1 / r as long as one of them
+/// is below the goal, else the sines of all dihedral angles. Where angles decide, a 1 / r that has reached its goal
+/// must not fall back: its surplus, on top of the star's quality, is one more function.
+///
+/// \param least   `least_quality` at `x`, which must have been the last call for this star
+/// \param models  of those functions that are less than the star's quality + `reach`, in undefined order
+void model_star(const QualityGoal& goal, const Point3& x, double least, double reach, const ScaledStar& star,
+                LinearModels& models);
+
+/// A step and what it promises.
+struct ProximalStep {
+  Point3 step = {};
+  double least = 0;  ///< of the models, after the step
+};
+
+/// The step s that makes the least of the models as great as possible, less s^2 / (2 `length`): a proximal point. The
+/// step is `length` times a convex combination of gradients, found by its dual: where only models of one value matter,
+/// their combination of least norm, the direction of steepest ascent.
+///
+/// \param models  at least one
+ProximalStep proximal_step(const LinearModels& models, double length);
 
 /// Working memory of `move_apex`.
 struct MoveScratch {

@@ -23,6 +23,7 @@ struct VertexCavity {
 struct PlanScratch {
   CellMarks marks;
   std::vector<std::uint32_t> star;
+  std::vector<NewCell> joined;
   VertexCavity cavity;
   MoveScratch move;
 };

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/base/hash_table.h"
-#include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/locate/octree_locator.h"

@@ -6,12 +6,6 @@
 namespace ccdt::locate {
 namespace {
 
-UniformGrid grid_of(std::span<const delaunay::DelaunayVertex> vertices, std::size_t faces, double scale) {
-  Box box = empty_box;
-  for (const delaunay::DelaunayVertex& v : vertices) box = hull(box, box_of(v.point));
-  return make_uniform_grid(box, std::max(vertices.size(), faces), scale);
-}
-
 /// Calls visit(cell) for every cell of the triangle's box that its plane comes near.
 template <class Visit>
 void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const Point3& b, const Point3& c,
@@ -21,7 +15,7 @@ void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const P
   // How far a cell's corner can be from its center, along the normal.
   const double reach =
       (std::fabs(normal.x) + std::fabs(normal.y) + std::fabs(normal.z)) * (0.5 * grid.cell_size + slack) * (1 + 1e-9);
-  const Box box = expanded(hull(hull(box_of(a), box_of(b)), box_of(c)), slack);
+  const Box box = expanded(bounding_box(std::array{a, b, c}), slack);
   UniformGrid::for_each(grid.cell_at(box.low), grid.cell_at(box.high), [&](const UniformGrid::CellIndex& cell) {
     if (std::fabs(dot(normal, grid.center(cell) - a)) <= reach) visit(grid.number(cell));
   });
@@ -31,7 +25,7 @@ void for_each_cell_of_triangle(const UniformGrid& grid, const Point3& a, const P
 
 GridLocator::GridLocator(std::span<const delaunay::DelaunayVertex> vertices,
                          std::span<const std::array<VertexId, 3>> faces, double scale)
-    : grid_(grid_of(vertices, faces.size(), scale)) {
+    : grid_(make_uniform_grid(bounding_box(vertices), std::max(vertices.size(), faces.size()), scale)) {
   IndexLists by_cell = make_index_lists(grid_.size(), [&](const auto& emit) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v) emit(grid_.number(grid_.cell_at(vertices[v].point)), v);
   });

@@ -39,13 +39,90 @@ bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
 class FlatTetrahedronPeeler {
  public:
   FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
-                        TetMesh& mesh);
+                        TetMesh& mesh)
+      : plc_(plc), facets_(facets), mesh_(mesh) {
+    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+      if (!is_bent_boundary(plc, plc.facets[facets.facet[i]])) continue;
+      triangle_of_.set(key_of(facets.triangles[i]), i);
+      for (const VertexId v : facets.triangles[i]) {
+        std::vector<FacetId>& its = *facets_of_.insert(v).first;
+        if (std::ranges::find(its, facets.facet[i]) == its.end()) its.push_back(facets.facet[i]);
+      }
+    }
+    if (triangle_of_.empty()) return;
+    for (const auto& chain : chains)
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+        segment_edges_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex));
+  }
 
-  void peel();
+  void peel() {
+    if (triangle_of_.empty()) return;
+    std::vector<std::size_t> flat;
+    for (std::size_t i = 0; i < mesh_.tetrahedra.size(); ++i)
+      if (lies_within_facet(mesh_.tetrahedra[i])) flat.push_back(i);
+    // In an order that does not depend on how the tetrahedra were found.
+    const auto corners = [&](std::size_t i) {
+      std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
+      std::sort(t.begin(), t.end());
+      return t;
+    };
+    std::sort(flat.begin(), flat.end(), [&](std::size_t i, std::size_t j) { return corners(i) < corners(j); });
+    std::vector<bool> gone(mesh_.tetrahedra.size(), false);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const std::size_t i : flat) {
+        if (gone[i] || !try_to_peel(mesh_.tetrahedra[i])) continue;
+        gone[i] = changed = true;
+      }
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      if (gone[i]) continue;
+      mesh_.tetrahedra[kept] = mesh_.tetrahedra[i];
+      mesh_.regions[kept++] = mesh_.regions[i];
+    }
+    mesh_.tetrahedra.resize(kept);
+    mesh_.regions.resize(kept);
+  }
 
  private:
-  bool lies_within_facet(const std::array<std::uint32_t, 4>& t) const;
-  bool try_to_peel(const std::array<std::uint32_t, 4>& t);
+  bool lies_within_facet(const std::array<std::uint32_t, 4>& t) const {
+    const auto* const first = facets_of_.find(t[0]);
+    return first != nullptr && std::ranges::any_of(*first, [&](FacetId f) {
+             return std::all_of(t.begin() + 1, t.end(), [&](std::uint32_t v) {
+               const auto* const its = facets_of_.find(v);
+               return its != nullptr && std::ranges::find(*its, f) != its->end();
+             });
+           });
+  }
+
+  bool try_to_peel(const std::array<std::uint32_t, 4>& t) {
+    std::array<std::uint32_t, 2> inner{};  // faces, by the corner opposite to them
+    std::array<std::size_t, 2> triangles{};
+    int outers = 0, inners = 0;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const auto [a, b, c] = delaunay::corners_of_face(t, f);
+      const std::size_t* const found = triangle_of_.find(face_key(a, b, c));
+      if (found != nullptr && outers < 2)
+        triangles[outers++] = *found;
+      else if (found == nullptr && inners < 2)
+        inner[inners++] = f;
+    }
+    if (outers != 2 || inners != 2 || facets_.facet[triangles[0]] != facets_.facet[triangles[1]]) return false;
+    // The outer faces meet in the edge between the corners that the inner faces are opposite to.
+    if (segment_edges_.contains(edge_key(t[inner[0]], t[inner[1]]))) return false;
+    const plc::Facet& facet = plc_.facets[facets_.facet[triangles[0]]];
+    for (const std::size_t i : triangles) triangle_of_.erase(triangle_of_.find(key_of(facets_.triangles[i])));
+    for (int i = 0; i < 2; ++i) {
+      // Face corners see the tetrahedron above them; the facet's triangles have the domain above or below.
+      const auto [a, b, c] = delaunay::corners_of_face(t, inner[i]);
+      std::array<VertexId, 3> corners{VertexId(a), VertexId(b), VertexId(c)};
+      if (plc_.regions[facet.above].inside) std::swap(corners[0], corners[1]);
+      facets_.triangles[triangles[i]] = corners;
+      triangle_of_.set(key_of(corners), triangles[i]);
+    }
+    return true;
+  }
 
   const plc::Plc& plc_;
   facets::FacetMesh& facets_;
@@ -54,91 +131,6 @@ class FlatTetrahedronPeeler {
   HashTable<std::uint32_t, std::vector<FacetId>> facets_of_;  // by vertex, each once
   HashSet<std::uint64_t> segment_edges_;
 };
-
-FlatTetrahedronPeeler::FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                             facets::FacetMesh& facets, TetMesh& mesh)
-    : plc_(plc), facets_(facets), mesh_(mesh) {
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-    if (!is_bent_boundary(plc, plc.facets[facets.facet[i]])) continue;
-    triangle_of_.set(key_of(facets.triangles[i]), i);
-    for (const VertexId v : facets.triangles[i]) {
-      std::vector<FacetId>& its = *facets_of_.insert(v).first;
-      if (std::ranges::find(its, facets.facet[i]) == its.end()) its.push_back(facets.facet[i]);
-    }
-  }
-  if (triangle_of_.empty()) return;
-  for (const auto& chain : chains)
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      segment_edges_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex));
-}
-
-bool FlatTetrahedronPeeler::lies_within_facet(const std::array<std::uint32_t, 4>& t) const {
-  const auto* const first = facets_of_.find(t[0]);
-  return first != nullptr && std::ranges::any_of(*first, [&](FacetId f) {
-           return std::all_of(t.begin() + 1, t.end(), [&](std::uint32_t v) {
-             const auto* const its = facets_of_.find(v);
-             return its != nullptr && std::ranges::find(*its, f) != its->end();
-           });
-         });
-}
-
-bool FlatTetrahedronPeeler::try_to_peel(const std::array<std::uint32_t, 4>& t) {
-  std::array<std::uint32_t, 2> inner{};  // faces, by the corner opposite to them
-  std::array<std::size_t, 2> triangles{};
-  int outers = 0, inners = 0;
-  for (std::uint32_t f = 0; f < 4; ++f) {
-    const auto& c = delaunay::face_corners[f];
-    const std::size_t* const found = triangle_of_.find(face_key(t[c[0]], t[c[1]], t[c[2]]));
-    if (found != nullptr && outers < 2)
-      triangles[outers++] = *found;
-    else if (found == nullptr && inners < 2)
-      inner[inners++] = f;
-  }
-  if (outers != 2 || inners != 2 || facets_.facet[triangles[0]] != facets_.facet[triangles[1]]) return false;
-  // The outer faces meet in the edge between the corners that the inner faces are opposite to.
-  if (segment_edges_.contains(edge_key(t[inner[0]], t[inner[1]]))) return false;
-  const plc::Facet& facet = plc_.facets[facets_.facet[triangles[0]]];
-  for (const std::size_t i : triangles) triangle_of_.erase(triangle_of_.find(key_of(facets_.triangles[i])));
-  for (int i = 0; i < 2; ++i) {
-    // Face corners see the tetrahedron above them; the facet's triangles have the domain above or below.
-    const auto& c = delaunay::face_corners[inner[i]];
-    std::array<VertexId, 3> corners{VertexId(t[c[0]]), VertexId(t[c[1]]), VertexId(t[c[2]])};
-    if (plc_.regions[facet.above].inside) std::swap(corners[0], corners[1]);
-    facets_.triangles[triangles[i]] = corners;
-    triangle_of_.set(key_of(corners), triangles[i]);
-  }
-  return true;
-}
-
-void FlatTetrahedronPeeler::peel() {
-  if (triangle_of_.empty()) return;
-  std::vector<std::size_t> flat;
-  for (std::size_t i = 0; i < mesh_.tetrahedra.size(); ++i)
-    if (lies_within_facet(mesh_.tetrahedra[i])) flat.push_back(i);
-  // In an order that does not depend on how the tetrahedra were found.
-  const auto corners = [&](std::size_t i) {
-    std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
-    std::sort(t.begin(), t.end());
-    return t;
-  };
-  std::sort(flat.begin(), flat.end(), [&](std::size_t i, std::size_t j) { return corners(i) < corners(j); });
-  std::vector<bool> gone(mesh_.tetrahedra.size(), false);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const std::size_t i : flat) {
-      if (gone[i] || !try_to_peel(mesh_.tetrahedra[i])) continue;
-      gone[i] = changed = true;
-    }
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < gone.size(); ++i) {
-    if (gone[i]) continue;
-    mesh_.tetrahedra[kept] = mesh_.tetrahedra[i];
-    mesh_.regions[kept++] = mesh_.regions[i];
-  }
-  mesh_.tetrahedra.resize(kept);
-  mesh_.regions.resize(kept);
-}
 
 /// \return the facet of each face
 std::vector<std::uint32_t> add_faces_and_edges(const plc::Plc& plc, const protection::SegmentChains& chains,

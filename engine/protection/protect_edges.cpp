@@ -9,9 +9,8 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
-#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
-#include "engine/delaunay/wrap_delaunay.h"
 
 namespace ccdt::protection {
 namespace {
@@ -48,17 +47,110 @@ std::size_t most_steiner_vertices(const plc::Plc& plc) {
 /// The current vertices and segments, and the working memory of the stage.
 class Protector {
  public:
-  Protector(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay, const SegmentChains& chains);
+  Protector(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay, const SegmentChains& chains)
+      : plc_(plc),
+        strategy_(strategy),
+        d_(delaunay),
+        insertion_(delaunay),
+        star_(delaunay),
+        segment_of_steiner_(delaunay.vertices.size() - plc.vertices.size()) {
+    for (std::uint32_t s = 0; s < chains.size(); ++s)
+      for (std::size_t i = 1; i + 1 < chains[s].size(); ++i)
+        segment_of_steiner_[chains[s][i].vertex - plc.vertices.size()] = s;
+  }
 
-  bool is_protected(const std::vector<ChainVertex>& chain);
+  bool is_protected(const std::vector<ChainVertex>& chain) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      if (!star_.has_edge(chain[i].vertex, chain[i + 1].vertex)) return false;
+    return true;
+  }
+
   /// Splits the pieces of one segment until, as things stand, all are Delaunay edges.
-  void protect(std::uint32_t segment, std::vector<ChainVertex>& chain);
+  void protect(std::uint32_t segment, std::vector<ChainVertex>& chain) {
+    std::vector<ChainVertex> ahead(chain.rbegin(), chain.rend() - 1);
+    chain.resize(1);
+    while (!ahead.empty()) {
+      const Subsegment piece{segment, chain.back(), ahead.back()};
+      if (star_.has_edge(piece.from.vertex, piece.to.vertex)) {
+        chain.push_back(piece.to);
+        ahead.pop_back();
+      } else {
+        ahead.push_back(split(piece));
+      }
+    }
+  }
 
  private:
-  ChainVertex split(const Subsegment& piece);
-  std::uint32_t split_fraction(const Subsegment& piece);
-  std::optional<std::uint32_t> encroaching_vertex(const Subsegment& piece, std::uint32_t fraction);
-  double split_length(const Subsegment& piece, std::uint32_t encroaching) const;
+  ChainVertex split(const Subsegment& piece) {
+    if (piece.to.fraction - piece.from.fraction < 2)
+      refuse_further_splits(plc_, piece, "it would have to be split into more than 2^20 pieces");
+    if (segment_of_steiner_.size() > most_steiner_vertices(plc_))
+      refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
+    const std::uint32_t fraction = split_fraction(piece);
+    const auto id = static_cast<std::uint32_t>(d_.vertices.size());
+    d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
+    insertion_.find_cavity(id, d_.vertices[piece.from.vertex].cell);
+    insertion_.fill_cavity();
+    segment_of_steiner_.push_back(piece.segment);
+    return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
+  }
+
+  /// A fraction strictly between the ends of the piece.
+  std::uint32_t split_fraction(const Subsegment& piece) {
+    const std::uint32_t middle = piece.from.fraction + (piece.to.fraction - piece.from.fraction) / 2;
+    if (strategy_ == Protection::midpoint) return middle;
+    const auto encroaching = encroaching_vertex(piece, middle);
+    if (!encroaching) return middle;
+    const auto& ends = plc_.segments[piece.segment].ends;
+    const double length = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0])));
+    const double fraction = std::nearbyint(split_length(piece, *encroaching) / length * whole);
+    return static_cast<std::uint32_t>(std::clamp(fraction, piece.from.fraction + 1.0, piece.to.fraction - 1.0));
+  }
+
+  /// Of the vertices around a point of the piece the one that sees the piece under the largest obtuse angle: it is why
+  /// the piece is missing. Nothing if none is in the diametral sphere.
+  std::optional<std::uint32_t> encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
+    const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
+    d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
+    insertion_.find_cavity(probe, d_.vertices[piece.from.vertex].cell);
+    const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
+    std::optional<std::uint32_t> worst;
+    double least_cosine = 0;
+    for (const delaunay::CavityFace& face : insertion_.cavity_faces()) {
+      for (const std::uint32_t v : face.vertices) {
+        if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
+        const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
+        const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
+        // Of equals the first, whatever the order of the cells.
+        if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
+        least_cosine = cosine;
+        worst = v;
+      }
+    }
+    insertion_.discard_cavity();
+    d_.vertices.pop_back();
+    return worst;
+  }
+
+  /// Where the piece is split for the sake of an encroaching vertex, as a distance from the first end of its segment.
+  double split_length(const Subsegment& piece, std::uint32_t encroaching) const {
+    const auto& ends = plc_.segments[piece.segment].ends;
+    const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
+    const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
+    if (encroaching >= plc_.vertices.size()) {
+      // On a segment that meets this one: on its shell, so that the two do not split each other forever.
+      const auto& others = plc_.segments[segment_of_steiner_[encroaching - plc_.vertices.size()]].ends;
+      for (int i = 0; i < 2; ++i) {
+        if (ends[i] != others[0] && ends[i] != others[1]) continue;
+        const double radius = std::sqrt(squared_length(p - d_.point(ends[i])));
+        const double along = i == 0 ? radius : length - radius;
+        if (along * whole > length * (piece.from.fraction + 1) && along * whole < length * (piece.to.fraction - 1))
+          return along;
+      }
+    }
+    // Its foot: then it is in the diametral sphere of neither half.
+    return dot(p - first, d_.point(ends[1]) - first) / length;
+  }
 
   const plc::Plc& plc_;
   Protection strategy_;
@@ -67,110 +159,6 @@ class Protector {
   delaunay::CellStar star_;
   std::vector<std::uint32_t> segment_of_steiner_;  // by vertex less those of the PLC
 };
-
-Protector::Protector(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay,
-                     const SegmentChains& chains)
-    : plc_(plc),
-      strategy_(strategy),
-      d_(delaunay),
-      insertion_(delaunay),
-      star_(delaunay),
-      segment_of_steiner_(delaunay.vertices.size() - plc.vertices.size()) {
-  for (std::uint32_t s = 0; s < chains.size(); ++s)
-    for (std::size_t i = 1; i + 1 < chains[s].size(); ++i)
-      segment_of_steiner_[chains[s][i].vertex - plc.vertices.size()] = s;
-}
-
-bool Protector::is_protected(const std::vector<ChainVertex>& chain) {
-  for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-    if (!star_.has_edge(chain[i].vertex, chain[i + 1].vertex)) return false;
-  return true;
-}
-
-void Protector::protect(std::uint32_t segment, std::vector<ChainVertex>& chain) {
-  std::vector<ChainVertex> ahead(chain.rbegin(), chain.rend() - 1);
-  chain.resize(1);
-  while (!ahead.empty()) {
-    const Subsegment piece{segment, chain.back(), ahead.back()};
-    if (star_.has_edge(piece.from.vertex, piece.to.vertex)) {
-      chain.push_back(piece.to);
-      ahead.pop_back();
-    } else {
-      ahead.push_back(split(piece));
-    }
-  }
-}
-
-ChainVertex Protector::split(const Subsegment& piece) {
-  if (piece.to.fraction - piece.from.fraction < 2)
-    refuse_further_splits(plc_, piece, "it would have to be split into more than 2^20 pieces");
-  if (segment_of_steiner_.size() > most_steiner_vertices(plc_))
-    refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
-  const std::uint32_t fraction = split_fraction(piece);
-  const auto id = static_cast<std::uint32_t>(d_.vertices.size());
-  d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
-  insertion_.find_cavity(id, d_.vertices[piece.from.vertex].cell);
-  insertion_.fill_cavity();
-  segment_of_steiner_.push_back(piece.segment);
-  return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
-}
-
-/// A fraction strictly between the ends of the piece.
-std::uint32_t Protector::split_fraction(const Subsegment& piece) {
-  const std::uint32_t middle = piece.from.fraction + (piece.to.fraction - piece.from.fraction) / 2;
-  if (strategy_ == Protection::midpoint) return middle;
-  const auto encroaching = encroaching_vertex(piece, middle);
-  if (!encroaching) return middle;
-  const auto& ends = plc_.segments[piece.segment].ends;
-  const double length = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0])));
-  const double fraction = std::nearbyint(split_length(piece, *encroaching) / length * whole);
-  return static_cast<std::uint32_t>(std::clamp(fraction, piece.from.fraction + 1.0, piece.to.fraction - 1.0));
-}
-
-/// Of the vertices around a point of the piece the one that sees the piece under the largest obtuse angle: it is why
-/// the piece is missing. Nothing if none is in the diametral sphere.
-std::optional<std::uint32_t> Protector::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
-  const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
-  d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
-  insertion_.find_cavity(probe, d_.vertices[piece.from.vertex].cell);
-  const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
-  std::optional<std::uint32_t> worst;
-  double least_cosine = 0;
-  for (const delaunay::CavityFace& face : insertion_.cavity_faces()) {
-    for (const std::uint32_t v : face.vertices) {
-      if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
-      const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
-      const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
-      // Of equals the first, whatever the order of the cells.
-      if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
-      least_cosine = cosine;
-      worst = v;
-    }
-  }
-  insertion_.discard_cavity();
-  d_.vertices.pop_back();
-  return worst;
-}
-
-/// Where the piece is split for the sake of an encroaching vertex, as a distance from the first end of its segment.
-double Protector::split_length(const Subsegment& piece, std::uint32_t encroaching) const {
-  const auto& ends = plc_.segments[piece.segment].ends;
-  const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
-  const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
-  if (encroaching >= plc_.vertices.size()) {
-    // On a segment that meets this one: on its shell, so that the two do not split each other forever.
-    const auto& others = plc_.segments[segment_of_steiner_[encroaching - plc_.vertices.size()]].ends;
-    for (int i = 0; i < 2; ++i) {
-      if (ends[i] != others[0] && ends[i] != others[1]) continue;
-      const double radius = std::sqrt(squared_length(p - d_.point(ends[i])));
-      const double along = i == 0 ? radius : length - radius;
-      if (along * whole > length * (piece.from.fraction + 1) && along * whole < length * (piece.to.fraction - 1))
-        return along;
-    }
-  }
-  // Its foot: then it is in the diametral sphere of neither half.
-  return dot(p - first, d_.point(ends[1]) - first) / length;
-}
 
 /// The Delaunay edges that must stay.
 std::vector<std::array<VertexId, 2>> edges_that_stay(const ProtectedDelaunay& p) {

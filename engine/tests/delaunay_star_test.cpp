@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/delaunay_checks.h"

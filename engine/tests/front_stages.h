@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/front/advance_front.h"
-#include "engine/front/face_check.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
 

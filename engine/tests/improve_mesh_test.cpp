@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
-#include "engine/improve/cell_quality.h"
+#include "engine/improve/cell_complex.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "models/solids.h"

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
-#include "engine/front/face_check.h"
 #include "engine/lattice/clear_surface.h"
 #include "engine/mesher.h"
 #include "engine/numbers/predicates.h"

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "engine/improve/smoothing.h"
-#include "engine/improve/star_functions.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/star_samples.h"
 

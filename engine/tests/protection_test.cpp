@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "engine/base/errors.h"
-#include "engine/delaunay/cell_star.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"

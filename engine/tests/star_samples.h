@@ -5,7 +5,6 @@
 #include <random>
 #include <vector>
 
-#include "engine/delaunay/cell_star.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/improve/smoothing.h"
 

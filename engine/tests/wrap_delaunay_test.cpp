@@ -1,4 +1,4 @@
-#include "engine/delaunay/wrap_delaunay.h"
+#include "engine/delaunay/delaunay.h"
 
 #include <gtest/gtest.h>
 

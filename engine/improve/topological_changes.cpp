@@ -1,8 +1,9 @@
+#include "engine/improve/topological_changes.h"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
-
-#include "engine/improve/topological_changes.h"
 
 namespace ccdt::improve {
 namespace {
@@ -15,12 +16,15 @@ constexpr std::array<std::array<std::uint8_t, 4>, 6> edge_corners = {
 
 /// What is around an edge ab between two walls, or all around: cell i is a, b, vertex i, vertex i + 1.
 struct Ring {
+  std::uint32_t a, b;
   std::array<std::uint32_t, longest_ring + 1> vertices;
   std::array<std::uint32_t, longest_ring> cells;
   std::uint32_t size = 0;        ///< of the cells
   bool is_closed = false;        ///< the last vertex is the first again
   std::uint32_t begin_wall = 0;  ///< the face code of the wall at vertex 0, in cell 0
   std::uint32_t end_wall = 0;    ///< of the wall at the last vertex, in the last cell
+
+  Ring(std::uint32_t from, std::uint32_t to) : a(from), b(to) {}
   std::uint32_t vertex_count() const { return is_closed ? size : size + 1; }
 };
 
@@ -31,29 +35,28 @@ template <class Visit>
 std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t cell,
                           std::uint32_t from, const Visit& visit) {
   while (true) {
-    const std::uint32_t leaving = delaunay::face_code(cell, x.place(cell, from));
+    const std::uint32_t leaving = face_code(cell, x.place(cell, from));
     if (x.is_wall(leaving)) return leaving;
     const auto& here = x.cell(cell).vertices;
     std::uint32_t shared = 0;
     for (const std::uint32_t v : here)
       if (v != a && v != b && v != from) shared = v;
-    const std::uint32_t entered = x.cell(cell).neighbors[delaunay::face_of(leaving)];
-    cell = delaunay::cell_of(entered);
-    if (!visit(cell, x.cell(cell).vertices[delaunay::face_of(entered)])) return delaunay::no_neighbor;
+    const std::uint32_t entered = x.across(leaving);
+    cell = cell_of(entered);
+    if (!visit(cell, x.apex_of(entered))) return no_neighbor;
     from = shared;
   }
 }
 
 /// \return false: the ring is too long
-bool find_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t cell, std::uint32_t before,
-               std::uint32_t after, Ring& ring) {
+bool find_ring(const CellComplex& x, std::uint32_t cell, std::uint32_t before, std::uint32_t after, Ring& ring) {
   ring.size = 1;
   ring.is_closed = false;
   ring.cells[0] = cell;
   ring.vertices[0] = before;
   ring.vertices[1] = after;
   bool fits = true;
-  ring.end_wall = walk_around(x, a, b, cell, before, [&](std::uint32_t next, std::uint32_t vertex) {
+  ring.end_wall = walk_around(x, ring.a, ring.b, cell, before, [&](std::uint32_t next, std::uint32_t vertex) {
     ring.is_closed = next == cell;
     fits = ring.size < longest_ring;
     if (ring.is_closed || !fits) return false;
@@ -64,7 +67,7 @@ bool find_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint
   if (ring.is_closed) return true;
   if (!fits) return false;
   // There is a wall: what is on the other side of the first cell comes before it.
-  ring.begin_wall = walk_around(x, a, b, cell, after, [&](std::uint32_t next, std::uint32_t vertex) {
+  ring.begin_wall = walk_around(x, ring.a, ring.b, cell, after, [&](std::uint32_t next, std::uint32_t vertex) {
     fits = ring.size < longest_ring;
     if (!fits) return false;
     std::copy_backward(ring.cells.begin(), ring.cells.begin() + ring.size, ring.cells.begin() + ring.size + 1);
@@ -81,8 +84,7 @@ bool find_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint
 /// The best triangulation of the polygon 0 to n - 1 of ring vertices, by dynamic programming over its chords.
 class RingTriangulation {
  public:
-  RingTriangulation(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least)
-      : x_(x), a_(a), b_(b), ring_(ring), least_(least) {}
+  RingTriangulation(const CellComplex& x, const Ring& ring, double least) : x_(x), ring_(ring), least_(least) {}
 
   /// \return the quality of the worst cell, or less than `least` where there is nothing better
   double find() {
@@ -109,10 +111,10 @@ class RingTriangulation {
   }
 
   std::array<std::uint32_t, 4> upper(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
-    return {ring_.vertices[i], ring_.vertices[k], ring_.vertices[j], b_};
+    return {ring_.vertices[i], ring_.vertices[k], ring_.vertices[j], ring_.b};
   }
   std::array<std::uint32_t, 4> lower(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
-    return {ring_.vertices[i], ring_.vertices[j], ring_.vertices[k], a_};
+    return {ring_.vertices[i], ring_.vertices[j], ring_.vertices[k], ring_.a};
   }
 
   double quality_of_triangle(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
@@ -130,7 +132,6 @@ class RingTriangulation {
   }
 
   const CellComplex& x_;
-  std::uint32_t a_, b_;
   const Ring& ring_;
   double least_;
   std::array<std::array<double, longest_ring + 1>, longest_ring + 1> best_;
@@ -138,9 +139,9 @@ class RingTriangulation {
 };
 
 /// Adds the best that can replace the cells of a ring, if its quality is greater than `least`.
-bool add_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least, Change& change) {
+bool add_ring(const CellComplex& x, const Ring& ring, double least, Change& change) {
   if (ring.vertex_count() < 3) return false;
-  RingTriangulation triangulation(x, a, b, ring, least);
+  RingTriangulation triangulation(x, ring, least);
   if (!(triangulation.find() > least)) return false;
   triangulation.add_cells(x.region(ring.cells[0]), change);
   change.old_cells.insert(change.old_cells.end(), ring.cells.begin(), ring.cells.begin() + ring.size);
@@ -149,32 +150,28 @@ bool add_ring(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring
 
 std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const auto face = x.find_face(a, b, c);
-  return face ? x.facet_of_face()[*face] : delaunay::no_neighbor;
+  return face ? x.facet_of_face()[*face] : no_neighbor;
 }
 
 /// The cells on the other side of the facet that the ring ends at, from its last wall to its first.
 /// \return false: what is there forbids to exchange the diagonal
-bool find_other_side(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, Ring& other) {
+bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
   other.size = 0;
-  const std::uint32_t behind_begin =
-      x.cell(delaunay::cell_of(ring.begin_wall)).neighbors[delaunay::face_of(ring.begin_wall)];
-  const std::uint32_t behind_end = x.cell(delaunay::cell_of(ring.end_wall)).neighbors[delaunay::face_of(ring.end_wall)];
-  if (behind_begin == delaunay::no_neighbor || behind_end == delaunay::no_neighbor) return behind_begin == behind_end;
-  const std::uint32_t first = ring.vertices[ring.size], cell = delaunay::cell_of(behind_end);
-  const std::uint32_t second = x.cell(cell).vertices[delaunay::face_of(behind_end)];
-  return find_ring(x, a, b, cell, first, second, other) && !other.is_closed && other.vertices[0] == first &&
-         other.vertices[other.size] == ring.vertices[0];
+  const std::uint32_t behind_begin = x.across(ring.begin_wall), behind_end = x.across(ring.end_wall);
+  if (behind_begin == no_neighbor || behind_end == no_neighbor) return behind_begin == behind_end;
+  const std::uint32_t first = ring.vertices[ring.size];
+  return find_ring(x, cell_of(behind_end), first, x.apex_of(behind_end), other) && !other.is_closed &&
+         other.vertices[0] == first && other.vertices[other.size] == ring.vertices[0];
 }
 
 /// An edge on a facet, between walls: both sides of it change, and the facet has the other diagonal.
-bool plan_flip(const CellComplex& x, std::uint32_t a, std::uint32_t b, const Ring& ring, double least, Change& change) {
-  const std::uint32_t first = ring.vertices[0], last = ring.vertices[ring.size];
+bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& change) {
+  const std::uint32_t a = ring.a, b = ring.b, first = ring.vertices[0], last = ring.vertices[ring.size];
   const std::uint32_t facet = facet_at(x, a, b, first);
-  if (facet == delaunay::no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
-  Ring other;
-  if (!find_other_side(x, a, b, ring, other)) return false;
-  if (!add_ring(x, a, b, ring, least, change)) return false;
-  if (other.size > 0 && !add_ring(x, a, b, other, least, change)) return false;
+  if (facet == no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
+  Ring other(a, b);
+  if (!find_other_side(x, ring, other) || !add_ring(x, ring, least, change)) return false;
+  if (other.size > 0 && !add_ring(x, other, least, change)) return false;
   change.flips.push_back({a, b, first, last});
   return true;
 }
@@ -218,15 +215,12 @@ class SandwichedFaces {
   /// \return the quality that crossing the edge gives; nothing if the next face is not between the same vertices
   double cross(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
     if (change_.old_cells.size() >= std::size_t{2} * most_faces) return -1;
-    const std::uint32_t up = delaunay::face_code(upper, x_.place(upper, w)),
-                        down = delaunay::face_code(lower, x_.place(lower, w));
+    const std::uint32_t up = face_code(upper, x_.place(upper, w)), down = face_code(lower, x_.place(lower, w));
     if (x_.is_wall(up) || x_.is_wall(down)) return -1;
-    const std::uint32_t up_code = x_.cell(upper).neighbors[delaunay::face_of(up)];
-    const std::uint32_t down_code = x_.cell(lower).neighbors[delaunay::face_of(down)];
-    const std::uint32_t next_upper = delaunay::cell_of(up_code), next_lower = delaunay::cell_of(down_code);
-    const std::uint32_t next = x_.cell(next_upper).vertices[delaunay::face_of(up_code)];
-    if (next == below_ || next != x_.cell(next_lower).vertices[delaunay::face_of(down_code)]) return -1;
-    if (x_.is_wall(delaunay::face_code(next_upper, x_.place(next_upper, above_)))) return -1;
+    const std::uint32_t up_code = x_.across(up), down_code = x_.across(down), next = x_.apex_of(up_code);
+    const std::uint32_t next_upper = cell_of(up_code), next_lower = cell_of(down_code);
+    if (next == below_ || next != x_.apex_of(down_code)) return -1;
+    if (x_.is_wall(face_code(next_upper, x_.place(next_upper, above_)))) return -1;
     if (std::ranges::find(change_.old_cells, next_upper) != change_.old_cells.end()) return -1;
     // The corner across the edge comes first: its two edges are those that are not the one we came by.
     return add_face(next_upper, next_lower, {u, next, v}, 2);
@@ -249,24 +243,159 @@ bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t e
   change.clear();
   const auto& corner = edge_corners[edge];
   const auto& v = x.cell(cell).vertices;
-  const std::uint32_t a = v[corner[0]], b = v[corner[1]];
-  Ring ring;
-  if (!find_ring(x, a, b, cell, v[corner[2]], v[corner[3]], ring)) return false;
-  if (!ring.is_closed) return plan_flip(x, a, b, ring, least, change);
-  return !x.is_segment(a, b) && add_ring(x, a, b, ring, least, change);
+  Ring ring(v[corner[0]], v[corner[1]]);
+  if (!find_ring(x, cell, v[corner[2]], v[corner[3]], ring)) return false;
+  if (!ring.is_closed) return plan_flip(x, ring, least, change);
+  return !x.is_segment(ring.a, ring.b) && add_ring(x, ring, least, change);
 }
 
 bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t face, double least, Change& change) {
   change.clear();
-  const std::uint32_t code = delaunay::face_code(cell, face);
+  const std::uint32_t code = face_code(cell, face);
   if (x.is_wall(code)) return false;
-  const std::uint32_t other_side = x.cell(cell).neighbors[face];
+  const std::uint32_t other = x.across(code);
+  SandwichedFaces faces(x, x.apex_of(code), x.apex_of(other), change);
+  return faces.add_face(cell, cell_of(other), corners_of_face(x.cell(cell).vertices, face), 3) > least;
+}
+
+// ---- Insertion and collapse
+
+namespace {
+
+constexpr std::size_t most_cavity_cells = 40;  ///< in a cavity
+constexpr int most_insertion_rounds = 3;       ///< of growing the cavity and moving the vertex
+
+/// Finds the hull of the cavity as it is.
+void find_hull(const CellComplex& x, const CellMarks& in_cavity, VertexCavity& cavity) {
+  cavity.hull.clear();
+  cavity.faces.clear();
+  for (const std::uint32_t c : cavity.cells) {
+    const Cell& cell = x.cell(c);
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (!x.is_wall(face_code(c, f)) && in_cavity.is_marked(cell_of(cell.neighbors[f]))) continue;
+      const auto face = corners_of_face(cell.vertices, f);
+      cavity.hull.push_back(face);
+      cavity.faces.push_back({x.point(face[0]), x.point(face[1]), x.point(face[2])});
+    }
+  }
+}
+
+/// Takes in what is behind faces that make a cell with the apex whose quality is less than `wanted`.
+/// \return false: the cavity is as large as it may be
+bool grow(const CellComplex& x, double wanted, const Point3& apex, CellMarks& in_cavity, VertexCavity& cavity) {
+  // Cells that join the cavity are met later in the same loop.
+  for (std::size_t i = 0; i < cavity.cells.size(); ++i) {
+    const std::uint32_t c = cavity.cells[i];
+    const Cell& cell = x.cell(c);
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t next = cell_of(cell.neighbors[f]);
+      if (x.is_wall(face_code(c, f)) || in_cavity.is_marked(next)) continue;
+      const auto [p, q, r] = corners_of_face(cell.vertices, f);
+      if (cell_quality(x.goal(), x.point(p), x.point(q), x.point(r), apex) >= wanted) continue;
+      if (cavity.cells.size() >= most_cavity_cells) return false;
+      in_cavity.mark(next);
+      cavity.cells.push_back(next);
+    }
+  }
+  find_hull(x, in_cavity, cavity);
+  return true;
+}
+
+Point3 rounded(const Point3& p) {
+  return {std::nearbyint(p.x), std::nearbyint(p.y), std::nearbyint(p.z)};
+}
+
+/// Are all vertices and edges that must stay on the cavity's hull?
+bool keeps_constraints(const CellComplex& x, const VertexCavity& cavity) {
+  const auto on_hull = [&](std::uint32_t a, std::uint32_t b) {
+    return std::ranges::any_of(cavity.hull, [&](const auto& face) {
+      const auto has = [&](std::uint32_t v) { return std::ranges::find(face, v) != face.end(); };
+      return has(a) && has(b);
+    });
+  };
+  for (const std::uint32_t c : cavity.cells) {
+    const auto& v = x.cell(c).vertices;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      if (!x.is_interior(v[i]) && !on_hull(v[i], v[i])) return false;
+      for (std::uint32_t j = i + 1; j < 4; ++j)
+        if (x.is_segment(v[i], v[j]) && !on_hull(v[i], v[j])) return false;
+    }
+  }
+  return true;
+}
+
+/// The quality that the cells around a new vertex are to have, between what the cell has and what is good enough.
+double wanted_quality(const QualityGoal& goal, double least) {
+  return goal.objective == Objective::r ? std::max(least, 0.5 * (std::min(least, goal.inverse_r) + goal.inverse_r))
+                                        : 0.5 * (least + goal.sine);
+}
+
+/// Makes the cells that are left when `gone` has moved onto `end`.
+/// \return is each better than `least`?
+bool join_star(const CellComplex& x, const std::vector<std::uint32_t>& star, std::uint32_t gone, std::uint32_t end,
+               double least, std::vector<NewCell>& made) {
+  made.clear();
+  for (const std::uint32_t c : star) {
+    auto vertices = x.cell(c).vertices;
+    if (std::ranges::find(vertices, end) != vertices.end()) continue;
+    std::ranges::replace(vertices, gone, end);
+    const double quality = x.quality_of(vertices);
+    if (!(quality > least)) return false;
+    made.push_back({vertices, x.region(c), quality});
+  }
+  return true;
+}
+
+}  // namespace
+
+bool plan_insertion(const CellComplex& x, std::uint32_t cell, double least, PlanScratch& scratch, Change& change) {
+  auto& [marks, star, joined, cavity, move] = scratch;
+  const QualityGoal& goal = x.goal();
+  change.clear();
+  marks.clear(x.cell_count());
+  marks.mark(cell);
+  cavity.cells.assign(1, cell);
   const auto& v = x.cell(cell).vertices;
-  const std::uint32_t above = v[face],
-                      below = x.cell(delaunay::cell_of(other_side)).vertices[delaunay::face_of(other_side)];
-  SandwichedFaces faces(x, above, below, change);
-  const auto& corner = delaunay::face_corners[face];
-  return faces.add_face(cell, delaunay::cell_of(other_side), {v[corner[0]], v[corner[1]], v[corner[2]]}, 3) > least;
+  const Point3 origin = x.point(v[0]);
+  const Point3 sum = (x.point(v[1]) - origin) + (x.point(v[2]) - origin) + (x.point(v[3]) - origin);
+  Point3 apex = rounded(origin + 0.25 * sum);
+  double worst = 0;
+  for (int round = 0; round < most_insertion_rounds; ++round) {
+    if (!grow(x, wanted_quality(goal, least), apex, marks, cavity)) return false;
+    worst = worst_of_star(cavity.faces, goal, apex);
+    const double before = worst;
+    worst = move_apex(cavity.faces, goal, {}, worst, move, apex);
+    if (worst == before) break;
+  }
+  if (!(worst > least) || !keeps_constraints(x, cavity)) return false;
+  const auto vertex = static_cast<std::uint32_t>(x.vertex_count());
+  const int region = x.region(cell);
+  change.new_vertex = apex;
+  change.old_cells = cavity.cells;
+  for (std::size_t i = 0; i < cavity.hull.size(); ++i) {
+    const StarFace& face = cavity.faces[i];
+    const auto [a, b, c] = cavity.hull[i];
+    change.new_cells.push_back({{a, b, c, vertex}, region, cell_quality(goal, face.a, face.b, face.c, apex)});
+  }
+  return x.all_positive(change);
+}
+
+bool plan_collapse(const CellComplex& x, std::uint32_t cell, double least, PlanScratch& scratch, Change& change) {
+  bool is_planned = false;
+  change.clear();
+  const auto corners = x.cell(cell).vertices;
+  for (const std::uint32_t gone : corners) {
+    if (!x.is_interior(gone)) continue;
+    gather_cells(x, gone, scratch.marks, scratch.star);
+    for (const std::uint32_t end : corners) {
+      if (end == gone || !join_star(x, scratch.star, gone, end, least, scratch.joined)) continue;
+      is_planned = true;
+      change.old_cells = scratch.star;
+      change.new_cells.swap(scratch.joined);
+      least = worst_of(change.new_cells);
+    }
+  }
+  return is_planned;
 }
 
 }  // namespace ccdt::improve
