@@ -70,23 +70,16 @@ void add_dihedral_angles(const std::array<Point3, 4>& tetrahedron, Quality::Dihe
   }
 }
 
-/// The squared lengths of the shortest and of the longest edge.
-std::pair<double, double> squared_edges(const std::array<Point3, 4>& t) {
-  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      shortest = std::min(shortest, squared_length(t[j] - t[i]));
-      longest = std::max(longest, squared_length(t[j] - t[i]));
-    }
-  return {shortest, longest};
+std::array<double, 6> squared_edges(const std::array<Point3, 4>& t) {
+  return {squared_length(t[1] - t[0]), squared_length(t[2] - t[0]), squared_length(t[3] - t[0]),
+          squared_length(t[2] - t[1]), squared_length(t[3] - t[1]), squared_length(t[3] - t[2])};
 }
 
 }  // namespace
 
 double shape_measure(const std::array<Point3, 4>& t) {
   double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) sum += squared_length(t[j] - t[i]);
+  for (const double squared : squared_edges(t)) sum += squared;
   const double v = std::abs(volume(t));
   return v > 0 ? std::pow(sum / 6, 1.5) / (regular_factor * v) : std::numeric_limits<double>::infinity();
 }
@@ -112,7 +105,8 @@ double aspect_ratio(const std::array<Point3, 4>& t) {
     twice_area += length(cross(b - a, c - a));
   }
   const double inradius = 6 * std::abs(volume(t)) / twice_area;
-  return inradius > 0 ? std::sqrt(squared_edges(t).second / 24) / inradius : std::numeric_limits<double>::infinity();
+  return inradius > 0 ? std::sqrt(std::ranges::max(squared_edges(t)) / 24) / inradius
+                      : std::numeric_limits<double>::infinity();
 }
 
 double radius_edge_ratio(const std::array<Point3, 4>& t) {
@@ -122,7 +116,7 @@ double radius_edge_ratio(const std::array<Point3, 4>& t) {
   // From t[0] to the center: (|a|^2 b x c + |b|^2 c x a + |c|^2 a x b) / (12 V).
   const Point3 sum =
       squared_length(a) * cross(b, c) + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b);
-  return length(sum) / (12 * v) / std::sqrt(squared_edges(t).first);
+  return length(sum) / (12 * v) / std::sqrt(std::ranges::min(squared_edges(t)));
 }
 
 Quality measure_quality(const mesh::TetMesh& mesh) {

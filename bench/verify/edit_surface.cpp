@@ -444,24 +444,15 @@ void merge_straight_chains(Surface& surface) {
 }
 
 /// Is a vertex that nothing has on a piece or a segment all the same?
-class OnSomething {
- public:
-  explicit OnSomething(const Surface& surface) : surface_(surface), tree_(surface) {}
-
-  bool operator()(std::uint32_t site) const {
-    const Point3& p = surface_.at(site);
-    bool found = std::any_of(surface_.segments.begin(), surface_.segments.end(), [&](const Edge& segment) {
-      return !select_within(surface_, segment, {&site, 1}).empty();
-    });
-    tree_.for_each_near(
-        p, p, [&](std::uint32_t piece) { found = found || locate_on_piece(surface_, piece, p) != PointOnPiece::off; });
-    return found;
-  }
-
- private:
-  const Surface& surface_;
-  PieceTree tree_;
-};
+bool is_on_something(const Surface& surface, const PieceTree& tree, std::uint32_t site) {
+  const Point3& p = surface.at(site);
+  bool found = std::ranges::any_of(surface.segments, [&](const Edge& segment) {
+    return !select_within(surface, segment, {&site, 1}).empty();
+  });
+  tree.for_each_near(
+      p, p, [&](std::uint32_t piece) { found = found || locate_on_piece(surface, piece, p) != PointOnPiece::off; });
+  return found;
+}
 
 }  // namespace
 
@@ -482,11 +473,11 @@ void let_vertices_slide(Surface& surface, Regions& regions) {
   drop_segments_on_features(surface);
   merge_straight_chains(surface);
   const std::vector<bool> is_used = find_used(surface);
-  const OnSomething is_on_something(surface);
+  const PieceTree tree(surface);
   surface.slides.assign(is_used.size(), false);
   for (const std::uint32_t site : surface.sites.of_input)
     if (!is_used[site])
-      surface.slides[site] = was_used[site] || (!surface.sites.in_mesh(site) && is_on_something(site));
+      surface.slides[site] = was_used[site] || (!surface.sites.in_mesh(site) && is_on_something(surface, tree, site));
 }
 
 }  // namespace ccdt::verify

@@ -26,41 +26,6 @@ struct PointTraits {
   }
 };
 
-/// Finds the nearest of the mesh's vertices in use within a tolerance of a point of the input.
-class NearestVertex {
- public:
-  NearestVertex(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances)
-      : vertices_(topology.mesh.vertices), tolerance_(tolerances.place) {
-    const Box bounds = expanded(bounding_box(input.vertices), tolerance_);
-    std::vector<Box> boxes;
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
-      const Box box = box_of(vertices_[v]);
-      if (!topology.used(v) || !bounds.meets(box)) continue;
-      near_input_.push_back(v);
-      boxes.push_back(box);
-    }
-    tree_ = ScaledBoxTree(std::move(boxes), tolerances);
-  }
-
-  std::uint32_t find(const Point3& p) const {
-    double best = tolerance_ * tolerance_;
-    std::uint32_t nearest = none;
-    tree_.for_each_meeting(expanded(box_of(p), tolerance_), [&](std::uint32_t i) {
-      const double distance = squared_length(vertices_[near_input_[i]] - p);
-      if (distance > best) return;
-      best = distance;
-      nearest = near_input_[i];
-    });
-    return nearest;
-  }
-
- private:
-  const std::vector<Point3>& vertices_;  // of the mesh
-  double tolerance_;
-  std::vector<std::uint32_t> near_input_;
-  ScaledBoxTree tree_;
-};
-
 std::vector<Edge> edges_of(const std::vector<std::uint32_t>& polygon, std::span<const std::uint32_t> site_of_input) {
   std::vector<Edge> edges;
   const std::size_t n = polygon.size();
@@ -204,6 +169,34 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, std::span<const 
   return result;
 }
 
+/// Gives each input vertex that has no site the nearest vertex of the mesh in use within `tolerances.place`, if any.
+void match_nearest(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances, Sites& sites) {
+  const auto& vertices = topology.mesh.vertices;
+  const Box bounds = expanded(bounding_box(input.vertices), tolerances.place);
+  std::vector<std::uint32_t> near_input;
+  std::vector<Box> places;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    if (!topology.used(v) || !bounds.meets(box_of(vertices[v]))) continue;
+    near_input.push_back(v);
+    places.push_back(box_of(vertices[v]));
+  }
+  const ScaledBoxTree tree(std::move(places), tolerances);
+  for (std::size_t i = 0; i < input.vertices.size(); ++i) {
+    std::uint32_t& site = sites.of_input[i];
+    if (site != none) continue;
+    const Point3& p = input.vertices[i];
+    double best = tolerances.place * tolerances.place;
+    tree.for_each_meeting(expanded(box_of(p), tolerances.place), [&](std::uint32_t k) {
+      const double distance = squared_length(vertices[near_input[k]] - p);
+      if (distance > best) return;
+      best = distance;
+      site = near_input[k];
+    });
+    // The first of several input vertices in one place is where the site is.
+    if (site != none && sites.position[site] == vertices[site]) sites.position[site] = p;
+  }
+}
+
 /// Do the edges enclose nothing, because each runs there and back?
 bool is_empty(const PolygonCell& cell) {
   std::vector<Edge> there = cell, back;
@@ -301,16 +294,9 @@ Sites match_sites(const plc::InputPlc& input, const Topology& topology, const To
   for (const Point3& p : input.vertices) sites.of_input.push_back(exact.get(p, none));
   if (std::ranges::count(sites.of_input, none) == 0) return sites;
 
-  const NearestVertex near(input, topology, tolerances);
-  std::vector<bool> moved(vertices.size(), false);
+  match_nearest(input, topology, tolerances, sites);
   for (std::size_t i = 0; i < input.vertices.size(); ++i) {
     std::uint32_t& site = sites.of_input[i];
-    if (site != none) continue;
-    site = near.find(input.vertices[i]);
-    if (site != none && !moved[site]) {
-      moved[site] = true;
-      sites.position[site] = input.vertices[i];
-    }
     if (site != none) continue;
     site = *exact.insert(input.vertices[i], static_cast<std::uint32_t>(sites.position.size())).first;
     if (site == sites.position.size()) sites.position.push_back(input.vertices[i]);

@@ -36,7 +36,6 @@ Sites match_sites(const plc::InputPlc& input, const Topology& topology, const To
 /// A tree of boxes in the units of the input, kept in units that suit the tree whatever the size of the input.
 class ScaledBoxTree {
  public:
-  ScaledBoxTree() : tree_({}) {}
   ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerances);
 
   /// Calls visit(i) for all boxes that meet the given one.
@@ -48,7 +47,7 @@ class ScaledBoxTree {
  private:
   Box scaled(const Box& box) const { return {scale_ * box.low, scale_ * box.high}; }
 
-  double scale_ = 1;
+  double scale_;
   BoxTree tree_;
 };
 
