@@ -177,12 +177,12 @@ struct Reference {
 /// Made once for each set and size.
 const Reference& reference(const PointSet& set, std::int64_t size) {
   static std::map<std::pair<std::string, std::int64_t>, Reference> made;
-  const auto [at, is_new] = made.try_emplace({set.name, size});
-  if (is_new) {
-    at->second.points = set.make(size);
-    at->second.inserted = Insert::outcome(Insert::build(at->second.points));
+  Reference& kept = made[{set.name, size}];
+  if (kept.points.empty()) {  // also if making them has failed before, so that it fails again
+    kept.points = set.make(size);
+    kept.inserted = Insert::outcome(Insert::build(kept.points));
   }
-  return at->second;
+  return kept;
 }
 
 /// Why a result is not right; empty if it is.

@@ -2,7 +2,7 @@
 // the array of interior points; the octree and the tests of distance to the surface are within.
 //
 //   lattice/fcc/...   face-centered cubic
-//   lattice/bcc/...   body-centerd cubic
+//   lattice/bcc/...   body-centered cubic
 //   lattice/sc/...    simple cubic; all three at equal density
 //
 //   .../MODEL/N   one edge length inside and on the surface, such that the mesh has about N vertices with fcc

@@ -306,7 +306,8 @@ class InteriorMatcher {
       faces.push_back(
           {f, p, first_is_below ? second : first, first_is_below ? first : second, is_flat ? last_plane() : none});
     }
-    add(pieces, faces);
+    for (const std::uint32_t p : pieces) matches_.found[p] = FoundAs::interior;
+    matches_.faces.insert(matches_.faces.end(), faces.begin(), faces.end());
     return true;
   }
 
@@ -319,19 +320,13 @@ class InteriorMatcher {
       matches_.problem[piece] = problem;
       return;
     }
-    std::vector<MatchedFace> faces;
     for (std::size_t i = 0; i < sheet.faces.size(); ++i) {
       const std::uint32_t f = find_face(topology_, sheet.faces[i]);
       std::uint32_t above = sheet.above[i], below = topology_.across(f, above);
       if (patches.flipped[piece]) std::swap(above, below);
-      faces.push_back({f, piece, above, below, last_plane()});
+      matches_.faces.push_back({f, piece, above, below, last_plane()});
     }
-    add(patches.pieces.of(n), faces);
-  }
-
-  void add(std::span<const std::uint32_t> pieces, const std::vector<MatchedFace>& faces) {
-    for (const std::uint32_t p : pieces) matches_.found[p] = FoundAs::interior;
-    matches_.faces.insert(matches_.faces.end(), faces.begin(), faces.end());
+    for (const std::uint32_t p : patches.pieces.of(n)) matches_.found[p] = FoundAs::interior;
   }
 
   const Topology& topology_;
