@@ -9,11 +9,11 @@ namespace ccdt {
 
 /// Where in the user's data an error is. Every part is optional; the program turns what is there into words.
 struct Place {
-  std::string file;                           ///< path as the user gave it
-  long long line = 0;                         ///< line of a text file, from 1
-  long long byte = -1;                        ///< offset in a binary file
-  std::vector<std::array<double, 3>> points;  ///< coordinates in the units of the input
-  std::vector<long long> facets;              ///< numbers of input facets, from 0
+  std::string file = {};                           ///< path as the user gave it
+  long long line = 0;                              ///< line of a text file, from 1
+  long long byte = -1;                             ///< offset in a binary file
+  std::vector<std::array<double, 3>> points = {};  ///< coordinates in the units of the input
+  std::vector<long long> facets = {};              ///< numbers of input facets, from 0
 };
 
 /// The base of all errors of the project: what is wrong, where, and what the user can do next.

@@ -68,17 +68,14 @@ std::string lower_ending(const std::filesystem::path& file) {
 }
 
 Place line_of_byte(const FileBytes& file, std::size_t byte) {
-  Place place = place_in(file.name);
-  place.line = 1 + std::count(file.bytes.begin(), file.bytes.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
-  return place;
+  const auto begin = file.bytes.begin();
+  return {.file = file.name, .line = 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(byte), '\n')};
 }
 
 void fail_at_byte(const FileBytes& file, std::size_t byte, const std::string& what, const std::string& remedy,
                   std::vector<long long> facets) {
-  Place place = place_in(file.name);
-  place.byte = static_cast<long long>(byte);
-  place.facets = std::move(facets);
-  throw InputError(what, std::move(place), remedy);
+  throw InputError(what, {.file = file.name, .byte = static_cast<long long>(byte), .facets = std::move(facets)},
+                   remedy);
 }
 
 }  // namespace ccdt::io

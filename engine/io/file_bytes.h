@@ -33,9 +33,7 @@ std::string lower_ending(const std::filesystem::path& file);
 
 /// A place that is only known to be in a file.
 inline Place place_in(std::string file) {
-  Place place;
-  place.file = std::move(file);
-  return place;
+  return {.file = std::move(file)};
 }
 
 /// The place of the line of a text in which a byte is.

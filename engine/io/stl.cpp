@@ -123,12 +123,9 @@ plc::InputPlc read_stl(const FileBytes& file) {
 
 void write_stl(const plc::InputPlc& plc, OutputFile& out) {
   for (const Point3& p : plc.vertices)
-    if (std::fabs(p.x) > FLT_MAX || std::fabs(p.y) > FLT_MAX || std::fabs(p.z) > FLT_MAX) {
-      Place place;
-      place.points = {as_array(p)};
-      throw OutputError("STL holds numbers of single precision; a coordinate is too large", std::move(place),
+    if (std::fabs(p.x) > FLT_MAX || std::fabs(p.y) > FLT_MAX || std::fabs(p.z) > FLT_MAX)
+      throw OutputError("STL holds numbers of single precision; a coordinate is too large", {.points = {as_array(p)}},
                         "write a .off, .ply or .poly file instead");
-    }
   std::string header = "binary STL by ccdt";  // must not begin with `solid`
   header.resize(80, ' ');
   const std::vector<FacetLoop> facets = facets_in_order(plc);

@@ -18,9 +18,7 @@ constexpr std::size_t most_overlaps = 1000;
 
 void check_facets_exist(const InputPlc& input) {
   if (input.facet_count() > 0 && !input.vertices.empty()) return;
-  Place place;
-  place.file = input.name;
-  throw InputError("there are no facets", place, "give a surface, or a .poly or .smesh with facets");
+  throw InputError("there are no facets", {.file = input.name}, "give a surface, or a .poly or .smesh with facets");
 }
 
 void check_overlaps(const Plc& plc, const PlcParts& parts, const std::vector<Overlap>& overlaps) {

@@ -23,10 +23,8 @@ std::vector<Point3> world_points(const Plc& plc, std::span<const VertexId> verti
 
 void throw_input_error(const Plc& plc, const std::string& what, const std::string& remedy,
                        const std::vector<Point3>& world_points, const std::vector<long long>& facets) {
-  Place place;
-  place.file = plc.name;
+  Place place{.file = plc.name, .facets = facets};
   for (const Point3& p : world_points) place.points.push_back(as_array(p));
-  place.facets = facets;
   throw InputError(what, place, remedy);
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/surface/remesh_steps.h"
+#include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
 namespace {

@@ -12,9 +12,10 @@
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/integer_points.h"
-#include "engine/surface/remesh_steps.h"
+#include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
+
 namespace {
 
 // Where triangles cross, the edge length is halved some times; then the old triangles stay, ever farther around.
@@ -22,8 +23,7 @@ constexpr int halvings = 3;
 constexpr int most_attempts = 10;
 
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
-  Place place;
-  place.file = input.name;
+  const Place place{.file = input.name};
   const bool is_positive = options.edge_length > 0 && std::isfinite(options.edge_length);
   if (!is_positive)
     throw InputError("the edge length for remeshing is not a positive number", place,
@@ -41,6 +41,59 @@ std::vector<std::pair<bool, int>> regions_of(const plc::Plc& plc) {
   for (const plc::Region& c : plc.regions) regions.emplace_back(c.inside, c.attribute);
   std::sort(regions.begin(), regions.end());
   return regions;
+}
+
+double smallest_angle_of(const WorkingMesh& m, FaceHandle f) {
+  return smallest_angle(m.points(m.corners(m.mesh.halfedge_handle(f))));
+}
+
+// The worst first.
+std::vector<FaceHandle> bad_triangles(const WorkingMesh& m) {
+  constexpr double good_angle = 36;  // degrees
+  std::vector<std::pair<double, int>> found;
+  for (const FaceHandle f : m.mesh.faces()) {
+    const double angle = smallest_angle_of(m, f);
+    if (angle < to_radians(good_angle)) found.emplace_back(angle, f.idx());
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<FaceHandle> faces;
+  faces.reserve(found.size());
+  for (const auto& [angle, f] : found) faces.emplace_back(f);
+  return faces;
+}
+
+// Its halfedges, along the longest edge first.
+std::array<HalfedgeHandle, 3> halfedges_by_length(const WorkingMesh& m, FaceHandle f) {
+  const HalfedgeHandle h = m.mesh.halfedge_handle(f);
+  std::array<HalfedgeHandle, 3> halfedges = {h, m.mesh.next_halfedge_handle(h), m.mesh.prev_halfedge_handle(h)};
+  const auto size = [&](HalfedgeHandle e) { return m.edge_length(m.ends(e)[0], m.ends(e)[1]); };
+  std::stable_sort(halfedges.begin(), halfedges.end(),
+                   [&](HalfedgeHandle e, HalfedgeHandle g) { return size(e) > size(g); });
+  return halfedges;
+}
+
+bool improve_triangle(WorkingMesh& m, FaceHandle f) {
+  const std::array<HalfedgeHandle, 3> halfedges = halfedges_by_length(m, f);
+  for (const HalfedgeHandle h : halfedges)
+    if (improve_by_flip(m, m.mesh.edge_handle(h))) return true;
+  bool any = false;
+  for (const VertexHandle v : m.corners(halfedges[0])) any = improve_by_move(m, v) || any;
+  if (any) return true;
+  for (auto h = halfedges.rbegin(); h != halfedges.rend(); ++h)
+    if (improve_by_collapse(m, *h) || improve_by_collapse(m, m.mesh.opposite_halfedge_handle(*h))) return true;
+  return false;
+}
+
+/// Flips, collapses and moves around triangles with small angles, the worst first and whatever the wanted lengths,
+/// until nothing helps.
+void improve_worst_triangles(WorkingMesh& m) {
+  constexpr int most_sweeps = 30;
+  bool any = true;
+  for (int sweep = 0; any && sweep < most_sweeps; ++sweep) {
+    any = false;
+    for (const FaceHandle f : bad_triangles(m))
+      if (!m.mesh.status(f).deleted() && !m.is_frozen(f)) any = improve_triangle(m, f) || any;
+  }
 }
 
 /// The rounds of remeshing, and the improvement at their end.
@@ -133,9 +186,7 @@ void freeze(const OriginalSurface& original, const std::vector<Point3>& places, 
 }
 
 [[noreturn]] void throw_not_remeshed(const plc::InputPlc& input, const Defects& defects, double edge_length) {
-  Place place;
-  place.file = input.name;
-  place.points.push_back(as_array(defects.places.front()));
+  const Place place{.file = input.name, .points = {as_array(defects.places.front())}};
   throw MeshError(
       "the surface could not be remeshed to edges of length " + std::to_string(edge_length) + ": " + defects.words,
       place, "give a smaller edge length, or mesh the surface as it is");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <queue>
 
-#include "engine/surface/remesh_steps.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {

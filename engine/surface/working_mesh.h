@@ -4,15 +4,73 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "engine/surface/closest_point.h"
+#include "engine/base/point.h"
 #include "engine/surface/feature_curves.h"
 #include "engine/surface/original_surface.h"
-#include "engine/surface/triangle_fit.h"
 #include "engine/surface/wanted_lengths.h"
 
 namespace ccdt::surface {
+
+/// What the quality of a triangle is measured by: its area over its squared edges, or its smallest angle.
+enum class TriangleMeasure { area, angle };
+
+/// How well shaped a triangle is, and how well it stands for the original surface at its corners.
+struct TriangleFit {
+  double quality;    ///< 1 for the equilateral triangle, 0 for a degenerate one
+  double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners
+};
+
+/// In radians.
+inline double smallest_angle(const std::array<Point3, 3>& p) {
+  std::array<double, 3> squares = {squared_length(p[1] - p[0]), squared_length(p[2] - p[1]),
+                                   squared_length(p[0] - p[2])};
+  std::sort(squares.begin(), squares.end());
+  const double product = std::sqrt(squares[1] * squares[2]);
+  return product > 0 ? std::acos(std::clamp((squares[1] + squares[2] - squares[0]) / (2 * product), -1.0, 1.0)) : 0;
+}
+
+inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point3, 3>& normals,
+                          TriangleMeasure measure = TriangleMeasure::area) {
+  constexpr double two_root_three = 3.4641016151377544;
+  const Point3 area = area_vector(p);
+  const double size = length(area);
+  const double squares = squared_length(p[1] - p[0]) + squared_length(p[2] - p[1]) + squared_length(p[0] - p[2]);
+  if (size == 0) return {0, -1};
+  return {measure == TriangleMeasure::area ? two_root_three * size / squares : smallest_angle(p) / to_radians(60),
+          std::min({dot(area, normals[0]), dot(area, normals[1]), dot(area, normals[2])}) / size};
+}
+
+/// The worst of several triangles.
+struct WorstFit {
+  TriangleFit worst = {1, 1};
+
+  void add(const TriangleFit& fit) {
+    worst.quality = std::min(worst.quality, fit.quality);
+    worst.agreement = std::min(worst.agreement, fit.agreement);
+  }
+};
+
+/// Do triangles of the fit `after` stand for the original surface as well as those of the fit `before`, or well enough?
+inline bool may_stand_for(const TriangleFit& before, const TriangleFit& after) {
+  constexpr double good_agreement = 0.65;  // 50 degrees: an equilateral triangle on a circle's hexagon has 40
+  constexpr double least_agreement = 0.2;
+  return after.agreement >= std::max(least_agreement, std::min(good_agreement, before.agreement));
+}
+
+/// May triangles of the fit `after` replace those of the fit `before`? They have to be good, or no worse; but they may
+/// never be turned away from the original surface.
+inline bool may_replace(const TriangleFit& before, const TriangleFit& after, double good_quality) {
+  return after.quality >= std::min(good_quality, before.quality) && may_stand_for(before, after);
+}
+
+/// Is the worst triangle really better after a change? Gains of rounding would go on for ever.
+inline bool is_better(const TriangleFit& before, const TriangleFit& after) {
+  constexpr double least_gain = 0.005;
+  return after.quality >= before.quality + least_gain && may_stand_for(before, after);
+}
 
 struct SurfaceTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -158,5 +216,41 @@ inline TriangleFit fit_of(const WorkingMesh& m, const std::array<VertexHandle, 3
 
 /// The surface as a PLC: with the name, holes and regions of the input, and with markers where it has some.
 plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
+
+/// \name The steps of isotropic remeshing (Botsch and Kobbelt 2004), each over the whole surface.
+/// An operation that would turn a triangle away from the original surface, make a triangle worse than a limit, or make
+/// two edges one, is left out.
+/// @{
+
+/// Gives every vertex and knot the edge length that is wanted there (`EdgeLengths`), but less around edges that are
+/// much shorter and could not be collapsed, because the surface is too narrow or too strongly curved there: long edges
+/// beside them would make needles of the triangles.
+void find_wanted_lengths(WorkingMesh& m);
+
+/// Splits edges longer than 4/3 of the wanted length, until there are none; new vertices are put on the original
+/// surface.
+void split_long_edges(WorkingMesh& m);
+
+/// Collapses edges shorter than 4/5 of the wanted length, where that makes no edge longer than 4/3 of it.
+void collapse_short_edges(WorkingMesh& m);
+
+/// Flips edges so that vertices come near to their ideal number of neighbors: six, or fewer on a feature, as the angle
+/// there asks for.
+void flip_edges_for_valence(WorkingMesh& m);
+
+/// Flips edges where that makes the worse one of the two triangles better.
+void flip_edges_for_quality(WorkingMesh& m);
+
+/// Moves vertices towards the center of their neighborhood, along the original surface or along their feature.
+void relax_vertices(WorkingMesh& m);
+/// @}
+
+/// \name Changes around bad triangles: each is made if it makes the smallest angle of all that it touches larger.
+/// \return whether it was made
+/// @{
+bool improve_by_flip(WorkingMesh& m, EdgeHandle e);
+bool improve_by_collapse(WorkingMesh& m, HalfedgeHandle h);  ///< draws the start of the halfedge to its end
+bool improve_by_move(WorkingMesh& m, VertexHandle v);        ///< along the surface, or along the feature it is on
+/// @}
 
 }  // namespace ccdt::surface
