@@ -235,27 +235,26 @@ template <Predicates P>
 std::size_t legalize(Triangulation& t, const P& predicates) {
   std::vector<std::uint32_t> stack;
   for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
-    const Side s = planar::unpack(packed);
-    const std::uint32_t other = planar::neighbor(t, s);
-    if (other != planar::none && s.triangle < other) stack.push_back(packed);
+    const Side s = unpack(packed);
+    const std::uint32_t other = neighbor(t, s);
+    if (other != none && s.triangle < other) stack.push_back(packed);
   }
-  return planar::legalize_from(t, stack, predicates);
+  return legalize_from(t, stack, predicates);
 }
 
 template <Predicates P>
 bool split_edge(Triangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates) {
   const std::optional<Side> side = find_edge(t, a, b);
   if (!side) return false;
-  planar::split_side(t, *side, v, predicates);
+  split_side(t, *side, v, predicates);
   return true;
 }
 
 template <Predicates P>
 ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, const P& predicates) {
-  using planar::RayExit;
   ConstraintResult result;
   while (a != b) {
-    RayExit exit = planar::find_ray_exit(t, a, b, predicates);
+    RayExit exit = find_ray_exit(t, a, b, predicates);
     if (exit.kind == RayExit::Kind::nowhere) {
       result.status = ConstraintResult::Status::outside;
       result.obstacle = {a, a};
@@ -263,24 +262,23 @@ ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, con
     }
     std::vector<std::uint32_t> to_check;
     if (exit.kind == RayExit::Kind::through_edge) {
-      const planar::Channel channel = planar::walk_channel(t, a, b, exit.side, predicates);
+      const Channel channel = walk_channel(t, a, b, exit.side, predicates);
       if (channel.end.is_none()) {
-        const bool constrained = planar::is_constrained(t, channel.obstacle);
-        result.status = constrained && planar::neighbor(t, channel.obstacle) != planar::none
-                            ? ConstraintResult::Status::crossing
-                            : ConstraintResult::Status::outside;
-        result.obstacle = {planar::edge_start(t, channel.obstacle), planar::edge_end(t, channel.obstacle)};
+        const bool constrained = is_constrained(t, channel.obstacle);
+        result.status = constrained && neighbor(t, channel.obstacle) != none ? ConstraintResult::Status::crossing
+                                                                             : ConstraintResult::Status::outside;
+        result.obstacle = {edge_start(t, channel.obstacle), edge_end(t, channel.obstacle)};
         return result;
       }
-      planar::cut_through(t, a, channel, predicates);
+      cut_through(t, a, channel, predicates);
       for (std::uint32_t triangle : channel.triangles) {
-        for (std::uint32_t corner = 0; corner < 3; ++corner) to_check.push_back(planar::pack({triangle, corner}));
+        for (std::uint32_t corner = 0; corner < 3; ++corner) to_check.push_back(pack({triangle, corner}));
       }
       exit.side = *find_edge(t, a, channel.end);
       exit.end = channel.end;
     }
     set_constrained(t, exit.side, true);
-    planar::legalize_from(t, to_check, predicates);
+    legalize_from(t, to_check, predicates);
     result.parts.push_back({a, exit.end});
     a = exit.end;
   }
@@ -292,20 +290,20 @@ TriangulationResult triangulate(std::span<const VertexId> vertices, std::span<co
                                 const Carving& carving) {
   TriangulationResult result = delaunay(vertices, predicates);
   if (!result) return result;
-  planar::insert_edges(result, edges, predicates);
+  insert_edges(result, edges, predicates);
   if (!result) return result;
 
   Triangulation& t = result.triangulation;
-  std::vector<bool> keep = planar::choose_inside(t, carving.outside);
+  std::vector<bool> keep = choose_inside(t, carving.outside);
   for (VertexId seed : carving.hole_seeds) {
-    const std::uint32_t triangle = planar::locate(t, seed, predicates);
-    if (triangle == planar::none) {
+    const std::uint32_t triangle = locate(t, seed, predicates);
+    if (triangle == none) {
       result.lost_seeds.push_back(seed);
     } else {
-      planar::flood_hole(t, triangle, keep);
+      flood_hole(t, triangle, keep);
     }
   }
-  if (std::find(keep.begin(), keep.end(), false) != keep.end()) t = planar::keep_triangles(t, keep);
+  if (std::find(keep.begin(), keep.end(), false) != keep.end()) t = keep_triangles(t, keep);
   for (VertexId v : vertices) {
     if (!has_vertex(t, v)) result.unused.push_back(v);
   }

@@ -314,11 +314,11 @@ class DivideAndConquer {
 template <Predicates P>
 TriangulationResult delaunay(std::span<const VertexId> vertices, const P& predicates) {
   TriangulationResult result;
-  const planar::SweepOrder order = planar::sweep_order(vertices, predicates);
+  const SweepOrder order = sweep_order(vertices, predicates);
   result.status = order.status;
   result.duplicates = order.duplicates;
   if (!result) return result;
-  const auto triangles = planar::DivideAndConquer<P>(order.swept, predicates).triangles_with_pole(order.pole);
+  const auto triangles = DivideAndConquer<P>(order.swept, predicates).triangles_with_pole(order.pole);
   result.triangulation = from_triangles(triangles);
   legalize(result.triangulation, predicates);
   return result;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/planar/types.h"
+#include "engine/planar/topology.h"
 
 namespace ccdt::planar {
 

@@ -6,7 +6,6 @@
 
 #include "engine/base/point.h"
 #include "engine/plc/edge_table.h"
-#include "engine/plc/triangle_set.h"
 
 namespace ccdt::plc {
 

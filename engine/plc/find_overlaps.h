@@ -7,8 +7,8 @@
 
 #include "engine/base/box_tree.h"
 #include "engine/base/point.h"
+#include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
-#include "engine/plc/triangle_set.h"
 
 namespace ccdt::plc {
 

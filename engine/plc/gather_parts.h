@@ -3,9 +3,9 @@
 #include <span>
 
 #include "engine/base/box_tree.h"
+#include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
-#include "engine/plc/triangle_set.h"
 
 namespace ccdt::plc {
 
@@ -23,6 +23,17 @@ TriangleSet gather_triangles(const InputPlc& input, const Plc& plc);
 
 /// The segments that the input lists.
 SegmentSet gather_segments(const InputPlc& input, const Plc& plc);
+
+/// Triangulates the polygon facets of the input, exactly, with all their vertices and without their holes, and appends
+/// the triangles. Polygons of two vertices, and edges of polygons that have the facet on both sides, are appended to
+/// the segments. Segments that are there already and lie in a facet with both ends among its vertices become edges of
+/// its triangles.
+///
+/// \param tolerance  in grid units: how far from a plane the vertices of a facet may be
+/// \throw InputError  a facet that is not planar, that has no area, whose edges cross, or with a hole seed or vertex
+///                    outside
+void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
+                          SegmentSet& segments);
 
 /// Splits the triangles that other vertices lie on, exactly, in an edge or within, so that those are corners. What was
 /// conforming in space is then conforming in its indices as well.

@@ -7,7 +7,6 @@
 
 #include "engine/plc/edge_table.h"
 #include "engine/plc/plc.h"
-#include "engine/plc/triangle_set.h"
 
 namespace ccdt::plc {
 

@@ -11,7 +11,6 @@
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/integer_points.h"
-#include "engine/plc/triangulate_polygons.h"
 
 namespace ccdt::surface {
 
