@@ -8,7 +8,7 @@
 #include "baselines/known_meshers.h"
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::baselines {
 namespace {

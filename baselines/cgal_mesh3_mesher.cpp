@@ -18,7 +18,7 @@
 #include "baselines/mesh_cleanup.h"
 #include "baselines/mesher_input.h"
 #include "engine/base/digits.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 #include "engine/plc/build_plc.h"
 
 namespace ccdt::baselines {

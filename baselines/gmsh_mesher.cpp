@@ -8,8 +8,7 @@
 #include "baselines/mesher_input.h"
 #include "baselines/process.h"
 #include "engine/base/digits.h"
-#include "engine/io/file_bytes.h"
-#include "engine/io/output_file.h"
+#include "engine/io/files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/plc/build_plc.h"
 

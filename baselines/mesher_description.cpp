@@ -10,7 +10,7 @@
 #include <valijson/validator.hpp>
 
 #include "baselines/mesher_schema.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::baselines {
 namespace {

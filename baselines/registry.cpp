@@ -3,7 +3,7 @@
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesher.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 #include "engine/version.h"
 
 namespace ccdt::baselines {

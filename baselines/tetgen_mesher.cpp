@@ -13,7 +13,7 @@
 #include "baselines/mesher_input.h"
 #include "baselines/process.h"
 #include "engine/base/digits.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::baselines {
 namespace {

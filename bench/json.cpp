@@ -3,8 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/errors.h"
-#include "engine/io/file_bytes.h"
-#include "engine/io/output_file.h"
+#include "engine/io/files.h"
 
 namespace ccdt::bench {
 

@@ -6,7 +6,7 @@
 #include "bench/experiments/registry.h"
 #include "bench/run_record.h"
 #include "engine/base/errors.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::reports {
 namespace {

@@ -8,8 +8,7 @@
 #include "baselines/external_program.h"
 #include "baselines/process.h"
 #include "bench/results/kept_mesh.h"
-#include "engine/io/file_bytes.h"
-#include "engine/io/output_file.h"
+#include "engine/io/files.h"
 #include "reports/result_text.h"
 
 namespace ccdt::reports {

@@ -5,7 +5,7 @@
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
 #include "engine/base/stopwatch.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "baselines/mesher.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::tools {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "baselines/mesher.h"
 #include "bench/experiments/registry.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "bench/verify/verify.h"
-#include "engine/io/output_file.h"
+#include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "reports/result_text.h"

@@ -9,7 +9,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::experiments {
 namespace {

@@ -7,7 +7,7 @@
 #include "baselines/external_program.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt {
 namespace {

@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/io/file_bytes.h"
-#include "engine/io/output_file.h"
+#include "engine/io/files.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 

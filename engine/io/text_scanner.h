@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "engine/base/point.h"
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
 namespace ccdt::io {
 

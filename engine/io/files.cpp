@@ -1,5 +1,8 @@
-#include "engine/io/file_bytes.h"
+#include "engine/io/files.h"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -7,15 +10,18 @@
 #include <new>
 #include <system_error>
 
-#include "engine/base/errors.h"
-
 namespace ccdt::io {
 
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* f) const { std::fclose(f); }
-};
+constexpr std::size_t buffer_size = 1 << 18;
+
+std::filesystem::path temporary_beside(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter = 0;
+  std::string name = ".";
+  name += target.filename().string() + "." + std::to_string(::getpid()) + "." + std::to_string(counter++) + ".tmp";
+  return target.parent_path() / name;
+}
 
 }  // namespace
 
@@ -41,7 +47,7 @@ FileBytes read_whole_file(const std::filesystem::path& file) {
   check_is_file(file);
   FileBytes result{file.string(), {}};
   const Place place = place_in(result.name);
-  const std::unique_ptr<std::FILE, CloseFile> in(std::fopen(file.c_str(), "rb"));
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!in)
     throw InputError(std::string("cannot be opened: ") + std::strerror(errno), place, "check the file's permissions");
   std::error_code error;
@@ -76,6 +82,58 @@ void fail_at_byte(const FileBytes& file, std::size_t byte, const std::string& wh
                   std::vector<long long> facets) {
   throw InputError(what, {.file = file.name, .byte = static_cast<long long>(byte), .facets = std::move(facets)},
                    remedy);
+}
+
+OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(target_, ignored);
+  if (std::filesystem::is_directory(status))
+    throw OutputError("is a directory, not a file", place_in(target_.string()), "name a file in this directory");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw OutputError("is not a regular file and cannot be replaced", place_in(target_.string()),
+                      "name an ordinary file");
+  temporary_ = temporary_beside(target_);
+  stream_ = std::fopen(temporary_.c_str(), "wbx");
+  if (!stream_) fail(errno);
+  buffer_.reserve(buffer_size + 64);
+}
+
+OutputFile::~OutputFile() {
+  if (stream_) std::fclose(stream_);
+  std::error_code ignored;
+  if (!committed_ && !temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+}
+
+OutputFile& OutputFile::operator<<(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= buffer_size) flush();
+  return *this;
+}
+
+void OutputFile::flush() {
+  if (!buffer_.empty() && std::fwrite(buffer_.data(), 1, buffer_.size(), stream_) != buffer_.size()) fail(errno);
+  buffer_.clear();
+}
+
+void OutputFile::close() {
+  if (!stream_) return;
+  flush();
+  std::FILE* stream = stream_;
+  stream_ = nullptr;
+  if (std::fclose(stream) != 0) fail(errno);
+}
+
+void OutputFile::commit() {
+  close();
+  std::error_code error;
+  std::filesystem::rename(temporary_, target_, error);
+  if (error) fail(error.value());
+  committed_ = true;
+}
+
+void OutputFile::fail(int error) const {
+  throw OutputError(std::string("cannot be written: ") + std::strerror(error), place_in(target_.string()),
+                    "check that the folder exists, that you may write there and that the disk has room");
 }
 
 }  // namespace ccdt::io

@@ -1,0 +1,186 @@
+#include "engine/io/formats.h"
+
+#include <algorithm>
+#include <ranges>
+
+#include "engine/io/plc_files.h"
+#include "engine/io/tet_mesh_files.h"
+
+namespace ccdt::io {
+
+namespace {
+
+struct FormatLimits {
+  std::size_t most_corners = 0xFFFFFFFFu;  ///< of a facet
+  bool several_polygons = false, segments = false, seeds = false, loose_vertices = true;
+};
+
+/// Who reads and writes a format, and what it can hold.
+struct PlcFormat {
+  std::string_view ending, name;
+  plc::InputPlc (*read)(const FileBytes&);
+  void (*write)(const plc::InputPlc&, OutputFile&) = nullptr;  ///< null: not written
+  FormatLimits limits = {};
+};
+
+constexpr PlcFormat plc_formats[] = {
+    {".stl", "STL", read_stl, write_stl, {.most_corners = 3, .loose_vertices = false}},
+    {".off", "OFF", read_off, write_off},
+    {".obj", "OBJ", read_obj, write_obj},
+    {".ply", "PLY", read_ply, write_ply},
+    {".poly", ".poly", read_poly, write_poly, {.several_polygons = true, .segments = true, .seeds = true}},
+    {".smesh", ".smesh", read_smesh, write_smesh, {.segments = true, .seeds = true}},
+    {".node", ".node", read_node},
+    {".mesh", "Medit .mesh", read_medit_plc, write_medit_plc, {.most_corners = 4, .segments = true}},
+};
+
+bool has_loose_vertex(const plc::InputPlc& plc) {
+  std::vector<bool> used(plc.vertices.size(), false);
+  for (const auto& triangle : plc.triangles)
+    for (const std::uint32_t v : triangle) used[v] = true;
+  for (const plc::PolygonFacet& facet : plc.polygon_facets)
+    for (const auto& polygon : facet.polygons)
+      for (const std::uint32_t v : polygon) used[v] = true;
+  return std::find(used.begin(), used.end(), false) != used.end();
+}
+
+/// Why the format cannot hold a facet of polygons; empty if it can.
+std::string objection(const plc::PolygonFacet& facet, const PlcFormat& format) {
+  if (!format.limits.several_polygons && (facet.polygons.size() != 1 || !facet.holes.empty()))
+    return "facets with holes or of several polygons";
+  for (const auto& polygon : facet.polygons) {
+    if (!format.limits.several_polygons && polygon.size() < 3) return "facets of fewer than three corners";
+    if (polygon.size() > format.limits.most_corners)
+      return "facets of more than " + std::to_string(format.limits.most_corners) + " corners";
+  }
+  return {};
+}
+
+/// \throw OutputError  the PLC has what the format cannot hold, or no vertices
+void check_format_holds(const plc::InputPlc& plc, const PlcFormat& format, const std::string& file) {
+  const auto refuse_if = [&](bool condition, const std::string& what, const std::string& where = {}) {
+    if (condition)
+      throw OutputError(where + std::string(format.name) + " cannot hold " + what, place_in(file),
+                        "write a .poly file instead");
+  };
+  if (plc.vertices.empty())
+    throw OutputError("there are no vertices to write", place_in(file), "check the model that is to be written");
+  refuse_if(!format.limits.segments && !plc.segments.empty(), "segments");
+  refuse_if(!format.limits.seeds && !plc.holes.empty(), "seeds of holes");
+  refuse_if(!format.limits.seeds && !plc.regions.empty(), "seeds of regions");
+  for (const plc::PolygonFacet& facet : plc.polygon_facets)
+    if (const std::string what = objection(facet, format); !what.empty())
+      refuse_if(true, what, "facet " + std::to_string(facet.number) + ": ");
+  refuse_if(!format.limits.loose_vertices && has_loose_vertex(plc), "vertices that no facet has");
+}
+
+struct TetMeshFormat {
+  std::string_view ending;
+  mesh::TetMesh (*read)(const FileBytes&) = nullptr;  ///< null: TetGen's, of several files
+  void (*write)(const mesh::TetMesh&, OutputFile&) = nullptr;
+};
+
+constexpr TetMeshFormat mesh_formats[] = {
+    {".mesh", read_medit_mesh, write_medit_mesh},
+    {".vtu", read_vtu, write_vtu},
+    {".msh", read_gmsh, write_gmsh},
+    {".node"},
+    {".ele"},
+    {".face"},
+};
+
+constexpr const char* mesh_endings = ".mesh (Medit), .vtu (VTK), .msh (Gmsh), .node, .ele and .face (TetGen)";
+
+/// The format with the ending of the file; null if there is none.
+template <class Format, std::size_t Count>
+const Format* format_of(const std::filesystem::path& file, const Format (&formats)[Count]) {
+  const auto format = std::ranges::find(formats, lower_ending(file), &Format::ending);
+  return format == std::end(formats) ? nullptr : format;
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& known_endings) {
+  check_is_file(file);  // no such file is the better message
+  throw InputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
+                   "known are " + known_endings + ": convert or rename the file");
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, const std::string& known_endings) {
+  throw OutputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
+                    "choose one of " + known_endings);
+}
+
+}  // namespace
+
+void add_facet(plc::InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t facet_number) {
+  const std::uint32_t number = static_cast<std::uint32_t>(facet_number);
+  if (corners.size() == 3) {
+    plc.triangles.push_back({corners[0], corners[1], corners[2]});
+    plc.triangle_markers.push_back(marker);
+    plc.triangle_numbers.push_back(number);
+  } else if (corners.size() > 3) {
+    plc.polygon_facets.push_back({{{corners.begin(), corners.end()}}, {}, marker, number});
+  } else if (corners.size() == 2) {
+    plc.segments.push_back({corners[0], corners[1]});
+    plc.segment_markers.push_back(marker);
+  }
+}
+
+void finish_facets(plc::InputPlc& plc) {
+  for (std::vector<int>* markers : {&plc.triangle_markers, &plc.segment_markers})
+    if (std::ranges::all_of(*markers, [](int m) { return m == 0; })) markers->clear();
+  const auto indices = std::views::iota(std::size_t{0}, plc.triangle_numbers.size());
+  if (std::ranges::equal(plc.triangle_numbers, indices)) plc.triangle_numbers.clear();
+}
+
+std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc) {
+  std::vector<FacetLoop> loops;
+  loops.reserve(plc.facet_count());
+  for (std::size_t i = 0; i < plc.triangles.size(); ++i)
+    loops.push_back({plc.triangles[i], attribute_of(plc.triangle_markers, i), nullptr,
+                     plc.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : plc.triangle_numbers[i]});
+  for (const plc::PolygonFacet& facet : plc.polygon_facets) {
+    const bool none = facet.polygons.empty();
+    loops.push_back({none ? std::span<const std::uint32_t>() : facet.polygons[0], facet.marker, &facet, facet.number});
+  }
+  if (!plc.polygon_facets.empty() || !plc.triangle_numbers.empty())
+    std::ranges::stable_sort(loops, {}, &FacetLoop::number);
+  return loops;
+}
+
+plc::InputPlc read_plc(const std::filesystem::path& file) {
+  const PlcFormat* format = format_of(file, plc_formats);
+  if (!format) fail_to_read(file, ".stl, .off, .obj, .ply, .poly, .smesh, .node and .mesh");
+  plc::InputPlc plc = format->read(read_whole_file(file));
+  plc.name = file.string();
+  return plc;
+}
+
+void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {
+  const PlcFormat* format = format_of(file, plc_formats);
+  if (!format || !format->write) fail_to_write(file, ".stl, .off, .obj, .ply, .poly, .smesh and .mesh");
+  check_format_holds(plc, *format, file.string());
+  OutputFile out(file);
+  format->write(plc, out);
+  out.commit();
+}
+
+bool is_tet_mesh_file(const std::filesystem::path& file) {
+  return format_of(file, mesh_formats) != nullptr;
+}
+
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
+  const TetMeshFormat* format = format_of(file, mesh_formats);
+  if (!format) fail_to_write(file, mesh_endings);
+  if (!format->write) return write_tetgen_mesh(mesh, file);
+  OutputFile out(file);
+  format->write(mesh, out);
+  out.commit();
+}
+
+mesh::TetMesh read_tet_mesh(const std::filesystem::path& file) {
+  const TetMeshFormat* format = format_of(file, mesh_formats);
+  if (!format) fail_to_read(file, mesh_endings);
+  return format->read ? format->read(read_whole_file(file)) : read_tetgen_mesh(file);
+}
+
+}  // namespace ccdt::io
