@@ -28,10 +28,8 @@ struct Index {
 };
 
 using VertexId = Index<struct VertexTag>;
-using SegmentId = Index<struct SegmentTag>;
 using FacetId = Index<struct FacetTag>;
 using RegionId = Index<struct RegionTag>;
-using CellId = Index<struct CellTag>;
 
 }  // namespace ccdt
 

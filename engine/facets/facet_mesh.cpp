@@ -16,7 +16,7 @@ namespace {
 
 using Triangle = std::array<VertexId, 3>;
 
-/// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `PlanarPredicates`).
+/// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `planar::Predicates`).
 ///
 /// In an exactly flat facet they are those of space with an apex above the plane. A facet that is flat only within the
 /// tolerance is *flattened*: its vertices are seen along the axis that its normal is nearest to, stretched to their
@@ -46,7 +46,7 @@ class FacetPlane {
 
 /// The plane of a facet that is flat only within the tolerance, where the preferred diagonal is the one further from
 /// the domain, and the Delaunay one only between exactly coplanar vertices. Seen from the domain the edges that
-/// `planar_legalize` leaves are convex where they can be; and convex edges need no protection (Shewchuk 2002).
+/// `planar::legalize` leaves are convex where they can be; and convex edges need no protection (Shewchuk 2002).
 class BentPlane {
  public:
   /// \param domain_side  +1: the domain is above the facet, -1: below
@@ -131,9 +131,7 @@ class FacetMesher {
     enter(facet, triangles);
     std::optional<FacetPlane> plane;  // hardly ever needed
     return std::ranges::none_of(codes, [&](std::uint32_t code) {
-      const std::uint32_t cell =
-          domain_side_ > 0 ? delaunay::cell_of(code)
-                           : delaunay::cell_of(d_.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]);
+      const std::uint32_t cell = cell_on_domain_side(code);
       if (!has_all_vertices_here(cell)) return false;
       if (!plane) plane.emplace(flatten(facet, segments_of(facet)));
       return is_flat_cell(cell, *plane);
@@ -240,10 +238,8 @@ class FacetMesher {
     return has_all_vertices_here(cell) && !is_flat_cell(cell, plane);
   }
 
-  /// The cell at the triangle on the side of the domain; `no_neighbor` if the triangle is no face.
-  std::uint32_t cell_on_domain_side(const Triangle& triangle) {
-    const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
-    if (code == delaunay::no_neighbor) return delaunay::no_neighbor;
+  /// The cell on the side of the domain of a face of the facet, which is given by its code.
+  std::uint32_t cell_on_domain_side(std::uint32_t code) const {
     const std::uint32_t cell = delaunay::cell_of(code);
     return domain_side_ > 0 ? cell : delaunay::cell_of(d_.cells[cell].neighbors[delaunay::face_of(code)]);
   }
@@ -287,8 +283,8 @@ class FacetMesher {
   void take_faces_on_domain_side(const plc::Facet& facet, const FacetPlane& plane, planar::Triangulation& t) {
     const std::vector<VertexId> vertices = enter(facet, t.triangles);
     const auto is_right = [&](const Triangle& triangle) {
-      const std::uint32_t cell = cell_on_domain_side(triangle);
-      return cell != delaunay::no_neighbor && !is_flat_cell(cell, plane);
+      const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
+      return code != delaunay::no_neighbor && !is_flat_cell(cell_on_domain_side(code), plane);
     };
     if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
     for (const planar::Edge& edge : edges_towards_domain(plane, vertices)) {

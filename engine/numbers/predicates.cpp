@@ -10,18 +10,12 @@ namespace ccdt::numbers {
 namespace {
 
 // Fixed-size integers without allocation. The widest insphere needs 5 * 53 + 7 bits.
-__extension__ typedef __int128 Int128;
 __extension__ typedef unsigned __int128 UnsignedInt128;
 template <unsigned bits>
 using WideInt = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<bits, bits, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked, void>,
     boost::multiprecision::et_off>;
-
-template <class T>
-int sign_of(const T& x) {
-  return x > 0 ? 1 : x < 0 ? -1 : 0;
-}
 
 /// Differences to one point as integers, less the trailing zero bits that all of them share: the sign of a homogeneous
 /// determinant does not change.
@@ -136,6 +130,12 @@ WideInt<256> signed_volume(const Point3& p, const Point3& q, const Point3& r, co
   return determinant3<WideInt<256>, WideInt<256>>({row(q), row(r), row(x)});
 }
 
+/// `orient3d` with x in the place of corner i.
+int orient3d_with(std::array<const Point3*, 4> corners, std::size_t i, const Point3& x) {
+  corners[i] = &x;
+  return orient3d(*corners[0], *corners[1], *corners[2], *corners[3]);
+}
+
 /// Calls `coefficient(i)`, the sign with which the height of point i acts, in descending order of the ranks, until
 /// one is not zero.
 template <std::size_t n, class Coefficient>
@@ -170,18 +170,7 @@ int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const 
                        const std::array<std::uint32_t, 5>& ranks) {
   if (const int sign = insphere(a, b, c, d, e); sign != 0) return sign;
   return first_nonzero(ranks, [&](std::size_t i) {
-    switch (i) {
-      case 0:
-        return orient3d(e, b, c, d);
-      case 1:
-        return orient3d(a, e, c, d);
-      case 2:
-        return orient3d(a, b, e, d);
-      case 3:
-        return orient3d(a, b, c, e);
-      default:
-        return -orient3d(a, b, c, d);
-    }
+    return i < 4 ? orient3d_with({&a, &b, &c, &d}, i, e) : -orient3d(a, b, c, d);
   });
 }
 
@@ -189,16 +178,7 @@ int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const 
                        const std::array<std::uint32_t, 4>& ranks) {
   if (const int sign = insphere(a, b, c, apex, d); sign != 0) return sign;
   return first_nonzero(ranks, [&](std::size_t i) {
-    switch (i) {
-      case 0:
-        return orient3d(d, b, c, apex);
-      case 1:
-        return orient3d(a, d, c, apex);
-      case 2:
-        return orient3d(a, b, d, apex);
-      default:
-        return -orient3d(a, b, c, apex);
-    }
+    return i < 3 ? orient3d_with({&a, &b, &c, &apex}, i, d) : -orient3d(a, b, c, apex);
   });
 }
 

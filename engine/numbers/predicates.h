@@ -7,6 +7,13 @@
 
 namespace ccdt::numbers {
 
+__extension__ typedef __int128 Int128;  // no name of ISO C++: __extension__ silences pedantic compilers
+
+template <class Number>
+int sign_of(const Number& x) {
+  return (x > 0) - (x < 0);
+}
+
 /// Exact signs of determinants of points on the dyadic grid (grid.h). A sign is -1, 0 or +1.
 ///
 /// All coordinates must be integers whose differences are exact in a double (|coordinate| <= 2^51 + 2^20). The signs

@@ -14,10 +14,8 @@
 #include "engine/plc/find_facets.h"
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/plc/input.h"
 #include "engine/plc/input_faults.h"
 #include "engine/plc/integer_points.h"
-#include "engine/plc/plc.h"
 
 namespace ccdt::plc {
 
@@ -65,7 +63,7 @@ IntegerPoint sixfold_centroid(const std::array<Point3, 3>& t) {
 // On which side of the line pq, seen from above, is the point x after its infinitesimal move?
 int side_of_moved(const IntegerPoint& p, const IntegerPoint& q, const IntegerPoint& x) {
   const std::int64_t ux = q[0] - p[0], uy = q[1] - p[1];
-  const int sign = sign_of(Wide(ux) * (x[1] - p[1]) - Wide(uy) * (x[0] - p[0]));
+  const int sign = numbers::sign_of(Wide(ux) * (x[1] - p[1]) - Wide(uy) * (x[0] - p[0]));
   if (sign != 0) return sign;
   if (uy != 0) return uy > 0 ? -1 : 1;
   return (ux > 0) - (ux < 0);

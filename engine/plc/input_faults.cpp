@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/base/simplex_map.h"
 #include "engine/base/union_find.h"
 #include "engine/plc/integer_points.h"
 
@@ -42,18 +42,15 @@ void check_degenerate_triangles(const Plc& plc, const TriangleSet& triangles) {
 }
 
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  std::vector<VertexTriple> sorted = triangles.corners;
-  for (VertexTriple& c : sorted) std::sort(c.begin(), c.end());
-  std::vector<std::uint32_t> order(triangles.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t s, std::uint32_t t) { return sorted[s] != sorted[t] ? sorted[s] < sorted[t] : s < t; });
-  const auto twin = std::adjacent_find(order.begin(), order.end(),
-                                       [&](std::uint32_t s, std::uint32_t t) { return sorted[s] == sorted[t]; });
-  if (twin == order.end()) return;
+  std::vector<std::pair<FaceKey, std::uint32_t>> sorted;
+  sorted.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles.corners) sorted.emplace_back(face_key(a, b, c), sorted.size());
+  std::sort(sorted.begin(), sorted.end());
+  const auto twin = std::ranges::adjacent_find(sorted, {}, &std::pair<FaceKey, std::uint32_t>::first);
+  if (twin == sorted.end()) return;
+  const std::uint32_t s = twin[0].second, t = twin[1].second;
   throw_input_error(plc, "two facets have the same corners", "remove one of the two",
-                    world_points(plc, triangles.corners[twin[0]]),
-                    {triangles.numbers[twin[0]], triangles.numbers[twin[1]]});
+                    world_points(plc, triangles.corners[s]), {triangles.numbers[s], triangles.numbers[t]});
 }
 
 void throw_overlaps(const Plc& plc, const TriangleSet& triangles, const SegmentSet& segments,

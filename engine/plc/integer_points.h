@@ -6,12 +6,13 @@
 
 #include "engine/base/point.h"
 #include "engine/numbers/grid.h"
+#include "engine/numbers/predicates.h"
 
 namespace ccdt::plc {
 
 /// Input vertices are multiples of the quantum, so they are integers of 33 bits when measured in quanta. Normals and
 /// planar orientations then fit 128 bits and need no filter.
-__extension__ typedef __int128 Wide;
+using Wide = numbers::Int128;
 
 using IntegerPoint = std::array<std::int64_t, 3>;
 using WideVector = std::array<Wide, 3>;
@@ -21,10 +22,6 @@ inline IntegerPoint to_integers(const Point3& p) {
   constexpr double inverse = 1.0 / numbers::DyadicGrid::quantum;
   return {static_cast<std::int64_t>(p.x * inverse), static_cast<std::int64_t>(p.y * inverse),
           static_cast<std::int64_t>(p.z * inverse)};
-}
-
-inline int sign_of(Wide w) {
-  return (w > 0) - (w < 0);
 }
 
 /// (b - a) x (c - a), exactly.
@@ -61,7 +58,7 @@ inline int dominant_axis(const std::array<Point3, 3>& t) {
 /// Exact orientation of abc seen against the axis: the sign of that component of (b - a) x (c - a).
 inline int orient_along(int axis, const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  return sign_of(Wide(b[u] - a[u]) * (c[v] - a[v]) - Wide(b[v] - a[v]) * (c[u] - a[u]));
+  return numbers::sign_of(Wide(b[u] - a[u]) * (c[v] - a[v]) - Wide(b[v] - a[v]) * (c[u] - a[u]));
 }
 inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3& c) {
   return orient_along(axis, to_integers(a), to_integers(b), to_integers(c));

@@ -85,19 +85,17 @@ void try_split_link(WorkingMesh& m, std::uint32_t l) {
 }
 
 // The longest first: what is split then is the longest edge of its triangles, which keeps their angles (Rivara 1984).
-std::vector<EdgeHandle> long_edges(const WorkingMesh& m) {
-  std::vector<std::pair<double, int>> found;
+// With their negative lengths.
+std::vector<std::pair<double, EdgeHandle>> long_edges(const WorkingMesh& m) {
+  std::vector<std::pair<double, EdgeHandle>> found;
   for (const EdgeHandle e : m.mesh.edges()) {
     if (m.mesh.is_boundary(e) || touches_frozen_face(m, e)) continue;
     const auto [a, b] = m.ends(e);
     const double edge = m.edge_length(a, b);
-    if (edge > too_long * m.wanted_length(a, b)) found.emplace_back(-edge, e.idx());
+    if (edge > too_long * m.wanted_length(a, b)) found.emplace_back(-edge, e);
   }
   std::sort(found.begin(), found.end());
-  std::vector<EdgeHandle> edges;
-  edges.reserve(found.size());
-  for (const auto& [negative_length, e] : found) edges.emplace_back(e);
-  return edges;
+  return found;
 }
 
 // ---- Collapses ------------------------------------------------------------------------------------------------------
@@ -312,7 +310,7 @@ void split_long_edges(WorkingMesh& m) {
   count = 0;
   while (count != m.mesh.n_edges()) {
     count = m.mesh.n_edges();
-    for (const EdgeHandle e : long_edges(m)) try_split(m, e);
+    for (const auto& [negative_length, e] : long_edges(m)) try_split(m, e);
   }
 }
 

@@ -43,23 +43,16 @@ std::vector<std::pair<bool, int>> regions_of(const plc::Plc& plc) {
   return regions;
 }
 
-double smallest_angle_of(const WorkingMesh& m, FaceHandle f) {
-  return smallest_angle(m.points(m.corners(m.mesh.halfedge_handle(f))));
-}
-
-// The worst first.
-std::vector<FaceHandle> bad_triangles(const WorkingMesh& m) {
+// With their smallest angles, the worst first.
+std::vector<std::pair<double, FaceHandle>> bad_triangles(const WorkingMesh& m) {
   constexpr double good_angle = 36;  // degrees
-  std::vector<std::pair<double, int>> found;
+  std::vector<std::pair<double, FaceHandle>> found;
   for (const FaceHandle f : m.mesh.faces()) {
-    const double angle = smallest_angle_of(m, f);
-    if (angle < to_radians(good_angle)) found.emplace_back(angle, f.idx());
+    const double angle = smallest_angle(m.points(m.corners(m.mesh.halfedge_handle(f))));
+    if (angle < to_radians(good_angle)) found.emplace_back(angle, f);
   }
   std::sort(found.begin(), found.end());
-  std::vector<FaceHandle> faces;
-  faces.reserve(found.size());
-  for (const auto& [angle, f] : found) faces.emplace_back(f);
-  return faces;
+  return found;
 }
 
 // Its halfedges, along the longest edge first.
@@ -91,7 +84,7 @@ void improve_worst_triangles(WorkingMesh& m) {
   bool any = true;
   for (int sweep = 0; any && sweep < most_sweeps; ++sweep) {
     any = false;
-    for (const FaceHandle f : bad_triangles(m))
+    for (const auto& [angle, f] : bad_triangles(m))
       if (!m.mesh.status(f).deleted() && !m.is_frozen(f)) any = improve_triangle(m, f) || any;
   }
 }
