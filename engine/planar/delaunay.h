@@ -61,18 +61,18 @@ VertexId find_pole(std::span<const VertexId> vertices, const std::array<VertexId
   }
   if (left.empty() || !has_right) return last_on_line(vertices, a, b, c, predicates);
   VertexId left_end = left.front(), right_end = a;
-  for (bool raised = true; raised;) {
+  bool raised = true;
+  const auto raise = [&](VertexId& end, const std::vector<VertexId>& side) {
+    for (VertexId v : side) {
+      if (v == end || predicates.orient(left_end, right_end, v) <= 0) continue;
+      end = v;
+      raised = true;
+    }
+  };
+  while (raised) {
     raised = false;
-    for (VertexId v : right) {
-      if (v == right_end || predicates.orient(left_end, right_end, v) <= 0) continue;
-      right_end = v;
-      raised = true;
-    }
-    for (VertexId v : left) {
-      if (v == left_end || predicates.orient(left_end, right_end, v) <= 0) continue;
-      left_end = v;
-      raised = true;
-    }
+    raise(right_end, right);
+    raise(left_end, left);
   }
   // All vertices are on the line of the bridge or to the right of it.
   VertexId below;

@@ -132,9 +132,8 @@ class PatchFinder {
   bool accept(std::uint32_t next, std::uint32_t e, std::uint32_t t, const Plane& plane) {
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[next], a, b);
-    if (plane.squared_distance(vertices_[apex]) > squared_tolerance_) return false;
-    if (plane.squared_distance(vertices_[a]) > squared_tolerance_) return false;
-    if (plane.squared_distance(vertices_[b]) > squared_tolerance_) return false;
+    for (const VertexId v : {apex, a, b})
+      if (plane.squared_distance(vertices_[v]) > squared_tolerance_) return false;
     const bool t_runs = runs_along(triangles_.corners[t], a, b) != static_cast<bool>(turned_[t]);
     const bool turn = runs_along(triangles_.corners[next], a, b) == t_runs;
     const int axis = dominant_axis(plane.normal);

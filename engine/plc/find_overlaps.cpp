@@ -11,16 +11,6 @@ namespace {
 
 using Triangle = std::array<Point3, 3>;
 
-// Coplanar points, seen along an axis that their plane is not parallel to.
-struct View {
-  int axis;
-  int orient(const Point3& a, const Point3& b, const Point3& c) const { return orient_along(axis, a, b, c); }
-};
-
-View view_of(const Triangle& t) {
-  return {dominant_axis(t)};
-}
-
 bool is_between(double low, double x, double high) {
   return std::min(low, high) <= x && x <= std::max(low, high);
 }
@@ -29,10 +19,11 @@ bool in_box_of(const Point3& a, const Point3& b, const Point3& p) {
   return is_between(a.x, p.x, b.x) && is_between(a.y, p.y, b.y) && is_between(a.z, p.z, b.z);
 }
 
-bool holds(View view, const Triangle& t, const Point3& p) {
-  const int u = view.orient(t[0], t[1], p), v = view.orient(t[1], t[2], p);
+// Here and below, coplanar points are seen along an axis that their plane is not parallel to.
+bool holds(int axis, const Triangle& t, const Point3& p) {
+  const int u = orient_along(axis, t[0], t[1], p), v = orient_along(axis, t[1], t[2], p);
   if (u * v < 0) return false;
-  const int w = view.orient(t[2], t[0], p);
+  const int w = orient_along(axis, t[2], t[0], p);
   return u * w >= 0 && v * w >= 0;
 }
 
@@ -44,8 +35,8 @@ Point3 crossing_of_lines(const Point3& p, const Point3& q, const Point3& a, cons
   return p + (from / (from - to)) * (q - p);
 }
 
-std::optional<Contact> meet_in_plane(View view, const Point3& p, const Point3& q, const Point3& a, const Point3& b) {
-  const int pa = view.orient(p, q, a), pb = view.orient(p, q, b);
+std::optional<Contact> meet_in_plane(int axis, const Point3& p, const Point3& q, const Point3& a, const Point3& b) {
+  const int pa = orient_along(axis, p, q, a), pb = orient_along(axis, p, q, b);
   if (pa * pb > 0) return std::nullopt;
   if (pa == 0 && pb == 0) {  // on one line
     for (const Point3& x : {a, b})
@@ -53,16 +44,16 @@ std::optional<Contact> meet_in_plane(View view, const Point3& p, const Point3& q
     if (in_box_of(a, b, p)) return Contact{p, true};
     return std::nullopt;
   }
-  if (view.orient(a, b, p) * view.orient(a, b, q) > 0) return std::nullopt;
+  if (orient_along(axis, a, b, p) * orient_along(axis, a, b, q) > 0) return std::nullopt;
   return Contact{crossing_of_lines(p, q, a, b), true};
 }
 
 std::optional<Contact> meet_coplanar(const Point3& p, const Point3& q, const Triangle& t) {
-  const View view = view_of(t);
+  const int axis = dominant_axis(t);
   for (const Point3& x : {p, q})
-    if (holds(view, t, x)) return Contact{x, true};
+    if (holds(axis, t, x)) return Contact{x, true};
   for (int k = 0; k < 3; ++k)
-    if (const auto contact = meet_in_plane(view, p, q, t[k], t[(k + 1) % 3])) return contact;
+    if (const auto contact = meet_in_plane(axis, p, q, t[k], t[(k + 1) % 3])) return contact;
   return std::nullopt;
 }
 
@@ -228,9 +219,9 @@ std::optional<Contact> meet_triangles_at_corner(const Triangle& s, const Triangl
 
 std::optional<Contact> meet_segment_at_corner(const Point3& end, const Triangle& t) {
   if (numbers::orient3d(t[0], t[1], t[2], end) != 0) return std::nullopt;
-  const View view = view_of(t);
-  if (holds(view, t, end)) return Contact{end, true};
-  return meet_in_plane(view, t[0], end, t[1], t[2]);
+  const int axis = dominant_axis(t);
+  if (holds(axis, t, end)) return Contact{end, true};
+  return meet_in_plane(axis, t[0], end, t[1], t[2]);
 }
 
 std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Point3& a, const Point3& b) {
@@ -238,12 +229,12 @@ std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Poi
   Point3 normal = rounded_normal({p, q, a});
   if (normal == Point3{}) normal = rounded_normal({p, q, b});
   if (normal == Point3{}) normal = cross(q - p, dominant_axis(q - p) == 0 ? Point3{0, 1, 0} : Point3{1, 0, 0});
-  return meet_in_plane({dominant_axis(normal)}, p, q, a, b);
+  return meet_in_plane(dominant_axis(normal), p, q, a, b);
 }
 
 // The projection first: it rejects most points of the same plane, which are expensive for `orient3d`.
 bool is_on_triangle(int axis, const Point3& p, const Triangle& t) {
-  return holds({axis}, t, p) && numbers::orient3d(t[0], t[1], t[2], p) == 0;
+  return holds(axis, t, p) && numbers::orient3d(t[0], t[1], t[2], p) == 0;
 }
 
 bool is_within_segment(const Point3& p, const Point3& a, const Point3& b) {

@@ -371,10 +371,6 @@ Foot ClosestPoint::search(std::uint32_t patch, const Point3& p, std::uint32_t ne
   return best;
 }
 
-Foot ClosestPoint::on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const {
-  return search(patch, p, near, 0);
-}
-
 bool ClosestPoint::is_within(double distance, std::uint32_t patch, const Point3& p, std::uint32_t near) const {
   const double enough = distance * distance;
   return search(patch, p, near, enough).squared_distance <= enough;

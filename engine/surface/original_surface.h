@@ -64,7 +64,7 @@ class ClosestPoint {
   explicit ClosestPoint(const OriginalSurface& surface);
 
   /// \param near  a triangle of the patch; the nearer it is, the faster
-  Foot on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const;
+  Foot on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const { return search(patch, p, near, 0); }
 
   /// Is the patch as near as that to a point? Faster than to find where.
   bool is_within(double distance, std::uint32_t patch, const Point3& p, std::uint32_t near) const;
