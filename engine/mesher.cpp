@@ -11,7 +11,6 @@
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
-#include "engine/mesh/to_world.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
 

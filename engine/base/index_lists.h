@@ -1,10 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
 namespace ccdt {
+
+/// The indices 0, 1, ..., count - 1.
+inline std::vector<std::uint32_t> all_indices(std::size_t count) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
 
 /// Lists of indices in two flat arrays: list i is items[first[i] .. first[i + 1]).
 struct IndexLists {

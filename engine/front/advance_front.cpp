@@ -1,11 +1,11 @@
 #include "engine/front/advance_front.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "engine/base/hash_table.h"
+#include "engine/base/index_lists.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
@@ -30,15 +30,8 @@ struct OrientedFaceTraits {
   }
 };
 
-/// The numbers of all faces of the PLC.
-std::vector<std::uint32_t> all_triangles(const facets::FacetMesh& facets) {
-  std::vector<std::uint32_t> all(facets.triangles.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return all;
-}
-
-/// Finds the vertex that makes the tetrahedron above a face. Here with a locator of the whole model, so
-/// that there is but one cavity.
+/// Finds the vertex that makes the tetrahedron above a face. Here with a locator of the whole model, so that there is
+/// only one cavity.
 template <class Locator>
 class WholeModelFinder {
  public:
@@ -53,7 +46,7 @@ class WholeModelFinder {
   std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
 
   /// The triangles that the front can meet.
-  std::vector<std::uint32_t> triangles() const { return all_triangles(facets_); }
+  std::vector<std::uint32_t> triangles() const { return all_indices(facets_.triangles.size()); }
 
  private:
   const facets::FacetMesh& facets_;
@@ -74,7 +67,8 @@ class CavityFinder {
       const auto& [a, b, c] = face.corners;
       if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
         cavity = locator_.cavity_of_cell(cell_of(code));
-        if (cavity == no_cavity) return apex_of_cell(code);
+        if (cavity == no_cavity && d_.is_ghost(cell_of(code))) return std::nullopt;
+        if (cavity == no_cavity) return d_.cells[cell_of(code)].vertices[face_of(code)];
       }
     }
     if (cavity == no_cavity) return std::nullopt;
@@ -83,14 +77,11 @@ class CavityFinder {
 
   std::uint32_t cavity_of_triangle(std::uint32_t triangle) const { return locator_.cavity_of_triangle(triangle); }
 
-  std::vector<std::uint32_t> triangles() const { return all_faces_ ? all_triangles(facets_) : locator_.triangles(); }
-
- private:
-  std::optional<std::uint32_t> apex_of_cell(std::uint32_t code) const {
-    if (d_.is_ghost(cell_of(code))) return std::nullopt;
-    return d_.cells[cell_of(code)].vertices[face_of(code)];
+  std::vector<std::uint32_t> triangles() const {
+    return all_faces_ ? all_indices(facets_.triangles.size()) : locator_.triangles();
   }
 
+ private:
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   delaunay::CellStar& star_;

@@ -72,8 +72,11 @@ class TriangleCellTest {
   int above_ = 0, on_ = 0, below_ = 0;
 };
 
+/// Finds the finite cells that meet the inside of some missing face: those that it cuts, and those that touch it with
+/// an edge or a face within its plane. They are connected, so each face has one part.
 class PiercedCellSearch {
  public:
+  /// \param missing  numbers of triangles of `facets` that are no Delaunay faces
   PiercedCellSearch(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
                     const delaunay::Delaunay& d, delaunay::CellStar& star)
       : facets_(facets), missing_(missing), d_(d), star_(star), parts_(missing.size()) {}
@@ -152,15 +155,6 @@ class PiercedCellSearch {
   std::vector<std::uint32_t> stack_;
 };
 
-/// Finds the finite cells that meet the inside of some missing face: those that it cuts, and those that touch it with
-/// an edge or a face within its plane. They are connected, so each face has one part.
-///
-/// \param missing  numbers of triangles of `facets` that are no Delaunay faces
-PiercedCells find_pierced_cells(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
-                                const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
-  return PiercedCellSearch(facets, missing, delaunay, star).find();
-}
-
 std::vector<std::uint32_t> vertices_of(const delaunay::Delaunay& d, const std::vector<std::uint32_t>& cells) {
   std::vector<std::uint32_t> vertices;
   vertices.reserve(4 * cells.size());
@@ -180,21 +174,19 @@ CavityLocator::CavityLocator(const facets::FacetMesh& facets, std::span<const st
     if (codes[i] != delaunay::no_neighbor) continue;
     const auto& [a, b, c] = facets.triangles[i];
     const std::uint32_t code = star.find_face(a, b, c);
-    if (code == delaunay::no_neighbor) {
+    if (code == delaunay::no_neighbor)
       missing_.push_back(i);
-    } else {
+    else
       found.emplace_back(i, code);
-    }
   }
-  pierced_ = find_pierced_cells(facets, missing_, delaunay, star);
+  pierced_ = PiercedCellSearch(facets, missing_, delaunay, star).find();
 
   std::vector<std::vector<std::uint32_t>> faces(pierced_.cells.size());
   for (std::size_t i = 0; i < missing_.size(); ++i) faces[pierced_.part_of_face[i]].push_back(missing_[i]);
   triangles_ = missing_;
   const auto add_delaunay_face = [&](std::uint32_t triangle, std::uint32_t code) {
     const std::uint32_t above = cavity_of_cell(delaunay::cell_of(code)),
-                        below = cavity_of_cell(delaunay::cell_of(
-                            delaunay.cells[delaunay::cell_of(code)].neighbors[delaunay::face_of(code)]));
+                        below = cavity_of_cell(delaunay::cell_of(delaunay.across(code)));
     if (above != no_cavity) faces[above].push_back(triangle);
     if (below != no_cavity && below != above) faces[below].push_back(triangle);
     if (above != no_cavity || below != no_cavity) triangles_.push_back(triangle);

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
@@ -28,5 +32,14 @@ std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMe
 /// \return the facet of each of the mesh's faces
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
                                        facets::FacetMesh facets, TetMesh& mesh);
+
+/// The vertices of a mesh in the units of the input. Input vertices get their original coordinates back wherever every
+/// tetrahedron around stays positively oriented in the coordinates that are written, exactly tested; elsewhere they
+/// stay where the grid has put them, and where improvement has moved them.
+///
+/// \param points     grid units; those of the PLC's vertices come first
+/// \throw MeshError  a tetrahedron is inverted by writing its vertices as doubles: the part is too far from the origin
+std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points,
+                             std::span<const std::array<std::uint32_t, 4>> tetrahedra);
 
 }  // namespace ccdt::mesh

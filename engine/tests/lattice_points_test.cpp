@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/clear_surface.h"
 #include "engine/lattice/octree.h"
+#include "engine/lattice/place_lattice_points.h"
 #include "engine/tests/lattice_shapes.h"
 
 namespace ccdt::test {
