@@ -1,5 +1,3 @@
-#include "reports/write_report.h"
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +7,7 @@
 #include "baselines/process.h"
 #include "bench/results/kept_mesh.h"
 #include "engine/io/files.h"
+#include "reports/report.h"
 #include "reports/result_text.h"
 
 namespace ccdt::reports {

@@ -3,7 +3,6 @@
 
 #include "reports/report.h"
 #include "reports/result_text.h"
-#include "reports/write_report.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 

@@ -3,9 +3,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <tuple>
 
-#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
@@ -102,11 +102,8 @@ double seconds_in(const std::string& unit) {
 /// "delaunay/wrap/random/1000", or "delaunay/wrap/part.off".
 MeasuredMethod method_named(const std::string& name) {
   std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= name.size();) {
-    const std::size_t end = std::min(name.find('/', begin), name.size());
-    parts.push_back(name.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  std::istringstream text(name);
+  for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
   parts.resize(4);
   return {.points = title_of(sets, parts[2]), .size = parts[3], .method = title_of(methods, parts[1])};
 }

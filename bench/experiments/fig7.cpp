@@ -1,10 +1,7 @@
 #include <algorithm>
 
-#include "bench/experiments/experiment.h"
-#include "bench/experiments/measured_case.h"
 #include "bench/experiments/quality_experiments.h"
 #include "bench/experiments/registry.h"
-#include "bench/experiments/surfaces.h"
 
 namespace ccdt::experiments {
 namespace {

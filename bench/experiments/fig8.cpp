@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "baselines/mesher.h"
-#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"

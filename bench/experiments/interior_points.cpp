@@ -1,9 +1,6 @@
 #include <algorithm>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/experiments/experiment.h"
-#include "bench/experiments/small_plcs/small_plc.h"
-#include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
 
 namespace ccdt::experiments {

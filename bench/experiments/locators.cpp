@@ -1,6 +1,3 @@
-#include <algorithm>
-
-#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"
@@ -35,9 +32,8 @@ LocatorsGroup group_of(const ExperimentOptions& options, const SurfaceFile& surf
   const std::string check = face_protection ? "on" : "off";
   for (const LocatorKind locator : all_locators) {
     const std::string name(name_of(locator));
-    std::string stem = "locators-" + std::to_string(number);
-    for (const std::string& part : {std::filesystem::path(surface.name).stem().string(), check, name})
-      stem += "-" + part;
+    const std::string surface_stem = std::filesystem::path(surface.name).stem().string();
+    const std::string stem = joined({"locators", std::to_string(number), surface_stem, check, name}, "-");
     std::vector<std::string> words = {"--improve", "none", "--locator", name, "--face-protection", check};
     if (kind == SurfaceKind::uniform) words.insert(words.end(), {"--grading", "0"});
     group.cases.push_back({name, stem, {"ccdt", surface.file, options.folder / "meshes" / "locators.vtu", words}});

@@ -20,16 +20,9 @@ std::vector<std::string> command_of(const ExperimentOptions& options, const Mesh
                                     const std::filesystem::path& report) {
   const auto name = [&](const std::filesystem::path& file) { return name_in(options.folder, file); };
   const std::string mesher = baselines::is_mesher_description(call.mesher) ? name(call.mesher) : call.mesher;
-  std::vector<std::string> command = {options.program.string(),
-                                      "mesh",
-                                      name(call.input),
-                                      "-o",
-                                      name(call.output),
-                                      "--report",
-                                      name(report),
-                                      "--mesher",
-                                      mesher};
-  command.insert(command.end(), call.options.begin(), call.options.end());
+  std::vector<std::string> command = {options.program.string(), "mesh", name(call.input), "-o", name(call.output)};
+  command.insert(command.end(), {"--report", name(report), "--mesher", mesher});
+  append(command, call.options);
   return command;
 }
 

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "baselines/mesher.h"
-#include "bench/experiments/experiment.h"
 #include "engine/base/digits.h"
 
 namespace ccdt::experiments {
@@ -130,9 +129,9 @@ std::vector<std::string> lattice_findings(const std::vector<LatticeClaim>& claim
 /// Is no other row of the case better?
 bool is_best(const QualityCase& c, const QualityRow& row, Criterion criterion) {
   const double ours = value_of(row.quality, criterion);
-  for (const QualityRow& other : c.rows)
-    if (other.ok() && is_better(criterion, value_of(other.quality, criterion), ours)) return false;
-  return row.ok();
+  return row.ok() && std::ranges::none_of(c.rows, [&](const QualityRow& other) {
+           return other.ok() && is_better(criterion, value_of(other.quality, criterion), ours);
+         });
 }
 
 /// In how many cases each part is the best, alone or with others.

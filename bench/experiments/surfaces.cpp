@@ -28,6 +28,14 @@ double angle_between(const Point3& a, const Point3& b) {
   return degrees * std::atan2(std::sqrt(squared_length(cross(a, b))), dot(a, b));
 }
 
+/// Calls `visit(facet, a, b, c)` for each corner a of each triangle, with the next corners.
+template <class Visit>
+void for_each_corner(const plc::Plc& plc, Visit visit) {
+  for (const plc::Facet& facet : plc.facets)
+    for (const auto& t : facet.triangles)
+      for (std::size_t i = 0; i < 3; ++i) visit(facet, t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
+}
+
 /// A triangle at an edge, as seen along the edge from its smaller end to its greater.
 struct EdgeTriangle {
   std::array<VertexId, 2> edge;
@@ -38,14 +46,11 @@ struct EdgeTriangle {
 
 std::vector<EdgeTriangle> triangles_at_edges(const plc::Plc& plc) {
   std::vector<EdgeTriangle> triangles;
-  for (const plc::Facet& facet : plc.facets)
-    for (const auto& triangle : facet.triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const VertexId a = triangle[i], b = triangle[(i + 1) % 3];
-        // From a to b the normal, which points above, is counterclockwise of the triangle.
-        const RegionId ahead = a < b ? facet.above : facet.below;
-        triangles.push_back({{std::min(a, b), std::max(a, b)}, triangle[(i + 2) % 3], plc.regions[ahead].inside, 0});
-      }
+  for_each_corner(plc, [&](const plc::Facet& facet, VertexId a, VertexId b, VertexId c) {
+    // From a to b the normal, which points above, is counterclockwise of the triangle.
+    const RegionId ahead = a < b ? facet.above : facet.below;
+    triangles.push_back({{std::min(a, b), std::max(a, b)}, c, plc.regions[ahead].inside, 0});
+  });
   std::ranges::sort(triangles, {}, &EdgeTriangle::edge);
   return triangles;
 }
@@ -88,10 +93,9 @@ SurfaceAngle smallest_dihedral(const plc::Plc& plc) {
 
 std::vector<double> edge_lengths(const plc::Plc& plc) {
   std::vector<double> lengths;
-  for (const plc::Facet& facet : plc.facets)
-    for (const auto& t : facet.triangles)
-      for (std::size_t i = 0; i < 3; ++i)
-        lengths.push_back(std::sqrt(squared_length(plc.world[t[(i + 1) % 3]] - plc.world[t[i]])));
+  for_each_corner(plc, [&](const plc::Facet&, VertexId a, VertexId b, VertexId) {
+    lengths.push_back(std::sqrt(squared_length(plc.world[b] - plc.world[a])));
+  });
   return lengths;
 }
 
@@ -157,15 +161,10 @@ double edge_ratio(const plc::InputPlc& plc) {
 
 SurfaceAngles smallest_angles(const plc::Plc& plc) {
   SurfaceAngles angles;
-  for (const plc::Facet& facet : plc.facets)
-    for (const auto& triangle : facet.triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Point3& corner = plc.world[triangle[i]];
-        take_smaller(
-            angles.planar,
-            angle_between(plc.world[triangle[(i + 1) % 3]] - corner, plc.world[triangle[(i + 2) % 3]] - corner),
-            corner);
-      }
+  for_each_corner(plc, [&](const plc::Facet&, VertexId a, VertexId b, VertexId c) {
+    const Point3& corner = plc.world[a];
+    take_smaller(angles.planar, angle_between(plc.world[b] - corner, plc.world[c] - corner), corner);
+  });
   angles.dihedral = smallest_dihedral(plc);
   return angles;
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"

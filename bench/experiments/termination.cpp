@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
@@ -231,11 +230,6 @@ std::vector<std::string> definitions() {
   return all;
 }
 
-/// Nothing where a run has not come so far.
-Cell number_if(bool is_known, double value) {
-  return is_known && std::isfinite(value) ? Cell(value) : Cell{};
-}
-
 std::string case_label(const TerminationCase& c) {
   return is_star(c) ? degrees_in_words(c.degrees) + " degrees, variant " + c.input : c.input;
 }
@@ -246,19 +240,18 @@ std::string words_of(const TerminationCase& c) {
 
 /// One row a run.
 ResultTable runs_table(const std::string& name, const std::string& title, const Cases& cases) {
-  ResultTable table{
-      name,
-      title,
+  ResultTable table = table_of(
+      name, title,
       {label_column("group", "input"), label_column("case"), label_column("protection"), label_column("status"),
        figure_column("smallest_angle", "", "degrees"), figure_column("ended"),
-       figure_column("steiner_vertices", "Steiner vertices"), figure_column("deepest_level"), note_column("reason")}};
+       figure_column("steiner_vertices", "Steiner vertices"), figure_column("deepest_level"), note_column("reason")});
   for (const TerminationCase* c : cases) {
     const Termination termination = termination_of(*c);
     add_row(table, c->runs, c->group, case_label(*c), name_of(c->protection), name_of(c->status),
-            number_if(true, c->smallest_angle),
-            termination == Termination::unknown ? Cell() : as_cell(termination == Termination::ended),
-            number_if(c->ok(), steiner_vertices(*c)), number_if(c->ok(), deepest_level(*c)),
-            c->reason.empty() ? Cell() : Cell(c->reason));
+            cell_if(std::isfinite(c->smallest_angle), c->smallest_angle),
+            cell_if(termination != Termination::unknown, termination == Termination::ended),
+            cell_if(c->ok(), steiner_vertices(*c)), cell_if(c->ok(), deepest_level(*c)),
+            cell_if(!c->reason.empty(), c->reason));
   }
   return table;
 }
@@ -271,7 +264,7 @@ std::vector<Cell> summary_of(const Cases& cases) {
     deepest = std::max(deepest, deepest_level(*c));
   }
   const std::size_t ended = count(cases, Termination::ended);
-  return cells(ended, number_if(ended > 0, steiner), number_if(ended > 0, deepest));
+  return cells(ended, cell_if(ended > 0, steiner), cell_if(ended > 0, deepest));
 }
 
 ResultTable stars_table(std::span<const TerminationCase> cases) {

@@ -2,9 +2,6 @@
 #include <cmath>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/experiments/experiment.h"
-#include "bench/experiments/small_plcs/small_plc.h"
-#include "bench/results/result_table.h"
 #include "engine/io/plc_files.h"
 
 namespace ccdt::experiments {

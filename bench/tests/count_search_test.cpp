@@ -1,9 +1,9 @@
-#include "bench/experiments/count_search.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
+
+#include "bench/experiments/quality_experiments.h"
 
 namespace ccdt {
 namespace {

@@ -248,7 +248,7 @@ TEST(Theorem1, HoldsAndTheEngineAgreesForRandomPlcsOfAllFamiliesInGeneralPositio
 
 TEST(Theorem1, ResultNamesCounterexamplesAndDisagreements) {
   Trial sound{.plc = tetrahedron()};
-  sound.protection = {.edges = true, .all_segments = true, .faces = true};
+  sound.protection = {.edges = true, .faces = true};
   sound.has_dt = true;
   sound.search.constrained_delaunay = 1;
   Trial against = sound;

@@ -8,7 +8,6 @@
 
 #include "bench/run_record.h"
 #include "engine/base/errors.h"
-#include "reports/write_report.h"
 
 namespace ccdt {
 namespace {

@@ -124,8 +124,7 @@ void add_segments(Random& random, std::uint64_t count, SmallPlc& plc) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t n = plc.vertices.size();
     const auto a = static_cast<Vertex>(random.below(n)), b = static_cast<Vertex>(random.below(n));
-    const std::vector<Edge> segments = all_segments(plc);
-    if (a == b || std::ranges::find(segments, edge_of(a, b)) != segments.end()) continue;
+    if (a == b || has(all_segments(plc), edge_of(a, b))) continue;
     plc.segments.push_back(edge_of(a, b));
     if (!is_valid(plc)) plc.segments.pop_back();
   }

@@ -93,11 +93,13 @@ bool is_one_surface(const std::vector<Polygon>& boundary) {
   return reached.size() == boundary.size();
 }
 
-std::string list_in_words(const std::vector<Polygon>& polygons) {
+/// " (0 1 2) (0 2 3)", of facets or segments.
+template <class Parts>
+std::string list_in_words(const Parts& parts) {
   std::ostringstream text;
-  for (const Polygon& polygon : polygons) {
+  for (const auto& part : parts) {
     text << " (";
-    for (std::size_t i = 0; i < polygon.size(); ++i) text << (i == 0 ? "" : " ") << polygon[i];
+    for (std::size_t i = 0; i < part.size(); ++i) text << (i == 0 ? "" : " ") << part[i];
     text << ")";
   }
   return text.str();
@@ -257,10 +259,7 @@ std::string in_words(const SmallPlc& plc) {
   for (const Point& p : plc.vertices) text << " (" << p.x << " " << p.y << " " << p.z << ")";
   text << "; boundary" << list_in_words(plc.boundary);
   if (!plc.interior.empty()) text << "; facets inside" << list_in_words(plc.interior);
-  if (!plc.segments.empty()) {
-    text << "; segments";
-    for (const auto& [a, b] : plc.segments) text << " (" << a << " " << b << ")";
-  }
+  if (!plc.segments.empty()) text << "; segments" << list_in_words(plc.segments);
   return text.str();
 }
 

@@ -77,10 +77,10 @@ struct SmallPlc {
   std::vector<Edge> segments = {};     ///< that are no edges of facets
 };
 
-/// Is the vertex one of these?
-template <class Corners>
-bool has(const Corners& corners, Vertex v) {
-  return std::ranges::find(corners, v) != corners.end();
+/// Is the value one of these?
+template <class Values>
+bool has(const Values& values, const typename Values::value_type& value) {
+  return std::ranges::find(values, value) != values.end();
 }
 
 Edge edge_of(Vertex a, Vertex b);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <optional>
-#include <ranges>
 #include <set>
 
 #include "engine/base/errors.h"
@@ -46,6 +44,12 @@ std::int64_t total_volume(const SmallPlc& plc, const std::vector<Tetrahedron>& t
   std::int64_t sum = 0;
   for (const Tetrahedron& t : tetrahedra) sum += six_volumes(plc, t);
   return sum;
+}
+
+/// Are they as large together as the domain, with all segments among their edges and all vertices among their corners?
+bool fill_domain(const SmallPlc& plc, const std::vector<Tetrahedron>& tetrahedra) {
+  return total_volume(plc, tetrahedra) == small_plcs::six_volumes(plc) && has_all_segments(plc, tetrahedra) &&
+         uses_all_vertices(plc, tetrahedra);
 }
 
 /// The search: from the tetrahedron at one edge of the boundary on, over one open face after the other.
@@ -120,10 +124,7 @@ class Search {
   }
 
   void fill() {
-    if (open_.empty()) {
-      take_down();
-      return;
-    }
+    if (open_.empty()) return take_down();
     const auto [face, open] = *open_.begin();
     for (const std::size_t candidate : at_face_[face]) {
       if (side(face, apex(candidate, face)) != open.side) continue;
@@ -154,9 +155,7 @@ class Search {
   void take_down() {
     std::vector<Tetrahedron> tetrahedra;
     for (const std::size_t c : chosen_) tetrahedra.push_back(candidates_[c]);
-    if (total_volume(plc_, tetrahedra) != small_plcs::six_volumes(plc_) || !has_all_segments(plc_, tetrahedra) ||
-        !uses_all_vertices(plc_, tetrahedra))
-      return;
+    if (!fill_domain(plc_, tetrahedra)) return;
     std::ranges::sort(tetrahedra);
     ++result_.constrained_delaunay;
     if (std::ranges::all_of(tetrahedra, [&](const Tetrahedron& t) { return is_delaunay(plc_.vertices, t); }))
@@ -222,10 +221,6 @@ bool is_grazeable(const SmallPlc& plc, const Edge& edge) {
   return std::ranges::any_of(wings, [&](const Wing& w) {
     return w.inside_after && determinant(axis, w.direction, next_wing(axis, wings, w).direction) <= 0;
   });
-}
-
-bool is_loose(const SmallPlc& plc, const Edge& edge) {
-  return std::ranges::find(plc.segments, edge) != plc.segments.end();
 }
 
 std::vector<Tetrahedron> in_vertices_of(const SmallPlc& plc, const TetMesh& mesh) {
@@ -294,8 +289,7 @@ std::vector<Tetrahedron> possible_tetrahedra(const SmallPlc& plc) {
 bool has_delaunay_tetrahedralization(const SmallPlc& plc) {
   std::vector<Tetrahedron> tetrahedra = possible_tetrahedra(plc);
   std::erase_if(tetrahedra, [&](const Tetrahedron& t) { return !is_delaunay(plc.vertices, t); });
-  return total_volume(plc, tetrahedra) == six_volumes(plc) && has_all_segments(plc, tetrahedra) &&
-         uses_all_vertices(plc, tetrahedra);
+  return fill_domain(plc, tetrahedra);
 }
 
 SearchResult search_constrained_delaunay(const SmallPlc& plc) {
@@ -370,10 +364,9 @@ ProtectionState protection_of(const SmallPlc& plc) {
   const auto is_there = [&](const Edge& edge) { return is_strongly_delaunay(plc.vertices, edge); };
   const std::vector<Edge> grazeable = grazeable_segments(plc);
   return {.edges = std::ranges::all_of(grazeable, is_there),
-          .all_segments = std::ranges::all_of(all_segments(plc), is_there),
           .faces = std::ranges::all_of(all_facets(plc), [&](const Polygon& f) { return is_protected(plc, f); }),
           .missing_is_loose =
-              std::ranges::all_of(grazeable, [&](const Edge& e) { return is_there(e) || is_loose(plc, e); })};
+              std::ranges::all_of(grazeable, [&](const Edge& e) { return is_there(e) || has(plc.segments, e); })};
 }
 
 EngineAnswer ask_engine(const SmallPlc& plc) {

@@ -44,7 +44,6 @@ SearchResult search_constrained_delaunay(const SmallPlc& plc);
 /// The premise of the paper's Theorem 1 (section 5.2), part by part, and what explains it.
 struct ProtectionState {
   bool edges = false;             ///< every grazeable segment is strongly Delaunay
-  bool all_segments = false;      ///< every segment is
   bool faces = false;             ///< every facet is filled by strongly Delaunay triangles of its corners
   bool missing_is_loose = false;  ///< every grazeable segment that is not strongly Delaunay is the edge of no facet
   bool premise() const { return edges && faces; }
