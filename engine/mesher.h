@@ -85,7 +85,7 @@ Improvement improvement_of(const MeshOptions& options);
 ///
 /// \param input     facets in any units, in which lengths are then meant and the mesh is given
 /// \param options   strategies, sizes and what improvement is to reach
-/// \param progress  called several times in each stage; to cancel the meshing, throw from it: the exception reaches the
+/// \param progress  called again and again; to cancel the meshing, throw from it: the exception reaches the
 ///                  caller, and all memory is given back
 /// \throw InputError  the input is no valid PLC
 /// \throw LimitError  a segment would need a split finer than the grid allows
