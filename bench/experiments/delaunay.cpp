@@ -298,8 +298,9 @@ void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& resu
   for (const MeasuredMethod& m : all) add_times_row(m, times);
   for (const PointsGroup& group : groups) {
     const MeasuredMethod* any = find(group, "insert");
-    add_row(ratios, {}, group[0]->points, group[0]->size, any == nullptr ? Cell() : Cell(any->vertices),
-            ratio(group, "insert", "CGAL"), ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
+    const std::optional<double> vertices = any == nullptr ? std::nullopt : std::optional<double>(any->vertices);
+    add_row(ratios, {}, group[0]->points, group[0]->size, vertices, ratio(group, "insert", "CGAL"),
+            ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
     check_counts(group, result);
   }
   add_findings(groups, result.findings);
