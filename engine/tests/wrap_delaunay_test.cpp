@@ -1,5 +1,3 @@
-#include "engine/delaunay/delaunay.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <random>
 
 #include "engine/base/errors.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/delaunay_checks.h"
