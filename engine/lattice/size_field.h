@@ -102,7 +102,7 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
 /// Without a background: the least over the surface of (edge length there + grading * distance). The surface is sampled
 /// at its vertices (mean length of the edges there) and the centroids of its triangles (mean of their edges). With a
 /// background of vertices alone: the least over these of (size + grading * distance). With a background mesh: linear
-/// within its tetrahedra (interpolated_sizes.h).
+/// within its tetrahedra (size_field.cpp).
 class SizeField {
  public:
   /// In grid units. Without a background a grading of 0 means uniform.
