@@ -94,13 +94,15 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
     return front::advance_front({t.plc, facets, codes, delaunay},
                                 {options.locator, options.grid_scale, options.face_protection}, progress);
   });
-  if ((t.stuck = front.stuck)) return;
+  t.stuck = front.stuck;
+  if (t.stuck) return;
   t.counts.front_tetrahedra = front.tetrahedra.size();
   t.counts.front_faces = front.undelaunay_faces;
 
   const label::CellLabels labels =
       timed(s.label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
-  if ((t.stuck = labels.stuck)) return;
+  t.stuck = labels.stuck;
+  if (t.stuck) return;
   t.mesh = timed(s.label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
   t.stuck = timed(s.finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
   if (t.stuck) return;
@@ -153,9 +155,11 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
   // edges speaks of exact facets. Taken as it is, the surface costs more Steiner vertices, but then its
   // tetrahedralization exists.
   if (t.stuck && options.flatness != 0) t = tetrahedralize(input, options, 0, progress, s);
-  if (t.stuck) throw *t.stuck;
+  if (t.stuck) throw MeshError(*t.stuck);
 
-  if (ImproveOptions improve = options.improve; (improve.improvement = improvement_of(options)) != Improvement::none) {
+  ImproveOptions improve = options.improve;
+  improve.improvement = improvement_of(options);
+  if (improve.improvement != Improvement::none) {
     t.counts.improve = timed(s.improve, [&] {
       return improve::improve_mesh({t.plc, t.chains, std::move(t.facet_of_face), t.first_interior}, improve, t.points,
                                    t.mesh, progress);
