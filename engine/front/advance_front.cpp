@@ -135,6 +135,7 @@ class Front {
 
   /// What is left of the front: faces of the PLC and of its own.
   FrontResult finish() {
+    result_.open.reserve(static_cast<std::size_t>(std::ranges::count(plc_open_, 1)) + faces_.size());
     for (std::size_t side = 0; side < plc_open_.size(); ++side)
       if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
     faces_.for_each([&](const OrientedFace&, const State& state) {
