@@ -176,7 +176,7 @@ ProcessResult run_child(const OutputFiles& files, const Limits& limits, Body bod
   if (child < 0) fail("cannot start a child process");
   if (child == 0) {
     if (has_limits) setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever interrupts this process does not want orphans
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // an interrupted run leaves no orphans
     if (getppid() != parent) _exit(cannot_execute);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);

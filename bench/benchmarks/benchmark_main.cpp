@@ -56,7 +56,7 @@ void print_help() {
   benchmark::PrintDefaultHelp();
 }
 
-/// Files of one name, whose results could not be told apart.
+/// Files that share a name: their results would be indistinguishable.
 std::string check_names(const Files& files) {
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.filename().string());

@@ -58,7 +58,7 @@ struct Star {
 
 /// Variant 0 has lengths that alternate between 1 and 1 / sqrt 2; the other variants have random ones between 0.4 and
 /// 1.6. A segment all around which shorter ones end is missing if these are shorter than its length times the cosine of
-/// the angle. Halves of 1 and 1 / sqrt 2 stay in that proportion for ever, so below 45 degrees they can split each
+/// the angle. Halves of 1 and 1 / sqrt 2 stay in that proportion forever, so below 45 degrees they can split each
 /// other without end.
 std::span<const Star> stars();
 
