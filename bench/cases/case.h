@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "baselines/process.h"
+#include "bench/run_record.h"
+#include "engine/mesher.h"
+
+namespace ccdt::cases {
+
+using bench::RunRecord;
+
+/// How often a case is run.
+struct Repetitions {
+  int warm_up = 0;   ///< runs before those that count; they have the first numbers
+  int at_least = 1;  ///< counted runs
+  int at_most = 1;
+  double until = 0;  ///< between the two, stop once the 95% interval of the median is at most this share of it wide on
+                     ///< either side; 0: stop at `at_least`
+};
+
+/// The number of a run that interests the reader of a case: seconds of one stage, of several, or of all.
+using SecondsOf = std::function<double(const StageSeconds&)>;
+
+/// One mesher on one input with one set of options.
+struct Case {
+  std::string name;                  ///< for people
+  std::string group;                 ///< cases of one group are compared, so their repetitions take turns
+  std::string mesher = "ccdt";       ///< one of this build, or a file that describes another
+  std::filesystem::path input;       ///< exists
+  std::vector<std::string> options;  ///< more words of the command line of `ccdt mesh`
+  baselines::Limits limits;          ///< of each run
+  bool verify = false;               ///< check each mesh exactly against its input
+  std::string mesh_ending = {};      ///< keep the mesh of the last run, as meshes/ID and this; empty: no mesh is kept
+  Repetitions repetitions = {};
+  SecondsOf seconds = &StageSeconds::mesh;  ///< what `repetitions.until` is about
+};
+
+/// A case with the records of its runs.
+struct MeasuredCase {
+  Case asked;
+  std::string id;  ///< a hash of all that determines the result; begins the names of the records
+  std::vector<RunRecord> counted = {};
+  RunRecord first = {};  ///< of the first run, or of the one that failed
+  int first_run = 0;     ///< the number of that run
+  int first_counted = 0;
+
+  bool failed() const { return first.status != baselines::RunStatus::ok; }
+};
+
+/// The file of a run, relative to the folder: "runs/ID-NUMBER.json".
+std::string run_file(const std::string& id, int number);
+
+/// The files of the runs that a row of this case stands on, relative to the folder: the counted ones, or the one that
+/// failed.
+std::vector<std::string> run_files(const MeasuredCase& measured);
+
+/// The file of the mesh that is kept of a case, relative to the folder.
+std::string mesh_file(const MeasuredCase& measured);
+
+/// One number of each counted run.
+std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds);
+
+/// Is the interval of the median as narrow as the case asks for?
+bool is_narrow(const MeasuredCase& measured);
+
+}  // namespace ccdt::cases

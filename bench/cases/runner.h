@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/cases/case.h"
+#include "bench/cases/identity.h"
+#include "engine/base/progress.h"
+
+namespace ccdt::cases {
+
+/// Where and how cases are run.
+struct RunnerSettings {
+  std::filesystem::path program;          ///< the `ccdt` that is run
+  std::filesystem::path folder;           ///< records go to its folder runs, kept meshes to meshes; exists
+  std::vector<Identity> identities = {};  ///< whose records count; new ones are made with the first
+  std::uint64_t seed = 1;                 ///< of the order in which repetitions take turns
+  int jobs = 1;                           ///< cases at the same time; more than one disturbs the times
+  bool retry_failed = false;              ///< run cases again that failed before
+  Progress progress = {};                 ///< counts runs
+};
+
+/// Runs cases, each run in a process of its own, and nothing twice: what has a record already is read from it. So a
+/// caller that was killed is called again and goes on where it was.
+///
+/// Runs of one group take turns: each case once in a random order, then each once more. A failure is a record as well,
+/// and ends the repetitions of its case. A file that is no record (torn by a full disk, say) counts as missing.
+class Runner {
+ public:
+  explicit Runner(RunnerSettings settings);
+
+  const RunnerSettings& settings() const { return settings_; }
+
+  /// Runs what is missing of these cases, and returns all of them in the same order.
+  ///
+  /// \throw baselines::Stopped  the user has stopped the program; all finished runs have their records
+  /// \throw OutputError         a record cannot be written
+  std::vector<MeasuredCase> run(std::span<const Case> cases);
+
+  /// Of a single case.
+  MeasuredCase run(const Case& asked);
+
+  /// What is known of these cases without running anything; those without any record have an empty `first.mesher`.
+  std::vector<MeasuredCase> load(std::span<const Case> cases) const;
+
+ private:
+  RunnerSettings settings_;
+};
+
+/// Must there be a run of this number, as far as the records tell?
+bool is_missing(const MeasuredCase& measured, int number);
+
+/// Are all runs there that the case needs?
+bool is_finished(const MeasuredCase& measured);
+
+}  // namespace ccdt::cases
