@@ -62,9 +62,6 @@ struct Star {
 /// other without end.
 std::span<const Star> stars();
 
-/// In degrees, of two segments that meet; 180 if there are none.
-double smallest_angle(const plc::Plc& plc);
-
 /// One input whose edges were protected in one way.
 struct TerminationCase : CaseOutcome {
   std::string group;          ///< the star, "solid", or "file"

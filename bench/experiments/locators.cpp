@@ -28,7 +28,7 @@ struct LocatorsGroup {
 LocatorsGroup group_of(const ExperimentOptions& options, const SurfaceFile& surface, SurfaceKind kind,
                        bool face_protection, std::size_t number) {
   LocatorsGroup group;
-  group.result = {surface.name, kind, face_protection, edge_ratio(io::read_plc(surface.file))};
+  group.result = {surface.name, kind, face_protection, bench::edge_ratio(io::read_plc(surface.file))};
   const std::string check = face_protection ? "on" : "off";
   for (const LocatorKind locator : all_locators) {
     const std::string name(name_of(locator));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
+#include "bench/surface_measures.h"
 #include "engine/base/point.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
@@ -41,30 +42,6 @@ std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const st
 /// The user's files, named without their folder.
 std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
 
-/// The length of the longest edge over that of the shortest; 1 if there is none.
-double edge_ratio(const plc::InputPlc& plc);
-
-/// An angle in degrees and a corner at which it is.
-struct SurfaceAngle {
-  double degrees = 180;
-  Point3 at = {};
-};
-
-/// The smallest angles of a surface: what its own geometry forbids the tetrahedra.
-struct SurfaceAngles {
-  SurfaceAngle planar;    ///< of its triangles
-  SurfaceAngle dihedral;  ///< between two triangles at an edge, where the inside of the domain is between them
-};
-
-SurfaceAngles smallest_angles(const plc::Plc& plc);
-
-/// The volume of all that is inside, in the units of the input cubed.
-double enclosed_volume(const plc::Plc& plc);
-
-/// Are the triangles of a surface good enough to be kept? All their angles have 25 degrees or more, nine tenths of the
-/// edges differ by a factor of less than 2, and the median edge is within a quarter of the wanted length.
-bool has_even_triangles(const plc::Plc& plc, double edge_length);
-
 /// Where surfaces of any edge length come from: one of our solids, or a file of the user's.
 struct SurfaceSource {
   std::string name;  ///< of the solid, or the path of the file
@@ -84,7 +61,7 @@ struct EvenSurface {
   double edge_length = 0;
   bool remeshed = false;  ///< else its triangles are as they came, because they were even enough
   std::uint64_t vertices = 0, triangles = 0;
-  SurfaceAngles angles;
+  bench::SurfaceAngles angles;
 };
 
 /// Makes a solid of an edge length, or takes the user's file; remeshes it where its triangles are not even and of about

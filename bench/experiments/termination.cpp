@@ -7,6 +7,7 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
+#include "bench/surface_measures.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"
@@ -165,7 +166,7 @@ void add_stars(const ExperimentOptions& options, std::vector<TerminationInput>& 
 
 double smallest_angle_of(const std::filesystem::path& file) {
   try {
-    return smallest_angle(plc::build_plc(io::read_plc(file), {}));
+    return bench::smallest_segment_angle(plc::build_plc(io::read_plc(file), {}));
   } catch (const Error&) {
     return std::nan("");  // the runs say why
   }
@@ -342,20 +343,6 @@ std::vector<std::string> findings_of(std::span<const TerminationCase> cases) {
 
 std::span<const Star> stars() {
   return all_stars;
-}
-
-double smallest_angle(const plc::Plc& plc) {
-  std::vector<std::vector<Point3>> at(plc.vertices.size());
-  for (const plc::Segment& s : plc.segments)
-    for (int i = 0; i < 2; ++i) at[s.ends[i]].push_back(plc.world[s.ends[1 - i]] - plc.world[s.ends[i]]);
-  double smallest = 180;
-  for (const auto& directions : at)
-    for (std::size_t i = 0; i < directions.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const double sine = std::sqrt(squared_length(cross(directions[i], directions[j])));
-        smallest = std::min(smallest, std::atan2(sine, dot(directions[i], directions[j])) * 180 / std::numbers::pi);
-      }
-  return smallest;
 }
 
 Termination termination_of(const TerminationCase& c) {

@@ -74,18 +74,6 @@ TEST(Experiments, RefuseToMeasureNothing) {
   EXPECT_THROW(experiments::check_something_is_measured(0, "fig8"), InputError);
 }
 
-TEST(EdgeRatio, IsOfTrianglesPolygonsAndSegments) {
-  InputPlc plc;
-  EXPECT_EQ(experiments::edge_ratio(plc), 1);
-  plc.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {10, 0, 0}, {10, 1, 0}};
-  plc.triangles = {{0, 1, 2}};
-  EXPECT_DOUBLE_EQ(experiments::edge_ratio(plc), 5.0 / 3);
-  plc.polygon_facets.push_back({{{1, 3, 2}}, {}, 0, 0});
-  EXPECT_DOUBLE_EQ(experiments::edge_ratio(plc), std::sqrt(116.0) / 3);
-  plc.segments = {{3, 4}};
-  EXPECT_DOUBLE_EQ(experiments::edge_ratio(plc), std::sqrt(116.0));
-}
-
 /// A point whose Delaunay stage takes n^exponent microseconds and whose front takes twice as long as that is linear.
 experiments::Fig8Point point_of_size(std::uint64_t n, double exponent) {
   experiments::Fig8Point point;

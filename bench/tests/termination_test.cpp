@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bench/experiments/existence_experiments.h"
+#include "bench/surface_measures.h"
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 
@@ -27,11 +28,11 @@ TEST(Stars, HaveTheAngleThatIsAskedFor) {
   for (const std::string_view name : {"two segments", "three segments", "bundle", "wheel"})
     for (const double degrees : {60.0, 20.0, 5.0})
       for (const std::uint64_t variant : {0u, 3u})
-        EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(star(name).make(degrees, variant), {})), degrees, 1e-6)
+        EXPECT_NEAR(bench::smallest_segment_angle(plc::build_plc(star(name).make(degrees, variant), {})), degrees, 1e-6)
             << name;
   // About as wanted, to the nearest of an even distribution; and fins at this dihedral angle.
-  EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(star("urchin").make(20, 0), {})), 20, 4);
-  EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(star("fins").make(10, 0), {})), 10 * std::sqrt(3) / 2, 0.1);
+  EXPECT_NEAR(bench::smallest_segment_angle(plc::build_plc(star("urchin").make(20, 0), {})), 20, 4);
+  EXPECT_NEAR(bench::smallest_segment_angle(plc::build_plc(star("fins").make(10, 0), {})), 10 * std::sqrt(3) / 2, 0.1);
 }
 
 TEST(Stars, AreTheSameEachTimeAndDifferByVariant) {
@@ -68,13 +69,6 @@ TEST(ShellSplitting, EndsForAllStars) {
     for (const double degrees : {36.0, 10.0})
       for (const std::uint64_t variant : {0u, 1u})
         EXPECT_NO_THROW(protect(s.make(degrees, variant), Protection::shell)) << s.name << " " << degrees;
-}
-
-TEST(SmallestAngle, IsOfSegmentsThatMeet) {
-  InputPlc tetrahedron;
-  tetrahedron.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  EXPECT_NEAR(experiments::smallest_angle(plc::build_plc(tetrahedron, {})), 45, 1e-9);
 }
 
 experiments::TerminationCase stopped(const char* group, double degrees) {
