@@ -137,25 +137,29 @@ double call_program(const Description& description, const InputPlc& input, const
   const ProcessResult ended = run_program(command, options);
   const int code = ended.shell_code();
   if (std::ranges::find(description.success_codes, code) == description.success_codes.end())
-    throw MeshError(description.name + " ended with code " + std::to_string(code) +
-                        (code > 128 && code < 192 ? ", by signal " + std::to_string(code - 128) : "") +
-                        "; its last words: " + last_lines(log),
-                    io::place_in(input.name), "try another mesher, or check the surface there");
+    throw MesherError(failure_kind_of_exit_code(code),
+                      description.name + " ended with code " + std::to_string(code) +
+                          (code > 128 && code < 192 ? ", by signal " + std::to_string(code - 128) : "") +
+                          "; its last words: " + last_lines(log),
+                      io::place_in(input.name), "try another mesher, or check the surface there");
   return ended.seconds;
 }
 
 TetMesh read_output(const Description& description, const InputPlc& input, const std::string& name,
                     const std::filesystem::path& folder, const std::filesystem::path& log) {
   if (!std::filesystem::exists(folder / name))
-    throw MeshError(description.name + " wrote no file " + name + "; its last words: " + last_lines(log),
-                    io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
+    throw MesherError(
+        FailureKind::wrong, description.name + " wrote no file " + name + "; its last words: " + last_lines(log),
+        io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
   try {
     return io::read_tet_mesh(folder / name);
   } catch (const InputError& error) {
     const long long line = error.place().line;
-    throw MeshError("what " + description.name + " wrote cannot be read: " + name +
-                        (line > 0 ? ", line " + std::to_string(line) : "") + ": " + error.what(),
-                    io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
+    throw MesherError(FailureKind::wrong,
+                      "what " + description.name + " wrote cannot be read: " + name +
+                          (line > 0 ? ", line " + std::to_string(line) : "") + ": " + error.what(),
+                      io::place_in(input.name),
+                      "try another mesher, or correct /output in " + description.file.string());
   }
 }
 
@@ -191,8 +195,9 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   run.result.mesh = read_output(description, input, fill_placeholders(description.output, values), folder, log);
   clean_up(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
-    throw MeshError(description.name + " made no tetrahedra inside; its last words: " + last_lines(log),
-                    io::place_in(input.name), "try another mesher, or check whether the surface is closed");
+    throw MesherError(FailureKind::wrong,
+                      description.name + " made no tetrahedra inside; its last words: " + last_lines(log),
+                      io::place_in(input.name), "try another mesher, or check whether the surface is closed");
   run.result.counts = count_elements(given, run.result.mesh);
   return run;
 }

@@ -35,8 +35,9 @@ struct DiscreteModel {
   std::vector<RegionId> volumes;          ///< by number less one: the regions inside
 };
 
-[[noreturn]] void fail(const std::string& what, const std::string& file, const std::string& remedy) {
-  throw MeshError(what, io::place_in(file), remedy);
+[[noreturn]] void fail(const std::string& what, const std::string& file, const std::string& remedy,
+                       FailureKind kind = FailureKind::refused) {
+  throw MesherError(kind, what, io::place_in(file), remedy);
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& file) {
@@ -118,11 +119,26 @@ void write_script(const DiscreteModel& model, const std::string& surface, const 
   script.commit();
 }
 
-TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const plc::Plc& plc) {
-  TetMesh mesh = io::read_tet_mesh(file);
+/// Puts the attributes of regions and the markers of facets in the place of the numbers that Gmsh knows.
+/// \throw std::out_of_range  there is no such number
+void restore_attributes(const DiscreteModel& model, const plc::Plc& plc, TetMesh& mesh) {
   for (int& region : mesh.regions)
     region = plc.regions[model.volumes.at(static_cast<std::size_t>(region) - 1)].attribute;
   for (int& marker : mesh.face_markers) marker = model.surfaces.at(static_cast<std::size_t>(marker) - 1).marker;
+}
+
+TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model, const plc::Plc& plc) {
+  TetMesh mesh;
+  try {
+    mesh = io::read_tet_mesh(file);
+    restore_attributes(model, plc, mesh);
+  } catch (const InputError& error) {
+    fail(std::string("what Gmsh wrote cannot be read: ") + error.what(), plc.name, "try another mesher",
+         FailureKind::wrong);
+  } catch (const std::out_of_range&) {
+    fail("Gmsh wrote numbers of volumes or surfaces that it was not given", plc.name, "try another mesher",
+         FailureKind::wrong);
+  }
   orient_positively(mesh);
   restore_coordinates(plc.world, mesh);
   return mesh;
@@ -146,16 +162,19 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
                                {.log = file("log")})
                        .shell_code();
   const auto error = first_in_log(file("log"), "^Error[ :]*(.*)");
-  if (code != 0 || error || !std::filesystem::exists(file("volume.msh")))
+  if (code != 0 || error)
     fail("Gmsh ended with code " + std::to_string(code) + (error ? ": " + *error : ""), input.name,
-         "try another mesher, or check the surface there");
+         "try another mesher, or check the surface there", failure_kind_of_exit_code(code));
+  if (!std::filesystem::exists(file("volume.msh")))
+    fail("Gmsh wrote no mesh", input.name, "try another mesher", FailureKind::wrong);
 
   // "tOptimize = 1.2" is a part of "Done meshing 3D (Wall 1.5s, ...", which is all of HXT and what Gmsh does around it.
   run.result.seconds.improve = sum_in_log(file("log"), "tOptimize[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
   run.result.seconds.mesh =
       sum_in_log(file("log"), "Done (?:meshing 3D|optimizing mesh) [(]Wall[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
   run.result.mesh = read_back(file("volume.msh"), model, plc);
-  if (run.result.mesh.tetrahedra.empty()) fail("Gmsh made no tetrahedra", input.name, "try another mesher");
+  if (run.result.mesh.tetrahedra.empty())
+    fail("Gmsh made no tetrahedra", input.name, "try another mesher", FailureKind::wrong);
   run.result.counts = count_elements(input, run.result.mesh);
   return run;
 }

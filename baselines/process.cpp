@@ -111,8 +111,8 @@ std::uint64_t resident_bytes(pid_t child) {
 }
 
 /// Waits for the end of the child or for a limit.
-/// \return  the limit that was reached, or `ok`
-RunStatus watch(pid_t child, const Limits& limits, Clock::time_point begin) {
+/// \return  the limit that was reached, if any
+std::optional<FailureKind> watch(pid_t child, const Limits& limits, Clock::time_point begin) {
   const Descriptor child_descriptor(static_cast<int>(syscall(SYS_pidfd_open, child, 0)), "cannot watch a process");
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   for (;;) {
@@ -122,9 +122,9 @@ RunStatus watch(pid_t child, const Limits& limits, Clock::time_point begin) {
       const int left = static_cast<int>(std::clamp((limits.seconds - elapsed()) * 1000 + 1, 0.0, 1e6));
       wait = wait < 0 ? left : std::min(wait, left);
     }
-    if (poll(&ended, 1, wait) > 0) return RunStatus::ok;
-    if (limits.seconds > 0 && elapsed() >= limits.seconds) return RunStatus::timeout;
-    if (limits.memory_bytes > 0 && resident_bytes(child) > limits.memory_bytes) return RunStatus::out_of_memory;
+    if (poll(&ended, 1, wait) > 0) return std::nullopt;
+    if (limits.seconds > 0 && elapsed() >= limits.seconds) return FailureKind::timeout;
+    if (limits.memory_bytes > 0 && resident_bytes(child) > limits.memory_bytes) return FailureKind::out_of_memory;
   }
 }
 
@@ -135,16 +135,21 @@ std::string seconds_text(double seconds) {
   return text + " s";
 }
 
-std::string text_of_limit(RunStatus limit, const Limits& limits) {
-  return "stopped at the limit of " + (limit == RunStatus::timeout
+std::string text_of_limit(FailureKind limit, const Limits& limits) {
+  return "stopped at the limit of " + (limit == FailureKind::timeout
                                            ? seconds_text(limits.seconds)
                                            : std::to_string(limits.memory_bytes >> 20) + " MiB of memory");
+}
+
+void set_failure(FailureKind kind, ProcessResult& result) {
+  result.kind = kind;
+  result.status = status_of(kind);
 }
 
 void explain_end(int wait_status, ProcessResult& result) {
   if (WIFSIGNALED(wait_status)) {
     result.signal = WTERMSIG(wait_status);
-    result.status = RunStatus::crashed;
+    set_failure(failure_kind_of_signal(result.signal), result);
     const char* name = sigabbrev_np(result.signal);
     result.reason =
         "ended by signal SIG" + std::string(name == nullptr ? "?" : name) + " (" + sigdescr_np(result.signal) + ")";
@@ -154,7 +159,7 @@ void explain_end(int wait_status, ProcessResult& result) {
   }
   result.exit_code = WEXITSTATUS(wait_status);
   if (result.exit_code == 0) return;
-  result.status = RunStatus::failed;
+  set_failure(failure_kind_of_exit_code(result.exit_code), result);
   result.reason = result.printed.empty() ? "exit code " + std::to_string(result.exit_code) : result.printed;
 }
 
@@ -186,8 +191,8 @@ ProcessResult run_child(const OutputFiles& files, const Limits& limits, Body bod
     body();
   }
   if (has_limits) setpgid(child, child);  // here as well: the group may be killed before the child has made it
-  const RunStatus limit = has_limits ? watch(child, limits, begin) : RunStatus::ok;
-  if (limit != RunStatus::ok) kill(-child, SIGKILL);
+  const std::optional<FailureKind> limit = has_limits ? watch(child, limits, begin) : std::nullopt;
+  if (limit) kill(-child, SIGKILL);
   int wait_status = 0;
   while (waitpid(child, &wait_status, 0) < 0 && errno == EINTR) {
   }
@@ -196,12 +201,12 @@ ProcessResult run_child(const OutputFiles& files, const Limits& limits, Body bod
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (files.captured != nullptr) result.printed = read_end(*files.captured, most_captured);
   result.printed.erase(result.printed.find_last_not_of("\n ") + 1);
-  if (limit == RunStatus::ok) {
-    explain_end(wait_status, result);
-  } else {
-    result.status = limit;
+  if (limit) {
+    set_failure(*limit, result);
     result.signal = SIGKILL;
-    result.reason = text_of_limit(limit, limits);
+    result.reason = text_of_limit(*limit, limits);
+  } else {
+    explain_end(wait_status, result);
   }
   return result;
 }

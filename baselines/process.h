@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,20 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/enum_names.h"
+#include "baselines/failure.h"
 
 namespace ccdt::baselines {
-
-/// How a run ended; the names are those of the `ccdt.run/1` schema.
-enum class RunStatus { ok, failed, timeout, out_of_memory, crashed };
-
-constexpr auto names_of(RunStatus) {
-  return std::to_array<NamedValue<RunStatus>>({{RunStatus::ok, "ok"},
-                                               {RunStatus::failed, "failed"},
-                                               {RunStatus::timeout, "timeout"},
-                                               {RunStatus::out_of_memory, "out_of_memory"},
-                                               {RunStatus::crashed, "crashed"}});
-}
 
 /// What a child process may use; 0 is no limit.
 ///
@@ -43,6 +31,7 @@ struct ProgramOptions {
 
 struct ProcessResult {
   RunStatus status = RunStatus::ok;
+  std::optional<FailureKind> kind;  ///< why not ok; the status follows from it
   std::string reason;   ///< empty if all went well; else what a person needs to know: limit, signal or what it printed
   int exit_code = 0;    ///< if it exited by itself; 127 if the program cannot be started
   int signal = 0;       ///< if a signal ended it

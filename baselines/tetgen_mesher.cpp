@@ -182,6 +182,8 @@ struct TetgenOutput {
   }
 };
 
+constexpr int out_of_memory_code = 1;  ///< as TetGen throws it
+
 std::string tetrahedralize_to_bytes(const InputPlc& input, std::string switches) {
   tetgenio in, out;
   in.numberofpoints = static_cast<int>(input.vertices.size());
@@ -197,6 +199,8 @@ std::string tetrahedralize_to_bytes(const InputPlc& input, std::string switches)
     output.mesh = read_back(out);
   } catch (int code) {
     output.code = {code};
+  } catch (const std::bad_alloc&) {
+    output.code = {out_of_memory_code};
   }
   PackedArrays packed;
   output.each_array([&](auto& array) { packed.put(array); });
@@ -221,10 +225,11 @@ std::string meaning_of(int code) {
   }
 }
 
-[[noreturn]] void fail(std::string what, const InputPlc& input, const std::string& printed = "") {
+[[noreturn]] void fail(std::string what, const InputPlc& input, const std::string& printed = "",
+                       FailureKind kind = FailureKind::refused) {
   std::istringstream lines(printed);
   if (!printed.empty()) what += "; it printed: " + last_lines(lines);
-  throw MeshError(what, io::place_in(input.name), "try another mesher, or check the surface there");
+  throw MesherError(kind, what, io::place_in(input.name), "try another mesher, or check the surface there");
 }
 
 /// Calls TetGen in a process of its own: when it gives up, release 1.5 frees its memory twice and crashes, more often
@@ -233,11 +238,11 @@ TetgenOutput call_tetgen(const InputPlc& input, const std::string& switches) {
   const ProcessResult call = run_function([&] { return tetrahedralize_to_bytes(input, switches); });
   if (!call.value)
     fail(call.signal == 0 ? "TetGen ended its process" : "TetGen ended with signal " + std::to_string(call.signal),
-         input, call.printed);
+         input, call.printed, call.kind.value_or(FailureKind::refused));
   TetgenOutput output;
   PackedArrays packed(*call.value);
   output.each_array([&](auto& array) { packed.take(array); });
-  if (!output.code.empty() && output.code[0] == 1) throw std::bad_alloc();
+  if (!output.code.empty() && output.code[0] == out_of_memory_code) throw std::bad_alloc();
   if (!output.code.empty()) fail(meaning_of(output.code[0]), input, call.printed);
   return output;
 }

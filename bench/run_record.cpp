@@ -118,6 +118,7 @@ Json json_of(const RunRecord& record) {
   write_fields(record, fields_before_seconds, json);
   write_fields(record, fields_of_seconds, json["seconds"]);
   write_fields(record, fields_after_seconds, json);
+  if (record.kind) json["kind"] = *record.kind;
   if (!record.reason.empty()) json["reason"] = record.reason;
   if (!record.notes.empty()) json["notes"] = record.notes;
   if (!record.samples.empty()) json["samples"] = record.samples;
@@ -132,6 +133,7 @@ RunRecord record_from(const Json& json) {
   read_fields(json, fields_before_seconds, record);
   read_fields(json.at("seconds"), fields_of_seconds, record);
   read_fields(json, fields_after_seconds, record);
+  if (json.contains("kind")) record.kind = json.at("kind").get<baselines::FailureKind>();
   record.reason = json.value("reason", "");
   record.notes = json.value("notes", record.notes);
   record.samples = json.value("samples", record.samples);
@@ -147,6 +149,12 @@ void RunRecord::set_option(std::string_view name, const Option& value) {
     found->second = value;
   else
     options.emplace_back(name, value);
+}
+
+void RunRecord::set_failure(baselines::FailureKind why, std::string words) {
+  kind = why;
+  status = baselines::status_of(why);
+  reason = std::move(words);
 }
 
 RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
@@ -179,6 +187,11 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
                     {"clearance", options.clearance},
                     {"threads", 1.0}};
   return record;
+}
+
+void note_end(const baselines::ProcessResult& ended, RunRecord& record) {
+  const bool says_it_itself = ended.signal == 0 && record.kind;
+  if (ended.kind && !says_it_itself) record.set_failure(*ended.kind, ended.reason);
 }
 
 std::string to_json(const RunRecord& record) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,17 +38,25 @@ struct RunRecord {
   Quality quality;
   double largest_rounding = 0;
   baselines::RunStatus status = baselines::RunStatus::ok;
-  std::string reason;              ///< why the status is not ok
-  std::vector<std::string> notes;  ///< what a reader has to know
+  std::optional<baselines::FailureKind> kind;  ///< of a failure; older programs did not write it
+  std::string reason;                          ///< why the status is not ok
+  std::vector<std::string> notes;              ///< what a reader has to know
   std::map<std::string, std::vector<double>>
       samples;  ///< raw seconds by name, where one record stands for several runs
 
   /// Replaces the option of this name, or adds it.
   void set_option(std::string_view name, const Option& value);
+
+  /// The run failed: sets the status too.
+  void set_failure(baselines::FailureKind why, std::string words);
 };
 
 /// A record that says who was asked to mesh what and how, before anything has been done.
 RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options);
+
+/// Adds to the record of a run how its process ended. A process that failed by itself says more in its record than its
+/// exit code does; one that was killed could not.
+void note_end(const baselines::ProcessResult& ended, RunRecord& record);
 
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);

@@ -83,8 +83,7 @@ InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progr
 void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
   if (command.report.empty()) return;
   bench::RunRecord unfinished = record;
-  unfinished.status = baselines::RunStatus::crashed;
-  unfinished.reason = "the process ended before its run did";
+  unfinished.set_failure(baselines::FailureKind::crashed, "the process ended before its run did");
   bench::write_run_record(unfinished, command.report);
 }
 
@@ -136,9 +135,8 @@ void record_failure(const MeshCommand& command, bench::RunRecord& record, const 
     unread.name = command.input;
     record = begin_record(command, unread);
   }
-  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  record.status = memory ? baselines::RunStatus::out_of_memory : baselines::RunStatus::failed;
-  record.reason = memory ? "out of memory" : error.what();
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;  // it has no words of its own
+  record.set_failure(baselines::failure_kind_of(error), memory ? "out of memory" : error.what());
 }
 
 void run(const MeshCommand& command) {

@@ -52,12 +52,7 @@ RunRecord run_call(const ExperimentOptions& options, const MeshCall& call, const
       baselines::run_program(command, {.folder = options.folder, .limits = options.limits});
   const bool wrote_one = std::filesystem::exists(report);
   RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(call, command);
-  // A child that has failed by itself says more in its own record than its last words do; but what it wrote before it
-  // crashed says only what it was to do.
-  const bool ended_by_itself = child.status == baselines::RunStatus::ok || child.status == baselines::RunStatus::failed;
-  if (wrote_one && ended_by_itself && record.status != baselines::RunStatus::crashed) return record;
-  record.status = child.status;
-  record.reason = child.reason;
+  bench::note_end(child, record);
   bench::write_run_record(record, report);
   return record;
 }

@@ -134,6 +134,33 @@ TEST(RunRecord, OfAFailureKeepsStatusAndReason) {
   EXPECT_EQ(back.reason, record.reason);
 }
 
+TEST(RunRecord, OfAFailureHasItsKindAndOthersHaveNone) {
+  bench::RunRecord record = example();
+  EXPECT_FALSE(Json::parse(bench::to_json(record)).contains("kind"));
+  record.set_failure(baselines::FailureKind::out_of_memory, "too much");
+  EXPECT_EQ(record.status, baselines::RunStatus::out_of_memory);
+  EXPECT_EQ(bench::run_record_from_json(bench::to_json(record)).kind, baselines::FailureKind::out_of_memory);
+}
+
+TEST(RunRecord, OfAProcessThatWasKilledSaysSoAndThatOfOneThatFailedKeepsItsWords) {
+  baselines::ProcessResult ended;
+  ended.kind = baselines::FailureKind::timeout;
+  ended.signal = 9;
+  bench::RunRecord record = example();
+  record.set_failure(baselines::FailureKind::crashed, "the process ended before its run did");
+  bench::note_end(ended, record);
+  EXPECT_EQ(record.kind, baselines::FailureKind::timeout);
+  ended = {};
+  ended.exit_code = 1;
+  ended.kind = baselines::FailureKind::refused;
+  record.set_failure(baselines::FailureKind::crashed, "the mesher's program crashed");
+  bench::note_end(ended, record);
+  EXPECT_EQ(record.kind, baselines::FailureKind::crashed);
+  record = example();
+  bench::note_end(ended, record);
+  EXPECT_EQ(record.kind, baselines::FailureKind::refused) << "it did not say so itself";
+}
+
 TEST(RunRecord, SurvivesFileNamesThatAreNoUtf8) {
   bench::RunRecord record = example();
   record.input.name = "caf\xe9.stl";

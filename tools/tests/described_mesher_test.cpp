@@ -60,6 +60,7 @@ TEST_F(DescribedMesher, ThatFailsLeavesAReportOfHowItWasAsked) {
   EXPECT_EQ(meshed.exit_code, 1);
   EXPECT_NE(meshed.err.find("mine ended with code 5; its last words: out of luck"), std::string::npos) << meshed.err;
   EXPECT_EQ(report()["status"], "failed");
+  EXPECT_EQ(report()["kind"], "refused");
   EXPECT_EQ(report()["mesher"]["version"], "7");
   EXPECT_NE(report()["options"]["mesher_settings"]["command"].get<std::string>().find("exit 5"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(work() / "part.vtu"));
@@ -69,6 +70,7 @@ TEST_F(DescribedMesher, ThatEndsTheProcessLeavesAReportOfHowItWasAsked) {
   describe(R"(["/bin/sh", "-c", "kill -KILL $PPID"])");
   EXPECT_NE(run("mesh part.off -o part.vtu --mesher mine.json --report r.json").exit_code, 0);
   EXPECT_EQ(report()["status"], "crashed");
+  EXPECT_EQ(report()["kind"], "crashed");
   EXPECT_EQ(report()["mesher"]["name"], "mine");
   EXPECT_EQ(report()["input"]["sha256"].get<std::string>().size(), 64u);
   EXPECT_NE(report()["options"]["mesher_settings"]["command"].get<std::string>().find("kill"), std::string::npos);
