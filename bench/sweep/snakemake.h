@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "bench/sweep/chunks.h"
+
+namespace ccdt::sweep {
+
+/// What the rules of a Snakefile say about their jobs.
+struct SnakemakeOptions {
+  std::filesystem::path program;   ///< the `ccdt` that is run
+  std::uint64_t memory_bytes = 0;  ///< limit of a run; 0: none
+};
+
+/// Writes FOLDER/Snakefile: one rule, and a job of it for each of these chunks, whose files are written. A chunk is
+/// done when its marker is there (`chunk_marker`); older markers of these chunks are removed.
+///
+///     snakemake -s FOLDER/Snakefile --cores 2
+///
+/// \throw OutputError
+void write_snakefile(const std::filesystem::path& folder, std::span<const Chunk> chunks,
+                     const SnakemakeOptions& options);
+
+}  // namespace ccdt::sweep
