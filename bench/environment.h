@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/json.h"
@@ -36,5 +37,7 @@ std::uint64_t peak_rss_bytes();
 
 /// SHA-256 of a file's bytes, 64 lowercase hexadecimal digits; empty if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
+/// Of the bytes of a text.
+std::string sha256_of_text(std::string_view text);
 
 }  // namespace ccdt::bench

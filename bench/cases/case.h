@@ -20,6 +20,7 @@ struct Repetitions {
   int at_most = 1;
   double until = 0;  ///< between the two, stop once the 95% interval of the median is at most this share of it wide on
                      ///< either side; 0: stop at `at_least`
+  double budget_seconds = 0;  ///< three counted runs are enough if together they take so long; 0: never
 };
 
 /// The number of a run that interests the reader of a case: seconds of one stage, of several, or of all.
@@ -42,14 +43,18 @@ struct Case {
 /// A case with the records of its runs.
 struct MeasuredCase {
   Case asked;
-  std::string id;  ///< a hash of all that determines the result; begins the names of the records
-  std::vector<RunRecord> counted = {};
-  RunRecord first = {};  ///< of the first run, or of the one that failed
-  int first_run = 0;     ///< the number of that run
-  int first_counted = 0;
-
-  bool failed() const { return first.status != baselines::RunStatus::ok; }
+  std::string id;                       ///< a hash of all that determines the result; begins the names of the records
+  int runs = 0;                         ///< records there are, from number 0 on
+  RunRecord first = {};                 ///< of the first run, or of the one that failed; meaningless without runs
+  std::vector<RunRecord> counted = {};  ///< those that went well, without the warm-up
+  bool failed() const { return runs > 0 && first.status != baselines::RunStatus::ok; }
 };
+
+/// Takes the record of the next run.
+void add_run(MeasuredCase& measured, RunRecord record);
+
+/// Does the case need another run? One that has failed does not.
+bool needs_run(const MeasuredCase& measured);
 
 /// The file of a run, relative to the folder: "runs/ID-NUMBER.json".
 std::string run_file(const std::string& id, int number);
@@ -58,13 +63,14 @@ std::string run_file(const std::string& id, int number);
 /// failed.
 std::vector<std::string> run_files(const MeasuredCase& measured);
 
-/// The file of the mesh that is kept of a case, relative to the folder.
+/// The file of the mesh that is kept of a case, relative to the folder: "meshes/ID.ENDING".
 std::string mesh_file(const MeasuredCase& measured);
 
 /// One number of each counted run.
 std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
-/// Is the interval of the median as narrow as the case asks for?
-bool is_narrow(const MeasuredCase& measured);
+/// The width of the median's 95% interval on its wider side, as a share of the median. 0 with fewer than two samples,
+/// or if all are 0.
+double spread_of(const std::vector<double>& samples);
 
 }  // namespace ccdt::cases

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/cases/case.h"
+#include "bench/json.h"
 
 namespace ccdt::cases {
 
@@ -14,27 +15,43 @@ namespace ccdt::cases {
 using Identity = std::map<std::string, std::string>;
 
 /// Of this machine and of these meshers.
+///
+/// \param meshers  of this build, or files that describe others
+/// \param program  the `ccdt` that runs them
 /// \throw Error  there is no such mesher
 Identity identity_of(const std::vector<std::string>& meshers, const std::filesystem::path& program);
 
 /// What to do with records that were made with another identity.
 enum class OtherIdentity {
   refuse,   ///< throw
-  refresh,  ///< measure again; what they were made with is obsolete
-  mixed     ///< keep them beside those that are made now
+  refresh,  ///< measure again; what was made with it is obsolete
+  mixed     ///< keep it beside what is made now
 };
 
-/// The identities whose records count: the one of now, and with `mixed` older ones.
+/// The fields that both have and that differ, with both values: "machine.cpu was 'A' and is 'B'".
+std::vector<std::string> differences(const Identity& then, const Identity& now);
+
+/// The identities whose records count: first the one of now, then those that it is mixed with.
 ///
-/// \param file  the JSON document that keeps them under "identity" (now) and "mixed_with" (older ones); need not exist
-/// \throw InputError  the one of the file differs, and the policy is to refuse; the message names the fields
+/// \param file  a JSON document with the members of `identities_json`; need not exist
+/// \throw InputError  the identity of the file differs, and the policy is to refuse; the message names the fields
 std::vector<Identity> accepted_identities(const std::filesystem::path& file, const Identity& now, OtherIdentity policy);
 
-/// The names of the fields that differ, with both values: "machine.cpu: 'A' then, 'B' now".
-std::vector<std::string> differences(const Identity& then, const Identity& now);
+/// The members "identity" and "mixed_with" of a document that keeps identities.
+bench::Json identities_json(const std::vector<Identity>& accepted);
+
+/// The hashes of files that many cases share, each computed once.
+class FileHashes {
+ public:
+  /// SHA-256; empty if the file cannot be read.
+  const std::string& of(const std::filesystem::path& file);
+
+ private:
+  std::map<std::filesystem::path, std::string> known_;
+};
 
 /// The hash that identifies a case: of the bytes of its input and of other files that its options name, the mesher's
 /// name, version and binary, the options, the limits, and whether it is verified; 16 hexadecimal digits.
-std::string id_of(const Case& asked, const Identity& identity);
+std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes);
 
 }  // namespace ccdt::cases

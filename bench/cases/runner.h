@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,17 +44,15 @@ class Runner {
   /// Of a single case.
   MeasuredCase run(const Case& asked);
 
-  /// What is known of these cases without running anything; those without any record have an empty `first.mesher`.
-  std::vector<MeasuredCase> load(std::span<const Case> cases) const;
+  /// What is known of these cases without running anything.
+  std::vector<MeasuredCase> load(std::span<const Case> cases);
 
  private:
+  MeasuredCase find(const Case& asked);
+
   RunnerSettings settings_;
+  FileHashes hashes_;
+  std::set<std::string> tried_;  ///< ids of the cases that were run here; they are not retried once more
 };
-
-/// Must there be a run of this number, as far as the records tell?
-bool is_missing(const MeasuredCase& measured, int number);
-
-/// Are all runs there that the case needs?
-bool is_finished(const MeasuredCase& measured);
 
 }  // namespace ccdt::cases

@@ -1,0 +1,129 @@
+#include "bench/cases/identity.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "baselines/mesher.h"
+#include "bench/environment.h"
+#include "bench/results/numbers.h"
+#include "engine/base/errors.h"
+#include "engine/io/files.h"
+
+namespace ccdt::cases {
+namespace {
+
+constexpr std::size_t id_digits = 16;
+constexpr const char* identity_member = "identity";
+constexpr const char* mixed_member = "mixed_with";
+
+void add_machine(Identity& identity) {
+  const bench::Environment here = bench::capture_environment();
+  identity["machine.cpu"] = here.cpu;
+  // All of the machine: a batch system may give a process a part of them.
+  identity["machine.cores"] = std::to_string(sysconf(_SC_NPROCESSORS_CONF));
+  identity["machine.system"] = here.system;
+}
+
+/// The fields that say what a mesher is.
+std::vector<std::string> mesher_fields(const std::string& name) {
+  return {name + ".version", name + ".binary"};
+}
+
+bench::Json read_identities(const std::filesystem::path& file) {
+  const io::FileBytes bytes = io::read_whole_file(file);
+  const bench::Json json = bench::Json::parse(bytes.bytes, nullptr, false);
+  if (!json.is_object() || !json.contains(identity_member))
+    throw InputError("this file does not say with which programs its folder was made", io::place_in(file.string()),
+                     "choose another folder, or remove the file to measure everything again");
+  return json;
+}
+
+/// The file of a node list beside a `.poly` that may take its vertices from there.
+std::filesystem::path companion_of(const std::filesystem::path& input) {
+  const std::string ending = io::lower_ending(input);
+  if (ending != ".poly" && ending != ".smesh") return {};
+  return std::filesystem::path(input).replace_extension(".node");
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return !path.empty() && std::filesystem::is_regular_file(path, error);
+}
+
+}  // namespace
+
+Identity identity_of(const std::vector<std::string>& meshers, const std::filesystem::path& program) {
+  Identity identity;
+  add_machine(identity);
+  FileHashes hashes;
+  for (const std::string& name_or_file : meshers) {
+    const baselines::Mesher& mesher = baselines::mesher(name_or_file);
+    identity[mesher.name + ".version"] = baselines::version_of(mesher);
+    identity[mesher.name + ".binary"] = hashes.of(program);
+  }
+  return identity;
+}
+
+std::vector<std::string> differences(const Identity& then, const Identity& now) {
+  std::vector<std::string> all;
+  for (const auto& [field, value] : then) {
+    const auto found = now.find(field);
+    if (found != now.end() && found->second != value)
+      all.push_back(field + " was '" + value + "' and is '" + found->second + "'");
+  }
+  return all;
+}
+
+std::vector<Identity> accepted_identities(const std::filesystem::path& file, const Identity& now,
+                                          OtherIdentity policy) {
+  if (!std::filesystem::exists(file)) return {now};
+  const bench::Json json = read_identities(file);
+  const auto then = json.at(identity_member).get<Identity>();
+  const auto mixed = json.value(mixed_member, std::vector<Identity>());
+  const std::vector<std::string> changes = differences(then, now);
+  Identity all = now;
+  all.insert(then.begin(), then.end());  // of meshers that are not asked for now
+  std::vector<Identity> accepted = {all};
+  if (!changes.empty()) {
+    const bool is_known =
+        std::ranges::any_of(mixed, [&](const Identity& other) { return differences(other, now).empty(); });
+    if (policy == OtherIdentity::refuse && !is_known)
+      throw InputError(
+          "this folder was made with other programs or on another machine: " + results::joined(changes, "; "),
+          io::place_in(file.string()),
+          "choose another folder; or measure again with --refresh; or keep both with --mixed");
+    if (policy == OtherIdentity::refresh) return accepted;
+    accepted.push_back(then);
+  }
+  accepted.insert(accepted.end(), mixed.begin(), mixed.end());
+  return accepted;
+}
+
+bench::Json identities_json(const std::vector<Identity>& accepted) {
+  bench::Json json = {{identity_member, accepted.front()}};
+  if (accepted.size() > 1) json[mixed_member] = std::vector<Identity>(accepted.begin() + 1, accepted.end());
+  return json;
+}
+
+const std::string& FileHashes::of(const std::filesystem::path& file) {
+  const auto [entry, is_new] = known_.try_emplace(file);
+  if (is_new) entry->second = bench::sha256_of_file(file);
+  return entry->second;
+}
+
+std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes) {
+  const std::string name = baselines::mesher(asked.mesher).name;
+  bench::Json what = {{"input", hashes.of(asked.input)}, {"mesher", name}, {"options", asked.options}};
+  for (const std::string& field : mesher_fields(name))
+    if (identity.contains(field)) what[field] = identity.at(field);
+  if (const auto nodes = companion_of(asked.input); is_file(nodes)) what["nodes"] = hashes.of(nodes);
+  for (const std::string& option : asked.options)
+    if (is_file(option)) what["files"].push_back(hashes.of(option));
+  what["limits"] = {asked.limits.seconds, asked.limits.memory_bytes};
+  what["verify"] = asked.verify;
+  return bench::sha256_of_text(what.dump(-1, ' ', false, bench::Json::error_handler_t::replace)).substr(0, id_digits);
+}
+
+}  // namespace ccdt::cases

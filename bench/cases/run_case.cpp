@@ -1,0 +1,118 @@
+#include "bench/cases/run_case.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "baselines/mesher.h"
+#include "bench/environment.h"
+#include "engine/base/errors.h"
+#include "engine/io/files.h"
+
+namespace ccdt::cases {
+namespace {
+
+/// The folder of one run, which is removed at the end.
+class Scratch {
+ public:
+  explicit Scratch(std::filesystem::path folder) : folder_(std::move(folder)) {
+    std::filesystem::remove_all(folder_);  // of a run that was killed
+    std::filesystem::create_directories(folder_);
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// A file as it is called in its folder; elsewhere by its whole path.
+std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto whole = std::filesystem::absolute(file).lexically_normal();
+  const auto name = whole.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+  return name.empty() || *name.begin() == ".." ? whole.string() : name.string();
+}
+
+std::string mesh_ending(const Case& asked) {
+  return asked.mesh_ending.empty() ? ".vtu" : asked.mesh_ending;
+}
+
+/// `ccdt mesh` with everything but its program.
+std::vector<std::string> command_of(const RunPlace& place, const Case& asked, const std::string& mesh,
+                                    const std::string& report) {
+  const bool is_description = baselines::is_mesher_description(asked.mesher);
+  std::vector<std::string> command = {"mesh", name_in(place.folder, asked.input), "-o", mesh, "--report", report};
+  command.insert(command.end(), {"--mesher", is_description ? name_in(place.folder, asked.mesher) : asked.mesher});
+  command.insert(command.end(), asked.options.begin(), asked.options.end());
+  return command;
+}
+
+baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> command, const Scratch& scratch,
+                              const baselines::Limits& limits) {
+  command.insert(command.begin(), place.program.string());
+  return baselines::run_program(
+      command, {.folder = place.folder, .environment = {{"TMPDIR", scratch.folder().string()}}, .limits = limits});
+}
+
+/// The record of a child that ended before it wrote a report.
+RunRecord record_without_report(const RunPlace& place, const Case& asked) {
+  RunRecord record;
+  record.environment = bench::capture_environment();
+  const baselines::Mesher& mesher = baselines::mesher(asked.mesher);
+  record.mesher = {mesher.name, baselines::version_of(mesher),
+                   mesher.name == "ccdt" ? record.environment.revision : ""};
+  record.input.name = name_in(place.folder, asked.input);
+  for (std::size_t i = 0; i + 1 < asked.options.size(); i += 2)
+    record.set_option(asked.options[i].substr(asked.options[i].find_first_not_of('-')), asked.options[i + 1]);
+  return record;
+}
+
+/// The child's own record, if that says more than how the child ended.
+RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesystem::path& report,
+                    const baselines::ProcessResult& child) {
+  const bool wrote_one = std::filesystem::exists(report);
+  RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(place, asked);
+  // What a child wrote before it crashed says only what it was to do.
+  const bool ended_by_itself = child.status == baselines::RunStatus::ok || child.status == baselines::RunStatus::failed;
+  if (wrote_one && ended_by_itself && record.status != baselines::RunStatus::crashed) return record;
+  record.status = child.status == baselines::RunStatus::ok ? baselines::RunStatus::crashed : child.status;
+  record.reason = child.reason;
+  return record;
+}
+
+/// The files of a mesh in several formats have one stem.
+void keep_mesh(const RunPlace& place, const MeasuredCase& measured, const Scratch& scratch) {
+  std::filesystem::create_directories(place.folder / "meshes");
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.folder()))
+    if (entry.path().stem() == "mesh")
+      std::filesystem::rename(entry.path(),
+                              place.folder / "meshes" / (measured.id + entry.path().extension().string()));
+}
+
+}  // namespace
+
+void run_next(const RunPlace& place, MeasuredCase& measured) {
+  const Case& asked = measured.asked;
+  const auto folder = std::filesystem::absolute(place.folder);
+  const std::string file = run_file(measured.id, measured.runs);
+  const Scratch scratch(folder / "scratch" / std::filesystem::path(file).stem());
+  const auto mesh = scratch.file("mesh" + mesh_ending(asked)), report = scratch.file("record.json");
+  const baselines::ProcessResult child =
+      call(place, command_of(place, asked, mesh.string(), report.string()), scratch, asked.limits);
+  RunRecord record = record_of(place, asked, report, child);
+  record.command = command_of(place, asked, "again" + mesh_ending(asked), "again.json");
+  record.command.insert(record.command.begin(), "ccdt");
+  if (record.status == baselines::RunStatus::ok && !asked.mesh_ending.empty()) keep_mesh(place, measured, scratch);
+  std::filesystem::create_directories(folder / "runs");
+  bench::write_run_record(record, folder / file);
+  add_run(measured, std::move(record));
+}
+
+}  // namespace ccdt::cases

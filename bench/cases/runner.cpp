@@ -1,0 +1,201 @@
+#include "bench/cases/runner.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "bench/cases/run_case.h"
+#include "bench/environment.h"
+#include "engine/base/errors.h"
+
+namespace ccdt::cases {
+namespace {
+
+/// The record of a run; none if there is no such file, or what is there is none.
+std::optional<RunRecord> read_record(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return {};
+  try {
+    return bench::read_run_record(file);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// The case with this id, and its records.
+///
+/// \param retried  failures of these cases count, even if failures are to be retried
+MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const std::string& id,
+                       const std::set<std::string>& retried) {
+  MeasuredCase measured{asked, id};
+  while (needs_run(measured)) {
+    auto record = read_record(settings.folder / run_file(id, measured.runs));
+    if (!record) break;
+    const bool failed = record->status != baselines::RunStatus::ok;
+    if (failed && settings.retry_failed && !retried.contains(id)) break;
+    add_run(measured, *std::move(record));
+  }
+  return measured;
+}
+
+/// The cases of a call that are different. Equal inputs make equal cases, which are run once.
+std::vector<MeasuredCase> distinct(const std::vector<MeasuredCase>& cases) {
+  std::vector<MeasuredCase> all;
+  std::set<std::string> known;
+  for (const MeasuredCase& measured : cases)
+    if (known.insert(measured.id).second) all.push_back(measured);
+  return all;
+}
+
+/// Counts runs for the progress, from whichever thread.
+class RunCounter {
+ public:
+  RunCounter(const Progress& progress, std::span<const MeasuredCase> cases) : progress_(progress) {
+    for (const MeasuredCase& measured : cases) {
+      done_ += static_cast<std::uint64_t>(measured.runs);
+      total_ += static_cast<std::uint64_t>(measured.runs + left(measured));
+    }
+  }
+
+  void begin(const MeasuredCase& measured) {
+    const std::lock_guard lock(mutex_);
+    report(progress_, measured.asked.name, done_, total_);
+  }
+
+  /// A case may turn out to need more runs, or none after a failure.
+  void end(const MeasuredCase& measured, int left_before) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    total_ = total_ + 1 + static_cast<std::uint64_t>(left(measured)) - static_cast<std::uint64_t>(left_before);
+    report(progress_, measured.asked.name, done_, total_);
+  }
+
+  /// At least so many more runs.
+  static int left(const MeasuredCase& measured) {
+    if (!needs_run(measured)) return 0;
+    const Repetitions& repetitions = measured.asked.repetitions;
+    return std::max(1, repetitions.warm_up + repetitions.at_least - measured.runs);
+  }
+
+ private:
+  const Progress& progress_;
+  std::mutex mutex_;
+  std::uint64_t done_ = 0, total_ = 0;
+};
+
+void run_counted(const RunPlace& place, MeasuredCase& measured, RunCounter& counter) {
+  const int left_before = RunCounter::left(measured);
+  counter.begin(measured);
+  run_next(place, measured);
+  counter.end(measured, left_before);
+}
+
+using Group = std::vector<MeasuredCase*>;
+
+/// In the order of their first cases.
+std::vector<Group> groups_of(std::vector<MeasuredCase>& cases) {
+  std::vector<Group> groups;
+  std::map<std::string, std::size_t> known;
+  for (MeasuredCase& measured : cases) {
+    const auto [found, is_new] = known.try_emplace(measured.asked.group, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[found->second].push_back(&measured);
+  }
+  return groups;
+}
+
+/// The cases of a group that are to run next: those that need runs and have had the fewest, in random order. The order
+/// depends on the seed and the round alone, so that it is the same after an interruption.
+Group next_round(const Group& group, std::uint64_t seed) {
+  Group round;
+  for (MeasuredCase* measured : group) {
+    if (!needs_run(*measured)) continue;
+    if (!round.empty() && measured->runs < round.front()->runs) round.clear();
+    if (round.empty() || measured->runs == round.front()->runs) round.push_back(measured);
+  }
+  const auto key = [&](const MeasuredCase* measured) {
+    return bench::sha256_of_text(std::to_string(seed) + " " + std::to_string(measured->runs) + " " + measured->id);
+  };
+  std::ranges::sort(round, {}, key);
+  return round;
+}
+
+void run_in_turn(const RunPlace& place, const Group& group, std::uint64_t seed, RunCounter& counter) {
+  for (Group round = next_round(group, seed); !round.empty(); round = next_round(group, seed))
+    for (MeasuredCase* measured : round) run_counted(place, *measured, counter);
+}
+
+/// Several cases at the same time, each with all its repetitions.
+void run_beside(const RunPlace& place, std::vector<MeasuredCase>& cases, RunCounter& counter) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < cases.size(); i = next++)
+        while (needs_run(cases[i])) run_counted(place, cases[i], counter);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = cases.size();
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 0; i < place.jobs; ++i) workers.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+Runner::Runner(RunnerSettings settings) : settings_(std::move(settings)) {}
+
+/// With the first of the accepted identities that has all its records; without one, with that of now.
+MeasuredCase Runner::find(const Case& asked) {
+  MeasuredCase of_now = read_case(settings_, asked, id_of(asked, settings_.identities.front(), hashes_), tried_);
+  for (std::size_t i = 1; i < settings_.identities.size() && of_now.runs == 0; ++i) {
+    MeasuredCase older = read_case(settings_, asked, id_of(asked, settings_.identities[i], hashes_), tried_);
+    if (older.runs > 0 && !needs_run(older)) return older;
+  }
+  return of_now;
+}
+
+std::vector<MeasuredCase> Runner::load(std::span<const Case> cases) {
+  std::vector<MeasuredCase> all;
+  all.reserve(cases.size());
+  for (const Case& asked : cases) all.push_back(find(asked));
+  return all;
+}
+
+std::vector<MeasuredCase> Runner::run(std::span<const Case> cases) {
+  std::vector<MeasuredCase> all = load(cases);
+  std::vector<MeasuredCase> different = distinct(all);
+  RunCounter counter(settings_.progress, different);
+  const RunPlace place{settings_.program, settings_.folder, settings_.jobs};
+  if (settings_.jobs > 1)
+    run_beside(place, different, counter);
+  else
+    for (const Group& group : groups_of(different)) run_in_turn(place, group, settings_.seed, counter);
+
+  std::map<std::string, const MeasuredCase*> by_id;
+  for (const MeasuredCase& measured : different) by_id[measured.id] = &measured;
+  for (MeasuredCase& measured : all) {
+    Case asked = std::move(measured.asked);
+    measured = *by_id.at(measured.id);
+    measured.asked = std::move(asked);
+    tried_.insert(measured.id);
+  }
+  return all;
+}
+
+MeasuredCase Runner::run(const Case& asked) {
+  return run(std::span(&asked, 1)).front();
+}
+
+}  // namespace ccdt::cases
