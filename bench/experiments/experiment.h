@@ -13,6 +13,7 @@
 #include "bench/results/experiment_result.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
+#include "bench/results/row_columns.h"
 #include "bench/run_record.h"
 #include "bench/statistics.h"
 #include "engine/base/progress.h"
@@ -21,16 +22,25 @@ namespace ccdt::experiments {
 
 using bench::Estimate;
 using bench::RunRecord;
+using results::as_cell;
 using results::Cell;
 using results::Circumstances;
 using results::Column;
+using results::column;
 using results::ColumnKind;
 using results::ExperimentResult;
+using results::figure_column;
 using results::joined;
 using results::KeptMesh;
+using results::label_column;
+using results::note_column;
 using results::ResultRow;
 using results::ResultTable;
 using results::rounded;
+using results::RowColumn;
+using results::RowColumns;
+using results::table_of_rows;
+using results::time_column;
 using results::with_interval;
 using results::with_separators;
 
@@ -105,27 +115,6 @@ std::string command_line(const std::vector<std::string>& command);
 /// "20 of 1,000"
 std::string share_words(std::uint64_t part, std::uint64_t whole);
 
-/// A column of the given kind. Without a title, the title is the name with spaces.
-inline Column column(ColumnKind kind, std::string name, std::string title = {}, std::string unit = {}) {
-  if (title.empty()) {
-    title = name;
-    std::ranges::replace(title, '_', ' ');
-  }
-  return {std::move(name), std::move(title), kind, std::move(unit)};
-}
-inline Column label_column(std::string name, std::string title = {}) {
-  return column(ColumnKind::label, std::move(name), std::move(title));
-}
-inline Column figure_column(std::string name, std::string title = {}, std::string unit = {}) {
-  return column(ColumnKind::figure, std::move(name), std::move(title), std::move(unit));
-}
-inline Column time_column(std::string name, std::string title = {}, std::string unit = {}) {
-  return column(ColumnKind::time, std::move(name), std::move(title), std::move(unit));
-}
-inline Column note_column(std::string name, std::string title = {}) {
-  return column(ColumnKind::note, std::move(name), std::move(title));
-}
-
 /// A table that has no rows yet.
 inline ResultTable table_of(std::string name, std::string title, std::vector<Column> columns, bool is_data = false) {
   return {std::move(name), std::move(title), std::move(columns), {}, is_data};
@@ -134,14 +123,6 @@ inline ResultTable table_of(std::string name, std::string title, std::vector<Col
 template <class Items>
 void append(std::vector<typename Items::value_type>& to, const Items& more) {
   to.insert(to.end(), more.begin(), more.end());
-}
-
-template <class Value>
-Cell as_cell(const Value& value) {
-  if constexpr (std::is_convertible_v<const Value&, Cell>)
-    return value;
-  else
-    return results::cell_of(value);
 }
 
 /// The value, if it is known; else an empty cell.

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <functional>
 #include <ranges>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -10,23 +13,68 @@
 
 namespace ccdt::results {
 
+/// A value as a cell: a text, a number, an estimate, yes or no, or one of these that may be missing.
+template <class Value>
+Cell as_cell(const Value& value) {
+  if constexpr (std::is_convertible_v<const Value&, Cell>)
+    return value;
+  else
+    return cell_of(value);
+}
+
+/// A column of the given kind. Without a title, the title is the name with spaces.
+inline Column column(ColumnKind kind, std::string name, std::string title = {}, std::string unit = {}) {
+  if (title.empty()) {
+    title = name;
+    std::ranges::replace(title, '_', ' ');
+  }
+  return {std::move(name), std::move(title), kind, std::move(unit)};
+}
+inline Column label_column(std::string name, std::string title = {}) {
+  return column(ColumnKind::label, std::move(name), std::move(title));
+}
+inline Column figure_column(std::string name, std::string title = {}, std::string unit = {}) {
+  return column(ColumnKind::figure, std::move(name), std::move(title), std::move(unit));
+}
+inline Column time_column(std::string name, std::string title = {}, std::string unit = {}) {
+  return column(ColumnKind::time, std::move(name), std::move(title), std::move(unit));
+}
+inline Column note_column(std::string name, std::string title = {}) {
+  return column(ColumnKind::note, std::move(name), std::move(title));
+}
+
 /// A column as data: its heading, and its cell as a function of what a row stands for.
 template <class Row>
 struct RowColumn {
+  /// \param value  a function of the row, or a pointer to a member of it; what it gives is made a cell by `as_cell`
+  template <std::invocable<const Row&> Value>
+  RowColumn(Column heading, Value value)
+      : column(std::move(heading)),
+        cell([value = std::move(value)](const Row& row) { return as_cell(std::invoke(value, row)); }) {}
+
+  /// A column of a base is one of what is derived from it.
+  template <class Base>
+  requires(std::derived_from<Row, Base> && !std::same_as<Row, Base>) RowColumn(const RowColumn<Base>& of_base)
+      : column(of_base.column), cell(of_base.cell) {}
+
   Column column;
-  std::function<Cell(const Row&)> value;
+  std::function<Cell(const Row&)> cell;
 };
 
-/// A table with a row for each of `rows`, which have a member `runs`: the files of the runs that the row stands on.
 template <class Row>
-ResultTable table_of_rows(std::string name, std::string title, const std::vector<RowColumn<Row>>& columns,
+using RowColumns = std::vector<RowColumn<Row>>;
+
+/// A table with a row for each of `rows`. If there is a function `runs_of(row)`, it tells the files of the runs that a
+/// row stands on.
+template <class Row>
+ResultTable table_of_rows(std::string name, std::string title, const RowColumns<Row>& columns,
                           const std::ranges::range auto& rows, bool is_data = false) {
   ResultTable table{std::move(name), std::move(title), {}, {}, is_data};
   for (const RowColumn<Row>& column : columns) table.columns.push_back(column.column);
   for (const Row& row : rows) {
-    ResultRow& cells = table.rows.emplace_back();
-    for (const RowColumn<Row>& column : columns) cells.cells.push_back(column.value(row));
-    cells.runs = row.runs;
+    ResultRow& made = table.rows.emplace_back();
+    for (const RowColumn<Row>& column : columns) made.cells.push_back(column.cell(row));
+    if constexpr (requires { runs_of(row); }) made.runs = runs_of(row);
   }
   return table;
 }
