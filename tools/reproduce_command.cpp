@@ -3,10 +3,13 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "baselines/mesher.h"
+#include "bench/cases/identity.h"
 #include "bench/experiments/registry.h"
+#include "bench/json.h"
 #include "engine/io/files.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
@@ -31,6 +34,7 @@ constexpr std::array<NamedScale, 3> named_scales = {
      {"large", 1000000, "10^6, and in fig8 to 10^7"}}};
 
 constexpr const char* claims_name = "claims";
+constexpr const char* identity_file = "identity.json";
 
 struct ReproduceCommand {
   std::vector<std::string> experiments;
@@ -38,6 +42,7 @@ struct ReproduceCommand {
   experiments::ExperimentOptions options;
   std::vector<std::string> beside;
   double memory_gibibytes = 0;
+  bool refresh = false, mixed = false, retry_failed = false;
 };
 
 /// \throw CLI::ValidationError  neither a name nor a number
@@ -120,13 +125,34 @@ std::string command_of(const experiments::KnownExperiment& known, const Reproduc
   return text + " -o .";
 }
 
+/// Whose records count in the folder, which from now on says so.
+/// \throw InputError  they were made by another program or on another machine, and nothing was said about that
+std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
+  std::vector<std::string> meshers;
+  for (const baselines::Mesher& mesher : baselines::meshers()) meshers.push_back(mesher.name);
+  std::ranges::copy_if(command.beside, std::back_inserter(meshers), baselines::is_mesher_description);
+  const auto file = command.options.folder / identity_file;
+  const cases::OtherIdentity policy = command.refresh ? cases::OtherIdentity::refresh
+                                      : command.mixed ? cases::OtherIdentity::mixed
+                                                      : cases::OtherIdentity::refuse;
+  const auto accepted = cases::accepted_identities(file, cases::identity_of(meshers, command.options.program), policy);
+  bench::write_json(cases::identities_json(accepted), file);
+  return accepted;
+}
+
 /// Measures with a progress bar, writes the result to the folder and prints it.
 /// \return  did everything of our own go well?
-bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& command) {
+bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& command,
+               const std::vector<cases::Identity>& identities) {
   command.options.command = command_of(known, command);
   const results::ExperimentResult result = [&] {
     ProgressBar bar;
-    return known.measure(command.options, bar.progress());
+    cases::Runner runner({.program = command.options.program,
+                          .folder = command.options.folder,
+                          .identities = identities,
+                          .retry_failed = command.retry_failed,
+                          .progress = bar.progress()});
+    return known.measure(command.options, runner);
   }();
   results::write_experiment_result(result, command.options.folder);
   std::printf("%s\n", reports::to_terminal(result).c_str());
@@ -143,8 +169,10 @@ bool run(ReproduceCommand& command) {
   std::filesystem::create_directories(options.folder);
   take_files(command);
   check_can_be_written(options.folder / "report.json");
+  const std::vector<cases::Identity> identities = identities_of(command);
   bool is_good = true;
-  for (const experiments::KnownExperiment* known : chosen(command)) is_good = reproduce(*known, command) && is_good;
+  for (const experiments::KnownExperiment* known : chosen(command))
+    is_good = reproduce(*known, command, identities) && is_good;
   make_report(options.folder);
   return is_good;
 }
@@ -157,6 +185,7 @@ std::string footer() {
   for (const NamedScale& scale : named_scales) text += list_line(scale.name, scale.what);
   return text +
          "\nEvery run is a process of its own; its report stays in DIR/runs, that of an experiment is DIR/NAME.json.\n"
+         "Nothing is run twice: killed and called again, it goes on where it was.\n"
          "A case that fails is a row with the reason. Tables, figures and the page are then made of all experiments\n"
          "in DIR, as by `ccdt report DIR`.\n\n"
          "Example: the whole paper, in minutes\n"
@@ -200,6 +229,13 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
       ->check(known_mesher());
 }
 
+void add_what_to_keep(CLI::App& verb, ReproduceCommand& command) {
+  auto* refresh = verb.add_flag("--refresh", command.refresh,
+                                "the folder was made with another program or on another machine: measure again");
+  verb.add_flag("--mixed", command.mixed, "the same, but keep what was measured")->excludes(refresh);
+  verb.add_flag("--retry-failed", command.retry_failed, "run cases again that failed");
+}
+
 }  // namespace
 
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
@@ -213,6 +249,7 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   verb->add_option("-o,--output", command->folder, "folder of the report; created if needed")->required();
   add_what_to_measure(*verb, *command);
   add_limits(*verb, *command);
+  add_what_to_keep(*verb, *command);
   verb->footer(footer());
   verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
 }

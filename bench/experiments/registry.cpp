@@ -11,33 +11,40 @@
 namespace ccdt::experiments {
 namespace {
 
-using Measure = std::function<ExperimentResult(const ExperimentOptions&, const Progress&)>;
+using Measure = std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)>;
 
 /// Of an experiment that first measures and then says what it found.
 template <class Measured>
 Measure in_two_steps(Measured (*measure)(const ExperimentOptions&, const Progress&)) {
-  return [measure](const ExperimentOptions& options, const Progress& progress) {
-    return result_of(measure(options, progress));
+  return [measure](const ExperimentOptions& options, cases::Runner& runner) {
+    return result_of(measure(options, runner.settings().progress));
+  };
+}
+
+/// Of an experiment that has no cases.
+Measure without_cases(ExperimentResult (*measure)(const ExperimentOptions&, const Progress&)) {
+  return [measure](const ExperimentOptions& options, cases::Runner& runner) {
+    return measure(options, runner.settings().progress);
   };
 }
 
 /// The quality of one of the paper's models, which is then not among the user's choices.
 Measure quality_figure(const std::string& name, const std::string& model) {
-  return [name, model](const ExperimentOptions& options, const Progress& progress) {
+  return [name, model](const ExperimentOptions& options, cases::Runner& runner) {
     ExperimentOptions own = options;
     own.inputs.clear();
-    return result_of(measure_mesher_quality(own, name, {model}, progress));
+    return result_of(measure_mesher_quality(own, name, {model}, runner.settings().progress));
   };
 }
 
-ExperimentResult measure_quality(const ExperimentOptions& options, const Progress& progress) {
-  return result_of(measure_mesher_quality(options, "quality", names_of_paper_models(), progress));
+ExperimentResult measure_quality(const ExperimentOptions& options, cases::Runner& runner) {
+  return result_of(measure_mesher_quality(options, "quality", names_of_paper_models(), runner.settings().progress));
 }
 
 /// Gives the result the names that all other results of the experiment have.
 Measure named(const KnownExperiment& known) {
-  return [known](const ExperimentOptions& options, const Progress& progress) {
-    ExperimentResult result = known.measure(options, progress);
+  return [known](const ExperimentOptions& options, cases::Runner& runner) {
+    ExperimentResult result = known.measure(options, runner);
     result.name = known.name;
     result.title = known.title;
     result.section = known.section;
@@ -51,7 +58,7 @@ std::vector<KnownExperiment> all_experiments() {
       {"table1", "Table 1: the CDT with and without the face protection check", "6, Table 1",
        "Delaunay, the CDT with and without the check, and other meshers", true, true, in_two_steps(measure_table1)},
       {"fig7", "Fig. 7: the meshes of the three models", "6, Fig. 7", "pictures of them, cut open", true, false,
-       measure_fig7},
+       without_cases(measure_fig7)},
       {"fig8", "Fig. 8: time against size", "6, Fig. 8", "time against size over two decades, and how it grows", true,
        true, in_two_steps(measure_fig8)},
       {"fig9", "Fig. 9: quality of the piston's tetrahedra", "6, Fig. 9", "the piston's " + quality_words, true, true,
@@ -65,13 +72,15 @@ std::vector<KnownExperiment> all_experiments() {
       {"locators", "Locators: who finds the front's vertices and occluders fastest", "4",
        "grid, octree and cavity on even and on graded surfaces", true, false, in_two_steps(measure_locators)},
       {"delaunay", "Delaunay: insertion and wrapping beside CGAL and TetGen", "5",
-       "the Delaunay tetrahedralization of the same points by four programs", true, false, measure_delaunay},
+       "the Delaunay tetrahedralization of the same points by four programs", true, false,
+       without_cases(measure_delaunay)},
       {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
        false, in_two_steps(measure_improvement)},
       {"theorem1", "Theorem 1: protected if and only if there is a DT", "5.2, Theorem 1",
-       "Theorem 1 in both directions, by exhaustive search on small inputs", true, true, measure_theorem1},
+       "Theorem 1 in both directions, by exhaustive search on small inputs", true, true,
+       without_cases(measure_theorem1)},
       {"termination", "Termination: does splitting at midpoints end?", "2",
-       "midpoints and shells where segments meet at small angles", true, true, measure_termination},
+       "midpoints and shells where segments meet at small angles", true, true, without_cases(measure_termination)},
       {"interior-points", "Interior points: do they never harm existence?", "3",
        "do interior points never harm existence, as the paper says?", true, true,
        in_two_steps(measure_interior_points)},

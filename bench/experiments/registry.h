@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/cases/runner.h"
 #include "bench/experiments/experiment.h"
 
 namespace ccdt::experiments {
@@ -18,8 +19,8 @@ struct KnownExperiment {
   bool is_usual = true;    ///< done when none is named
   bool is_claimed = true;  ///< a claim of the paper is tested by it
 
-  /// Measures. The result has name, title and section of this entry.
-  std::function<ExperimentResult(const ExperimentOptions&, const Progress&)> measure;
+  /// Measures what the records of the runner do not tell yet. The result has name, title and section of this entry.
+  std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)> measure;
 };
 
 /// In the order in which reports show them.
