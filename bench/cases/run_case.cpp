@@ -74,16 +74,12 @@ RunRecord record_without_report(const RunPlace& place, const Case& asked) {
   return record;
 }
 
-/// The child's own record, if that says more than how the child ended.
 RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesystem::path& report,
                     const baselines::ProcessResult& child) {
   const bool wrote_one = std::filesystem::exists(report);
   RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(place, asked);
-  // What a child wrote before it crashed says only what it was to do.
-  const bool ended_by_itself = child.status == baselines::RunStatus::ok || child.status == baselines::RunStatus::failed;
-  if (wrote_one && ended_by_itself && record.status != baselines::RunStatus::crashed) return record;
-  record.status = child.status == baselines::RunStatus::ok ? baselines::RunStatus::crashed : child.status;
-  record.reason = child.reason;
+  if (!wrote_one) record.set_failure(baselines::FailureKind::crashed, "the process ended without a report");
+  bench::note_end(child, record);
   return record;
 }
 
