@@ -56,9 +56,13 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions& options, c
 }  // namespace
 
 Mesher cgal_delaunay_mesher() {
-  return {
-      "cgal-delaunay",    CGAL_VERSION_STR,  "CGAL Delaunay_triangulation_3 of the vertices alone (their convex hull)",
-      "GPL-3.0-or-later", run_cgal_delaunay, settings_of_cgal_delaunay};
+  return {.name = "cgal-delaunay",
+          .version = CGAL_VERSION_STR,
+          .what = "CGAL Delaunay_triangulation_3 of the vertices alone (their convex hull)",
+          .license = "GPL-3.0-or-later",
+          .run = run_cgal_delaunay,
+          .settings = settings_of_cgal_delaunay,
+          .keeps_surface = false};
 }
 
 }  // namespace ccdt::baselines

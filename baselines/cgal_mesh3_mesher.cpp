@@ -192,8 +192,14 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
 }  // namespace
 
 Mesher cgal_mesh3_mesher() {
-  return {"cgal-mesh3",       CGAL_VERSION_STR, "CGAL Mesh_3: Delaunay refinement that approximates the surface",
-          "GPL-3.0-or-later", run_cgal_mesh3,   settings_of_mesh3};
+  return {.name = "cgal-mesh3",
+          .version = CGAL_VERSION_STR,
+          .what = "CGAL Mesh_3: Delaunay refinement that approximates the surface",
+          .license = "GPL-3.0-or-later",
+          .run = run_cgal_mesh3,
+          .settings = settings_of_mesh3,
+          .keeps_surface = false,
+          .options = {{.name = "edge-length"}, {.name = "flatness"}, {.name = "improve", .only_none = true}}};
 }
 
 }  // namespace ccdt::baselines

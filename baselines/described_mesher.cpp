@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
@@ -96,10 +97,13 @@ MesherSettings settings_of_described(const Description& description, const Input
   return settings;
 }
 
+bool keeps_polygons(const Description& description) {
+  return description.input_format == "poly" || description.input_format == "smesh";
+}
+
 /// Formats of surfaces want triangles, those of PLCs keep polygons.
 InputPlc input_for_format(const Description& description, const InputPlc& input, const MeshOptions& options) {
-  const bool keeps_polygons = description.input_format == "poly" || description.input_format == "smesh";
-  if (keeps_polygons || input.polygon_facets.empty()) return merge_equal_vertices(input);
+  if (keeps_polygons(description) || input.polygon_facets.empty()) return merge_equal_vertices(input);
   return triangulate_facets(input, options);
 }
 
@@ -211,24 +215,72 @@ std::string ask_version(const Description& description) {
   return version_of_program(command, description.version_pattern);
 }
 
+/// All texts of a description that the program gets to see.
+std::vector<std::string> texts_of(const Description& description) {
+  std::vector<std::string> texts = description.command;
+  texts.push_back(description.output);
+  for (const auto& [name, text] : description.files) texts.push_back(text);
+  for (const auto& [name, value] : description.environment) texts.push_back(value);
+  return texts;
+}
+
+/// Which options change the texts.
+///
+/// \param bare  with `--lattice none`
+std::set<std::string> options_in_texts(const Description& description, bool bare) {
+  std::set<std::string> options;
+  const auto note = [&](const std::string& name) {
+    if (name == "edge_length" || name == "max_volume") options.insert("edge-length");
+  };
+  const auto note_choice = [&](const Choice& choice) {
+    const bool is_inside = choice.condition == ChoiceCondition::interior_points;
+    if (is_inside) options.insert("lattice");
+    if (choice.condition == ChoiceCondition::improvement) options.insert("improve");
+    if (choice.condition == ChoiceCondition::edge_length) options.insert("edge-length");
+    if (!is_inside || !bare) std::ranges::for_each(placeholders_in(choice.text_if), note);
+    if (!is_inside || bare) std::ranges::for_each(placeholders_in(choice.text_else), note);
+  };
+  for (const std::string& text : texts_of(description))
+    for (const std::string& name : placeholders_in(text)) {
+      note(name);
+      const auto choice = std::ranges::find(description.choices, name, &Choice::name);
+      if (choice != description.choices.end()) note_choice(*choice);
+    }
+  return options;
+}
+
+std::vector<OptionUse> options_of_described(const Description& description) {
+  const std::set<std::string> inside = options_in_texts(description, false), bare = options_in_texts(description, true);
+  std::set<std::string> all = inside;
+  all.insert(bare.begin(), bare.end());
+  std::vector<OptionUse> uses;
+  for (const std::string& name : all)
+    uses.push_back({.name = name, .only_none = name != "edge-length", .only_inside = !bare.contains(name)});
+  if (!keeps_polygons(description)) uses.push_back({.name = "flatness"});  // for the triangles of polygons
+  return uses;
+}
+
 }  // namespace
 
 Mesher described_mesher(const MesherDescription& description) {
   const auto asked = std::make_shared<std::string>();
-  return {description.name,
-          "",
-          description.what,
-          description.license,
-          [=](const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-            return run_described(description, input, options, progress);
-          },
-          [=](const InputPlc& input, const MeshOptions& options) {
-            return settings_of_described(description, input, options);
-          },
-          [=] {
-            if (asked->empty()) *asked = ask_version(description);
-            return *asked;
-          }};
+  return {.name = description.name,
+          .version = "",
+          .what = description.what,
+          .license = description.license,
+          .run = [=](const InputPlc& input, const MeshOptions& options,
+                     const Progress& progress) { return run_described(description, input, options, progress); },
+          .settings = [=](const InputPlc& input,
+                          const MeshOptions& options) { return settings_of_described(description, input, options); },
+          .ask_version =
+              [=] {
+                if (asked->empty()) *asked = ask_version(description);
+                return *asked;
+              },
+          .keeps_surface = description.keeps_surface,
+          .options = options_of_described(description),
+          .program = program_of(description, description.command[0]).value_or(""),
+          .description = description.file};
 }
 
 }  // namespace ccdt::baselines

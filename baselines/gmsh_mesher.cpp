@@ -190,10 +190,18 @@ std::string version_of_gmsh() {
 std::optional<Mesher> gmsh_hxt_mesher() {
   const auto program = find_program(program_name, program_variable);
   if (!program) return std::nullopt;
-  return Mesher{
-      "gmsh-hxt",         "",       "Gmsh's HXT, run as the program " + program->string() + ": refines and optimizes",
-      "GPL-2.0-or-later", run_gmsh, settings_of_gmsh,
-      version_of_gmsh};
+  return Mesher{.name = "gmsh-hxt",
+                .version = "",
+                .what = "Gmsh's HXT, run as the program " + program->string() + ": refines and optimizes",
+                .license = "GPL-2.0-or-later",
+                .run = run_gmsh,
+                .settings = settings_of_gmsh,
+                .ask_version = version_of_gmsh,
+                .options = {{.name = "edge-length", .only_inside = true},
+                            {.name = "flatness"},
+                            {.name = "improve", .only_none = true},
+                            {.name = "lattice", .only_none = true}},
+                .program = *program};
 }
 
 }  // namespace ccdt::baselines

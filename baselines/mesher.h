@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -21,6 +22,13 @@ struct MesherRun {
   std::vector<std::string> notes;  ///< what a reader of the result has to know, one sentence each
 };
 
+/// An option of `ccdt mesh` that changes what a mesher does.
+struct OptionUse {
+  std::string name;          ///< as on the command line, without dashes: "edge-length"
+  bool only_none = false;    ///< it matters only whether the value is "none"
+  bool only_inside = false;  ///< it does not matter with `--lattice none`
+};
+
 /// One way to make a tetrahedral mesh: our engine or somebody else's program, behind one function.
 struct Mesher {
   std::string name;  ///< as in `--mesher`: ccdt, tetgen, cgal-mesh3, cgal-delaunay, gmsh-hxt; of a description its own
@@ -31,6 +39,11 @@ struct Mesher {
   /// What `run` will ask for; so that it is known of a run that crashes. Null: the options say it all.
   std::function<MesherSettings(const InputPlc&, const MeshOptions&)> settings = {};
   std::function<std::string()> ask_version = {};  ///< of a program; null for a library
+  /// Does its mesh have the facets, segments and vertices of the input? Else it has a surface of its own.
+  bool keeps_surface = true;
+  std::vector<OptionUse> options = {};     ///< what it takes from `ccdt mesh`; see `effective_options`
+  std::filesystem::path program = {};      ///< that is run; empty for what is linked in, or if it is not there
+  std::filesystem::path description = {};  ///< the file that describes it; empty for a mesher of this build
 };
 
 /// All meshers that this build has, ours first.

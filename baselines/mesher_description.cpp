@@ -128,6 +128,7 @@ MesherDescription description_from(const Json& json, const std::string& file) {
   d.environment = texts_by_name(json.value("environment", none));
   d.seconds_pattern = pattern(json, "seconds_pattern", file);
   d.success_codes = json.value("success_codes", d.success_codes);
+  d.keeps_surface = json.value("keeps_surface", d.keeps_surface);
   return d;
 }
 

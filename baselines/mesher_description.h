@@ -48,6 +48,7 @@ struct MesherDescription {
   std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables besides those of the caller
   std::string seconds_pattern = {};  ///< first group: seconds of meshing; of all lines of the log that match, the sum
   std::vector<int> success_codes = {0};  ///< exit codes
+  bool keeps_surface = true;             ///< see `Mesher`
 };
 
 /// Reads a description: JSON of schema `ccdt.mesher/1`, ccdt.mesher.1.schema.json in this folder.

@@ -3,6 +3,7 @@
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesher.h"
+#include "baselines/mesher_options.h"
 #include "engine/io/files.h"
 #include "engine/version.h"
 
@@ -17,6 +18,7 @@ std::vector<Mesher> meshers_of_this_build() {
   std::vector<Mesher> all;
   all.push_back({"ccdt", std::string(engine_version),
                  "this project's engine: conforming constrained Delaunay tetrahedralization", "MIT", run_ccdt});
+  all.back().options = options_of_engine();
 #ifdef CCDT_WITH_TETGEN
   all.push_back(tetgen_mesher());
 #endif

@@ -272,12 +272,13 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
 }  // namespace
 
 Mesher tetgen_mesher() {
-  return {"tetgen",
-          CCDT_TETGEN_VERSION,
-          "TetGen: constrained Delaunay tetrahedralization and Delaunay refinement",
-          "AGPL-3.0-or-later",
-          run_tetgen,
-          settings_of_tetgen};
+  return {.name = "tetgen",
+          .version = CCDT_TETGEN_VERSION,
+          .what = "TetGen: constrained Delaunay tetrahedralization and Delaunay refinement",
+          .license = "AGPL-3.0-or-later",
+          .run = run_tetgen,
+          .settings = settings_of_tetgen,
+          .options = {{.name = "edge-length", .only_inside = true}, {.name = "lattice", .only_none = true}}};
 }
 
 }  // namespace ccdt::baselines

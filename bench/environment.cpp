@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -20,12 +21,14 @@
 namespace ccdt::bench {
 namespace {
 
-constexpr auto fields_of_environment =
-    std::tuple(field("cpu", &Environment::cpu), field("cores", &Environment::cores),
-               field("load_average", &Environment::load_average), field("system", &Environment::system),
-               field("compiler", &Environment::compiler), field("flags", &Environment::flags),
-               field("build_type", &Environment::build_type), field("revision", &Environment::revision),
-               field("libraries", &Environment::libraries));
+constexpr auto fields_of_environment = std::tuple(
+    field("cpu", &Environment::cpu), field("cores", &Environment::cores),
+    optional_field("memory_bytes", &Environment::memory_bytes), field("load_average", &Environment::load_average),
+    field_if_any("governor", &Environment::governor),
+    field_if_any("temperature_celsius", &Environment::temperature_celsius), field_if_any("jobs", &Environment::jobs),
+    field("system", &Environment::system), field("compiler", &Environment::compiler),
+    field("flags", &Environment::flags), field("build_type", &Environment::build_type),
+    field("revision", &Environment::revision), field("libraries", &Environment::libraries));
 
 /// The value of the first line of a file of "name : value" lines that has this name; empty if there is none.
 std::string value_in_file(const char* file, const std::string& name) {
@@ -43,6 +46,35 @@ unsigned usable_cores() {
   cpu_set_t set;
   CPU_ZERO(&set);
   return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<unsigned>(CPU_COUNT(&set)) : 1;
+}
+
+std::uint64_t memory_of_machine() {
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size) : 0;
+}
+
+/// Empty if it cannot be read.
+std::string first_word_of(const std::filesystem::path& file) {
+  std::string word;
+  std::ifstream(file) >> word;
+  return word;
+}
+
+/// The files that the kernel names by a word and a number: thermal_zone0, thermal_zone1, ...
+std::vector<std::filesystem::path> entries_named(const std::filesystem::path& folder, const std::string& begin,
+                                                 const std::string& end = "") {
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(begin) && name.ends_with(end)) found.push_back(entry.path());
+  }
+  return found;
+}
+
+/// The words for the sensor of a whole processor: Intel's and AMD's.
+bool is_processor(const std::string& label) {
+  return label == "Package" || label == "Tctl" || label == "Tdie";
 }
 
 std::string dotted(long major, long minor, long patch) {
@@ -96,6 +128,9 @@ Environment capture_environment() {
   Environment environment;
   environment.cpu = value_in_file("/proc/cpuinfo", "model name");
   environment.cores = usable_cores();
+  environment.memory_bytes = memory_of_machine();
+  environment.governor = first_word_of("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  environment.temperature_celsius = hottest_celsius("/sys/class");
   double load[1] = {0};
   if (getloadavg(load, 1) == 1) environment.load_average = load[0];
   utsname system{};
@@ -107,6 +142,23 @@ Environment capture_environment() {
   environment.revision = source_revision;
   environment.libraries = library_versions();
   return environment;
+}
+
+std::optional<double> hottest_celsius(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> sensors;
+  for (const auto& zone : entries_named(folder / "thermal", "thermal_zone")) sensors.push_back(zone / "temp");
+  for (const auto& chip : entries_named(folder / "hwmon", "hwmon"))
+    for (const auto& label : entries_named(chip, "temp", "_label")) {
+      const std::string name = label.filename().string();
+      if (is_processor(first_word_of(label))) sensors.push_back(chip / (name.substr(0, name.find('_')) + "_input"));
+    }
+  std::optional<double> hottest;
+  for (const auto& sensor : sensors) {
+    double thousandths = 0;
+    if (std::ifstream(sensor) >> thousandths)
+      hottest = std::max(hottest.value_or(thousandths / 1000), thousandths / 1000);
+  }
+  return hottest;
 }
 
 void to_json(Json& json, const Environment& environment) {

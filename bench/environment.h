@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,9 +14,14 @@ namespace ccdt::bench {
 
 /// Where and with what a run was made: what is needed to understand its times later.
 struct Environment {
-  std::string cpu;          ///< model name
-  unsigned cores = 0;       ///< that this process may use
-  double load_average = 0;  ///< over the last minute, before the run
+  std::string cpu;                 ///< model name
+  unsigned cores = 0;              ///< that this process may use
+  std::uint64_t memory_bytes = 0;  ///< of the machine
+  double load_average = 0;         ///< over the last minute, before the run
+  std::string governor;            ///< of the clock of the first core; empty if the system does not say it
+  /// Of the hottest sensor of the processor or its surroundings, before the run; none if there is none to read.
+  std::optional<double> temperature_celsius;
+  std::optional<int> jobs;  ///< how many cases ran at the same time, if a runner has said so
   std::string system;       ///< kernel and its release
   std::string compiler, flags, build_type;
   std::string revision;                          ///< of the source, "unknown" outside a git checkout
@@ -23,6 +29,10 @@ struct Environment {
 };
 
 Environment capture_environment();
+
+/// What the sensors below a folder as /sys/class say: the highest of all thermal zones and of the sensors that measure
+/// a processor. None if none can be read.
+std::optional<double> hottest_celsius(const std::filesystem::path& folder);
 
 void to_json(Json& json, const Environment& environment);
 /// \throw nlohmann::json::exception  names are missing or of another type

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -19,8 +20,9 @@ namespace ccdt::bench {
 template <class Access>
 struct Field {
   const char* name;
-  Access access;          ///< pointer to the member, or a function that returns a reference to it
-  bool optional = false;  ///< older programs did not write it
+  Access access;            ///< pointer to the member, or a function that returns a reference to it
+  bool optional = false;    ///< may be missing: older programs did not write it
+  bool omit_empty = false;  ///< is not written if it is empty
 };
 
 template <class Access>
@@ -30,6 +32,11 @@ constexpr Field<Access> field(const char* name, Access access) {
 template <class Access>
 constexpr Field<Access> optional_field(const char* name, Access access) {
   return {name, access, true};
+}
+/// A member that may be empty (a text, a list, `std::optional`), and is missing from the JSON then.
+template <class Access>
+constexpr Field<Access> field_if_any(const char* name, Access access) {
+  return {name, access, true, true};
 }
 
 /// A tuple of `Field`, in the order of the JSON.
@@ -44,9 +51,37 @@ inline double number_from_json(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
 }
 
+template <class Type>
+inline constexpr bool is_optional = false;
+template <class Type>
+inline constexpr bool is_optional<std::optional<Type>> = true;
+
+/// \pre  what is `std::optional` has a value
+template <class Member>
+Json json_of_member(const Member& member) {
+  if constexpr (is_optional<Member>)
+    return *member;
+  else
+    return member;
+}
+
+template <class Member>
+bool is_empty(const Member& member) {
+  if constexpr (is_optional<Member>)
+    return !member.has_value();
+  else if constexpr (requires { member.empty(); })
+    return member.empty();
+  else
+    return false;
+}
+
 template <class Struct, class Fields>
 void write_fields(const Struct& value, const Fields& list, Json& json) {
-  std::apply([&](const auto&... f) { ((json[f.name] = std::invoke(f.access, value)), ...); }, list);
+  const auto write = [&](const auto& f) {
+    const auto& member = std::invoke(f.access, value);
+    if (!f.omit_empty || !is_empty(member)) json[f.name] = json_of_member(member);
+  };
+  std::apply([&](const auto&... f) { (write(f), ...); }, list);
 }
 
 /// \throw nlohmann::json::exception  a name is missing, or of another type
@@ -57,6 +92,8 @@ void read_fields(const Json& json, const Fields& list, Struct& value) {
     auto& member = std::invoke(f.access, value);
     if constexpr (std::is_same_v<decltype(member), double&>)
       member = number_from_json(json.at(f.name));
+    else if constexpr (is_optional<std::remove_reference_t<decltype(member)>>)
+      member = json.at(f.name).template get<typename std::remove_reference_t<decltype(member)>::value_type>();
     else
       json.at(f.name).get_to(member);
   };

@@ -59,6 +59,16 @@ inline constexpr auto fields<RunRecord::Input> = std::tuple(field("name", &RunRe
                                                             field("facets", &RunRecord::Input::facets),
                                                             field("segments", &RunRecord::Input::segments));
 
+template <>
+inline constexpr auto fields<VerifiedMesh::FailedCheck> =
+    std::tuple(field("name", &VerifiedMesh::FailedCheck::name), field("checked", &VerifiedMesh::FailedCheck::checked),
+               field("failed", &VerifiedMesh::FailedCheck::failed));
+
+template <>
+inline constexpr auto fields<VerifiedMesh> = std::tuple(field("right", &VerifiedMesh::right),
+                                                        field("checks", &VerifiedMesh::checks),
+                                                        field("seconds", &VerifiedMesh::seconds));
+
 namespace {
 
 constexpr DocumentKind run_document = {"ccdt.run/1", "not a report of schema ccdt.run/1",
@@ -87,7 +97,12 @@ constexpr auto fields_after_seconds =
     std::tuple(field("peak_rss_bytes", &RunRecord::peak_rss_bytes), field("quality", &RunRecord::quality),
                field(
                    "volume", [](auto& record) -> auto& { return record.quality.volume; }),
-               field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status));
+               field_if_any("mesh_fingerprint", &RunRecord::mesh_fingerprint),
+               field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status),
+               field_if_any("kind", &RunRecord::kind), field_if_any("reason", &RunRecord::reason),
+               field_if_any("case", &RunRecord::case_id), field_if_any("number", &RunRecord::number),
+               field_if_any("verification", &RunRecord::verification), field_if_any("notes", &RunRecord::notes),
+               field_if_any("samples", &RunRecord::samples));
 
 Json options_json(const RunRecord& record) {
   Json options = Json::object();
@@ -118,10 +133,6 @@ Json json_of(const RunRecord& record) {
   write_fields(record, fields_before_seconds, json);
   write_fields(record, fields_of_seconds, json["seconds"]);
   write_fields(record, fields_after_seconds, json);
-  if (record.kind) json["kind"] = *record.kind;
-  if (!record.reason.empty()) json["reason"] = record.reason;
-  if (!record.notes.empty()) json["notes"] = record.notes;
-  if (!record.samples.empty()) json["samples"] = record.samples;
   return json;
 }
 
@@ -133,10 +144,6 @@ RunRecord record_from(const Json& json) {
   read_fields(json, fields_before_seconds, record);
   read_fields(json.at("seconds"), fields_of_seconds, record);
   read_fields(json, fields_after_seconds, record);
-  if (json.contains("kind")) record.kind = json.at("kind").get<baselines::FailureKind>();
-  record.reason = json.value("reason", "");
-  record.notes = json.value("notes", record.notes);
-  record.samples = json.value("samples", record.samples);
   return record;
 }
 

@@ -15,6 +15,17 @@
 
 namespace ccdt::bench {
 
+/// What the exact verifier found of the mesh of a run.
+struct VerifiedMesh {
+  struct FailedCheck {
+    std::string name;
+    std::uint64_t checked = 0, failed = 0;
+  };
+  bool right = false;
+  std::vector<FailedCheck> checks = {};  ///< those that failed and make the mesh wrong
+  double seconds = 0;
+};
+
 /// One run of one mesher on one input: what is written as JSON of schema `ccdt.run/1`.
 struct RunRecord {
   using Option = std::variant<bool, double, std::string>;
@@ -36,11 +47,15 @@ struct RunRecord {
   double remesh_seconds = 0;  ///< of the surface, before the mesher got it; not in `seconds.mesh`
   std::uint64_t peak_rss_bytes = 0;
   Quality quality;
+  std::string mesh_fingerprint;  ///< see bench/fingerprint.h; empty without a mesh
   double largest_rounding = 0;
   baselines::RunStatus status = baselines::RunStatus::ok;
   std::optional<baselines::FailureKind> kind;  ///< of a failure; older programs did not write it
   std::string reason;                          ///< why the status is not ok
-  std::vector<std::string> notes;              ///< what a reader has to know
+  std::string case_id;                         ///< the case that this is a run of; empty outside a sweep
+  std::optional<int> number;                   ///< of the run among those of its case, from 0
+  std::optional<VerifiedMesh> verification;
+  std::vector<std::string> notes;  ///< what a reader has to know
   std::map<std::string, std::vector<double>>
       samples;  ///< raw seconds by name, where one record stands for several runs
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "baselines/mesher.h"
+#include "bench/fingerprint.h"
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
 #include "engine/base/stopwatch.h"
@@ -123,6 +124,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   if (!options.background.empty() && chosen.name != "ccdt")
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(run.result.mesh);
+  record.mesh_fingerprint = bench::fingerprint(run.result.mesh);
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);

@@ -161,6 +161,27 @@ TEST(RunRecord, OfAProcessThatWasKilledSaysSoAndThatOfOneThatFailedKeepsItsWords
   EXPECT_EQ(record.kind, baselines::FailureKind::refused) << "it did not say so itself";
 }
 
+TEST(RunRecord, OfASweepHasItsCaseItsNumberAndWhatTheVerifierFound) {
+  bench::RunRecord record = example();
+  const Json alone = Json::parse(bench::to_json(record));
+  for (const char* name : {"case", "number", "verification", "mesh_fingerprint"}) EXPECT_FALSE(alone.contains(name));
+  record.case_id = "0123456789abcdef";
+  record.number = 0;
+  record.mesh_fingerprint = std::string(32, 'a');
+  record.verification = {false, {{"positive orientation", 30, 2}}, 0.25};
+  const Json json = Json::parse(bench::to_json(record));
+  EXPECT_EQ(json["case"], record.case_id);
+  EXPECT_EQ(json["number"], 0);
+  EXPECT_EQ(json["verification"]["right"], false);
+  EXPECT_EQ(json["verification"]["checks"][0]["failed"], 2);
+  const bench::RunRecord back = bench::run_record_from_json(json.dump());
+  EXPECT_EQ(back.number, 0);
+  EXPECT_EQ(back.mesh_fingerprint, record.mesh_fingerprint);
+  ASSERT_TRUE(back.verification);
+  EXPECT_EQ(back.verification->checks.at(0).name, "positive orientation");
+  EXPECT_EQ(back.verification->seconds, 0.25);
+}
+
 TEST(RunRecord, SurvivesFileNamesThatAreNoUtf8) {
   bench::RunRecord record = example();
   record.input.name = "caf\xe9.stl";

@@ -1,0 +1,136 @@
+#include "baselines/mesher_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string_view>
+
+#include "engine/base/digits.h"
+#include "engine/surface/remesh_surface.h"
+
+namespace ccdt::baselines {
+namespace {
+
+constexpr std::string_view none = "none";
+
+/// Those of remeshing the surface, which is done before any mesher gets it.
+constexpr auto options_of_surface = std::to_array<std::string_view>({"edge-length", "flatness", "sharp-angle"});
+/// Those of interior points.
+constexpr auto options_of_lattice =
+    std::to_array<std::string_view>({"clearance", "edge-length", "grading", "sizes", "sphere-factor"});
+/// Those of improvement.
+constexpr auto options_of_improvement =
+    std::to_array<std::string_view>({"boundary", "improve-time", "objective", "target-dihedral", "target-r"});
+/// Those whose values are as the user wrote them.
+constexpr auto names_of_files = std::to_array<std::string_view>({"sizes"});
+
+template <class Names>
+bool is_among(const Names& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+template <class Enum>
+std::string text_of(Enum value) {
+  return std::string(name_of(value));
+}
+
+/// Equal numbers alike, names in small letters.
+std::string canonical(const std::string& name, std::string value) {
+  if (is_among(names_of_files, name)) return value;
+  double number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  if (error == std::errc() && end == value.data() + value.size()) return digits(number);
+  for (char& c : value)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return value;
+}
+
+/// What was asked for, whether it was said or is usual.
+class Asked {
+ public:
+  explicit Asked(const NamedOptions& options) {
+    for (const auto& [name, value] : options) options_[name] = canonical(name, value);
+    // What improvement does, if that is not said, depends on the lattice, also for a mesher that has none.
+    if (!options_.contains("improve") && value("lattice") == none) options_["improve"] = none;
+  }
+
+  std::string value(const std::string& name) const {
+    const auto found = options_.find(name);
+    return found != options_.end() ? found->second : usual_options().at(name);
+  }
+  const NamedOptions& options() const { return options_; }
+
+ private:
+  NamedOptions options_;
+};
+
+bool matters(const OptionUse& use, const Asked& asked) {
+  if (use.only_inside && asked.value("lattice") == none) return false;
+  if (is_among(options_of_improvement, use.name) && asked.value("improve") == none) return false;
+  return use.name != "target-r" || asked.value("objective") == name_of(Objective::r);
+}
+
+}  // namespace
+
+const NamedOptions& usual_options() {
+  static const NamedOptions all = [] {
+    const MeshOptions o;
+    return NamedOptions{{"boundary", text_of(o.improve.boundary)},
+                        {"clearance", digits(o.clearance)},
+                        {"delaunay", text_of(o.delaunay)},
+                        {"edge-length", ""},
+                        {"face-protection", "on"},
+                        {"flatness", digits(o.flatness)},
+                        {"grading", digits(o.grading)},
+                        {"grid-scale", digits(o.grid_scale)},
+                        {"improve", text_of(improvement_of(o))},
+                        {"improve-time", digits(o.improve.time)},
+                        {"lattice", text_of(o.lattice)},
+                        {"locator", text_of(o.locator)},
+                        {"objective", text_of(o.improve.objective)},
+                        {"protection", text_of(o.protection)},
+                        {"sharp-angle", digits(surface::RemeshOptions().sharp_angle)},
+                        {"sizes", ""},
+                        {"sphere-factor", digits(o.sphere_factor)},
+                        {"surface", "keep"},
+                        {"target-dihedral", digits(o.improve.target_dihedral)},
+                        {"target-r", digits(o.improve.target_r)},
+                        {"threads", "1"}};
+  }();
+  return all;
+}
+
+std::vector<OptionUse> options_of_engine() {
+  std::vector<OptionUse> all;
+  for (const auto& [name, value] : usual_options())
+    if (name != "surface" && name != "sharp-angle")
+      all.push_back({.name = name, .only_inside = is_among(options_of_lattice, name)});
+  return all;
+}
+
+NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options) {
+  const Asked asked(options);
+  const bool is_remeshed = asked.value("surface") == "remesh";
+  const auto use_of = [&](const std::string& name) {
+    return std::ranges::find(mesher.options, name, &OptionUse::name);
+  };
+  const bool is_bare = asked.value("lattice") == none && use_of("lattice") != mesher.options.end();
+  const auto usual = [&](const std::string& name) {
+    return name == "improve" && is_bare ? std::string(none) : usual_options().at(name);
+  };
+  NamedOptions effective;
+  for (const auto& [name, value] : asked.options()) {
+    const auto use = use_of(name);
+    const bool is_of_surface = name == "surface" || (is_remeshed && is_among(options_of_surface, name));
+    const bool is_used = use != mesher.options.end() && matters(*use, asked);
+    const bool is_known = usual_options().contains(name);
+    if (is_known && !is_of_surface && !is_used) continue;
+    if (is_known && value == usual(name)) continue;
+    const bool is_any = is_used && use->only_none && value != none;  // all values but none do the same
+    if (is_any && usual(name) != none) continue;
+    effective[name] = is_any ? usual_options().at(name) : value;
+  }
+  return effective;
+}
+
+}  // namespace ccdt::baselines
