@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
+#include "baselines/json_schema.h"
 #include "baselines/mesher_schema.h"
-#include "engine/io/files.h"
+#include "engine/base/errors.h"
 
 namespace ccdt::baselines {
 namespace {
@@ -18,45 +14,12 @@ namespace {
 using Json = nlohmann::ordered_json;  // choices and files keep their order
 using Pointer = Json::json_pointer;
 
-constexpr const char* examples = "; baselines/described has examples";
+constexpr UserFile description_file = {"the description of a mesher", mesher_schema,
+                                       "; baselines/described has examples"};
 constexpr std::string_view placeholder_letters = "abcdefghijklmnopqrstuvwxyz_";
 
 [[noreturn]] void fail(const std::string& file, const Pointer& at, const std::string& what, const std::string& remedy) {
-  throw InputError((at.empty() ? "" : at.to_string() + ": ") + what, io::place_in(file), remedy + examples);
-}
-
-template <class Names>
-std::string list_of(const Names& names) {
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-/// What the schema says about a member, or else which members there are.
-std::string description_of(const nlohmann::json& schema, const std::string& member) {
-  const auto& known = schema.at("properties");
-  if (known.contains(member)) return member + ": " + known.at(member).at("description").get<std::string>();
-  std::vector<std::string> names;
-  for (const auto& [name, rule] : known.items()) names.push_back(name);
-  return "the members are " + list_of(names);
-}
-
-/// \throw InputError  the description does not follow the schema
-void check_schema(const Json& description, const std::string& file) {
-  using Adapter = valijson::adapters::NlohmannJsonAdapter;
-  const auto rules = nlohmann::json::parse(mesher_schema);
-  const nlohmann::json target = description;
-  valijson::Schema schema;
-  valijson::SchemaParser().populateSchema(Adapter(rules), schema);
-  valijson::ValidationResults faults;
-  if (valijson::Validator().validate(schema, Adapter(target), &faults)) return;
-  // The first one of the deepest is the cause; the others follow from it.
-  const auto cause = std::ranges::max_element(faults, {}, [](const auto& fault) { return fault.context.size(); });
-  Pointer at;
-  for (std::size_t i = 1; i < cause->context.size(); ++i)  // "<root>", "[command]", "[0]"
-    at /= cause->context[i].substr(1, cause->context[i].size() - 2);
-  const std::string member = cause->context.size() < 2 ? "" : cause->context[1].substr(1, cause->context[1].size() - 2);
-  fail(file, at, cause->description, description_of(rules, member));
+  fail_at_pointer(file, at.to_string(), what, remedy + description_file.examples);
 }
 
 /// Checks all texts in a part of the description.
@@ -68,7 +31,7 @@ void check_placeholders(const Json& part, const Pointer& at, const std::vector<s
   if (!part.is_string()) return;
   for (const std::string& name : placeholders_in(part.get<std::string>()))
     if (std::ranges::find(known, name) == known.end())
-      fail(file, at, "there is no placeholder {" + name + "}", "known are " + list_of(known));
+      fail(file, at, "there is no placeholder {" + name + "}", "known are " + listed(known));
 }
 
 void check_all_placeholders(const Json& json, const std::string& file) {
@@ -145,15 +108,7 @@ std::string_view next_name(std::string_view text, std::size_t from) {
 
 MesherDescription read_mesher_description(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const io::FileBytes bytes = io::read_whole_file(file);
-  Json json;
-  try {
-    json = Json::parse(bytes.bytes);
-  } catch (const Json::parse_error& error) {
-    io::fail_at_byte(bytes, error.byte, "the description of a mesher is JSON, and this is not",
-                     "correct it there" + std::string(examples));
-  }
-  check_schema(json, name);
+  const Json json = read_user_file(file, description_file);
   check_all_placeholders(json, name);
   return description_from(json, name);
 }

@@ -1,0 +1,156 @@
+#include "baselines/json_schema.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "engine/io/files.h"
+
+namespace ccdt::baselines {
+namespace {
+
+using Json = nlohmann::json;
+using Pointer = Json::json_pointer;
+
+/// How many letters must be changed, added or left out to make one word of the other (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+bool has_type(const Json& rule, const Json& value) {
+  const std::string type = rule.value("type", "");
+  return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
+         (type == "string" && value.is_string()) || (type == "boolean" && value.is_boolean()) ||
+         ((type == "number" || type == "integer") && value.is_number());
+}
+
+/// The rule for a value: what a reference leads to, and of several alternatives the one of the value's type.
+const Json& rule_for(const Json& schema, const Json& rule, const Json& value) {
+  if (rule.contains("$ref"))
+    return rule_for(schema, schema.at(Pointer(rule["$ref"].get<std::string>().substr(1))), value);
+  if (rule.contains("oneOf"))
+    for (const Json& alternative : rule["oneOf"]) {
+      const Json& one = rule_for(schema, alternative, value);
+      if (has_type(one, value)) return one;
+    }
+  return rule;
+}
+
+/// The rule for a member of a value; null if the schema does not say one.
+const Json* rule_for_member(const Json& rule, const std::string& member) {
+  if (rule.contains("properties") && rule["properties"].contains(member)) return &rule["properties"][member];
+  if (rule.contains("patternProperties")) return &rule["patternProperties"].begin().value();
+  for (const char* all : {"items", "additionalProperties"})
+    if (rule.contains(all) && rule[all].is_object()) return &rule[all];
+  return nullptr;
+}
+
+std::vector<std::string> members_of(const Json& rule) {
+  std::vector<std::string> names;
+  for (const auto& [name, ignored] : rule.at("properties").items())
+    if (!name.starts_with('$')) names.push_back(name);
+  return names;
+}
+
+/// What to write at a place, by the description nearest to it.
+std::string description_at(const Json& schema, const Json& root, const Pointer& at) {
+  std::string text;
+  const Json* rule = &schema;
+  const Json* value = &root;
+  std::vector<std::string> tokens;
+  for (Pointer rest = at; !rest.empty(); rest.pop_back()) tokens.insert(tokens.begin(), rest.back());
+  for (const std::string& token : tokens) {
+    rule = rule_for_member(rule_for(schema, *rule, *value), token);
+    if (rule == nullptr) break;
+    value = value->is_array() ? &value->at(std::stoul(token)) : &value->at(token);
+    const Json& resolved = rule_for(schema, *rule, *value);
+    for (const Json* said : {&resolved, rule})
+      if (said->contains("description")) text = token + ": " + (*said)["description"].get<std::string>();
+  }
+  return text.empty() ? "the members are " + listed(members_of(schema)) : text;
+}
+
+/// \throw InputError  a member that the schema does not know
+void check_members(const Json& schema, const Json& rule_of_value, const Json& value, const Pointer& at,
+                   const std::string& file, const UserFile& kind) {
+  if (!value.is_structured()) return;
+  const Json& rule = rule_for(schema, rule_of_value, value);
+  const bool is_closed = rule.value("additionalProperties", Json()) == false && !rule.contains("patternProperties");
+  for (const auto& [name, member] : value.items()) {
+    const Json* its_rule = rule_for_member(rule, name);
+    if (its_rule != nullptr)
+      check_members(schema, *its_rule, member, at / name, file, kind);
+    else if (value.is_object() && is_closed)
+      fail_at_pointer(file, (at / name).to_string(), "there is no such member",
+                      suggestion(name, members_of(rule)) + kind.examples);
+  }
+}
+
+void check_schema(const Json& value, const std::string& file, const UserFile& kind) {
+  using Adapter = valijson::adapters::NlohmannJsonAdapter;
+  const Json rules = Json::parse(kind.schema);
+  check_members(rules, rules, value, Pointer(), file, kind);
+  valijson::Schema schema;
+  valijson::SchemaParser().populateSchema(Adapter(rules), schema);
+  valijson::ValidationResults faults;
+  if (valijson::Validator().validate(schema, Adapter(value), &faults)) return;
+  // The first one of the deepest is the cause; the others follow from it.
+  const auto cause = std::ranges::max_element(faults, {}, [](const auto& fault) { return fault.context.size(); });
+  Pointer at;
+  for (std::size_t i = 1; i < cause->context.size(); ++i)  // "<root>", "[command]", "[0]"
+    at /= cause->context[i].substr(1, cause->context[i].size() - 2);
+  fail_at_pointer(file, at.to_string(), cause->description, description_at(rules, value, at) + kind.examples);
+}
+
+}  // namespace
+
+nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const UserFile& kind) {
+  const io::FileBytes bytes = io::read_whole_file(file);
+  nlohmann::ordered_json json;
+  try {
+    json = nlohmann::ordered_json::parse(bytes.bytes);
+  } catch (const nlohmann::ordered_json::parse_error& error) {
+    io::fail_at_byte(bytes, error.byte, std::string(kind.what) + " is JSON, and this is not",
+                     std::string("correct it there") + kind.examples);
+  }
+  check_schema(json, file.string(), kind);
+  return json;
+}
+
+void fail_at_pointer(const std::string& file, const std::string& pointer, const std::string& what,
+                     const std::string& remedy) {
+  throw InputError((pointer.empty() ? "" : pointer + ": ") + what, io::place_in(file), remedy);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+std::string suggestion(std::string_view unknown, const std::vector<std::string>& known) {
+  constexpr std::size_t most_edits = 2;
+  const auto distance = [&](const std::string& name) { return edit_distance(unknown, name); };
+  const auto nearest = std::ranges::min_element(known, {}, distance);
+  std::string text;
+  if (nearest != known.end() && distance(*nearest) <= most_edits && distance(*nearest) < nearest->size())
+    text = "did you mean '" + *nearest + "'? ";
+  return text + "Known are " + listed(known);
+}
+
+}  // namespace ccdt::baselines
