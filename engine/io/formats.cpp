@@ -147,6 +147,10 @@ std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc) {
   return loops;
 }
 
+bool is_plc_file(const std::filesystem::path& file) {
+  return format_of(file, plc_formats) != nullptr;
+}
+
 plc::InputPlc read_plc(const std::filesystem::path& file) {
   const PlcFormat* format = format_of(file, plc_formats);
   if (!format) fail_to_read(file, ".stl, .off, .obj, .ply, .poly, .smesh, .node and .mesh");

@@ -6,6 +6,9 @@
 
 namespace ccdt::io {
 
+/// Is the ending one that `read_plc` knows?
+bool is_plc_file(const std::filesystem::path& file);
+
 /// Reads a surface or a piecewise linear complex. The ending names the format: .stl (text and binary, distinguished by
 /// content), .off, .obj, .ply (text and binary), .poly, .smesh, .node (TetGen), .mesh (Medit).
 ///

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/cases/case.h"
+#include "bench/sweep/spec.h"
+#include "engine/base/progress.h"
+
+namespace ccdt::sweep {
+
+/// The format in which meshes are kept.
+inline constexpr const char* kept_mesh_ending = ".vtu";
+
+/// What a case meshes.
+struct CaseInput {
+  std::string name;            ///< of one input only: "piston-2.32", "part.off"
+  std::filesystem::path file;  ///< absolute
+  std::string model;           ///< empty: a file of the user's
+  double edge_length = 0;      ///< of the model's triangles
+};
+
+/// A case of a sweep.
+struct SweepCase {
+  cases::Case asked;
+  CaseInput input;
+  std::vector<std::pair<std::string, std::string>> options;  ///< those that its mesher has, without dashes, by name
+  std::string id = {};                                       ///< known once its input is there
+
+  /// As reports call it.
+  std::string mesher() const;
+};
+
+/// All cases of a spec: inputs times meshers times options, less what is excluded. An option that a mesher does not
+/// have makes one case, not several. The order is that of the spec.
+///
+/// \param folder  of the sweep; models are files in its folder models, which need not be there yet
+/// \throw InputError  no file matches, nothing is left, or options contradict each other; names the JSON pointer
+std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path& folder, const MeshOptionRules& rules);
+
+/// Writes the models that are not there yet.
+/// \param anew  also those that are
+/// \throw OutputError
+void write_models(std::span<const SweepCase> cases, bool anew, const Progress& progress);
+
+/// What is to be run, for `cases::Runner`.
+std::vector<cases::Case> asked_of(std::span<const SweepCase> cases);
+
+}  // namespace ccdt::sweep

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "bench/cases/case.h"
+#include "bench/json.h"
+
+namespace ccdt::sweep {
+
+/// How far a sweep is. Each case is finished, failed or missing.
+struct SweepStatus {
+  std::size_t cases = 0;
+  std::size_t runs = 0;                         ///< record files in the folder
+  std::size_t finished = 0;                     ///< cases with all their runs
+  std::size_t failed = 0;                       ///< cases with a run that failed
+  std::size_t missing = 0;                      ///< cases that need runs
+  std::size_t obsolete = 0;                     ///< record files of no case
+  std::map<std::string, std::size_t> failures;  ///< failed cases by the kind of the failure
+};
+
+/// Why a case failed, in a word: the kind of its failure, or what records of older programs say.
+std::string failure_of(const cases::MeasuredCase& measured);
+
+/// \param cases   as `cases::Runner` loads them
+/// \param folder  of the sweep
+SweepStatus status_of(std::span<const cases::MeasuredCase> cases, const std::filesystem::path& folder);
+
+bench::Json to_json(const SweepStatus& status);
+
+/// A few lines for people.
+std::string in_words(const SweepStatus& status);
+
+}  // namespace ccdt::sweep
