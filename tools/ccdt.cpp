@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     add_mesh_command(app, exit_code);
     add_verify_command(app, exit_code);
     add_reproduce_command(app, exit_code);
+    add_sweep_command(app, exit_code);
     add_report_command(app, exit_code);
     try {
       app.parse(argc, argv);

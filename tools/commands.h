@@ -16,10 +16,15 @@ void add_model_command(CLI::App& app, ExitCode& exit_code);
 void add_mesh_command(CLI::App& app, ExitCode& exit_code);
 void add_verify_command(CLI::App& app, ExitCode& exit_code);
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code);
+void add_sweep_command(CLI::App& app, ExitCode& exit_code);
 void add_report_command(CLI::App& app, ExitCode& exit_code);
 
 /// The file of the running program.
 std::filesystem::path own_program();
+
+/// Where the files are that come with the program, such as the page of a report: `share/ccdt` beside the program, as in
+/// a build, or beside the folder that the program is in, as when it is installed.
+std::filesystem::path share_folder();
 
 /// Makes the report of a folder from its JSON, and prints its verdicts and where it is.
 /// \throw InputError, OutputError  as `read_report` and `write_report`

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
+#include "tools/sweep_command.h"
 
 namespace ccdt::tools {
 namespace {
@@ -253,15 +255,52 @@ void add_numbers(CLI::App& verb, MeshOptions& options) {
       ->capture_default_str();
 }
 
+void add_options(CLI::App& verb, MeshCommand& command) {
+  add_files(verb, command);
+  add_strategies(verb, command);
+  add_improvement(verb, command.options.improve);
+  add_numbers(verb, command.options);
+}
+
+/// What is wrong with these words of a command line; empty: nothing.
+/// \param all  they are all options, so that they must fit each other
+std::string fault_of(std::vector<std::string> words, bool all) {
+  CLI::App verb;
+  MeshCommand command;
+  add_options(verb, command);
+  words.insert(words.begin(), {"part.off", "-o", "part.vtu"});
+  std::ranges::reverse(words);  // as CLI11 wants them
+  try {
+    verb.parse(std::move(words));
+    if (all) check_surface_options(command);
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace
+
+sweep::MeshOptionRules mesh_option_rules() {
+  sweep::MeshOptionRules rules;
+  CLI::App verb;
+  MeshCommand command;
+  verb.set_help_flag();
+  add_options(verb, command);
+  for (const CLI::Option* option : verb.get_options())
+    if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
+  for (const char* other : {"output", "surface-output", "report", "mesher"}) std::erase(rules.names, other);
+  rules.fault_of_value = [](const std::string& name, const std::string& value) {
+    return fault_of({"--" + name, value}, false);
+  };
+  rules.fault_of_words = [](const std::vector<std::string>& words) { return fault_of(words, true); };
+  return rules;
+}
 
 void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<MeshCommand>();
   CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
-  add_files(*verb, *command);
-  add_strategies(*verb, *command);
-  add_improvement(*verb, command->options.improve);
-  add_numbers(*verb, command->options);
+  add_options(*verb, *command);
   verb->footer(footer());
   verb->callback([command, &exit_code] {
     run(*command);

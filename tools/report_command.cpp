@@ -14,14 +14,6 @@ struct ReportCommand {
   std::string output;
 };
 
-/// Where the files are that come with the program, such as the page of a report: `share/ccdt` beside the program, as in
-/// a build, or beside the folder that the program is in, as when it is installed.
-std::filesystem::path share_folder() {
-  auto beside = own_program().parent_path() / "share" / "ccdt";
-  if (std::filesystem::exists(beside)) return beside;
-  return own_program().parent_path().parent_path() / "share" / "ccdt";
-}
-
 std::string verdicts(const reports::Report& report) {
   reports::TextTable table = {{"the paper's claim", "verdict"}};
   for (const reports::PaperClaim& claim : report.claims)
@@ -67,6 +59,12 @@ constexpr const char* footer =
 
 std::filesystem::path own_program() {
   return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+std::filesystem::path share_folder() {
+  auto beside = own_program().parent_path() / "share" / "ccdt";
+  if (std::filesystem::exists(beside)) return beside;
+  return own_program().parent_path().parent_path() / "share" / "ccdt";
 }
 
 void make_report(const std::filesystem::path& folder) {

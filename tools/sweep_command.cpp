@@ -1,0 +1,222 @@
+#include "tools/sweep_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "baselines/mesher.h"
+#include "bench/results/numbers.h"
+#include "bench/sweep/status.h"
+#include "bench/sweep/sweep_document.h"
+#include "engine/io/files.h"
+#include "reports/result_text.h"
+#include "tools/commands.h"
+#include "tools/folder_lock.h"
+#include "tools/options.h"
+#include "tools/progress_bar.h"
+
+namespace ccdt::tools {
+namespace {
+
+constexpr std::size_t most_names = 5;  ///< of cases that a message lists
+
+/// The file of a spec, or the spec of that name that comes with the program.
+std::filesystem::path spec_file(const std::string& spec) {
+  const auto known = share_folder() / "sweeps" / (spec + ".json");
+  return !std::filesystem::exists(spec) && std::filesystem::exists(known) ? known : std::filesystem::path(spec);
+}
+
+sweep::SweepSpec spec_of(const SweepCommand& command, const sweep::MeshOptionRules& rules) {
+  sweep::SweepSpec spec = sweep::read_spec(spec_file(command.spec), rules);
+  if (!command.inputs.empty()) sweep::replace_files(spec, command.inputs);
+  if (command.jobs > 1 && spec.repetitions.until > 0)
+    throw CLI::ValidationError("--jobs",
+                               "runs beside each other disturb their times, but 'repetitions' of the spec "
+                               "asks for exact ones");
+  return spec;
+}
+
+cases::OtherIdentity policy_of(const SweepCommand& command) {
+  if (command.refresh) return cases::OtherIdentity::refresh;
+  return command.mixed ? cases::OtherIdentity::mixed : cases::OtherIdentity::refuse;
+}
+
+cases::RunnerSettings settings_of(const SweepCommand& command, const PreparedSweep& sweep) {
+  return {.program = own_program(),
+          .folder = sweep.folder,
+          .identities = sweep.identities,
+          .seed = sweep.seed,
+          .jobs = command.jobs,
+          .retry_failed = command.retry_failed};
+}
+
+/// Gives each case the id by which its records are known. Equal inputs make equal cases, of which one remains.
+std::vector<cases::MeasuredCase> identify(cases::Runner& runner, std::vector<sweep::SweepCase>& cases) {
+  std::vector<cases::MeasuredCase> loaded = runner.load(sweep::asked_of(cases)), measured;
+  std::vector<sweep::SweepCase> different;
+  std::set<std::string> known;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!known.insert(loaded[i].id).second) continue;
+    cases[i].id = loaded[i].id;
+    different.push_back(std::move(cases[i]));
+    measured.push_back(std::move(loaded[i]));
+  }
+  cases = std::move(different);
+  return measured;
+}
+
+void print_names(const char* what, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::printf("%s %s:\n", results::with_separators(names.size()).c_str(), what);
+  for (std::size_t i = 0; i < std::min(most_names, names.size()); ++i) std::printf("  %s\n", names[i].c_str());
+  if (names.size() > most_names) std::printf("  ...\n");
+}
+
+void print_changes(const sweep::SweepChanges& changes) {
+  if (changes.none()) return;
+  std::printf("The sweep has changed since the last call.\n");
+  print_names(changes.added.size() == 1 ? "case is new" : "cases are new", changes.added);
+  print_names(
+      changes.obsolete.size() == 1 ? "case is obsolete, its records stay" : "cases are obsolete, their records stay",
+      changes.obsolete);
+}
+
+/// Prints how far the sweep is, as its folder says; nothing is written.
+void print_status(const SweepCommand& command) {
+  const sweep::MeshOptionRules rules = mesh_option_rules();
+  PreparedSweep sweep{std::filesystem::absolute(command.folder).lexically_normal()};
+  const sweep::SweepSpec spec = spec_of(command, rules);
+  sweep.cases = sweep::expand(spec, sweep.folder, rules);
+  if (std::filesystem::exists(sweep::sweep_file(sweep.folder)))
+    sweep.identities = sweep::read_sweep(sweep.folder).identities;
+  else
+    sweep.identities = {cases::identity_of(spec.meshers, own_program())};
+  cases::Runner runner(settings_of(command, sweep));
+  const sweep::SweepStatus status = sweep::status_of(identify(runner, sweep.cases), sweep.folder);
+  std::fputs((command.json ? bench::to_text(sweep::to_json(status)) : sweep::in_words(status)).c_str(), stdout);
+}
+
+ExitCode run_all(const SweepCommand& command) {
+  std::filesystem::create_directories(command.folder);
+  const FolderLock lock(command.folder);
+  const PreparedSweep sweep = prepare_sweep(command);
+  const ExitCode code = print_results(run_cases(command, sweep, sweep.cases));
+  std::printf("\nTables, figures and the page: ccdt report %s\n", command.folder.c_str());
+  return code;
+}
+
+ExitCode run(const SweepCommand& command) {
+  if (!command.status) return run_all(command);
+  print_status(command);
+  return done;
+}
+
+/// Is the failure a fault of our own engine?
+bool is_fault(const cases::MeasuredCase& measured) {
+  using baselines::FailureKind;
+  const auto kind = measured.first.kind;
+  return measured.failed() && measured.asked.mesher == "ccdt" &&
+         (kind == FailureKind::wrong || kind == FailureKind::crashed);
+}
+
+constexpr const char* footer =
+    "The spec (JSON, schema ccdt.sweep/1) says which models and files, in which sizes, are meshed by which meshers "
+    "with\n"
+    "which options. Each run is a process of its own with limits of time and memory; its report is a file in "
+    "DIR/runs.\n"
+    "Nothing is run twice: stopped or killed and called again, the command goes on where it was. A case that fails is "
+    "a\n"
+    "result like any other. Specs that come with the program are known by their names:\n\n"
+    "  scaling          the paper's models from 10^4 to 10^7 tetrahedra, by all meshers\n"
+    "  strategies       every strategy of every stage\n"
+    "  parts            your files, by all meshers: --input 'parts/*.off'\n\n"
+    "Example: how long would it take?\n"
+    "  ccdt sweep scaling -o build/scaling --dry-run\n"
+    "Example: run it, and look at it\n"
+    "  ccdt sweep scaling -o build/scaling && ccdt report build/scaling\n"
+    "Example: all meshers on parts of your own\n"
+    "  ccdt sweep parts -o build/parts --input 'parts/*.off'\n"
+    "Example: how far is it?\n"
+    "  ccdt sweep scaling -o build/scaling --status\n";
+
+}  // namespace
+
+PreparedSweep prepare_sweep(const SweepCommand& command) {
+  const sweep::MeshOptionRules rules = mesh_option_rules();
+  PreparedSweep sweep{std::filesystem::absolute(command.folder).lexically_normal()};
+  const sweep::SweepSpec spec = spec_of(command, rules);
+  const auto file = sweep::sweep_file(sweep.folder);
+  sweep.seed = spec.seed;
+  sweep.cases = sweep::expand(spec, sweep.folder, rules);
+  sweep.identities =
+      cases::accepted_identities(file, cases::identity_of(spec.meshers, own_program()), policy_of(command));
+  std::filesystem::create_directories(sweep.folder);
+  ProgressBar bar;
+  sweep::write_models(sweep.cases, command.refresh, bar.progress());
+  cases::Runner runner(settings_of(command, sweep));
+  identify(runner, sweep.cases);
+  bar.erase();
+  if (std::filesystem::exists(file)) print_changes(sweep::changes_since(sweep::read_sweep(sweep.folder), sweep.cases));
+  sweep::write_sweep(sweep.folder, spec, sweep.identities, sweep.cases);
+  return sweep;
+}
+
+std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
+                                           std::span<const sweep::SweepCase> cases) {
+  ProgressBar bar;
+  cases::RunnerSettings settings = settings_of(command, sweep);
+  settings.progress = bar.progress();
+  return cases::Runner(std::move(settings)).run(sweep::asked_of(cases));
+}
+
+ExitCode print_results(std::span<const cases::MeasuredCase> cases) {
+  struct Ends {
+    std::size_t finished = 0;
+    std::map<std::string, std::size_t> failed;
+  };
+  std::map<std::string, Ends> by_mesher;
+  bool is_good = true;
+  for (const cases::MeasuredCase& measured : cases) {
+    Ends& ends = by_mesher[baselines::mesher(measured.asked.mesher).name];
+    measured.failed() ? ++ends.failed[sweep::failure_of(measured)] : ++ends.finished;
+    is_good = is_good && !is_fault(measured);
+  }
+  reports::TextTable table = {{"mesher", "cases", "finished", "failed"}};
+  for (const auto& [mesher, ends] : by_mesher) {
+    std::size_t failed = 0;
+    std::vector<std::string> kinds;
+    for (const auto& [kind, count] : ends.failed) {
+      failed += count;
+      kinds.push_back(kind + " " + results::with_separators(count));
+    }
+    table.push_back({mesher, results::with_separators(ends.finished + failed), results::with_separators(ends.finished),
+                     results::joined(kinds)});
+  }
+  std::fputs(reports::to_terminal(table).c_str(), stdout);
+  return is_good ? done : failed_a_check;
+}
+
+void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<SweepCommand>();
+  CLI::App* verb = app.add_subcommand("sweep", "mesh many inputs with many options and meshers, nothing twice");
+  verb->add_option("SPEC", command->spec, "what to run (.json), or one of the names below")->required();
+  verb->add_option("-o,--output", command->folder, "folder of the results; created if needed")->required();
+  verb->add_option("--input", command->inputs, "mesh these files, or those that match, instead of the spec's files");
+  verb->add_option("--jobs", command->jobs, "cases at the same time; their times are then disturbed")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  verb->add_flag("--retry-failed", command->retry_failed, "run cases again that failed");
+  auto* refresh = verb->add_flag("--refresh", command->refresh,
+                                 "the folder was made with another program or on another machine: measure again");
+  verb->add_flag("--mixed", command->mixed, "the same, but keep what was measured")->excludes(refresh);
+  verb->add_flag("--status", command->status, "only print how far the sweep is");
+  verb->add_flag("--json", command->json, "print --status and --dry-run as JSON");
+  verb->footer(footer);
+  verb->callback([command, &exit_code] { exit_code = run(*command); });
+}
+
+}  // namespace ccdt::tools
