@@ -131,4 +131,13 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   add_run(measured, std::move(record));
 }
 
+void make_mesh_again(const RunPlace& place, const MeasuredCase& measured) {
+  const Case& asked = measured.asked;
+  const Scratch scratch(std::filesystem::absolute(place.folder) / "scratch" / (measured.id + "-mesh"));
+  const std::string mesh = scratch.file("mesh" + mesh_ending(asked)).string(),
+                    report = scratch.file("record.json").string();
+  call(place, command_of(place, asked, mesh, report), scratch, asked.limits);
+  keep_mesh(place, measured, scratch);
+}
+
 }  // namespace ccdt::cases

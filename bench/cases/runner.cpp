@@ -179,6 +179,8 @@ std::vector<MeasuredCase> Runner::run(std::span<const Case> cases) {
     measured = *by_id.at(measured.id);
     measured.asked = std::move(asked);
     tried_.insert(measured.id);
+    const bool is_kept = measured.asked.mesh_ending.empty() || exists(settings_.folder / mesh_file(measured));
+    if (!is_kept && !measured.failed()) make_mesh_again(place, measured);
   }
   return all;
 }
