@@ -14,6 +14,7 @@
 #include "bench/sweep/sweep_document.h"
 #include "engine/io/files.h"
 #include "reports/result_text.h"
+#include "tools/cluster_command.h"
 #include "tools/commands.h"
 #include "tools/folder_lock.h"
 #include "tools/options.h"
@@ -96,20 +97,33 @@ void print_status(const SweepCommand& command) {
   else
     sweep.identities = {cases::identity_of(spec.meshers, own_program())};
   cases::Runner runner(settings_of(command, sweep));
-  const sweep::SweepStatus status = sweep::status_of(identify(runner, sweep.cases), sweep.folder);
-  std::fputs((command.json ? bench::to_text(sweep::to_json(status)) : sweep::in_words(status)).c_str(), stdout);
+  const std::vector<cases::MeasuredCase> loaded = identify(runner, sweep.cases);
+  const sweep::SweepStatus status = sweep::status_of(loaded, sweep.folder);
+  const auto chunks = chunk_status(sweep.folder, loaded);
+  if (!command.json) {
+    std::fputs((sweep::in_words(status) + (chunks ? in_words(*chunks) : "")).c_str(), stdout);
+    return;
+  }
+  bench::Json json = sweep::to_json(status);
+  if (chunks) json["chunks"] = to_json(*chunks);
+  std::fputs(bench::to_text(json).c_str(), stdout);
 }
 
 ExitCode run_all(const SweepCommand& command) {
   std::filesystem::create_directories(command.folder);
   const FolderLock lock(command.folder);
   const PreparedSweep sweep = prepare_sweep(command);
+  if (command.cluster.slurm || command.cluster.snakemake) {
+    prepare_for_cluster(command, sweep);
+    return done;
+  }
   const ExitCode code = print_results(run_cases(command, sweep, sweep.cases));
   std::printf("\nTables, figures and the page: ccdt report %s\n", command.folder.c_str());
   return code;
 }
 
 ExitCode run(const SweepCommand& command) {
+  if (command.cluster.chunk >= 0) return run_chunk(command);
   if (!command.status) return run_all(command);
   print_status(command);
   return done;
@@ -165,6 +179,10 @@ PreparedSweep prepare_sweep(const SweepCommand& command) {
   return sweep;
 }
 
+std::vector<cases::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep) {
+  return cases::Runner(settings_of(command, sweep)).load(sweep::asked_of(sweep.cases));
+}
+
 std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
                                            std::span<const sweep::SweepCase> cases) {
   ProgressBar bar;
@@ -204,7 +222,7 @@ void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<SweepCommand>();
   CLI::App* verb = app.add_subcommand("sweep", "mesh many inputs with many options and meshers, nothing twice");
   verb->add_option("SPEC", command->spec, "what to run (.json), or one of the names below")->required();
-  verb->add_option("-o,--output", command->folder, "folder of the results; created if needed")->required();
+  verb->add_option("-o,--output", command->folder, "folder of the results; created if needed");
   verb->add_option("--input", command->inputs, "mesh these files, or those that match, instead of the spec's files");
   verb->add_option("--jobs", command->jobs, "cases at the same time; their times are then disturbed")
       ->check(CLI::Range(1, 1024))
@@ -215,8 +233,13 @@ void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
   verb->add_flag("--mixed", command->mixed, "the same, but keep what was measured")->excludes(refresh);
   verb->add_flag("--status", command->status, "only print how far the sweep is");
   verb->add_flag("--json", command->json, "print --status and --dry-run as JSON");
+  add_cluster_options(*verb, command->cluster);
   verb->footer(footer);
-  verb->callback([command, &exit_code] { exit_code = run(*command); });
+  verb->callback([command, &exit_code] {
+    const bool names_folder = command->cluster.chunk >= 0;  // instead of a spec
+    if (command->folder.empty() && !names_folder) throw CLI::RequiredError("-o,--output");
+    exit_code = run(*command);
+  });
 }
 
 }  // namespace ccdt::tools

@@ -13,6 +13,14 @@
 /// The parts of `ccdt sweep`.
 namespace ccdt::tools {
 
+/// How a sweep uses a cluster.
+struct ClusterOptions {
+  int chunk = -1;          ///< the one to run here; -1: none
+  bool slurm = false;      ///< submit what is missing
+  bool snakemake = false;  ///< write a Snakefile for what is missing
+  double chunk_minutes = 30;
+};
+
 /// What the user has asked for.
 struct SweepCommand {
   std::string spec, folder;
@@ -20,6 +28,7 @@ struct SweepCommand {
   int jobs = 1;
   bool retry_failed = false, refresh = false, mixed = false;
   bool status = false, dry_run = false, json = false;
+  ClusterOptions cluster = {};
 };
 
 /// A sweep whose folder is ready for runs: it has the models and an up-to-date sweep.json.
@@ -35,6 +44,9 @@ struct PreparedSweep {
 /// \throw InputError   the spec is wrong, or the folder was made with other programs or on another machine
 /// \throw OutputError  the folder cannot be written to
 PreparedSweep prepare_sweep(const SweepCommand& command);
+
+/// The cases of a prepared sweep as the records stand.
+std::vector<cases::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep);
 
 /// Runs what is missing of these cases of the sweep, with a progress bar.
 ///

@@ -1,11 +1,17 @@
 #include "bench/sweep/chunks.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "bench/json.h"
 #include "bench/json_fields.h"
@@ -125,6 +131,20 @@ std::vector<Chunk> read_chunks(const std::filesystem::path& folder) {
     if (const auto number = number_of(entry.path())) chunks.push_back(read_chunk(folder, *number));
   std::ranges::sort(chunks, {}, &Chunk::number);
   return chunks;
+}
+
+ChunkLock::ChunkLock(const std::filesystem::path& folder, int number) {
+  const std::string name = chunk_file(folder, number).string();
+  file_ = open(name.c_str(), O_RDWR | O_CLOEXEC);  // NFS locks only what can be written
+  if (file_ >= 0 && flock(file_, LOCK_EX) == 0) return;
+  const std::string fault = std::generic_category().message(errno);
+  if (file_ >= 0) close(file_);
+  throw OutputError("the chunk cannot be locked: " + fault, io::place_in(name),
+                    "check that the file can be written, and that its file system has locks");
+}
+
+ChunkLock::~ChunkLock() {
+  close(file_);
 }
 
 std::uint64_t task_megabytes(std::uint64_t limit_bytes) {

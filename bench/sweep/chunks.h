@@ -39,6 +39,20 @@ Chunk read_chunk(const std::filesystem::path& folder, int number);
 /// All chunks that have files, by number. \throw InputError
 std::vector<Chunk> read_chunks(const std::filesystem::path& folder);
 
+/// While it lives, others that want the same chunk wait. Where only the daemon of a node has died, its tasks run on
+/// while others are started in their place.
+class ChunkLock {
+ public:
+  /// \throw OutputError  there is no such chunk, or its file system cannot lock
+  ChunkLock(const std::filesystem::path& folder, int number);
+  ~ChunkLock();
+  ChunkLock(const ChunkLock&) = delete;
+  ChunkLock& operator=(const ChunkLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
 /// What a task has to ask for, in MiB, if its runs have this limit; 0 if they have none.
 std::uint64_t task_megabytes(std::uint64_t limit_bytes);
 

@@ -1,19 +1,15 @@
 #include "bench/sweep/slurm.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
-#include <system_error>
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
@@ -80,8 +76,7 @@ std::string call_slurm(std::vector<std::string> command) {
   command.front() = program->string();
   const baselines::TemporaryFolder scratch;
   const auto log = scratch.path() / "log";
-  const auto result =
-      baselines::run_program(command, {.log = log, .limits = baselines::Limits{.seconds = seconds_for_slurm}});
+  const auto result = baselines::run_program(command, {.log = log, .limits = {.seconds = seconds_for_slurm}});
   std::string printed = std::filesystem::file_size(log) == 0 ? "" : io::read_whole_file(log).bytes;
   if (result.status == baselines::RunStatus::ok) return printed;
   printed.erase(printed.find_last_not_of(" \n") + 1);
@@ -180,22 +175,6 @@ std::set<std::string> cases_of(const std::vector<Chunk>& chunks, const SlurmQueu
   return cases;
 }
 
-/// Makes other calls of this program wait, so that two of them do not submit the same.
-class FileLock {
- public:
-  explicit FileLock(const std::filesystem::path& file) : file_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ < 0 || flock(file_, LOCK_EX) != 0)
-      throw OutputError(std::generic_category().message(errno), io::place_in(file.string()),
-                        "check the folder's rights");
-  }
-  ~FileLock() { close(file_); }
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-
- private:
-  int file_;
-};
-
 /// Gives chunks, whose files are written, to Slurm. Returns the job's id.
 std::string submit(const std::filesystem::path& folder, std::span<const Chunk> chunks, const SlurmOptions& options) {
   const std::vector<SlurmJob> before = read_jobs(folder);
@@ -243,7 +222,6 @@ SlurmQueue ask_slurm(const std::filesystem::path& folder) {
 Submission submit_to_slurm(const std::filesystem::path& folder, const SlurmOptions& options,
                            const std::function<std::vector<MissingCase>()>& missing) {
   std::filesystem::create_directories(slurm_folder(folder));
-  const FileLock lock(slurm_folder(folder) / "lock");
   Submission submission{.job = "", .before = ask_slurm(folder)};
   const std::set<std::string> taken = cases_of(read_chunks(folder), submission.before);
   std::vector<MissingCase> cases = missing();

@@ -46,7 +46,7 @@ struct Submission {
 };
 
 /// Gives the missing cases that no task waits for or runs to Slurm, as one job array. So it can be called again while
-/// jobs run, or after some of them have died.
+/// jobs run, or after some of them have died, but not twice at the same time.
 ///
 /// What is submitted is noted in slurm/jobs.json under a name of its own before it is, so that jobs are found again
 /// even if this program is killed before Slurm has answered.

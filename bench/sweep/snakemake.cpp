@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/json.h"
+#include "bench/results/numbers.h"
 #include "engine/io/files.h"
 
 namespace ccdt::sweep {
@@ -21,7 +22,7 @@ rule chunk:
     output: touch("chunks/{number}.done")
     threads: lambda wildcards: threads_of[int(wildcards.number)]
     resources: **memory
-    shell: "{program:q} sweep . --chunk {wildcards.number}"
+    shell: "{program:q} sweep . --chunk {wildcards.number} {more_words}"
 )";
 
 /// A value as Python writes it, which is as JSON does.
@@ -38,6 +39,7 @@ void write_snakefile(const std::filesystem::path& folder, std::span<const Chunk>
   io::OutputFile file(folder / "Snakefile");
   file << "# Runs what is missing of a sweep, in chunks: snakemake -s Snakefile --cores 2\n"
        << "program = " << literal(std::filesystem::absolute(options.program).string()) << '\n'
+       << "more_words = " << literal(results::joined(options.options, " ")) << '\n'
        << "memory = {" << (megabytes > 0 ? "\"mem_mb\": " + std::to_string(megabytes) : "") << "}\n"
        << "threads_of = {";
   for (const Chunk& chunk : chunks)

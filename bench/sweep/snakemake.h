@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "bench/sweep/chunks.h"
 
@@ -10,8 +12,9 @@ namespace ccdt::sweep {
 
 /// What the rules of a Snakefile say about their jobs.
 struct SnakemakeOptions {
-  std::filesystem::path program;   ///< the `ccdt` that is run
-  std::uint64_t memory_bytes = 0;  ///< limit of a run; 0: none
+  std::filesystem::path program;     ///< the `ccdt` that is run
+  std::vector<std::string> options;  ///< more words of `ccdt sweep FOLDER --chunk N`, without spaces
+  std::uint64_t memory_bytes = 0;    ///< limit of a run; 0: none
 };
 
 /// Writes FOLDER/Snakefile: one rule, and a job of it for each of these chunks, whose files are written. A chunk is
