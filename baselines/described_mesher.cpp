@@ -135,7 +135,7 @@ double call_program(const Description& description, const InputPlc& input, const
     throw InputError("/command/0: there is no program '" + command[0] + "'", io::place_in(description.file.string()),
                      description.install.empty() ? "install it, or give its path" : description.install);
   command[0] = program->string();
-  ProgramOptions options{.folder = folder, .log = log};
+  ProgramOptions options{.folder = folder, .log = log, .limits = Limits()};
   for (const auto& [name, value] : description.environment)
     options.environment.emplace_back(name, fill_placeholders(value, values));
   const ProcessResult ended = run_program(command, options);

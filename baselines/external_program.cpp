@@ -15,6 +15,7 @@ namespace ccdt::baselines {
 namespace {
 
 constexpr std::size_t most_last_lines = 5;
+constexpr double most_seconds_for_version = 10;
 /// The library matches by recursion: a line of megabytes would overflow the stack.
 constexpr std::size_t longest_line = 1000;
 
@@ -62,7 +63,8 @@ std::optional<std::filesystem::path> find_on_path(const std::string& name) {
 std::string version_of_program(const std::vector<std::string>& command, const std::string& pattern) {
   const TemporaryFolder folder;
   const auto log = folder.path() / "log";
-  run_program(command, {.log = log});  // some programs print their version and end with an error
+  // Some programs print their version and end with an error, others wait for something.
+  run_program(command, {.log = log, .limits = Limits{.seconds = most_seconds_for_version}});
   return first_in_log(log, pattern.empty() ? "^.*$" : pattern).value_or(unknown_version);
 }
 

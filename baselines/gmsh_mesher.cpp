@@ -159,7 +159,7 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   report(progress, "gmsh", 0, 0);
   const int code = run_program({program->string(), file("model.geo").string(), "-3", "-nt", "1", "-v", "5", "-o",
                                 file("volume.msh").string()},
-                               {.log = file("log")})
+                               {.log = file("log"), .limits = Limits()})
                        .shell_code();
   const auto error = first_in_log(file("log"), "^Error[ :]*(.*)");
   if (code != 0 || error)

@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,17 +21,26 @@
 #include <string_view>
 #include <system_error>
 
+#include "baselines/process_tree.h"
+#include "baselines/supervisor.h"
+
 namespace ccdt::baselines {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 constexpr int watch_milliseconds = 10;
+constexpr int rounds_per_look_at_disk = 10;
+constexpr double most_seconds = 1e9;
 constexpr int cannot_execute = 127;  ///< as shells have it
 constexpr std::size_t most_captured = 4000;
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 /// A file descriptor that is closed at the end of its scope.
@@ -89,6 +99,13 @@ class StringPointers {
   std::vector<char*> pointers_;
 };
 
+/// Those of the options, and where temporary files go.
+std::vector<std::pair<std::string, std::string>> variables_of(const ProgramOptions& options) {
+  auto variables = options.environment;
+  if (!options.scratch.empty()) variables.emplace_back("TMPDIR", options.scratch.string());
+  return variables;
+}
+
 /// "NAME=value" of this process and of `more`, which overrides; of variables that are there twice, the last counts.
 std::vector<std::string> environment_with(const std::vector<std::pair<std::string, std::string>>& more) {
   std::map<std::string, std::string> variables;
@@ -103,28 +120,43 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
   return all;
 }
 
-std::uint64_t resident_bytes(pid_t child) {
-  std::ifstream statm("/proc/" + std::to_string(child) + "/statm");
-  std::uint64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return statm ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+/// Why a program that is watched has to end.
+enum class Reached { nothing, seconds, memory, disk, stop };
+
+constexpr FailureKind kind_of(Reached limit) {
+  return limit == Reached::seconds  ? FailureKind::timeout
+         : limit == Reached::memory ? FailureKind::out_of_memory
+                                    : FailureKind::limit;
 }
 
-/// Waits for the end of the child or for a limit.
-/// \return  the limit that was reached, if any
-std::optional<FailureKind> watch(pid_t child, const Limits& limits, Clock::time_point begin) {
-  const Descriptor child_descriptor(static_cast<int>(syscall(SYS_pidfd_open, child, 0)), "cannot watch a process");
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  for (;;) {
-    pollfd ended{child_descriptor.value, POLLIN, 0};
-    int wait = limits.memory_bytes > 0 ? watch_milliseconds : -1;
-    if (limits.seconds > 0) {
-      const int left = static_cast<int>(std::clamp((limits.seconds - elapsed()) * 1000 + 1, 0.0, 1e6));
-      wait = wait < 0 ? left : std::min(wait, left);
-    }
-    if (poll(&ended, 1, wait) > 0) return std::nullopt;
-    if (limits.seconds > 0 && elapsed() >= limits.seconds) return FailureKind::timeout;
-    if (limits.memory_bytes > 0 && resident_bytes(child) > limits.memory_bytes) return FailureKind::out_of_memory;
+/// What a supervised program may use, and where that shows.
+struct Watched {
+  pid_t supervisor;
+  const Limits& limits;
+  const std::filesystem::path& scratch;
+  int printed;  ///< descriptor of the file that gets its output
+};
+
+bool exceeds_disk(const Watched& watched) {
+  struct stat printed {};
+  const auto size = fstat(watched.printed, &printed) == 0 ? static_cast<std::uint64_t>(printed.st_size) : 0;
+  if (size > watched.limits.disk_bytes) return true;
+  return !watched.scratch.empty() && size + bytes_in_folder(watched.scratch) > watched.limits.disk_bytes;
+}
+
+/// Waits for the end of the program, for a limit, or for the wish to stop.
+Reached watch(const Watched& watched, Clock::time_point begin) {
+  const Limits& limits = watched.limits;
+  const Descriptor process(static_cast<int>(syscall(SYS_pidfd_open, watched.supervisor, 0)), "cannot watch a process");
+  for (int round = 1;; ++round) {
+    const double left = limits.seconds > 0 ? limits.seconds - seconds_since(begin) : most_seconds;
+    pollfd ended{process.value, POLLIN, 0};
+    const int wait = static_cast<int>(std::clamp(left * 1000 + 1, 0.0, static_cast<double>(watch_milliseconds)));
+    if (poll(&ended, 1, wait) > 0) return Reached::nothing;
+    if (stop_requested()) return Reached::stop;
+    if (left <= 0) return Reached::seconds;
+    if (limits.memory_bytes > 0 && tree_exceeds(watched.supervisor, limits.memory_bytes)) return Reached::memory;
+    if (limits.disk_bytes > 0 && round % rounds_per_look_at_disk == 0 && exceeds_disk(watched)) return Reached::disk;
   }
 }
 
@@ -135,10 +167,15 @@ std::string seconds_text(double seconds) {
   return text + " s";
 }
 
-std::string text_of_limit(FailureKind limit, const Limits& limits) {
-  return "stopped at the limit of " + (limit == FailureKind::timeout
-                                           ? seconds_text(limits.seconds)
-                                           : std::to_string(limits.memory_bytes >> 20) + " MiB of memory");
+std::string mebibytes_text(std::uint64_t bytes) {
+  return std::to_string(bytes >> 20) + " MiB";
+}
+
+std::string text_of_limit(Reached limit, const Limits& limits) {
+  const std::string text = "stopped at the limit of ";
+  if (limit == Reached::seconds) return text + seconds_text(limits.seconds);
+  if (limit == Reached::memory) return text + mebibytes_text(limits.memory_bytes) + " of memory";
+  return text + mebibytes_text(limits.disk_bytes) + " of disk space";
 }
 
 void set_failure(FailureKind kind, ProcessResult& result) {
@@ -169,44 +206,96 @@ struct OutputFiles {
   const Descriptor* captured = nullptr;  ///< the one of these that becomes the result's `printed`; may be null
 };
 
-/// Forks this process. In the child, the standard streams are set up before `body` runs, which must end the process;
-/// if a program may have several threads, only async-signal-safe calls are allowed there.
+/// The kernel is to end this process before the one that has started it.
+void prefer_when_memory_runs_out() {
+  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  write_whole(file, "500");
+  close(file);
+}
+
+/// In a fork of this process: sets up the standard streams.
+void set_up_child(const OutputFiles& files, const Descriptor& null) {
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  dup2(null.value, STDIN_FILENO);
+  dup2(files.out < 0 ? null.value : files.out, STDOUT_FILENO);
+  dup2(files.err, STDERR_FILENO);
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+ProcessResult result_of(const OutputFiles& files, Clock::time_point begin) {
+  ProcessResult result;
+  result.seconds = seconds_since(begin);
+  if (files.captured != nullptr) result.printed = read_end(*files.captured, most_captured);
+  result.printed.erase(result.printed.find_last_not_of("\n ") + 1);
+  return result;
+}
+
+/// Forks this process and waits for the fork's end. Its standard streams are set up before `body` runs, which must end
+/// it; if this process may have several threads, only async-signal-safe calls are allowed there.
 template <class Body>
-ProcessResult run_child(const OutputFiles& files, const Limits& limits, Body body) {
+ProcessResult run_child(const OutputFiles& files, Body body) {
   const Descriptor null = open_file("/dev/null", O_RDWR);
-  const bool has_limits = limits.seconds > 0 || limits.memory_bytes > 0;
   const pid_t parent = getpid();
   const auto begin = Clock::now();
   const pid_t child = fork();
   if (child < 0) fail("cannot start a child process");
   if (child == 0) {
-    if (has_limits) setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // an interrupted run leaves no orphans
     if (getppid() != parent) _exit(cannot_execute);
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    dup2(null.value, STDIN_FILENO);
-    dup2(files.out < 0 ? null.value : files.out, STDOUT_FILENO);
-    dup2(files.err, STDERR_FILENO);
+    set_up_child(files, null);
     body();
   }
-  if (has_limits) setpgid(child, child);  // here as well: the group may be killed before the child has made it
-  const std::optional<FailureKind> limit = has_limits ? watch(child, limits, begin) : std::nullopt;
-  if (limit) kill(-child, SIGKILL);
-  int wait_status = 0;
-  while (waitpid(child, &wait_status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = wait_for(child);
+  ProcessResult result = result_of(files, begin);
+  explain_end(status, result);
+  return result;
+}
 
-  ProcessResult result;
-  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (files.captured != nullptr) result.printed = read_end(*files.captured, most_captured);
-  result.printed.erase(result.printed.find_last_not_of("\n ") + 1);
-  if (limit) {
-    set_failure(*limit, result);
-    result.signal = SIGKILL;
-    result.reason = text_of_limit(*limit, limits);
+/// The same in a process group of its own, with a supervisor, limits, and an end when this process is to stop.
+template <class Body>
+ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, const std::filesystem::path& scratch,
+                             Body body) {
+  if (stop_requested()) throw Stopped();
+  const Descriptor null = open_file("/dev/null", O_RDWR);
+  const Descriptor program_status = memory_file();
+  const pid_t parent = getpid();
+  const auto begin = Clock::now();
+  const pid_t supervisor = fork();
+  if (supervisor < 0) fail("cannot start a child process");
+  if (supervisor == 0) {
+    setpgid(0, 0);  // what a terminal sends to this process is not for them
+    const Supervisor self(parent);
+    const pid_t child = fork();
+    if (child == 0) {
+      self.release_child();
+      prefer_when_memory_runs_out();
+      set_up_child(files, null);
+      body();
+    }
+    if (child < 0) _exit(cannot_execute);
+    self.watch(child, program_status.value);
+  }
+  const Reached reached = watch({supervisor, limits, scratch, files.err}, begin);
+  if (reached != Reached::nothing) kill(supervisor, SIGTERM);
+  int status = wait_for(supervisor);
+  if (reached == Reached::stop) throw Stopped();
+  ProcessResult result = result_of(files, begin);
+  if (reached == Reached::nothing) {
+    int of_program = 0;  // is missing if the supervisor was killed
+    if (pread(program_status.value, &of_program, sizeof of_program, 0) == sizeof of_program) status = of_program;
+    explain_end(status, result);
   } else {
-    explain_end(wait_status, result);
+    set_failure(kind_of(reached), result);
+    result.signal = SIGKILL;
+    result.reason = text_of_limit(reached, limits);
   }
   return result;
 }
@@ -214,16 +303,17 @@ ProcessResult run_child(const OutputFiles& files, const Limits& limits, Body bod
 }  // namespace
 
 ProcessResult run_program(const std::vector<std::string>& command, const ProgramOptions& options) {
-  const StringPointers arguments(command), environment(environment_with(options.environment));
+  const StringPointers arguments(command), environment(environment_with(variables_of(options)));
   const char* folder = options.folder.c_str();
   const bool has_log = !options.log.empty();
   const Descriptor file = has_log ? open_file(options.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC) : memory_file();
   const OutputFiles files = {has_log ? file.value : -1, file.value, has_log ? nullptr : &file};
-  return run_child(files, options.limits, [&] {
+  const auto start = [&] {
     if (*folder == '\0' || chdir(folder) == 0) execve(arguments.get()[0], arguments.get(), environment.get());
     write_whole(STDERR_FILENO, "the program cannot be started");
     _exit(cannot_execute);
-  });
+  };
+  return options.limits ? run_supervised(files, *options.limits, options.scratch, start) : run_child(files, start);
 }
 
 ProcessResult run_function(const std::function<std::string()>& function) {
@@ -231,7 +321,7 @@ ProcessResult run_function(const std::function<std::string()>& function) {
   constexpr char end_mark = '.';
   const Descriptor printed = memory_file(), value = memory_file();
   std::fflush(nullptr);  // or the child would print what is still in the buffers once more
-  ProcessResult result = run_child({printed.value, printed.value, &printed}, {}, [&] {
+  ProcessResult result = run_child({printed.value, printed.value, &printed}, [&] {
     std::setvbuf(stdout, nullptr, _IONBF, 0);  // a crash must not lose the explanation
     const bool is_whole = write_whole(value.value, function() + end_mark);
     _exit(is_whole ? 0 : 1);  // without destructors and exit handlers: those belong to the parent

@@ -9,16 +9,18 @@
 #include <vector>
 
 #include "baselines/failure.h"
+#include "baselines/stop.h"
 
 namespace ccdt::baselines {
 
 /// What a child process may use; 0 is no limit.
 ///
 /// Memory is watched a hundred times a second instead of limited by the kernel, because that knows only limits of
-/// address space, which sanitizers and allocators reserve far more of than they use.
+/// address space, which sanitizers and allocators reserve far more of than they use; the disk ten times a second.
 struct Limits {
   double seconds = 0;              ///< of wall-clock time
-  std::uint64_t memory_bytes = 0;  ///< of resident memory
+  std::uint64_t memory_bytes = 0;  ///< of resident memory, with all that it has started
+  std::uint64_t disk_bytes = 0;    ///< in its scratch folder, and printed
 };
 
 /// Where and how a program runs.
@@ -26,7 +28,10 @@ struct ProgramOptions {
   std::filesystem::path folder = {};                                  ///< empty: where this process runs
   std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables besides those of this process
   std::filesystem::path log = {};  ///< gets all that it prints; empty: standard output is dropped
-  Limits limits = {};              ///< with limits, its process group is its own, and is killed as a whole at a limit
+  /// If there are limits, even of 0, the program is supervised: it and all that it has started ends when it ends, when
+  /// this process ends or is to stop, or at a limit.
+  std::optional<Limits> limits = {};
+  std::filesystem::path scratch = {};  ///< for its temporary files, as TMPDIR; empty: where this process has them
 };
 
 struct ProcessResult {
@@ -44,10 +49,11 @@ struct ProcessResult {
 };
 
 /// Runs a program to its end, to a limit, or to the end of this process, whichever comes first. It gets no input.
-/// Without a log, its standard error is captured.
+/// Without a log, its standard error is captured. May be called by several threads at once.
 ///
 /// \param command  path of the program, then its arguments
 /// \throw std::system_error  no process can be started, or the log cannot be written
+/// \throw Stopped            it is supervised, and this process is to stop; see `request_stop`
 ProcessResult run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
 
 /// Calls a function in a fork of this process and waits for it. This is for libraries that crash, exit or print instead

@@ -217,4 +217,14 @@ RunRecord read_run_record(const std::filesystem::path& file) {
   return read_document(file, run_document, record_from);
 }
 
+std::optional<RunRecord> find_run_record(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return {};
+  try {
+    return read_run_record(file);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace ccdt::bench

@@ -82,5 +82,7 @@ RunRecord run_record_from_json(const std::string& text);
 void write_run_record(const RunRecord& record, const std::filesystem::path& file);
 /// \throw InputError  cannot be read, or no JSON of that schema
 RunRecord read_run_record(const std::filesystem::path& file);
+/// The same; none if there is no such file, or what is there is no record.
+std::optional<RunRecord> find_run_record(const std::filesystem::path& file);
 
 }  // namespace ccdt::bench

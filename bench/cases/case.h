@@ -28,14 +28,14 @@ using SecondsOf = std::function<double(const StageSeconds&)>;
 
 /// One mesher on one input with one set of options.
 struct Case {
-  std::string name;                  ///< for people
-  std::string group;                 ///< cases of one group are compared, so their repetitions take turns
-  std::string mesher = "ccdt";       ///< one of this build, or a file that describes another
-  std::filesystem::path input;       ///< exists
-  std::vector<std::string> options;  ///< more words of the command line of `ccdt mesh`
-  baselines::Limits limits;          ///< of each run
-  bool verify = false;               ///< check each mesh exactly against its input
-  std::string mesh_ending = {};      ///< keep the mesh of the last run, as meshes/ID and this; empty: no mesh is kept
+  std::string name;                       ///< for people
+  std::string group;                      ///< cases of one group are compared, so their repetitions take turns
+  std::string mesher = "ccdt";            ///< one of this build, or a file that describes another
+  std::filesystem::path input;            ///< exists
+  std::vector<std::string> options = {};  ///< more words of the command line of `ccdt mesh`
+  baselines::Limits limits = {};          ///< of each run
+  bool verify = false;                    ///< check each mesh exactly against its input
+  std::string mesh_ending = {};  ///< keep the mesh of the last run, as meshes/ID and this; empty: no mesh is kept
   Repetitions repetitions = {};
   SecondsOf seconds = &StageSeconds::mesh;  ///< what `repetitions.until` is about
 };

@@ -28,7 +28,7 @@ void add_machine(Identity& identity) {
 
 /// The fields that say what a mesher is.
 std::vector<std::string> mesher_fields(const std::string& name) {
-  return {name + ".version", name + ".binary"};
+  return {name + ".version", name + ".binary", name + ".description"};
 }
 
 bench::Json read_identities(const std::filesystem::path& file) {
@@ -61,7 +61,8 @@ Identity identity_of(const std::vector<std::string>& meshers, const std::filesys
   for (const std::string& name_or_file : meshers) {
     const baselines::Mesher& mesher = baselines::mesher(name_or_file);
     identity[mesher.name + ".version"] = baselines::version_of(mesher);
-    identity[mesher.name + ".binary"] = hashes.of(program);
+    identity[mesher.name + ".binary"] = hashes.of(mesher.program.empty() ? program : mesher.program);
+    if (!mesher.description.empty()) identity[mesher.name + ".description"] = hashes.of(mesher.description);
   }
   return identity;
 }

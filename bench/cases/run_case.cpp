@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "baselines/mesher.h"
+#include "bench/cases/verify_run.h"
 #include "bench/environment.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
@@ -76,11 +77,23 @@ RunRecord record_without_report(const RunPlace& place, const Case& asked) {
 
 RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesystem::path& report,
                     const baselines::ProcessResult& child) {
-  const bool wrote_one = std::filesystem::exists(report);
-  RunRecord record = wrote_one ? bench::read_run_record(report) : record_without_report(place, asked);
-  if (!wrote_one) record.set_failure(baselines::FailureKind::crashed, "the process ended without a report");
+  auto own = bench::find_run_record(report);
+  RunRecord record = own ? *std::move(own) : record_without_report(place, asked);
+  if (!own) record.set_failure(baselines::FailureKind::crashed, "the process ended without a report");
   bench::note_end(child, record);
   return record;
+}
+
+/// A new surface is what the mesh is verified against.
+bool has_new_surface(const Case& asked) {
+  const auto surface = std::ranges::find(asked.options, "--surface");
+  return asked.verify && surface != asked.options.end() && surface + 1 != asked.options.end() &&
+         *(surface + 1) == "remesh";
+}
+
+RunFiles files_of(const Case& asked, const Scratch& scratch) {
+  const auto input = has_new_surface(asked) ? scratch.file("surface.poly") : std::filesystem::absolute(asked.input);
+  return {input, scratch.file("mesh" + mesh_ending(asked)), scratch.folder()};
 }
 
 /// The files of a mesh in several formats have one stem.
@@ -99,16 +112,32 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   const auto folder = std::filesystem::absolute(place.folder);
   const std::string file = run_file(measured.id, measured.runs);
   const Scratch scratch(folder / "scratch" / std::filesystem::path(file).stem());
-  const auto mesh = scratch.file("mesh" + mesh_ending(asked)), report = scratch.file("record.json");
-  const baselines::ProcessResult child =
-      call(place, command_of(place, asked, mesh.string(), report.string()), scratch, asked.limits);
+  const RunFiles files = files_of(asked, scratch);
+  const auto report = scratch.file("record.json");
+  std::vector<std::string> command = command_of(place, asked, files.mesh.string(), report.string());
+  if (has_new_surface(asked)) command.insert(command.end(), {"--surface-output", files.input.string()});
+
+  const baselines::ProcessResult child = call(place, std::move(command), scratch, asked.limits);
   RunRecord record = record_of(place, asked, report, child);
+  record.case_id = measured.id;
+  record.number = measured.runs;
+  record.environment.jobs = place.jobs;
   record.command = command_of(place, asked, "again" + mesh_ending(asked), "again.json");
   record.command.insert(record.command.begin(), "ccdt");
+  if (asked.verify && record.status == baselines::RunStatus::ok) verify_run(place, measured, files, record);
   if (record.status == baselines::RunStatus::ok && !asked.mesh_ending.empty()) keep_mesh(place, measured, scratch);
   std::filesystem::create_directories(folder / "runs");
   bench::write_run_record(record, folder / file);
   add_run(measured, std::move(record));
+}
+
+void make_mesh_again(const RunPlace& place, const MeasuredCase& measured) {
+  const Case& asked = measured.asked;
+  const Scratch scratch(std::filesystem::absolute(place.folder) / "scratch" / (measured.id + "-mesh"));
+  const std::string mesh = scratch.file("mesh" + mesh_ending(asked)).string(),
+                    report = scratch.file("record.json").string();
+  call(place, command_of(place, asked, mesh, report), scratch, asked.limits);
+  keep_mesh(place, measured, scratch);
 }
 
 }  // namespace ccdt::cases

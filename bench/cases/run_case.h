@@ -24,4 +24,8 @@ struct RunPlace {
 /// \throw OutputError         the record cannot be written
 void run_next(const RunPlace& place, MeasuredCase& measured);
 
+/// Makes the mesh of a case once more, to keep it, if that was not asked for when the case was run. Leaves no record.
+/// \throw baselines::Stopped  the user has stopped the program
+void make_mesh_again(const RunPlace& place, const MeasuredCase& measured);
+
 }  // namespace ccdt::cases

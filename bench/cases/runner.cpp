@@ -16,17 +16,6 @@
 namespace ccdt::cases {
 namespace {
 
-/// The record of a run; none if there is no such file, or what is there is none.
-std::optional<RunRecord> read_record(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return {};
-  try {
-    return bench::read_run_record(file);
-  } catch (const InputError&) {
-    return {};
-  }
-}
-
 /// The case with this id, and its records.
 ///
 /// \param retried  failures of these cases count, even if failures are to be retried
@@ -34,7 +23,7 @@ MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const 
                        const std::set<std::string>& retried) {
   MeasuredCase measured{asked, id};
   while (needs_run(measured)) {
-    auto record = read_record(settings.folder / run_file(id, measured.runs));
+    auto record = bench::find_run_record(settings.folder / run_file(id, measured.runs));
     if (!record) break;
     const bool failed = record->status != baselines::RunStatus::ok;
     if (failed && settings.retry_failed && !retried.contains(id)) break;
@@ -190,6 +179,8 @@ std::vector<MeasuredCase> Runner::run(std::span<const Case> cases) {
     measured = *by_id.at(measured.id);
     measured.asked = std::move(asked);
     tried_.insert(measured.id);
+    const bool is_kept = measured.asked.mesh_ending.empty() || exists(settings_.folder / mesh_file(measured));
+    if (!is_kept && !measured.failed()) make_mesh_again(place, measured);
   }
   return all;
 }

@@ -15,8 +15,8 @@ namespace ccdt::cases {
 
 /// Where and how cases are run.
 struct RunnerSettings {
-  std::filesystem::path program;          ///< the `ccdt` that is run
-  std::filesystem::path folder;           ///< records go to its folder runs, kept meshes to meshes; exists
+  std::filesystem::path program = {};     ///< the `ccdt` that is run
+  std::filesystem::path folder = {};      ///< records go to its folder runs, kept meshes to meshes; exists
   std::vector<Identity> identities = {};  ///< whose records count; new ones are made with the first
   std::uint64_t seed = 1;                 ///< of the order in which repetitions take turns
   int jobs = 1;                           ///< cases at the same time; more than one disturbs the times

@@ -76,7 +76,8 @@ std::string call_slurm(std::vector<std::string> command) {
   command.front() = program->string();
   const baselines::TemporaryFolder scratch;
   const auto log = scratch.path() / "log";
-  const auto result = baselines::run_program(command, {.log = log, .limits = {.seconds = seconds_for_slurm}});
+  const auto result =
+      baselines::run_program(command, {.log = log, .limits = baselines::Limits{.seconds = seconds_for_slurm}});
   std::string printed = std::filesystem::file_size(log) == 0 ? "" : io::read_whole_file(log).bytes;
   if (result.status == baselines::RunStatus::ok) return printed;
   printed.erase(printed.find_last_not_of(" \n") + 1);

@@ -15,12 +15,13 @@
 namespace ccdt::cases {
 namespace {
 
-/// Stands for `ccdt mesh`: writes the input's content as the seconds of its record, or fails if that is no number, and
-/// lists its calls.
+/// Stands for `ccdt mesh`: writes the input's content as the seconds of its record, or fails if that is no number;
+/// writes an empty mesh, and lists its calls.
 constexpr const char* program_text = R"(#!/bin/sh
 folder=$(dirname "$0")
 echo "$2 $*" >> "$folder/calls"
 input=$2
+touch "$4"
 while [ "$1" != --report ]; do shift; done
 number=$(grep -c "^$input " "$folder/calls")
 seconds=$(sed -n "$(( (number - 1) % $(wc -l < "$input") + 1 ))p" "$input")
@@ -110,6 +111,15 @@ TEST_F(RunnerTest, RunsAgainWhatHasATornRecord) {
   EXPECT_FALSE(runner().run(asked).failed());
   EXPECT_EQ(calls().size(), 2);
   EXPECT_EQ(bench::read_run_record(file(measured, 0)).status, baselines::RunStatus::ok);
+}
+
+TEST_F(RunnerTest, MakesAMeshAgainThatWasNotKeptBefore) {
+  Case asked = case_of("a", "1\n");
+  runner().run(asked);
+  asked.mesh_ending = ".vtu";
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(exists(folder_.path() / mesh_file(runner().run(asked))));
+  EXPECT_EQ(calls().size(), 2);
+  EXPECT_EQ(records(), 1);
 }
 
 TEST_F(RunnerTest, EndsTheRepetitionsOfAFailure) {
