@@ -26,9 +26,12 @@ void add_machine(Identity& identity) {
   identity["machine.system"] = here.system;
 }
 
-/// The fields that say what a mesher is.
-std::vector<std::string> mesher_fields(const std::string& name) {
-  return {name + ".version", name + ".binary", name + ".description"};
+/// What a case depends on: its mesher, and the machine, which determines the times.
+Identity part_for(const std::string& mesher, const Identity& identity) {
+  Identity part;
+  for (const auto& [field, value] : identity)
+    if (field.starts_with("machine.") || field.starts_with(mesher + ".")) part[field] = value;
+  return part;
 }
 
 bench::Json read_identities(const std::filesystem::path& file) {
@@ -116,13 +119,14 @@ const std::string& FileHashes::of(const std::filesystem::path& file) {
 
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes) {
   const std::string name = baselines::mesher(asked.mesher).name;
-  bench::Json what = {{"input", hashes.of(asked.input)}, {"mesher", name}, {"options", asked.options}};
-  for (const std::string& field : mesher_fields(name))
-    if (identity.contains(field)) what[field] = identity.at(field);
+  bench::Json what = {{"input", hashes.of(asked.input)},
+                      {"mesher", name},
+                      {"identity", part_for(name, identity)},
+                      {"options", asked.options}};
   if (const auto nodes = companion_of(asked.input); is_file(nodes)) what["nodes"] = hashes.of(nodes);
   for (const std::string& option : asked.options)
     if (is_file(option)) what["files"].push_back(hashes.of(option));
-  what["limits"] = {asked.limits.seconds, asked.limits.memory_bytes};
+  what["limits"] = {asked.limits.seconds, asked.limits.memory_bytes, asked.limits.disk_bytes};
   what["verify"] = asked.verify;
   return bench::sha256_of_text(what.dump(-1, ' ', false, bench::Json::error_handler_t::replace)).substr(0, id_digits);
 }

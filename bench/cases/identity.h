@@ -51,7 +51,7 @@ class FileHashes {
 };
 
 /// The hash that identifies a case: of the bytes of its input and of other files that its options name, the mesher's
-/// name, version and binary, the options, the limits, and whether it is verified; 16 hexadecimal digits.
+/// name, version and binary, the machine, the options, the limits, and whether it is verified; 16 hexadecimal digits.
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes);
 
 }  // namespace ccdt::cases

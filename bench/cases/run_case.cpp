@@ -58,8 +58,7 @@ std::vector<std::string> command_of(const RunPlace& place, const Case& asked, co
 baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> command, const Scratch& scratch,
                               const baselines::Limits& limits) {
   command.insert(command.begin(), place.program.string());
-  return baselines::run_program(
-      command, {.folder = place.folder, .environment = {{"TMPDIR", scratch.folder().string()}}, .limits = limits});
+  return baselines::run_program(command, {.folder = place.folder, .limits = limits, .scratch = scratch.folder()});
 }
 
 /// The record of a child that ended before it wrote a report.

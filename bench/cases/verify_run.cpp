@@ -74,7 +74,8 @@ void verify_run(const RunPlace& place, const MeasuredCase& measured, const RunFi
   command.insert(command.end(), options.begin(), options.end());
   const baselines::Limits limits{.seconds =
                                      std::max(least_seconds, seconds_per_second * measured.asked.limits.seconds)};
-  const auto child = baselines::run_program(command, {.folder = place.folder, .limits = limits});
+  const auto child =
+      baselines::run_program(command, {.folder = place.folder, .limits = limits, .scratch = files.scratch});
   try {
     VerifiedMesh verified = bench::read_document(report, verification_kind, verified_from);
     verified.seconds = child.seconds;

@@ -210,16 +210,19 @@ TEST_F(RunnerTest, AnIdChangesWithAllThatDeterminesTheResult) {
   add(asked, now);
   Case same = asked;
   same.name = "other", same.group = "other", same.mesh_ending = ".mesh", same.repetitions = three_after_one;
-  add(same, {{"ccdt.binary", "x"}, {"ccdt.version", "1"}, {"machine.cpu", "slow"}});
+  add(same, {{"ccdt.binary", "x"}, {"ccdt.version", "1"}, {"machine.cpu", "fast"}, {"tetgen.version", "2"}});
   EXPECT_EQ(ids.size(), 1);
   Case options = asked, limits = asked, verified = asked;
   options.options = {"--lattice", "bcc"};
   limits.limits.seconds = 5;
   verified.verify = true;
   for (const Case& other : {options, limits, verified, case_of("b", "2\n")}) add(other, now);
-  add(asked, {{"ccdt.binary", "y"}, {"ccdt.version", "1"}});
-  add(asked, {{"ccdt.binary", "x"}, {"ccdt.version", "2"}});
-  EXPECT_EQ(ids.size(), 7);
+  for (const auto& [field, value] : now) {
+    Identity other = now;
+    other[field] += "'";
+    add(asked, other);
+  }
+  EXPECT_EQ(ids.size(), 8);
 }
 
 class IdentitiesTest : public testing::Test {
