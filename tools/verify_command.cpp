@@ -53,6 +53,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       ->check(non_negative_number())
       ->capture_default_str();
   add_choice(*verb, "--constrained-delaunay", command->options.delaunay, "must the mesh be constrained Delaunay?");
+  add_choice(*verb, "--surface", command->options.surface, "whose surface the mesh must have");
   add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input have to be");
   verb->add_option("--report", command->report, "write the checks there as JSON (schema ccdt.verify/1)");
   verb->footer(
@@ -60,7 +61,9 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       "Example: does the mesh fill exactly the part?\n"
       "  ccdt verify part.stl part.vtu\n"
       "Example: the same of a mesh that was improved with --boundary slide\n"
-      "  ccdt verify --boundary slide part.stl part.vtu\n");
+      "  ccdt verify --boundary slide part.stl part.vtu\n"
+      "Example: is this a mesh at all, by a mesher that makes a surface of its own?\n"
+      "  ccdt verify --surface own part.stl part.vtu\n");
   verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
 }
 

@@ -102,7 +102,7 @@ Check check_inside(const mesh::TetMesh& mesh, const Regions& regions, const Regi
 /// A tetrahedron has the attribute of the region seed in its region; without a seed, the same as all in the region.
 /// One that lies within an interior facet may have the attribute of either side.
 Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
-  Check check{.name = "regions", .checked = mesh.tetrahedra.size()};
+  Check check{.name = regions_check, .checked = mesh.tetrahedra.size()};
   const auto wanted = wanted_regions(mesh, regions, assigned);
   const auto is_wanted = [&](int region, std::uint32_t c) {
     return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
@@ -134,6 +134,23 @@ Check check_holes(const plc::InputPlc& input, const Regions& regions, const Regi
   return check;
 }
 
+/// The volumes are equal to 1e-9, and what moving the surface within the tolerance can change.
+Check check_volume(const Surface& surface, const Regions& regions, double of_mesh, double of_input) {
+  Check check{.name = "volume", .checked = 1};
+  double area = 0;
+  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
+    if (regions.touches_inside(p)) area += length(surface.area_vector[p]);
+  if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
+  fail(check, [&] {
+    char buffer[128];
+    std::snprintf(buffer, sizeof buffer, "the mesh has the volume %.17g, the input %.17g", of_mesh, of_input);
+    return std::string(buffer);
+  });
+  return check;
+}
+
+}  // namespace
+
 double mesh_volume(const mesh::TetMesh& mesh) {
   Sum sum;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
@@ -155,23 +172,6 @@ double input_volume(const Surface& surface, const Regions& regions) {
   }
   return sum.value();
 }
-
-/// The volumes are equal to 1e-9, and what moving the surface within the tolerance can change.
-Check check_volume(const Surface& surface, const Regions& regions, double of_mesh, double of_input) {
-  Check check{.name = "volume", .checked = 1};
-  double area = 0;
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    if (regions.touches_inside(p)) area += length(surface.area_vector[p]);
-  if (std::fabs(of_mesh - of_input) <= 1e-9 * std::fabs(of_input) + surface.tolerances.flat * area) return check;
-  fail(check, [&] {
-    char buffer[128];
-    std::snprintf(buffer, sizeof buffer, "the mesh has the volume %.17g, the input %.17g", of_mesh, of_input);
-    return std::string(buffer);
-  });
-  return check;
-}
-
-}  // namespace
 
 RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regions, const FacetMatches& matches,
                                    double flat) {

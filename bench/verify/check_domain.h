@@ -25,6 +25,13 @@ RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regi
 /// Decides the regions of which the input does not tell whether they are inside, by whether the mesh fills them.
 void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions);
 
+/// The name of the check that compares the regions of tetrahedra with those of the input.
+inline constexpr const char* regions_check = "regions";
+
+double mesh_volume(const mesh::TetMesh& mesh);
+/// \pre  the sides of the facets are in regions
+double input_volume(const Surface& surface, const Regions& regions);
+
 /// Checks that the mesh fills the domain and its regions, and adds the checks and both volumes to the result.
 void check_domain(const plc::InputPlc& input, const mesh::TetMesh& mesh, const Surface& surface, const Regions& regions,
                   const RegionsOfTetrahedra& assigned, Verification& result);

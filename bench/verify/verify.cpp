@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bench/verify/check_domain.h"
+#include "bench/verify/crossings.h"
 #include "bench/verify/edit_surface.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
@@ -347,6 +348,68 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
   checks.insert(checks.end(), delaunay.begin(), delaunay.end());
 }
 
+/// The boundary of the mesh as an input of its own.
+plc::InputPlc boundary_of(const Topology& topology) {
+  plc::InputPlc boundary;
+  std::vector<std::uint32_t> number(topology.mesh.vertices.size(), none);
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
+    if (!topology.on_boundary(f)) continue;
+    Face face = outward(topology.mesh, topology.half_faces[f][0]);
+    for (std::uint32_t& v : face) {
+      if (number[v] == none) {
+        number[v] = static_cast<std::uint32_t>(boundary.vertices.size());
+        boundary.vertices.push_back(topology.mesh.vertices[v]);
+      }
+      v = number[v];
+    }
+    boundary.triangles.push_back(face);
+  }
+  return boundary;
+}
+
+/// The boundary of the mesh does not cross itself.
+Check check_crossings(const plc::InputPlc& boundary) {
+  Check check{.name = "boundary without crossings", .checked = boundary.triangles.size()};
+  for (const auto& [one, other] : find_crossings(boundary)) {
+    fail(check, [&, a = one, b = other] {
+      return "the face" + text(boundary.vertices, boundary.triangles[a]) + " meets the face" +
+             text(boundary.vertices, boundary.triangles[b]);
+    });
+  }
+  return check;
+}
+
+/// The boundary of the mesh encloses its tetrahedra, each point once: by the same argument as above, with the boundary
+/// for an input.
+/// \pre  it does not cross itself
+Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, double flatness,
+                     const Progress& progress) {
+  Verification by_itself;
+  check_against_input(boundary, topology, {.flatness = flatness, .delaunay = VerifyOptions::Delaunay::no}, progress,
+                      by_itself);
+  Check enclosed{.name = "boundary that encloses the tetrahedra once", .checked = boundary.triangles.size()};
+  for (const Check& check : by_itself.checks) {
+    if (!check.required || check.name == regions_check) continue;  // regions are bounded by inner faces as well
+    enclosed.failed += check.failed;
+    enclosed.examples.insert(enclosed.examples.end(), check.examples.begin(), check.examples.end());
+  }
+  return enclosed;
+}
+
+void check_own_surface(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
+                       const Progress& progress, Verification& result) {
+  if (!result.ok()) return;  // a boundary of inverted tetrahedra, or of more than two at a face, encloses nothing
+  const plc::InputPlc boundary = boundary_of(topology);
+  result.checks.push_back(check_crossings(boundary));
+  if (result.checks.back().failed == 0)
+    result.checks.push_back(check_enclosed(boundary, topology, options.flatness, progress));
+  result.mesh_volume = mesh_volume(topology.mesh);
+  const Tolerances tolerances = find_tolerances(input, options.flatness);
+  Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
+  embed_lines(surface);
+  result.input_volume = input_volume(surface, find_regions(input, surface));
+}
+
 std::string line_of(const Check& check, std::size_t width) {
   const char* verdict = check.failed == 0 ? "ok" : check.required ? "FAILED" : "note";
   char counts[96];
@@ -374,7 +437,10 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
   checks.push_back(check_shared_faces(topology));
   checks.push_back(check_distinct_vertices(topology));
   checks.push_back(check_used_vertices(topology));
-  check_against_input(input, topology, options, progress, result);
+  if (options.surface == VerifyOptions::Surface::own)
+    check_own_surface(input, topology, options, progress, result);
+  else
+    check_against_input(input, topology, options, progress, result);
   return result;
 }
 

@@ -22,6 +22,9 @@ struct VerifyOptions {
   /// What may have become of the input's vertices inside flat facets and inside straight chains of edges or segments?
   /// `keep`: they are vertices of the mesh. `slide`: they may be elsewhere in their facet or chain, or nowhere.
   enum class Boundary { keep, slide } boundary = Boundary::keep;
+  /// Whose surface must the mesh have? `same`: the input's; its facets, segments and vertices are there. `own`: its
+  /// mesher made another one; that has to enclose the tetrahedra once, and the input does not matter.
+  enum class Surface { same, own } surface = Surface::same;
 };
 
 constexpr auto names_of(VerifyOptions::Delaunay) {
@@ -35,6 +38,13 @@ constexpr auto names_of(VerifyOptions::Boundary) {
   return std::to_array<NamedValue<VerifyOptions::Boundary>>(
       {{keep, "keep", "where they were"},
        {slide, "slide", "the same, but those inside flat facets and straight segments may have slid in these"}});
+}
+
+constexpr auto names_of(VerifyOptions::Surface) {
+  using enum VerifyOptions::Surface;
+  return std::to_array<NamedValue<VerifyOptions::Surface>>(
+      {{same, "same", "that of the input, with all its facets, segments and vertices"},
+       {own, "own", "any that encloses the tetrahedra once, as of meshers that make a surface of their own"}});
 }
 
 /// One property that was checked.

@@ -1,0 +1,89 @@
+#include "bench/verify/crossings.h"
+
+#include <CGAL/Segment_3.h>
+#include <CGAL/Triangle_3.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "bench/verify/exact.h"
+
+namespace ccdt::verify {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangle = std::array<std::uint32_t, 3>;
+
+struct Box {
+  Point3 low, high;
+};
+
+Box box_of(const plc::InputPlc& surface, const Triangle& triangle) {
+  const Point3& first = surface.vertices[triangle[0]];
+  Box box{first, first};
+  for (const std::uint32_t v : triangle) {
+    const Point3& p = surface.vertices[v];
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+bool meet(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// A triangle in the order that begins with the vertices which it shares with another.
+Triangle shared_first(Triangle triangle, const Triangle& other) {
+  std::ranges::stable_partition(triangle, [&](std::uint32_t v) { return std::ranges::find(other, v) != other.end(); });
+  return triangle;
+}
+
+class CrossingTest {
+ public:
+  explicit CrossingTest(const plc::InputPlc& surface) : surface_(surface) {}
+
+  bool operator()(const Triangle& one, const Triangle& other) const {
+    const Triangle a = shared_first(one, other), b = shared_first(other, one);
+    const auto shared = std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::find(b, v) != b.end(); });
+    switch (shared) {
+      case 0:
+        return CGAL::do_intersect(whole(a), whole(b));
+      case 1:  // what they share beyond the vertex reaches the edge opposite to it, in one of them
+        return CGAL::do_intersect(far_edge(a), whole(b)) || CGAL::do_intersect(far_edge(b), whole(a));
+      case 2:  // they lie on each other, on one side of the edge
+        return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
+               CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
+      default:
+        return true;
+    }
+  }
+
+ private:
+  Kernel::Point_3 at(std::uint32_t v) const { return to_cgal(surface_.vertices[v]); }
+  Kernel::Triangle_3 whole(const Triangle& t) const { return {at(t[0]), at(t[1]), at(t[2])}; }
+  Kernel::Segment_3 far_edge(const Triangle& t) const { return {at(t[1]), at(t[2])}; }
+
+  const plc::InputPlc& surface_;
+};
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> find_crossings(const plc::InputPlc& surface) {
+  std::vector<Box> boxes;
+  for (const Triangle& triangle : surface.triangles) boxes.push_back(box_of(surface, triangle));
+  std::vector<std::uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](std::uint32_t t) { return boxes[t].low.x; });
+  const CrossingTest cross(surface);
+  std::vector<std::array<std::uint32_t, 2>> crossings;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].low.x <= boxes[order[i]].high.x; ++j)
+      if (meet(boxes[order[i]], boxes[order[j]]) && cross(surface.triangles[order[i]], surface.triangles[order[j]]))
+        crossings.push_back({order[i], order[j]});
+  return crossings;
+}
+
+}  // namespace ccdt::verify
