@@ -157,9 +157,10 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   io::write_tet_mesh(model.triangles, file("surface.msh"));
   write_script(model, "surface.msh", run.settings, file("model.geo"));
   report(progress, "gmsh", 0, 0);
-  const int code = run_program({program->string(), file("model.geo").string(), "-3", "-nt", "1", "-v", "5", "-o",
-                                file("volume.msh").string()},
-                               {.log = file("log"), .limits = Limits()})
+  // In the folder, by short names: other paths have made HXT choose other tetrahedra.
+  const std::string gmsh = std::filesystem::absolute(*program).string();
+  const int code = run_program({gmsh, "model.geo", "-3", "-nt", "1", "-v", "5", "-o", "volume.msh"},
+                               {.folder = folder.path(), .log = file("log"), .limits = Limits()})
                        .shell_code();
   const auto error = first_in_log(file("log"), "^Error[ :]*(.*)");
   if (code != 0 || error)
