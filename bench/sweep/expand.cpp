@@ -10,6 +10,7 @@
 
 #include "baselines/json_schema.h"
 #include "baselines/mesher.h"
+#include "baselines/mesher_options.h"
 #include "bench/results/numbers.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
@@ -20,6 +21,7 @@ namespace ccdt::sweep {
 namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
+using baselines::NamedOptions;
 
 [[noreturn]] void fail(const SweepSpec& spec, const std::string& pointer, const std::string& what,
                        const std::string& remedy) {
@@ -159,17 +161,31 @@ void for_each_combination(const std::vector<OptionAxis>& axes, const Visit& visi
   }
 }
 
-std::vector<std::string> words_of(const Values& options) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : options) words.insert(words.end(), {"--" + name, value});
-  return words;
+NamedOptions effective(const std::string& mesher, const Values& options) {
+  return baselines::effective_options(baselines::mesher(mesher), NamedOptions(options.begin(), options.end()));
 }
 
-/// What the mesher makes of the options; by name, so that their order in the spec does not matter.
-Values options_for(const std::string& mesher, Values options) {
-  static_cast<void>(mesher);
-  std::ranges::sort(options);
-  return options;
+/// Those of the options that make a difference to the mesher here, by name: a usual value too, if another one of its
+/// axis would.
+Values shown_options(const std::string& mesher, const Values& asked, const std::vector<OptionAxis>& axes) {
+  const NamedOptions used = effective(mesher, asked);
+  const auto matters = [&](std::size_t axis) {
+    return std::ranges::any_of(axes[axis].values, [&](const std::string& value) {
+      Values other = asked;
+      other[axis].second = value;
+      return effective(mesher, other) != used;
+    });
+  };
+  Values shown;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto found = used.find(asked[i].first);
+    if (found != used.end())
+      shown.emplace_back(*found);
+    else if (matters(i))
+      shown.push_back(asked[i]);
+  }
+  std::ranges::sort(shown);
+  return shown;
 }
 
 /// "piston-2, ccdt, lattice bcc": the options that have several values.
@@ -190,7 +206,7 @@ SweepCase case_of(const SweepSpec& spec, const ExpandedInput& input, const std::
   one.asked.name = name_of_case(one, input.options);
   one.asked.group = input.input.name;
   one.asked.input = input.input.file;
-  one.asked.options = words_of(one.options);
+  one.asked.options = words_for(mesher, one.options);
   one.asked.limits = spec.limits;
   one.asked.verify = spec.verify;
   if (spec.keep_meshes) one.asked.mesh_ending = kept_mesh_ending;
@@ -210,6 +226,12 @@ void check_options(const SweepSpec& spec, std::span<const SweepCase> cases, cons
 
 }  // namespace
 
+std::vector<std::string> words_for(const std::string& mesher, const Values& options) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : effective(mesher, options)) words.insert(words.end(), {"--" + name, value});
+  return words;
+}
+
 std::string SweepCase::mesher() const {
   return baselines::mesher(asked.mesher).name;
 }
@@ -217,14 +239,13 @@ std::string SweepCase::mesher() const {
 std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path& folder,
                               const MeshOptionRules& rules) {
   std::vector<SweepCase> all;
-  std::set<std::tuple<std::filesystem::path, std::string, Values>> known;
+  std::set<std::tuple<std::filesystem::path, std::string, NamedOptions>> known;
   for (const ExpandedInput& input : inputs_of(spec, std::filesystem::absolute(folder).lexically_normal()))
     for (const std::string& mesher : spec.meshers)
       for_each_combination(input.options, [&](const Values& asked) {
         if (is_excluded(spec, input.input, mesher, asked)) return;
-        Values options = options_for(mesher, asked);
-        if (!known.emplace(input.input.file, mesher, options).second) return;
-        all.push_back(case_of(spec, input, mesher, std::move(options)));
+        if (!known.emplace(input.input.file, mesher, effective(mesher, asked)).second) return;
+        all.push_back(case_of(spec, input, mesher, shown_options(mesher, asked, input.options)));
       });
   if (all.empty())
     fail(spec, spec.inputs.empty() ? "/inputs" : "/exclude", "there are no cases",
@@ -240,6 +261,7 @@ void write_models(std::span<const SweepCase> cases, bool anew, const Progress& p
       models.emplace(one.input.file, &one.input);
   std::uint64_t done = 0;
   for (const auto& [file, model] : models) {
+    if (baselines::stop_requested()) throw baselines::Stopped();
     report(progress, "writing " + model->name, done++, models.size());
     std::filesystem::create_directories(file.parent_path());
     io::write_plc(models::make_solid(model->model, model->edge_length), file);

@@ -27,7 +27,7 @@ struct CaseInput {
 struct SweepCase {
   cases::Case asked;
   CaseInput input;
-  std::vector<std::pair<std::string, std::string>> options;  ///< those that its mesher has, without dashes, by name
+  std::vector<std::pair<std::string, std::string>> options;  ///< that make a difference to its mesher, by name
   std::string id = {};                                       ///< known once its input is there
 
   /// As reports call it.
@@ -41,9 +41,15 @@ struct SweepCase {
 /// \throw InputError  no file matches, nothing is left, or options contradict each other; names the JSON pointer
 std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path& folder, const MeshOptionRules& rules);
 
+/// The words of the command line for options: without those that the mesher does not use, and without usual values, so
+/// that the words of equal cases are equal.
+std::vector<std::string> words_for(const std::string& mesher,
+                                   const std::vector<std::pair<std::string, std::string>>& options);
+
 /// Writes the models that are not there yet.
 /// \param anew  also those that are
 /// \throw OutputError
+/// \throw baselines::Stopped
 void write_models(std::span<const SweepCase> cases, bool anew, const Progress& progress);
 
 /// What is to be run, for `cases::Runner`.

@@ -57,10 +57,8 @@ SweepCase case_from(const Json& json, const SweepSpec& common, const std::filesy
   json.at("name").get_to(one.asked.name);
   json.at("group").get_to(one.asked.group);
   one.asked.mesher = json.value("mesher_file", json.at("mesher").get<std::string>());
-  for (const auto& [name, value] : json.at("options").items()) {
-    one.options.emplace_back(name, value.get<std::string>());
-    one.asked.options.insert(one.asked.options.end(), {"--" + name, one.options.back().second});
-  }
+  for (const auto& [name, value] : json.at("options").items()) one.options.emplace_back(name, value.get<std::string>());
+  one.asked.options = words_for(one.asked.mesher, one.options);
   const Json& repetitions = json.at("repetitions");
   repetitions.at("warm_up").get_to(one.asked.repetitions.warm_up);
   repetitions.at("at_least").get_to(one.asked.repetitions.at_least);
