@@ -229,6 +229,7 @@ baselines::Limits limits_from(const Json& json) {
   const Json& given = json["limits"];
   limits.seconds = given.value("seconds", limits.seconds);
   limits.memory_bytes = given.value("bytes", limits.memory_bytes);
+  limits.disk_bytes = given.value("disk_bytes", limits.disk_bytes);
   return limits;
 }
 
@@ -281,6 +282,7 @@ Json to_json(const SweepSpec& spec) {
   json["verify"] = spec.verify;
   json["limits"] = {{"seconds", spec.limits.seconds}};
   if (spec.limits.memory_bytes > 0) json["limits"]["bytes"] = spec.limits.memory_bytes;
+  if (spec.limits.disk_bytes > 0) json["limits"]["disk_bytes"] = spec.limits.disk_bytes;
   json["keep_meshes"] = spec.keep_meshes;
   return json;
 }

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/cases/case.h"
+#include "bench/json.h"
+#include "bench/sweep/expand.h"
+
+namespace ccdt::sweep {
+
+/// What a case is expected to take.
+struct CaseEstimate {
+  double tetrahedra = 0;     ///< from the size of the input and the wanted edge length
+  double seconds = 0;        ///< of one run
+  double check_seconds = 0;  ///< of the verification of its mesh, once
+  double memory_bytes = 0;   ///< of one run
+  int runs = 0;              ///< still to be made
+  int most_runs = 0;         ///< the same, if its times spread so much that it needs all repetitions
+  int neighbors = 0;         ///< finished cases that time and memory were estimated from; 0: usual figures
+
+  double missing_seconds() const { return runs * seconds + (runs > 0 ? check_seconds : 0); }
+};
+
+/// Estimates from finished cases of the same mesher, if there are any with the same options: a power law of time, and
+/// one of memory, over the estimated number of tetrahedra.
+///
+/// \param cases, measured  the same cases; those without records are not run yet
+std::vector<CaseEstimate> estimate_cases(std::span<const SweepCase> cases,
+                                         std::span<const cases::MeasuredCase> measured);
+
+/// The sum over a sweep.
+struct SweepEstimate {
+  std::size_t cases = 0, runs = 0;  ///< all there will be, at least
+  std::size_t missing_cases = 0, missing_runs = 0;
+  double seconds = 0, most_seconds = 0;           ///< of what is missing
+  double memory_bytes = 0;                        ///< the most that a missing run takes
+  double disk_bytes = 0;                          ///< of records, models and kept meshes of what is missing
+  std::size_t finished_cases = 0;                 ///< that it was made from
+  std::vector<std::string> unknown_meshers = {};  ///< without a finished case, estimated by usual figures
+};
+
+SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::MeasuredCase> measured,
+                     std::span<const CaseEstimate> estimates);
+
+bench::Json to_json(const SweepEstimate& estimate);
+
+/// A few lines for people.
+std::string in_words(const SweepEstimate& estimate);
+
+}  // namespace ccdt::sweep

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bench/sweep/expand.h"
+
+namespace ccdt::sweep {
+
+/// What is known of a shape before it is meshed.
+struct ShapeSize {
+  double volume = 0;     ///< enclosed
+  double area = 0;       ///< of all facets
+  double triangles = 0;  ///< of the surface
+};
+
+/// Of a file, or of a model with the triangles that it has in the case. Each shape is read once. Nothing is known of
+/// what cannot be read.
+ShapeSize size_of(const CaseInput& input);
+
+/// About how many tetrahedra fill a shape.
+///
+/// \param options  of the case: lattice, edge-length and surface matter
+double estimated_tetrahedra(const ShapeSize& size, const std::vector<std::pair<std::string, std::string>>& options);
+
+}  // namespace ccdt::sweep
