@@ -7,6 +7,7 @@
 
 #include "bench/results/numbers.h"
 #include "bench/sweep/chunks.h"
+#include "bench/sweep/estimate.h"
 #include "bench/sweep/slurm.h"
 #include "bench/sweep/snakemake.h"
 #include "bench/sweep/sweep_document.h"
@@ -46,11 +47,14 @@ int threads_of(const sweep::SweepCase& c) {
 
 std::vector<sweep::MissingCase> missing_cases(const SweepCommand& command, const PreparedSweep& sweep) {
   const std::vector<cases::MeasuredCase> loaded = load_cases(command, sweep);
+  const std::vector<sweep::CaseEstimate> estimates = sweep::estimate_cases(sweep.cases, loaded);
   std::vector<sweep::MissingCase> missing;
   for (std::size_t i = 0; i < loaded.size(); ++i)
     if (cases::needs_run(loaded[i]))
-      missing.push_back(
-          {.id = loaded[i].id, .group = loaded[i].asked.group, .seconds = 1, .threads = threads_of(sweep.cases[i])});
+      missing.push_back({.id = loaded[i].id,
+                         .group = loaded[i].asked.group,
+                         .seconds = estimates[i].missing_seconds(),
+                         .threads = threads_of(sweep.cases[i])});
   return missing;
 }
 

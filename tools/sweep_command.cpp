@@ -10,6 +10,7 @@
 
 #include "baselines/mesher.h"
 #include "bench/results/numbers.h"
+#include "bench/sweep/estimate.h"
 #include "bench/sweep/status.h"
 #include "bench/sweep/sweep_document.h"
 #include "engine/io/files.h"
@@ -19,6 +20,7 @@
 #include "tools/folder_lock.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
+#include "tools/stop_signals.h"
 
 namespace ccdt::tools {
 namespace {
@@ -61,7 +63,8 @@ std::vector<cases::MeasuredCase> identify(cases::Runner& runner, std::vector<swe
   std::vector<sweep::SweepCase> different;
   std::set<std::string> known;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!known.insert(loaded[i].id).second) continue;
+    const bool is_there = std::filesystem::exists(cases[i].input.file);  // a model may not have been written yet
+    if (is_there && !known.insert(loaded[i].id).second) continue;
     cases[i].id = loaded[i].id;
     different.push_back(std::move(cases[i]));
     measured.push_back(std::move(loaded[i]));
@@ -86,20 +89,30 @@ void print_changes(const sweep::SweepChanges& changes) {
       changes.obsolete);
 }
 
-/// Prints how far the sweep is, as its folder says; nothing is written.
-void print_status(const SweepCommand& command) {
+/// A sweep as its folder says it is; nothing is written.
+struct KnownSweep {
+  PreparedSweep sweep;
+  std::vector<cases::MeasuredCase> measured;
+};
+
+KnownSweep look_at(const SweepCommand& command) {
   const sweep::MeshOptionRules rules = mesh_option_rules();
-  PreparedSweep sweep{std::filesystem::absolute(command.folder).lexically_normal()};
+  KnownSweep known = {{std::filesystem::absolute(command.folder).lexically_normal()}, {}};
   const sweep::SweepSpec spec = spec_of(command, rules);
-  sweep.cases = sweep::expand(spec, sweep.folder, rules);
-  if (std::filesystem::exists(sweep::sweep_file(sweep.folder)))
-    sweep.identities = sweep::read_sweep(sweep.folder).identities;
+  known.sweep.cases = sweep::expand(spec, known.sweep.folder, rules);
+  if (std::filesystem::exists(sweep::sweep_file(known.sweep.folder)) && !command.refresh)
+    known.sweep.identities = sweep::read_sweep(known.sweep.folder).identities;
   else
-    sweep.identities = {cases::identity_of(spec.meshers, own_program())};
-  cases::Runner runner(settings_of(command, sweep));
-  const std::vector<cases::MeasuredCase> loaded = identify(runner, sweep.cases);
-  const sweep::SweepStatus status = sweep::status_of(loaded, sweep.folder);
-  const auto chunks = chunk_status(sweep.folder, loaded);
+    known.sweep.identities = {cases::identity_of(spec.meshers, own_program())};
+  cases::Runner runner(settings_of(command, known.sweep));
+  known.measured = identify(runner, known.sweep.cases);
+  return known;
+}
+
+void print_status(const SweepCommand& command) {
+  const KnownSweep known = look_at(command);
+  const sweep::SweepStatus status = sweep::status_of(known.measured, known.sweep.folder);
+  const auto chunks = chunk_status(known.sweep.folder, known.measured);
   if (!command.json) {
     std::fputs((sweep::in_words(status) + (chunks ? in_words(*chunks) : "")).c_str(), stdout);
     return;
@@ -107,6 +120,13 @@ void print_status(const SweepCommand& command) {
   bench::Json json = sweep::to_json(status);
   if (chunks) json["chunks"] = to_json(*chunks);
   std::fputs(bench::to_text(json).c_str(), stdout);
+}
+
+void print_estimate(const SweepCommand& command) {
+  const KnownSweep known = look_at(command);
+  const auto estimates = sweep::estimate_cases(known.sweep.cases, known.measured);
+  const sweep::SweepEstimate sum = sweep::sum_of(known.sweep.cases, known.measured, estimates);
+  std::fputs((command.json ? bench::to_text(sweep::to_json(sum)) : sweep::in_words(sum)).c_str(), stdout);
 }
 
 ExitCode run_all(const SweepCommand& command) {
@@ -123,10 +143,16 @@ ExitCode run_all(const SweepCommand& command) {
 }
 
 ExitCode run(const SweepCommand& command) {
-  if (command.cluster.chunk >= 0) return run_chunk(command);
-  if (!command.status) return run_all(command);
-  print_status(command);
-  return done;
+  if (command.status || command.dry_run) {
+    command.status ? print_status(command) : print_estimate(command);
+    return done;
+  }
+  const StopSignals signals;
+  try {
+    return command.cluster.chunk >= 0 ? run_chunk(command) : run_all(command);
+  } catch (const baselines::Stopped&) {
+    return static_cast<ExitCode>(stopped_exit_code());
+  }
 }
 
 /// Is the failure a fault of our own engine?
@@ -186,9 +212,21 @@ std::vector<cases::MeasuredCase> load_cases(const SweepCommand& command, const P
 std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
                                            std::span<const sweep::SweepCase> cases) {
   ProgressBar bar;
+  std::uint64_t finished = 0, all = 0;
   cases::RunnerSettings settings = settings_of(command, sweep);
-  settings.progress = bar.progress();
-  return cases::Runner(std::move(settings)).run(sweep::asked_of(cases));
+  settings.progress = [&, draw = bar.progress()](std::string_view name, std::uint64_t done, std::uint64_t total) {
+    finished = done;
+    all = total;
+    report(draw, name, done, total);
+  };
+  try {
+    return cases::Runner(std::move(settings)).run(sweep::asked_of(cases));
+  } catch (const baselines::Stopped&) {
+    bar.erase();
+    std::fprintf(stderr, "stopped: %s of %s runs are finished; call the same command to go on\n",
+                 results::with_separators(finished).c_str(), results::with_separators(all).c_str());
+    throw;
+  }
 }
 
 ExitCode print_results(std::span<const cases::MeasuredCase> cases) {
@@ -231,7 +269,9 @@ void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
   auto* refresh = verb->add_flag("--refresh", command->refresh,
                                  "the folder was made with another program or on another machine: measure again");
   verb->add_flag("--mixed", command->mixed, "the same, but keep what was measured")->excludes(refresh);
-  verb->add_flag("--status", command->status, "only print how far the sweep is");
+  auto* status = verb->add_flag("--status", command->status, "only print how far the sweep is");
+  verb->add_flag("--dry-run", command->dry_run, "only print how much there is to run, and what it would take")
+      ->excludes(status);
   verb->add_flag("--json", command->json, "print --status and --dry-run as JSON");
   add_cluster_options(*verb, command->cluster);
   verb->footer(footer);
