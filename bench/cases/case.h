@@ -43,7 +43,7 @@ struct Case {
 /// A case with the records of its runs.
 struct MeasuredCase {
   Case asked;
-  std::string id;                       ///< a hash of all that determines the result; begins the names of the records
+  std::string id = {};                  ///< a hash of all that determines the result; begins the names of the records
   int runs = 0;                         ///< records there are, from number 0 on
   RunRecord first = {};                 ///< of the first run, or of the one that failed; meaningless without runs
   std::vector<RunRecord> counted = {};  ///< those that went well, without the warm-up

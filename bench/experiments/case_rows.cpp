@@ -6,6 +6,24 @@
 #include "engine/io/tet_mesh_files.h"
 
 namespace ccdt::experiments {
+namespace {
+
+constexpr int most_runs = 60;
+
+/// What takes long is run less often. What is long depends on the scale: ten seconds with 100,000 tetrahedra a model.
+double budget(const ExperimentOptions& options) {
+  return options.tetrahedra / 10000;
+}
+
+}  // namespace
+
+double cdt_seconds(const StageSeconds& s) {
+  return s.delaunay + s.face_check + s.front + s.label;
+}
+
+double whole_seconds(const StageSeconds& s) {
+  return s.mesh;
+}
 
 cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
                         const std::filesystem::path& input, std::vector<std::string> words) {
@@ -18,12 +36,23 @@ cases::Case single_case(const ExperimentOptions& options, std::string name, std:
           .verify = true};
 }
 
-cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single, double until) {
-  constexpr int most_runs = 60;
+cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single, double until,
+                       cases::SecondsOf seconds) {
   cases::Case timed = single;
   timed.group = std::move(group);
-  timed.repetitions = {1, options.runs, std::max(options.runs, most_runs), until};
+  timed.seconds = std::move(seconds);
+  timed.repetitions = {.warm_up = 1,
+                       .at_least = options.runs,
+                       .at_most = std::max(options.runs, most_runs),
+                       .until = until,
+                       .budget_seconds = budget(options)};
   return timed;
+}
+
+std::string repetition_words(const ExperimentOptions& options, double until) {
+  return "A case is repeated until the interval of its median is within " + rounded(100 * until, 1) + "% of it, " +
+         std::to_string(options.runs) + " to " + std::to_string(std::max(options.runs, most_runs)) +
+         " times; three are enough if they take " + rounded(budget(options), 2) + " s.";
 }
 
 std::vector<std::string> runs_of(const CaseRow& row) {
@@ -46,8 +75,12 @@ std::optional<Estimate> ratio_of(const CaseRow& above, const CaseRow& below) {
   return bench::ratio_of_medians(a, b);
 }
 
+bool is_ours(const CaseRow& row) {
+  return row.measured.asked.mesher == "ccdt";
+}
+
 std::string mesher_of(const CaseRow& row) {
-  return baselines::mesher(row.measured.asked.mesher).name;
+  return row.measured.first.mesher.name;
 }
 
 RowColumn<CaseRow> status_column() {
@@ -76,8 +109,7 @@ std::string failure(const cases::MeasuredCase& measured) {
 }
 
 void add_problem_of(const CaseRow& row, ExperimentResult& result) {
-  const cases::Case& asked = row.measured.asked;
-  if (!row.ok()) add_problem(result, asked.name + ": " + failure(row.measured), asked.mesher == "ccdt");
+  if (!row.ok()) add_problem(result, row.measured.asked.name + ": " + failure(row.measured), is_ours(row));
 }
 
 mesh::TetMesh mesh_of(const cases::Runner& runner, const cases::MeasuredCase& measured) {

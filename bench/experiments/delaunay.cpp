@@ -2,7 +2,6 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <tuple>
 
@@ -16,42 +15,15 @@ namespace {
 
 constexpr const char* program_name = "bench_delaunay";
 constexpr const char* output_file = "benchmarks/bench_delaunay.json";
+constexpr const char* nothing_measured = R"({"benchmarks": []})";
 
-/// About how many points the largest sets have, of an experiment with about so many tetrahedra a model. Wrapping, which
-/// takes longest, sets the pace.
-std::int64_t largest_size(double tetrahedra) {
-  constexpr double least = 1000, quick = 10000;
-  return static_cast<std::int64_t>(std::max({least, std::min(tetrahedra, quick), tetrahedra / 2}));
-}
+using Names = std::vector<std::pair<std::string, std::string>>;  ///< in the benchmarks' names, and for people
+const Names methods = {{"insert", "insert"}, {"wrap", "wrap"}, {"cgal", "CGAL"}, {"tetgen", "TetGen"}};
+const Names sets = {{"random", "uniform random"}, {"lattice", "FCC lattice"}};
 
-/// A name as a part of a regular expression.
-std::string escaped(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (std::string_view(".^$|()[]{}*+?\\").find(c) != std::string_view::npos) text += '\\';
-    text += c;
-  }
-  return text;
-}
-
-/// The names of the point sets in the benchmarks' names. "none" among the models leaves the files alone.
-std::vector<std::string> point_sets(const ExperimentOptions& options) {
-  std::vector<std::string> sets;
-  if (std::ranges::find(options.models, "none") == options.models.end()) sets = {"random", "lattice"};
-  for (const std::string& model : names_of_paper_models()) {
-    const bool is_wanted = options.models.empty() ? model == "piston" : is_asked_for(options, model);
-    if (is_wanted) sets.push_back(model);
-  }
-  for (const auto& input : options.inputs) sets.push_back(escaped(input.filename().string()));
-  return sets;
-}
-
-/// The names of the methods in the benchmarks' names. The program leaves out what it was built without.
-std::vector<std::string> wanted_methods(const ExperimentOptions& options) {
-  std::vector<std::string> methods = {"insert", "wrap"};
-  if (is_measured(options, "cgal-delaunay")) methods.emplace_back("cgal");
-  if (is_measured(options, "tetgen")) methods.emplace_back("tetgen");
-  return methods;
+std::string title_of(const Names& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name, &Names::value_type::first);
+  return found == names.end() ? name : found->second;
 }
 
 std::vector<std::string> definitions(const std::string& command) {
@@ -71,36 +43,68 @@ std::vector<std::string> definitions(const std::string& command) {
   };
 }
 
-/// One method on one set of points: all repetitions.
-struct MeasuredMethod {
-  std::string points, size, method;
+/// A method on a set of points: all repetitions.
+struct Measured {
+  std::string points, size, method, status = "ok", fault = {};
   int family = 0;  ///< the program's order
-  double vertices = 0, tetrahedra = 0;
+  std::optional<double> vertices = {}, tetrahedra = {};
   std::vector<double> seconds = {};
-  std::string fault = {};
+
+  bool ok() const { return fault.empty() && !seconds.empty(); }
 };
+using Group = std::span<const Measured>;  ///< the methods on the same points
 
-constexpr std::array<std::array<const char*, 2>, 4> methods = {
-    {{"insert", "insert"}, {"wrap", "wrap"}, {"cgal", "CGAL"}, {"tetgen", "TetGen"}}};
-constexpr std::array<std::array<const char*, 2>, 2> sets = {{{"random", "uniform random"}, {"lattice", "FCC lattice"}}};
-
-template <class Names>
-std::string title_of(const Names& names, const std::string& name) {
-  for (const auto& [known, title] : names)
-    if (name == known) return title;
-  return name;
+Estimate scaled(const Estimate& e, double factor) {
+  return {e.value * factor, e.low * factor, e.high * factor};
 }
 
+std::optional<Estimate> seconds_of(const Measured& m) {
+  return m.ok() ? std::optional(bench::median_estimate(m.seconds)) : std::nullopt;
+}
+
+const Measured* find(Group group, std::string_view method) {
+  const auto found = std::ranges::find(group, method, &Measured::method);
+  return found != group.end() && found->ok() ? &*found : nullptr;
+}
+
+std::optional<Estimate> ratio(Group group, std::string_view above, std::string_view below) {
+  const Measured *a = find(group, above), *b = find(group, below);
+  if (a == nullptr || b == nullptr || std::ranges::min(b->seconds) <= 0) return {};
+  return bench::ratio_of_medians(a->seconds, b->seconds);
+}
+
+const RowColumns<Measured> time_columns = {
+    {label_column("points"), &Measured::points},
+    {label_column("size"), &Measured::size},
+    {label_column("method"), &Measured::method},
+    {label_column("status"), &Measured::status},
+    {figure_column("vertices"), &Measured::vertices},
+    {figure_column("tetrahedra"), &Measured::tetrahedra},
+    {time_column("seconds", "", "s"), seconds_of},
+    {time_column("microseconds_per_vertex", "time a vertex", "µs"),
+     [](const Measured& m) { return m.ok() ? Cell(scaled(*seconds_of(m), 1e6 / *m.vertices)) : Cell(); }},
+    {note_column("reason"), [](const Measured& m) { return cell_if(!m.fault.empty(), m.fault); }}};
+
+RowColumn<Group> ratio_column(const char* name, const char* title, const char* above, const char* below) {
+  return {time_column(name, title), [=](Group group) { return ratio(group, above, below); }};
+}
+const RowColumns<Group> ratio_columns = {
+    {label_column("points"), [](Group group) { return group.front().points; }},
+    {label_column("size"), [](Group group) { return group.front().size; }},
+    {figure_column("vertices"),
+     [](Group group) { return find(group, "insert") ? find(group, "insert")->vertices : std::nullopt; }},
+    ratio_column("insert_over_cgal", "insert / CGAL", "insert", "CGAL"),
+    ratio_column("wrap_over_insert", "wrap / insert", "wrap", "insert"),
+    ratio_column("tetgen_over_insert", "TetGen / insert", "TetGen", "insert")};
+
 double seconds_in(const std::string& unit) {
-  constexpr std::array<std::pair<const char*, double>, 4> units = {
-      {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}}};
-  for (const auto& [name, seconds] : units)
-    if (unit == name) return seconds;
+  const std::map<std::string, double> units = {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}};
+  if (const auto found = units.find(unit); found != units.end()) return found->second;
   throw InputError("Google Benchmark's JSON has times in '" + unit + "'", {}, "measure again");
 }
 
 /// "delaunay/wrap/random/1000", or "delaunay/wrap/part.off".
-MeasuredMethod method_named(const std::string& name) {
+Measured measured_named(const std::string& name) {
   std::vector<std::string> parts;
   std::istringstream text(name);
   for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
@@ -108,142 +112,152 @@ MeasuredMethod method_named(const std::string& name) {
   return {.points = title_of(sets, parts[2]), .size = parts[3], .method = title_of(methods, parts[1])};
 }
 
+void add_repetition(const bench::Json& run, Measured& measured) {
+  measured.family = run.at("family_index");
+  if (run.value("error_occurred", false)) {
+    measured.status = "failed";
+    measured.fault = run.value("error_message", "it failed");
+    return;
+  }
+  measured.vertices = run.at("vertices").get<double>();
+  measured.tetrahedra = run.at("cells").get<double>();
+  measured.seconds.push_back(run.at("cpu_time").get<double>() * seconds_in(run.at("time_unit")));
+}
+
 /// The benchmarks in the program's order, whichever order they ran in.
-std::vector<MeasuredMethod> measured_in(const bench::Json& json) {
-  std::map<std::string, MeasuredMethod> by_name;
+std::vector<Measured> measured_in(const bench::Json& json) {
+  std::map<std::string, Measured> by_name;
   for (const bench::Json& run : json.at("benchmarks")) {
     if (run.at("run_type") != "iteration") continue;
     const std::string name = run.at("run_name");
-    MeasuredMethod& measured = by_name.try_emplace(name, method_named(name)).first->second;
-    measured.family = run.at("family_index");
-    if (run.value("error_occurred", false)) {
-      measured.fault = run.value("error_message", "it failed");
-      continue;
-    }
-    measured.vertices = run.at("vertices");
-    measured.tetrahedra = run.at("cells");
-    measured.seconds.push_back(run.at("cpu_time").get<double>() * seconds_in(run.at("time_unit")));
+    add_repetition(run, by_name.try_emplace(name, measured_named(name)).first->second);
   }
+  std::vector<Measured> all;
   std::map<std::string, int> order;  // of the points
-  for (const auto& [name, measured] : by_name)
-    order[measured.points] =
-        std::min(order.try_emplace(measured.points, measured.family).first->second, measured.family);
-  std::vector<MeasuredMethod> all;
-  for (auto& [name, measured] : by_name) all.push_back(std::move(measured));
-  std::ranges::sort(all, {}, [&](const MeasuredMethod& m) {
+  for (auto& [name, measured] : by_name) {
+    int& first = order.try_emplace(measured.points, measured.family).first->second;
+    first = std::min(first, measured.family);
+    all.push_back(std::move(measured));
+  }
+  std::ranges::sort(all, {}, [&](const Measured& m) {
     return std::tuple(order[m.points], m.size.size(), m.size, m.family);  // sizes are numbers without leading zeros
   });
   return all;
 }
 
-Estimate scaled(const Estimate& e, double factor) {
-  return {e.value * factor, e.low * factor, e.high * factor};
+std::string subject(const Measured& m) {
+  return m.points + ", " + with_separators(static_cast<std::uint64_t>(*m.vertices)) + " points";
 }
 
-void add_times_row(const MeasuredMethod& m, ResultTable& times) {
-  if (!m.fault.empty() || m.seconds.empty())
-    return add_row(times, {}, m.points, m.size, m.method, "failed", Cell(), Cell(), Cell(), Cell(), m.fault);
-  const Estimate seconds = bench::median_estimate(m.seconds);
-  add_row(times, {}, m.points, m.size, m.method, "ok", m.vertices, m.tetrahedra, seconds,
-          scaled(seconds, 1e6 / m.vertices), Cell());
-}
-
-/// The methods on the same points.
-using PointsGroup = std::vector<const MeasuredMethod*>;
-
-const MeasuredMethod* find(const PointsGroup& group, std::string_view method) {
-  const auto found =
-      std::ranges::find_if(group, [&](const MeasuredMethod* m) { return m->method == method && m->fault.empty(); });
-  return found == group.end() || (*found)->seconds.empty() ? nullptr : *found;
-}
-
-std::optional<Estimate> ratio(const PointsGroup& group, std::string_view numerator, std::string_view denominator) {
-  const MeasuredMethod *above = find(group, numerator), *below = find(group, denominator);
-  if (above == nullptr || below == nullptr || bench::quantile(below->seconds, 0) <= 0) return {};
-  return bench::ratio_of_medians(above->seconds, below->seconds);
-}
-
-std::string subject(const MeasuredMethod& m) {
-  return m.points + ", " + with_separators(static_cast<std::uint64_t>(m.vertices)) + " points";
-}
-
-/// "piston, 10,521 points: insert takes 0.50 [0.49, 0.52] times as long as CGAL, so it is faster."
-void add_comparison(const PointsGroup& group, const char* method, const char* other,
-                    std::vector<std::string>& findings) {
+/// "piston, 10,521 points: insert takes 0.50 [0.49, 0.52] times as long as CGAL: it is faster."
+void add_comparison(Group group, const char* method, const char* other, std::vector<std::string>& findings) {
   const auto estimate = ratio(group, method, other);
   if (!estimate) return;
   const std::string verdict = is_at_most(*estimate, 1) == BoundTest::holds    ? "it is faster"
                               : is_at_least(*estimate, 1) == BoundTest::holds ? "it is slower"
                                                                               : "neither is surely faster";
-  findings.push_back(subject(*find(group, other)) + ": " + std::string(method) + " takes " + with_interval(*estimate) +
+  findings.push_back(subject(*find(group, other)) + ": " + method + " takes " + with_interval(*estimate) +
                      " times as long as " + other + ": " + verdict + ".");
 }
 
 /// How the time of a vertex grows from the smallest to the largest set of these points.
-void add_growth(const PointsGroup& small, const PointsGroup& large, std::vector<std::string>& findings) {
+void add_growth(Group small, Group large, std::vector<std::string>& findings) {
   std::vector<std::string> growths;
   for (const auto& [name, method] : methods) {
-    const MeasuredMethod *first = find(small, method), *last = find(large, method);
+    const Measured *first = find(small, method), *last = find(large, method);
     if (first == nullptr || last == nullptr) continue;
     const Estimate r = bench::ratio_of_medians(last->seconds, first->seconds);
-    const double scale = first->vertices / last->vertices;
-    growths.push_back(std::string(method) + " " + with_interval(scaled(r, scale)));
+    growths.push_back(method + " " + with_interval(scaled(r, *first->vertices / *last->vertices)));
   }
   if (!growths.empty())
-    findings.push_back(small[0]->points + ": the largest set takes so many times as long a vertex as the smallest: " +
-                       joined(growths) + ".");
+    findings.push_back(small.front().points +
+                       ": the largest set takes so many times as long a vertex as the smallest: " + joined(growths) +
+                       ".");
 }
 
-/// What the timed results must have in common.
-void check_counts(const PointsGroup& group, ExperimentResult& result) {
-  const MeasuredMethod* inserted = find(group, "insert");
-  for (const MeasuredMethod* m : group) {
-    const bool is_ours = m->method == "insert" || m->method == "wrap";
-    if (!m->fault.empty()) {
-      add_problem(result, m->points + " " + m->size + ", " + m->method + ": " + m->fault, is_ours);
-      continue;
-    }
-    const bool has_no_ties = m->points == title_of(sets, "random");
-    if (inserted == nullptr || m->tetrahedra == inserted->tetrahedra || !(is_ours || has_no_ties)) continue;
-    add_problem(result, subject(*m) + ": " + m->method + " has not as many tetrahedra as insert", is_ours);
+/// What failed, and what the timed results must have in common and have not.
+void add_problems(Group group, ExperimentResult& result) {
+  const Measured* inserted = find(group, "insert");
+  for (const Measured& m : group) {
+    const bool is_ours = m.method == "insert" || m.method == "wrap", has_no_ties = m.points == sets[0].second;
+    if (!m.fault.empty())
+      add_problem(result, m.points + " " + m.size + ", " + m.method + ": " + m.fault, is_ours);
+    else if (inserted != nullptr && m.tetrahedra != inserted->tetrahedra && (is_ours || has_no_ties))
+      add_problem(result, subject(m) + ": " + m.method + " has not as many tetrahedra as insert", is_ours);
   }
 }
 
-std::vector<PointsGroup> groups_of(const std::vector<MeasuredMethod>& all) {
-  std::vector<PointsGroup> groups;
-  for (const MeasuredMethod& m : all) {
-    const bool same = !groups.empty() && groups.back()[0]->points == m.points && groups.back()[0]->size == m.size;
-    if (!same) groups.emplace_back();
-    groups.back().push_back(&m);
+void evaluate(const std::vector<Measured>& all, ExperimentResult& result) {
+  std::vector<Group> groups;
+  const auto of_one = [](auto member) {
+    return [member](const Measured& a, const Measured& b) { return a.*member == b.*member; };
+  };
+  for (const Group set : neighbors(Group(all), of_one(&Measured::points))) {
+    const std::vector<Group> sizes = neighbors(set, of_one(&Measured::size));
+    for (const Group group : sizes) add_problems(group, result);
+    add_comparison(sizes.back(), "insert", "CGAL", result.findings);
+    add_comparison(sizes.back(), "wrap", "insert", result.findings);
+    add_comparison(sizes.back(), "TetGen", "insert", result.findings);
+    if (sizes.size() > 1) add_growth(sizes.front(), sizes.back(), result.findings);
+    append(groups, sizes);
   }
-  return groups;
+  result.tables = {table_of_rows("times", "Delaunay tetrahedralization", time_columns, all),
+                   table_of_rows("ratios", "How the times compare", ratio_columns, groups)};
 }
 
-void add_findings(const std::vector<PointsGroup>& groups, std::vector<std::string>& findings) {
-  for (std::size_t begin = 0, end = 0; begin < groups.size(); begin = end) {
-    while (end < groups.size() && groups[end][0]->points == groups[begin][0]->points) ++end;
-    const PointsGroup& largest = groups[end - 1];
-    add_comparison(largest, "insert", "CGAL", findings);
-    add_comparison(largest, "wrap", "insert", findings);
-    add_comparison(largest, "TetGen", "insert", findings);
-    if (end - begin > 1) add_growth(groups[begin], largest, findings);
+/// About how many points the largest sets have, of an experiment with about so many tetrahedra a model. Wrapping, which
+/// takes longest, sets the pace.
+std::int64_t largest_size(double tetrahedra) {
+  constexpr double least = 1000, quick = 10000;
+  return static_cast<std::int64_t>(std::max({least, std::min(tetrahedra, quick), tetrahedra / 2}));
+}
+
+/// A name as a part of a regular expression.
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (std::string_view(".^$|()[]{}*+?\\").find(c) != std::string_view::npos) text += '\\';
+    text += c;
   }
+  return text;
+}
+
+/// The names of the point sets in the benchmarks' names. "none" among the models leaves the files alone.
+std::vector<std::string> wanted_sets(const ExperimentOptions& options) {
+  std::vector<std::string> wanted;
+  if (std::ranges::find(options.models, "none") == options.models.end()) wanted = {"random", "lattice"};
+  for (const std::string& model : names_of_paper_models())
+    if (options.models.empty() ? model == "piston" : is_asked_for(options, model)) wanted.push_back(model);
+  for (const auto& input : options.inputs) wanted.push_back(escaped(input.filename().string()));
+  return wanted;
+}
+
+/// The names of the methods in the benchmarks' names. The program leaves out what it was built without.
+std::vector<std::string> wanted_methods(const ExperimentOptions& options) {
+  std::vector<std::string> wanted = {"insert", "wrap"};
+  if (is_measured(options, "cgal-delaunay")) wanted.emplace_back("cgal");
+  if (is_measured(options, "tetgen")) wanted.emplace_back("tetgen");
+  return wanted;
 }
 
 /// Of a child that left no JSON: a row for all that it was to measure.
 void add_failure(const ExperimentOptions& options, const baselines::ProcessResult& child, ExperimentResult& result) {
-  evaluate_delaunay(R"({"benchmarks": []})", result);
-  for (const std::string& set : point_sets(options))
+  std::vector<Measured> all;
+  for (const std::string& set : wanted_sets(options))
     for (const std::string& method : wanted_methods(options))
-      add_row(result.tables[0], {}, set, "", method, name_of(child.status), Cell(), Cell(), Cell(), Cell(),
-              child.reason);
+      all.push_back({set, "", method, std::string(name_of(child.status)), child.reason});
+  result.tables[0] = table_of_rows("times", result.tables[0].title, time_columns, all);
   add_problem(result, std::string(program_name) + " did not end well: " + child.reason);
 }
 
-/// The JSON that the program wrote, and whether it is whole.
-bool evaluate_file(const std::filesystem::path& file, ExperimentResult& result) {
+/// Evaluates the JSON that the program wrote.
+/// \return  is it whole, and stamped so?
+bool evaluate_file(const std::filesystem::path& file, const std::string& stamp, ExperimentResult& result) {
   try {
-    evaluate_delaunay(io::read_whole_file(file).bytes, result);
+    const std::string text = io::read_whole_file(file).bytes;
+    if (text.find(stamp) == std::string::npos) return false;
+    evaluate_delaunay(text, result);
+    result.raw_files = {output_file};
     return true;
   } catch (const InputError&) {
     return false;
@@ -266,7 +280,7 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
                                       std::to_string(largest_size(options.tetrahedra)),
                                       "--no-complexity",
                                       "--benchmark_filter=^delaunay/(" + joined(wanted_methods(options), "|") + ")/(" +
-                                          joined(point_sets(options), "|") + ")(/[0-9]+)?$",
+                                          joined(wanted_sets(options), "|") + ")(/[0-9]+)?$",
                                       "--benchmark_repetitions=" + std::to_string(options.runs),
                                       "--benchmark_enable_random_interleaving=true",
                                       "--benchmark_min_time=0.001",
@@ -278,60 +292,39 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
 }
 
 void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& result) {
-  std::vector<MeasuredMethod> all;
   try {
-    all = measured_in(bench::Json::parse(benchmark_json));
+    evaluate(measured_in(bench::Json::parse(benchmark_json)), result);
   } catch (const nlohmann::json::exception& error) {
     throw InputError("no JSON of Google Benchmark: " + std::string(error.what()), {}, "measure again");
   }
-  ResultTable times =
-      table_of("times", "Delaunay tetrahedralization",
-               {label_column("points"), label_column("size"), label_column("method"), label_column("status"),
-                figure_column("vertices"), figure_column("tetrahedra"), time_column("seconds", "", "s"),
-                time_column("microseconds_per_vertex", "time a vertex", "µs"), note_column("reason")});
-  ResultTable ratios =
-      table_of("ratios", "How the times compare",
-               {label_column("points"), label_column("size"), figure_column("vertices"),
-                time_column("insert_over_cgal", "insert / CGAL"), time_column("wrap_over_insert", "wrap / insert"),
-                time_column("tetgen_over_insert", "TetGen / insert")});
-  const std::vector<PointsGroup> groups = groups_of(all);
-  for (const MeasuredMethod& m : all) add_times_row(m, times);
-  for (const PointsGroup& group : groups) {
-    const MeasuredMethod* any = find(group, "insert");
-    const std::optional<double> vertices = any == nullptr ? std::nullopt : std::optional<double>(any->vertices);
-    add_row(ratios, {}, group[0]->points, group[0]->size, vertices, ratio(group, "insert", "CGAL"),
-            ratio(group, "wrap", "insert"), ratio(group, "TetGen", "insert"));
-    check_counts(group, result);
-  }
-  add_findings(groups, result.findings);
-  result.tables = {times, ratios};
 }
 
-ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress) {
+ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runner& runner) {
   ExperimentResult result{.how = start_experiment(options, options.runs)};
-  const auto file = options.folder / output_file;
-  const auto program = find_bench_delaunay(options.program);
-  check_something_is_measured(point_sets(options).size(), "delaunay");
+  const auto file = options.folder / output_file, program = find_bench_delaunay(options.program);
+  check_something_is_measured(wanted_sets(options).size(), "delaunay");
   result.definitions = definitions(command_line(bench_delaunay_command(program_name, options, output_file)));
-  std::filesystem::create_directories(file.parent_path());
-  std::filesystem::remove(file);  // or that of an earlier experiment would be taken for this one's
+  evaluate_delaunay(nothing_measured, result);
   if (program.empty()) {
-    evaluate_delaunay(R"({"benchmarks": []})", result);
+    std::filesystem::remove(file);
     result.problems.push_back("there is no program " + std::string(program_name) + " beside " +
                               options.program.string() +
                               ": build it by `cmake --build --preset release --target bench_delaunay`, with "
                               "CCDT_BUILD_BENCHMARKS on");
     return result;
   }
-  report(progress, program_name, 0, 0);
+  std::vector<std::string> command = bench_delaunay_command(program, options, file);
+  const std::string stamp = bench::sha256_of_text(command_line(command) + bench::sha256_of_file(program));
+  if (evaluate_file(file, stamp, result)) return result;  // it was measured before
+
+  command.push_back("--benchmark_context=stamp=" + stamp);
+  std::filesystem::create_directories(file.parent_path());
+  std::filesystem::remove(file);
+  report(runner.settings().progress, program_name, 0, 0);
   baselines::Limits limits = options.limits;
   limits.seconds *= options.runs;  // there are many runs in this one
-  const baselines::ProcessResult child =
-      baselines::run_program(bench_delaunay_command(program, options, file), {.limits = limits});
-  if (evaluate_file(file, result)) {
-    result.raw_files = {output_file};
-    return result;
-  }
+  const baselines::ProcessResult child = baselines::run_program(command, {.limits = limits});
+  if (evaluate_file(file, "", result)) return result;
   std::filesystem::remove(file);
   add_failure(options, child, result);
   return result;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "baselines/mesher.h"
 #include "engine/base/errors.h"
@@ -81,6 +83,11 @@ std::string choose(BoundTest test, std::string_view holds, std::string_view unde
 void add_problem(ExperimentResult& result, std::string problem, bool is_ours) {
   result.problems.push_back(std::move(problem));
   result.is_good = result.is_good && !is_ours;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream text(line);
+  return {std::istream_iterator<std::string>(text), {}};
 }
 
 std::string command_line(const std::vector<std::string>& command) {

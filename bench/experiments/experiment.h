@@ -109,6 +109,9 @@ std::string choose(BoundTest test, std::string_view holds, std::string_view unde
 /// Adds what went wrong. A result is bad if anything of our own did.
 void add_problem(ExperimentResult& result, std::string problem, bool is_ours = true);
 
+/// The words of a command line, which spaces separate.
+std::vector<std::string> words_of(const std::string& line);
+
 /// A command as one types it in a shell.
 std::string command_line(const std::vector<std::string>& command);
 

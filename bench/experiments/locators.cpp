@@ -5,171 +5,148 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr std::array all_locators = {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity};
+constexpr std::array locators = {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity};
 
 /// A solid of ours.
 struct LocatorsModel {
-  const char* name;
+  std::string name;
   double edge_length;  ///< for about 20,000 vertices
   SurfaceKind kind;
 };
-constexpr std::array<LocatorsModel, 5> models = {{{"piston", 2.3, SurfaceKind::uniform},
-                                                  {"bracket", 1.8, SurfaceKind::uniform},
-                                                  {"stepping-pole", 1.8, SurfaceKind::uniform},
-                                                  {"graded-cube", 0.0625, SurfaceKind::graded},
-                                                  {"rough-sphere", 0.06, SurfaceKind::rough}}};
+const std::vector<LocatorsModel> models = {{"piston", 2.3, SurfaceKind::uniform},
+                                           {"bracket", 1.8, SurfaceKind::uniform},
+                                           {"stepping-pole", 1.8, SurfaceKind::uniform},
+                                           {"graded-cube", 0.0625, SurfaceKind::graded},
+                                           {"rough-sphere", 0.06, SurfaceKind::rough}};
 
-/// A surface with or without the check, before and after its runs.
-struct LocatorsGroup {
-  LocatorsCase result;
-  std::vector<MeasuredCase> cases;  ///< one a locator
+const std::vector<std::string> definitions = {
+    "Seconds of the front alone; the locators' structures are built within it.",
+    "Check off: every face goes through the front. Check on: only the faces that are not Delaunay do.",
+    "Uniform: the paper's models with interior vertices at the density of the surface.",
+    "Graded: a cube with squares on its faces that shrink towards a corner.",
+    "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
+    "Edge ratio: the longest edge of the surface over the shortest.",
+    "Ratios are of medians. A claim holds if the whole interval is on its side of 1."};
+
+using Group = std::span<const LocatorsRow>;  ///< grid, octree, cavity
+
+/// A locator beside the first of its group.
+struct RatioRow : LocatorsRow {
+  std::string title;
+  Estimate value;
+  Group group;
 };
-
-LocatorsGroup group_of(const ExperimentOptions& options, const SurfaceFile& surface, SurfaceKind kind,
-                       bool face_protection, std::size_t number) {
-  LocatorsGroup group;
-  group.result = {surface.name, kind, face_protection, bench::edge_ratio(io::read_plc(surface.file))};
-  const std::string check = face_protection ? "on" : "off";
-  for (const LocatorKind locator : all_locators) {
-    const std::string name(name_of(locator));
-    const std::string surface_stem = std::filesystem::path(surface.name).stem().string();
-    const std::string stem = joined({"locators", std::to_string(number), surface_stem, check, name}, "-");
-    std::vector<std::string> words = {"--improve", "none", "--locator", name, "--face-protection", check};
-    if (kind == SurfaceKind::uniform) words.insert(words.end(), {"--grading", "0"});
-    group.cases.push_back({name, stem, {"ccdt", surface.file, options.folder / "meshes" / "locators.vtu", words}});
-  }
-  return group;
+std::vector<std::string> runs_of(const RatioRow& row) {
+  return all_runs_of(row.group);
 }
 
-std::vector<LocatorsGroup> plan(const ExperimentOptions& options) {
-  std::vector<LocatorsGroup> groups;
+std::string check_words(const LocatorsRow& row) {
+  return row.face_protection ? "on" : "off";
+}
+
+RowColumns<LocatorsRow> columns_of_surface(const RowColumns<LocatorsRow>& more) {
+  RowColumns<LocatorsRow> columns = {{label_column("model"), &LocatorsRow::name},
+                                     {label_column("kind"), [](const LocatorsRow& row) { return name_of(row.kind); }},
+                                     {label_column("face_protection", "check"), check_words}};
+  append(columns, more);
+  return columns;
+}
+
+const RowColumns<LocatorsRow> front_columns =
+    columns_of_surface({{label_column("locator"), [](const LocatorsRow& row) { return name_of(row.locator); }},
+                        status_column(),
+                        seconds_column(),
+                        count_column("front_tetrahedra", &MeshCounts::front_tetrahedra, "tetrahedra of the front"),
+                        reason_column()});
+
+const RowColumns<LocatorsRow> size_columns = columns_of_surface(
+    {{figure_column("edge_ratio", "longest edge over shortest"), &LocatorsRow::edge_ratio},
+     count_column("vertices", &MeshCounts::vertices),
+     count_column("faces", &MeshCounts::faces),
+     count_column("undelaunay_faces", &MeshCounts::undelaunay_faces, "faces that are not Delaunay")});
+
+RowColumns<RatioRow> ratio_columns() {
+  RowColumns<RatioRow> columns;
+  for (const RowColumn<LocatorsRow>& column : columns_of_surface({})) columns.emplace_back(column);
+  append(columns, RowColumns<RatioRow>{{label_column("ratio"), &RatioRow::title},
+                                       {time_column("value", "here"), &RatioRow::value}});
+  return columns;
+}
+
+/// What is expected of octree and grid: on a graded surface the octree is faster, on a uniform one the grid.
+std::optional<std::string> finding_of(const LocatorsRow& row, const Estimate& octree_over_grid) {
+  const bool is_graded = row.kind == SurfaceKind::graded;
+  if (!is_graded && row.kind != SurfaceKind::uniform) return {};
+  const BoundTest test = is_graded ? is_at_most(octree_over_grid, 1) : is_at_least(octree_over_grid, 1);
+  return row.name + ": that the " + (is_graded ? "octree is faster than the grid" : "grid is faster than the octree") +
+         " where edges " + (is_graded ? "differ by a factor of " + rounded(row.edge_ratio) : "are even") + ": " +
+         choose(test, "holds", "undecided", "does not hold") + " (octree / grid " + with_interval(octree_over_grid) +
+         ")";
+}
+
+void add_group(const ExperimentOptions& options, const SurfaceFile& surface, SurfaceKind kind, bool face_protection,
+               std::vector<LocatorsRow>& rows) {
+  LocatorsRow row{
+      {{}, &StageSeconds::front}, surface.name, kind, face_protection, bench::edge_ratio(io::read_plc(surface.file))};
+  const std::string check = check_words(row), name = surface.name + ", check " + check;
+  for (const LocatorKind locator : locators) {
+    row.locator = locator;
+    std::string words = "--improve none --locator " + std::string(name_of(locator)) + " --face-protection " + check;
+    if (kind == SurfaceKind::uniform) words += " --grading 0";
+    const cases::Case single =
+        single_case(options, name + ", " + std::string(name_of(locator)), "ccdt", surface.file, words_of(words));
+    row.measured.asked = timed_case(options, "locators " + name, single, usual_precision, row.seconds);
+    rows.push_back(row);
+  }
+}
+
+std::vector<LocatorsRow> plan(const ExperimentOptions& options) {
+  std::vector<LocatorsRow> rows;
   const auto add = [&](const SurfaceFile& surface, SurfaceKind kind) {
-    groups.push_back(group_of(options, surface, kind, false, groups.size()));
-    if (kind == SurfaceKind::rough || kind == SurfaceKind::input)
-      groups.push_back(group_of(options, surface, kind, true, groups.size()));
+    add_group(options, surface, kind, false, rows);
+    if (kind == SurfaceKind::rough || kind == SurfaceKind::input) add_group(options, surface, kind, true, rows);
   };
   for (const LocatorsModel& model : models)
     if (is_asked_for(options, model.name))
       add(write_solid(options, "locators", model.name, model.edge_length), model.kind);
   for (const SurfaceFile& input : input_files(options)) add(input, SurfaceKind::input);
-  return groups;
-}
-
-LocatorsCase evaluate(const LocatorsGroup& group) {
-  LocatorsCase result = group.result;
-  for (std::size_t i = 0; i < all_locators.size(); ++i) {
-    result.rows.push_back({outcome_of(group.cases[i], &StageSeconds::front), all_locators[i]});
-    if (result.rows.back().ok()) result.counts = result.rows.back().counts;
-  }
-  const auto over_grid = [&](const LocatorsRow& row) -> std::optional<Estimate> {
-    const LocatorsRow& grid = result.rows[0];
-    if (!row.seconds || !grid.seconds || bench::quantile(grid.samples, 0) <= 0) return {};
-    return bench::ratio_of_medians(row.samples, grid.samples);
-  };
-  result.octree_over_grid = over_grid(result.rows[1]);
-  result.cavity_over_grid = over_grid(result.rows[2]);
-  return result;
-}
-
-std::vector<std::string> definitions() {
-  return {
-      "Seconds of the front alone; the locators' structures are built within it.",
-      "Check off: every face goes through the front. Check on: only the faces that are not Delaunay do.",
-      "Uniform: the paper's models with interior vertices at the density of the surface.",
-      "Graded: a cube with squares on its faces that shrink towards a corner.",
-      "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
-      "Edge ratio: the longest edge of the surface over the shortest.",
-      "Ratios are of medians. A claim holds if the whole interval is on its side of 1.",
-  };
-}
-
-std::string check_words(const LocatorsCase& c) {
-  return c.face_protection ? "on" : "off";
-}
-
-ResultTable case_table(std::string name, std::string title, const std::vector<Column>& more) {
-  ResultTable table = table_of(std::move(name), std::move(title),
-                               {label_column("model"), label_column("kind"), label_column("face_protection", "check")});
-  append(table.columns, more);
-  return table;
-}
-
-std::vector<ResultTable> tables_of(const Locators& locators) {
-  ResultTable front = case_table("front", "Seconds of the front",
-                                 {label_column("locator"), label_column("status"), time_column("seconds", "", "s"),
-                                  figure_column("front_tetrahedra", "tetrahedra of the front"), note_column("reason")});
-  ResultTable ratios =
-      case_table("ratios", "Beside the paper's grid", {label_column("ratio"), time_column("value", "here")});
-  ResultTable sizes =
-      case_table("sizes", "The surfaces",
-                 {figure_column("edge_ratio", "longest edge over shortest"), figure_column("vertices"),
-                  figure_column("faces"), figure_column("undelaunay_faces", "faces that are not Delaunay")});
-  for (const LocatorsCase& c : locators.cases) {
-    const auto add = [&](ResultTable& table, const std::vector<std::string>& runs, const auto&... values) {
-      add_row(table, runs, c.name, name_of(c.kind), check_words(c), values...);
-    };
-    std::vector<std::string> runs;
-    for (const LocatorsRow& row : c.rows) {
-      add(front, row.runs, name_of(row.locator), name_of(row.status), row.seconds, c.counts.front_tetrahedra,
-          row.reason);
-      append(runs, row.runs);
-    }
-    if (c.octree_over_grid) add(ratios, runs, "octree / grid", c.octree_over_grid);
-    if (c.cavity_over_grid) add(ratios, runs, "cavity / grid", c.cavity_over_grid);
-    add(sizes, c.rows.empty() ? runs : c.rows.front().runs, c.edge_ratio, c.counts.vertices, c.counts.faces,
-        c.counts.undelaunay_faces);
-  }
-  return {front, ratios, sizes};
-}
-
-std::vector<std::string> findings_of(const Locators& locators) {
-  std::vector<std::string> lines;
-  for (const LocatorsCase& c : locators.cases) {
-    const auto claim = expectation(c);
-    if (!claim) continue;
-    const bool is_graded = c.kind == SurfaceKind::graded;
-    lines.push_back(c.name + ": that the " +
-                    (is_graded ? "octree is faster than the grid" : "grid is faster than the octree") +
-                    " where edges " + (is_graded ? "differ by a factor of " + rounded(c.edge_ratio) : "are even") +
-                    ": " + choose(*claim, "holds", "undecided", "does not hold") + " (octree / grid " +
-                    with_interval(*c.octree_over_grid) + ")");
-  }
-  return lines;
+  return rows;
 }
 
 }  // namespace
 
-std::optional<BoundTest> expectation(const LocatorsCase& locators) {
-  if (!locators.octree_over_grid) return {};
-  if (locators.kind == SurfaceKind::graded) return is_at_most(*locators.octree_over_grid, 1);
-  if (locators.kind == SurfaceKind::uniform) return is_at_least(*locators.octree_over_grid, 1);
-  return {};
-}
-
-Locators measure_locators(const ExperimentOptions& options, const Progress& progress) {
-  Locators locators{start_experiment(options, options.runs), {}};
-  std::vector<LocatorsGroup> groups = plan(options);
-  check_something_is_measured(groups.size(), "locators");
-  StepCounter steps(progress, groups.size() * all_locators.size() * static_cast<std::uint64_t>(options.runs + 1));
-  for (LocatorsGroup& group : groups) {
-    run_in_turn(options, group.cases, 0, [&](const MeasuredCase& measured, int) { steps.next(measured.stem); });
-    locators.cases.push_back(evaluate(group));
-  }
-  std::filesystem::remove(options.folder / "meshes" / "locators.vtu");
-  return locators;
-}
-
-ExperimentResult result_of(const Locators& locators) {
-  ExperimentResult result{.how = locators.how,
-                          .definitions = definitions(),
-                          .tables = tables_of(locators),
-                          .findings = findings_of(locators)};
-  for (const LocatorsCase& c : locators.cases)
-    for (const LocatorsRow& row : c.rows) {
-      if (row.ok()) continue;
-      const std::string locator(name_of(row.locator));
-      add_problem(result, c.name + ", check " + check_words(c) + ", " + locator + ": " + row.failure());
+ExperimentResult locators_result(std::span<const LocatorsRow> rows) {
+  ExperimentResult result{.definitions = definitions};
+  std::vector<LocatorsRow> firsts;
+  std::vector<RatioRow> ratios;
+  const auto is_same_group = [](const LocatorsRow& a, const LocatorsRow& b) {
+    return a.name == b.name && a.face_protection == b.face_protection;
+  };
+  for (const Group group : neighbors(rows, is_same_group)) {
+    firsts.push_back(group.front());
+    for (const LocatorsRow& row : group.subspan(1)) {
+      const auto ratio = ratio_of(row, group.front());
+      if (!ratio) continue;
+      ratios.push_back({row, std::string(name_of(row.locator)) + " / grid", *ratio, group});
+      const auto finding = row.locator == LocatorKind::octree ? finding_of(row, *ratio) : std::nullopt;
+      if (finding) result.findings.push_back(*finding);
     }
+  }
+  for (const LocatorsRow& row : rows) add_problem_of(row, result);
+  result.tables = {table_of_rows("front", "Seconds of the front", front_columns, rows),
+                   table_of_rows("ratios", "Beside the paper's grid", ratio_columns(), ratios),
+                   table_of_rows("sizes", "The surfaces", size_columns, firsts)};
+  return result;
+}
+
+ExperimentResult measure_locators(const ExperimentOptions& options, cases::Runner& runner) {
+  const Circumstances how = start_experiment(options, options.runs);
+  std::vector<LocatorsRow> rows = plan(options);
+  check_something_is_measured(rows.size(), "locators");
+  measure_rows(runner, rows);
+  ExperimentResult result = locators_result(rows);
+  result.how = how;
+  result.definitions.push_back(repetition_words(options));
   return result;
 }
 

@@ -99,10 +99,6 @@ KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measure
   return {file, title, run_files(measured).front()};
 }
 
-double cdt_seconds(const StageSeconds& s) {
-  return s.delaunay + s.face_check + s.front + s.label;
-}
-
 std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds) {
   std::vector<double> samples;
   for (const RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));

@@ -65,10 +65,6 @@ KeptMesh keep_mesh(const ExperimentOptions& options, const MeasuredCase& measure
 /// The seconds of a run that are of interest.
 using SecondsOf = std::function<double(const StageSeconds&)>;
 
-/// Seconds of the constrained Delaunay tetrahedralization of given vertices, the paper's CDT times: Delaunay, face
-/// check, front and labeling.
-double cdt_seconds(const StageSeconds& seconds);
-
 /// One number of each counted run.
 std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds);
 

@@ -29,10 +29,4 @@ std::span<const KnownExperiment> known_experiments();
 /// Null if there is none of that name.
 const KnownExperiment* known_experiment(std::string_view name);
 
-/// Fig. 7 of the paper: the meshes of its three models, kept for pictures that show them cut open. As many tetrahedra
-/// as are wanted, but not more than a picture can show.
-///
-/// \throw OutputError  a file of the experiment cannot be written
-ExperimentResult measure_fig7(const ExperimentOptions& options, const Progress& progress = {});
-
 }  // namespace ccdt::experiments

@@ -2,117 +2,51 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "bench/experiments/experiment.h"
-#include "bench/experiments/measured_case.h"
-#include "bench/statistics.h"
+#include "bench/experiments/case_rows.h"
 #include "engine/base/enum_names.h"
 
 namespace ccdt::experiments {
 
-/// One row of one model: what was timed. The seconds are none if the case failed.
-struct Table1Row : CaseOutcome {
-  std::string id;     ///< delaunay, with_check, without_check, ccdt_mesh, cgal_delaunay, tetgen_cdt, ...
-  std::string label;  ///< for people
-  std::optional<double> paper_seconds = {};
-};
-
-struct Table1Ratio {
-  std::string id, label;
-  std::optional<Estimate> value = {};
-  std::optional<double> paper = {};
-  std::vector<std::string> runs = {};  ///< files of all runs that it is made of
-};
-
-/// What a unit of work costs, in microseconds; medians.
-struct Table1Costs {
-  double delaunay_per_vertex = 0;
-  double check_per_vertex = 0;       ///< face check, front and labeling of the run with the check
-  double front_per_tetrahedron = 0;  ///< of the run without the check, whose front builds every tetrahedron
-};
-
+/// What was measured of a model for the paper's Table 1: with_check, without_check, cgal_delaunay, tetgen_cdt, ...
 struct Table1Model {
   std::string name;
   double edge_length = 0;  ///< units of the model
-  std::vector<Table1Row> rows = {};
-  std::vector<Table1Ratio> ratios = {};
-  std::optional<Table1Costs> costs = {};  ///< none if a run of ours failed
-  bool same_tetrahedra = true;            ///< with and without the check: the same set, as it must be
+  std::map<std::string, cases::MeasuredCase> cases = {};
 };
-
-/// Table 1 of the paper, measured here.
-struct Table1 {
-  Circumstances how;
-  std::vector<Table1Model> models;
-};
-
-/// Measures all rows on the paper's three models. Every run is a process of its own; the cases of a model take turns
-/// (A B C A B C ...). A case that fails in its first run has a row with the reason and is not run again.
-///
-/// \throw OutputError  a file of the experiment cannot be written
-Table1 measure_table1(const ExperimentOptions& options, const Progress& progress = {});
 
 /// The paper lets every face go through the front at more than this many times the cost of Delaunay; so should we.
 inline constexpr double least_gain = 8;
 
-/// As tables, with what they say.
-ExperimentResult result_of(const Table1& table);
+/// Measures the CDT on the paper's three models with and without the check, and other meshers beside it.
+ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult table1_result(std::span<const Table1Model> models);
+
+/// Fig. 7 of the paper: the meshes of its three models, kept for pictures that show them cut open. As many tetrahedra
+/// as are wanted, but not more than a picture can show.
+ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner);
 
 /// The exponent that we claim for the growth of the time with the number of vertices; 1 is linear.
 inline constexpr double claimed_exponent = 1.10;
 
-/// One size of one model, meshed with one strategy. Seconds are of the CDT; of other meshers, of all.
-struct Fig8Point : CaseOutcome {
-  double edge_length = 0;                 ///< units of the model
-  std::vector<StageSeconds> stages = {};  ///< of the counted runs, in order
+/// A model at one size, meshed with one strategy.
+struct Fig8Row : CaseRow {
+  std::string model, strategy;
+  double edge_length = 0;  ///< units of the model
 };
 
-/// How the seconds of a stage grow with the number of vertices: medians over the points that went well.
-struct Fig8Fit {
-  std::string quantity;  ///< cdt, delaunay, front; mesh: all that another mesher does
-  std::size_t points = 0;
-  double least_vertices = 0, most_vertices = 0;
-  bench::LineFit line;   ///< seconds over vertices
-  bench::LineFit power;  ///< logarithms of both
-};
+/// Measures time against size at uniform density (paper, Fig. 8): the paper's models in eight sizes over two decades,
+/// from a tenth of the wanted number of tetrahedra to ten times as many; what is slow, at the coarser of these only.
+/// The strategies take turns at each size. Sizes that a model cannot have are left out.
+ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner);
 
-struct Fig8Series {
-  std::string id, label, mesher;  ///< id: insert, wrap, without_check, or that of the mesher
-  std::vector<Fig8Point> points = {};
-  std::vector<Fig8Fit> fits = {};  ///< none with fewer than three points
-};
-
-struct Fig8Model {
-  std::string name;
-  std::vector<Fig8Series> series;
-};
-
-/// Fig. 8 of the paper, measured here: time against size at uniform density.
-struct Fig8 {
-  Circumstances how;
-  std::vector<Fig8Model> models;
-};
-
-/// Measures the paper's models in eight sizes over two decades, from a tenth of the wanted number of tetrahedra to ten
-/// times as many; what is slow, at the coarser of these only. The strategies take turns at each size. Sizes that a
-/// model cannot have are left out.
-///
-/// \throw OutputError  a file of the experiment cannot be written
-Fig8 measure_fig8(const ExperimentOptions& options, const Progress& progress = {});
-
-/// Fits to the points of a series.
-std::vector<Fig8Fit> fit_series(const Fig8Series& series);
-
-/// As tables, with what they say.
-ExperimentResult result_of(const Fig8& fig8);
-
-/// One locator on one surface. Seconds are of the front.
-struct LocatorsRow : CaseOutcome {
-  LocatorKind locator = LocatorKind::grid;
-};
+/// \param rows  those of a model and a strategy side by side, from the coarsest size
+ExperimentResult fig8_result(std::span<const Fig8Row> rows);
 
 enum class SurfaceKind {
   uniform,  ///< one of the paper's models
@@ -128,36 +62,23 @@ constexpr auto names_of(SurfaceKind) {
                                                  {SurfaceKind::input, "input"}});
 }
 
-/// A surface, meshed with each of the locators.
-struct LocatorsCase {
+/// A surface, meshed with one of the locators.
+struct LocatorsRow : CaseRow {
   std::string name;
   SurfaceKind kind = SurfaceKind::uniform;
   bool face_protection = false;
   double edge_ratio = 1;  ///< the longest edge of the surface over the shortest
-  MeshCounts counts = {};
-  std::vector<LocatorsRow> rows = {};  ///< grid, octree, cavity
-  std::optional<Estimate> octree_over_grid = {}, cavity_over_grid = {};
+  LocatorKind locator = LocatorKind::grid;
 };
-
-/// How fast the locators find the front's candidates.
-struct Locators {
-  Circumstances how;
-  std::vector<LocatorsCase> cases;
-};
-
-/// What is expected of octree and grid on such a surface: on a graded one the octree is faster, on a uniform one the
-/// grid. None for the others, and where a run failed.
-std::optional<BoundTest> expectation(const LocatorsCase& locators);
 
 /// Measures the front of the three locators: without the check on the paper's models at uniform density and on a graded
 /// cube, with and without it on a rough sphere and on the files of the user.
 ///
-/// \throw InputError   a file cannot be read
-/// \throw OutputError  a file of the experiment cannot be written
-Locators measure_locators(const ExperimentOptions& options, const Progress& progress = {});
+/// \throw InputError  a file cannot be read
+ExperimentResult measure_locators(const ExperimentOptions& options, cases::Runner& runner);
 
-/// As tables, with what they say.
-ExperimentResult result_of(const Locators& locators);
+/// \param rows  those of a surface and a check side by side: grid, octree, cavity
+ExperimentResult locators_result(std::span<const LocatorsRow> rows);
 
 /// The Delaunay tetrahedralization of the same points by insertion, wrapping (paper, section 5), CGAL and TetGen, over
 /// sizes. The Google Benchmark program `bench_delaunay` measures; its JSON is kept as it writes it, as
@@ -172,7 +93,7 @@ ExperimentResult result_of(const Locators& locators);
 ///
 /// \throw OutputError  the folder cannot be written
 /// \throw InputError   there is nothing to measure
-ExperimentResult measure_delaunay(const ExperimentOptions& options, const Progress& progress = {});
+ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runner& runner);
 
 /// Where `bench_delaunay` is, beside `ccdt` or in its build tree; empty if it is not there.
 std::filesystem::path find_bench_delaunay(const std::filesystem::path& ccdt);

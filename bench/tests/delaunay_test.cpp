@@ -136,6 +136,11 @@ class DelaunayRuns : public testing::Test {
     return options;
   }
 
+  static results::ExperimentResult measured(const experiments::ExperimentOptions& options) {
+    cases::Runner runner({.program = options.program, .folder = options.folder});
+    return experiments::measure_delaunay(options, runner);
+  }
+
   void script(const std::string& body) const {
     const auto file = options().program.parent_path() / "bench_delaunay";
     std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
@@ -147,7 +152,7 @@ class DelaunayRuns : public testing::Test {
 };
 
 TEST_F(DelaunayRuns, WithoutTheProgramSayHowToBuildIt) {
-  const results::ExperimentResult result = experiments::measure_delaunay(options());
+  const results::ExperimentResult result = measured(options());
   EXPECT_TRUE(result.is_good);
   ASSERT_EQ(result.problems.size(), 1u);
   EXPECT_NE(result.problems[0].find("cmake --build"), std::string::npos);
@@ -161,16 +166,35 @@ TEST_F(DelaunayRuns, KeepTheJsonAsItWasWritten) {
   std::ofstream(options().program.parent_path() / "said.json") << text;
   script(R"(for word; do case $word in --benchmark_out=*) out=${word#*=};; esac; done
     cp "$(dirname "$0")/said.json" "$out"; exit 1)");
-  const results::ExperimentResult result = experiments::measure_delaunay(options());
+  const results::ExperimentResult result = measured(options());
   EXPECT_EQ(result.raw_files, std::vector<std::string>{"benchmarks/bench_delaunay.json"});
   EXPECT_EQ(io::read_whole_file(options().folder / result.raw_files.at(0)).bytes, text);
   EXPECT_EQ(results::find_table(result, "times")->rows.size(), 8u);
 }
 
+TEST_F(DelaunayRuns, AreNotRepeatedUnlessOthersAreWanted) {
+  const auto folder = options().program.parent_path();
+  std::ofstream(folder / "said.json") << bench::Json{{"benchmarks", good_runs()}}.dump();
+  script(R"sh(for word; do
+    case $word in --benchmark_out=*) out=${word#*=};; --benchmark_context=*) stamp=$word;; esac
+  done
+  cd "$(dirname "$0")"; echo run >> calls
+  sed "s/\"benchmarks\"/\"context\": {\"stamp\": \"${stamp##*=}\"}, &/" said.json > "$out")sh");
+  const auto calls = [&] { return std::filesystem::file_size(folder / "calls") / 4; };
+  const results::ExperimentResult first = measured(options());
+  EXPECT_EQ(calls(), 1u);
+  EXPECT_EQ(results::to_json(measured(options())).size(), results::to_json(first).size());
+  EXPECT_EQ(calls(), 1u);
+  experiments::ExperimentOptions more = options();
+  more.runs = 6;
+  measured(more);
+  EXPECT_EQ(calls(), 2u);
+}
+
 TEST_F(DelaunayRuns, ThatCrashAreRowsWithTheReason) {
   script(R"(for word; do case $word in --benchmark_out=*) echo '{"benchmarks": [' > "${word#*=}";; esac; done
     kill -SEGV $$)");
-  const results::ExperimentResult result = experiments::measure_delaunay(options());
+  const results::ExperimentResult result = measured(options());
   EXPECT_FALSE(result.is_good);
   EXPECT_TRUE(result.raw_files.empty());
   const results::ResultTable& times = *results::find_table(result, "times");
@@ -190,7 +214,7 @@ TEST_F(DelaunayRuns, MeasureWhatIsAskedFor) {
   asked.beside = std::vector<std::string>{"tetgen"};
   EXPECT_EQ(filter(), "--benchmark_filter=^delaunay/(insert|wrap|tetgen)/(random|lattice|bracket)(/[0-9]+)?$");
   asked.models = {"none"};
-  EXPECT_THROW(experiments::measure_delaunay(asked), InputError);
+  EXPECT_THROW(measured(asked), InputError);
   asked.inputs = {"parts/a+b.off"};
   EXPECT_EQ(filter(), "--benchmark_filter=^delaunay/(insert|wrap|tetgen)/(a\\+b\\.off)(/[0-9]+)?$");
 }
@@ -199,7 +223,7 @@ TEST_F(DelaunayRuns, MeasureWhatIsAskedFor) {
 TEST_F(DelaunayRuns, OfTheProgramMeasureRandomPointsAndALattice) {
   experiments::ExperimentOptions real = options();
   real.program = std::filesystem::path(BENCH_DELAUNAY).parent_path() / "ccdt";
-  const results::ExperimentResult result = experiments::measure_delaunay(real);
+  const results::ExperimentResult result = measured(real);
   EXPECT_TRUE(result.is_good);
   EXPECT_TRUE(result.problems.empty());
   const results::ResultTable& times = *results::find_table(result, "times");

@@ -5,7 +5,6 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/quality_experiments.h"
-#include "bench/experiments/timing_experiments.h"
 
 namespace ccdt {
 namespace {
@@ -13,80 +12,6 @@ namespace {
 /// Is a part of these words in one of the lines?
 bool say(const std::vector<std::string>& lines, const std::string& words) {
   return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
-}
-
-experiments::Fig8 fig8_with_exponent(double exponent) {
-  experiments::Fig8Series series{"insert", "with check", "ccdt"};
-  for (const std::uint64_t n : {10000, 20000, 40000}) {
-    experiments::Fig8Point point;
-    point.counts.vertices = n;
-    StageSeconds seconds;
-    seconds.delaunay = 1e-5 * std::pow(static_cast<double>(n), exponent);
-    point.stages.assign(5, seconds);
-    point.seconds = bench::Estimate{seconds.delaunay, seconds.delaunay, seconds.delaunay};
-    series.points.push_back(point);
-  }
-  series.fits = experiments::fit_series(series);
-  experiments::Fig8 fig8;
-  fig8.models.push_back({"piston", {series}});
-  return fig8;
-}
-
-TEST(Fig8Findings, SayWhetherTheExponentIsAsClaimed) {
-  EXPECT_TRUE(say(experiments::result_of(fig8_with_exponent(1.0)).findings, "is at most 1.10: holds"));
-  EXPECT_TRUE(say(experiments::result_of(fig8_with_exponent(1.3)).findings, "is at most 1.10: does not hold"));
-  experiments::Fig8 unfitted = fig8_with_exponent(1);
-  unfitted.models[0].series[0].fits.clear();
-  EXPECT_TRUE(say(experiments::result_of(unfitted).findings, "too few sizes"));
-}
-
-TEST(Fig8Findings, AreNotGoodWhereARunOfOursFailed) {
-  experiments::Fig8 fig8 = fig8_with_exponent(1);
-  EXPECT_TRUE(experiments::result_of(fig8).is_good);
-  experiments::Fig8Point& point = fig8.models[0].series[0].points[1];
-  point.seconds = {};
-  point.status = baselines::RunStatus::timeout;
-  point.reason = "limit of 600 s";
-  EXPECT_FALSE(experiments::result_of(fig8).is_good);
-  EXPECT_TRUE(say(experiments::result_of(fig8).problems, "timeout: limit of 600 s"));
-  fig8.models[0].series[0].mesher = "tetgen";
-  EXPECT_TRUE(experiments::result_of(fig8).is_good);
-}
-
-results::ExperimentResult locators_result(experiments::SurfaceKind kind, const bench::Estimate& ratio,
-                                          const experiments::LocatorsRow& last) {
-  experiments::LocatorsCase c;
-  c.name = "part";
-  c.kind = kind;
-  c.edge_ratio = 181;
-  for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree})
-    c.rows.push_back({{.samples = {2, 2}, .seconds = bench::Estimate{2, 2, 2}}, locator});
-  c.rows.push_back(last);
-  c.octree_over_grid = ratio;
-  experiments::Locators locators;
-  locators.cases.push_back(c);
-  return experiments::result_of(locators);
-}
-
-TEST(LocatorsFindings, JudgeByTheRatioThatWasMeasured) {
-  const experiments::LocatorsRow good{{.samples = {2, 2}, .seconds = bench::Estimate{2, 2, 2}}, LocatorKind::cavity};
-  const auto findings = [&](experiments::SurfaceKind kind, const bench::Estimate& ratio) {
-    return locators_result(kind, ratio, good).findings;
-  };
-  EXPECT_TRUE(say(findings(experiments::SurfaceKind::graded, {0.5, 0.4, 0.6}),
-                  "octree is faster than the grid where edges differ by a factor of 181: holds (octree / grid 0.5"));
-  EXPECT_TRUE(say(findings(experiments::SurfaceKind::graded, {1.5, 1.4, 1.6}), "181: does not hold"));
-  EXPECT_TRUE(say(findings(experiments::SurfaceKind::uniform, {1.5, 1.4, 1.6}),
-                  "grid is faster than the octree where edges are even: holds"));
-  EXPECT_TRUE(say(findings(experiments::SurfaceKind::uniform, {1, 0.9, 1.1}), "even: undecided"));
-  EXPECT_TRUE(findings(experiments::SurfaceKind::input, {1, 0.9, 1.1}).empty());
-}
-
-TEST(LocatorsFindings, GiveAFailedRowItsReason) {
-  const experiments::LocatorsRow bad{{baselines::RunStatus::crashed, "ended by signal SIGSEGV"}, LocatorKind::cavity};
-  const results::ExperimentResult result = locators_result(experiments::SurfaceKind::rough, {1, 1, 1}, bad);
-  EXPECT_TRUE(say(result.problems, "part, check off, cavity: crashed: ended by signal SIGSEGV"));
-  EXPECT_FALSE(result.is_good);
 }
 
 TEST(InteriorPointsFindings, CountTheHarm) {

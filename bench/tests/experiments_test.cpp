@@ -23,18 +23,6 @@ TEST(BoundTest, HoldsOrFailsOnlyWithTheWholeInterval) {
   EXPECT_EQ(experiments::is_at_least({7, 6.5, 7.5}, 8), experiments::BoundTest::fails);
 }
 
-TEST(Experiments, CountLongRunsLessOften) {
-  experiments::ExperimentOptions options;
-  options.tetrahedra = 20000;
-  experiments::MeasuredCase measured;
-  measured.first.seconds.mesh = 1.9;
-  EXPECT_TRUE(experiments::is_counted(options, measured, 5));
-  EXPECT_FALSE(experiments::is_counted(options, measured, 6));
-  measured.first.seconds.mesh = 2.1;
-  EXPECT_TRUE(experiments::is_counted(options, measured, 3));
-  EXPECT_FALSE(experiments::is_counted(options, measured, 4));
-}
-
 TEST(Experiments, MakeEdgesLongerForFewerTetrahedra) {
   experiments::ExperimentOptions options;
   EXPECT_DOUBLE_EQ(experiments::edge_factor(options), 1);
@@ -72,62 +60,6 @@ TEST(Experiments, TimeMesh3OnlyWhereItCanBeAsCoarse) {
 TEST(Experiments, RefuseToMeasureNothing) {
   EXPECT_NO_THROW(experiments::check_something_is_measured(1, "fig8"));
   EXPECT_THROW(experiments::check_something_is_measured(0, "fig8"), InputError);
-}
-
-/// A point whose Delaunay stage takes n^exponent microseconds and whose front takes twice as long as that is linear.
-experiments::Fig8Point point_of_size(std::uint64_t n, double exponent) {
-  experiments::Fig8Point point;
-  point.counts.vertices = n;
-  StageSeconds seconds;
-  seconds.delaunay = 1e-6 * std::pow(static_cast<double>(n), exponent);
-  seconds.front = 2e-6 * static_cast<double>(n);
-  point.stages.assign(5, seconds);
-  point.seconds = bench::Estimate{seconds.delaunay + seconds.front, 0, 0};
-  return point;
-}
-
-TEST(Fig8, FitsEachStageOnItsOwn) {
-  experiments::Fig8Series series{"without_check", "without check", "ccdt"};
-  for (const std::uint64_t n : {10000, 20000, 40000, 80000}) series.points.push_back(point_of_size(n, 1.5));
-  const auto fits = experiments::fit_series(series);
-  ASSERT_EQ(fits.size(), 3u);
-  EXPECT_EQ(fits[0].quantity, "cdt");
-  EXPECT_GT(fits[0].power.slope.value, 1.4);
-  EXPECT_LT(fits[0].power.slope.value, 1.5);
-  EXPECT_EQ(fits[1].quantity, "delaunay");
-  EXPECT_NEAR(fits[1].power.slope.value, 1.5, 1e-9);
-  EXPECT_EQ(fits[2].quantity, "front");
-  EXPECT_NEAR(fits[2].power.slope.value, 1, 1e-9);
-  EXPECT_NEAR(fits[2].line.slope.value, 2e-6, 1e-12);
-  EXPECT_EQ(fits[0].least_vertices, 10000);
-  EXPECT_EQ(fits[0].most_vertices, 80000);
-  series.id = "insert";
-  EXPECT_EQ(experiments::fit_series(series).size(), 2u);
-  series.mesher = "tetgen";
-  ASSERT_EQ(experiments::fit_series(series).size(), 0u);  // it tells no seconds of all of its work
-}
-
-TEST(Fig8, LeavesOutFailedPointsAndDoesNotFitTwo) {
-  experiments::Fig8Series series{"insert", "with check", "ccdt"};
-  for (const std::uint64_t n : {10000, 20000, 40000}) series.points.push_back(point_of_size(n, 1));
-  series.points.push_back(point_of_size(80000, 7));
-  series.points.back().seconds = {};
-  EXPECT_NEAR(experiments::fit_series(series)[0].power.slope.value, 1, 1e-9);
-  series.points[0].seconds = {};
-  EXPECT_TRUE(experiments::fit_series(series).empty());
-}
-
-TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
-  experiments::LocatorsCase c;
-  EXPECT_FALSE(experiments::expectation(c));
-  c.octree_over_grid = bench::Estimate{0.5, 0.4, 0.6};
-  EXPECT_EQ(experiments::expectation(c), experiments::BoundTest::fails);
-  c.kind = experiments::SurfaceKind::graded;
-  EXPECT_EQ(experiments::expectation(c), experiments::BoundTest::holds);
-  c.octree_over_grid = bench::Estimate{1, 0.9, 1.1};
-  EXPECT_EQ(experiments::expectation(c), experiments::BoundTest::undecided);
-  c.kind = experiments::SurfaceKind::rough;
-  EXPECT_FALSE(experiments::expectation(c));
 }
 
 /// A tetrahedron with a dent: its fifth vertex pushes in the face of the first three.

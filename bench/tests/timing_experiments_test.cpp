@@ -1,0 +1,296 @@
+#include "bench/experiments/timing_experiments.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace ccdt {
+namespace {
+
+/// Is a part of these words in one of the lines?
+bool say(const std::vector<std::string>& lines, const std::string& words) {
+  return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
+}
+
+const results::ResultTable& table(const results::ExperimentResult& result, std::string_view name) {
+  const results::ResultTable* found = results::find_table(result, name);
+  if (found == nullptr) throw std::out_of_range("no table " + std::string(name));
+  return *found;
+}
+
+/// The numbers of a column.
+std::vector<double> numbers(const results::ExperimentResult& result, std::string_view name, std::string_view column) {
+  std::vector<double> all;
+  for (const results::ResultRow& row : table(result, name).rows)
+    all.push_back(results::number_in(table(result, name), row, column));
+  return all;
+}
+
+std::vector<std::string> texts(const results::ExperimentResult& result, std::string_view name,
+                               std::string_view column) {
+  std::vector<std::string> all;
+  for (const results::ResultRow& row : table(result, name).rows)
+    all.push_back(results::text_in(table(result, name), row, column));
+  return all;
+}
+
+/// A case of a mesher with a warm-up that took a minute, and counted runs that took these seconds.
+cases::MeasuredCase measured_case(const std::string& mesher, const std::vector<StageSeconds>& seconds,
+                                  const MeshCounts& counts) {
+  cases::MeasuredCase measured;
+  measured.id = "0123456789abcdef";
+  measured.asked.name = "the case of " + mesher;
+  measured.asked.mesher = mesher;
+  measured.asked.repetitions.warm_up = 1;
+  bench::RunRecord record;
+  record.mesher.name = mesher;
+  record.counts = counts;
+  record.mesh_fingerprint = "abc";
+  record.seconds.mesh = record.seconds.delaunay = record.seconds.front = 60;
+  add_run(measured, record);
+  for (const StageSeconds& s : seconds) {
+    record.seconds = s;
+    add_run(measured, record);
+  }
+  return measured;
+}
+
+StageSeconds stages(double delaunay, double front, double mesh = 0) {
+  StageSeconds seconds;
+  seconds.delaunay = delaunay;
+  seconds.front = front;
+  seconds.mesh = mesh;
+  return seconds;
+}
+
+MeshCounts counts_with(std::uint64_t vertices) {
+  MeshCounts counts;
+  counts.vertices = counts.front_tetrahedra = vertices;
+  return counts;
+}
+
+void fail(cases::MeasuredCase& measured) {
+  bench::RunRecord record = measured.first;
+  record.set_failure(baselines::FailureKind::timeout, "limit of 600 s");
+  add_run(measured, record);
+}
+
+/// The Delaunay stage takes n^exponent microseconds, and the front twice as long as if that were linear.
+std::vector<experiments::Fig8Row> series(const std::string& strategy, double exponent,
+                                         const std::string& mesher = "ccdt") {
+  std::vector<experiments::Fig8Row> rows;
+  for (const std::uint64_t n : {10000, 20000, 40000, 80000}) {
+    const auto size = static_cast<double>(n);
+    const StageSeconds s = stages(1e-6 * std::pow(size, exponent), 2e-6 * size, 1e-6 * std::pow(size, exponent));
+    rows.push_back({{measured_case(mesher, {s, s, s, s, s}, counts_with(n)),
+                     mesher == "ccdt" ? experiments::cdt_seconds : experiments::whole_seconds},
+                    "piston",
+                    strategy,
+                    1e5 / size});
+  }
+  return rows;
+}
+
+TEST(Fig8, FitsEachStageOnItsOwn) {
+  const auto result = experiments::fig8_result(series("without check", 1.5));
+  EXPECT_EQ(texts(result, "fits", "quantity"), (std::vector<std::string>{"cdt", "delaunay", "front"}));
+  const std::vector<double> exponents = numbers(result, "fits", "exponent");
+  EXPECT_GT(exponents[0], 1.4);
+  EXPECT_LT(exponents[0], 1.5);
+  EXPECT_NEAR(exponents[1], 1.5, 1e-9);
+  EXPECT_NEAR(exponents[2], 1, 1e-9);
+  EXPECT_NEAR(numbers(result, "fits", "microseconds_per_vertex")[2], 2, 1e-6);
+  EXPECT_EQ(numbers(result, "fits", "points"), (std::vector<double>{4, 4, 4}));
+  EXPECT_EQ(numbers(result, "lines", "vertices"), (std::vector<double>{10000, 80000}));
+  EXPECT_EQ(table(result, "fits").rows[0].runs.size(), 5u) << "all cases here have one id";
+}
+
+TEST(Fig8, FitsTheFrontOnlyWithoutTheCheckAndNoStageOfOtherMeshers) {
+  EXPECT_EQ(texts(experiments::fig8_result(series("with check", 1)), "fits", "quantity"),
+            (std::vector<std::string>{"cdt", "delaunay"}));
+  EXPECT_EQ(texts(experiments::fig8_result(series("TetGen", 1, "tetgen")), "fits", "quantity"),
+            std::vector<std::string>{"mesh"});
+}
+
+TEST(Fig8, FitsEachStrategyOfEachModelAlone) {
+  std::vector<experiments::Fig8Row> rows = series("with check", 1);
+  experiments::append(rows, series("with check, wrap", 1.2));
+  experiments::append(rows, series("with check, wrap", 1.4));
+  for (std::size_t i = 8; i < 12; ++i) rows[i].model = "bracket";
+  const auto result = experiments::fig8_result(rows);
+  EXPECT_EQ(texts(result, "fits", "model"),
+            (std::vector<std::string>{"piston", "piston", "piston", "piston", "bracket", "bracket"}));
+  EXPECT_NEAR(numbers(result, "fits", "exponent")[3], 1.2, 1e-9);
+  EXPECT_NEAR(numbers(result, "fits", "exponent")[5], 1.4, 1e-9);
+  EXPECT_EQ(table(result, "points").rows.size(), 12u);
+}
+
+TEST(Fig8, LeavesOutFailedPointsAndDoesNotFitTwo) {
+  std::vector<experiments::Fig8Row> rows = series("with check", 1);
+  fail(rows[3].measured);
+  auto result = experiments::fig8_result(rows);
+  EXPECT_NEAR(numbers(result, "fits", "exponent")[0], 1, 1e-9);
+  EXPECT_EQ(numbers(result, "fits", "points")[0], 3);
+  EXPECT_EQ(texts(result, "points", "status")[3], "timeout");
+  EXPECT_TRUE(std::isnan(numbers(result, "points", "vertices")[3]));
+  fail(rows[0].measured);
+  result = experiments::fig8_result(rows);
+  EXPECT_TRUE(table(result, "fits").rows.empty());
+  EXPECT_TRUE(say(result.findings, "too few sizes"));
+}
+
+TEST(Fig8, SaysWhetherTheExponentIsAsClaimed) {
+  EXPECT_TRUE(say(experiments::fig8_result(series("with check", 1.0)).findings, "is at most 1.10: holds"));
+  EXPECT_TRUE(say(experiments::fig8_result(series("with check", 1.6)).findings, "is at most 1.10: does not hold"));
+}
+
+TEST(Fig8, IsNotGoodWhereARunOfOursFailed) {
+  for (const std::string mesher : {"ccdt", "tetgen"}) {
+    std::vector<experiments::Fig8Row> rows = series("with check", 1, mesher);
+    EXPECT_TRUE(experiments::fig8_result(rows).is_good);
+    fail(rows[1].measured);
+    EXPECT_EQ(experiments::fig8_result(rows).is_good, mesher != "ccdt");
+    EXPECT_TRUE(say(experiments::fig8_result(rows).problems, "timeout: limit of 600 s"));
+  }
+}
+
+/// Grid, octree and cavity take these seconds in each run.
+std::vector<experiments::LocatorsRow> locators(experiments::SurfaceKind kind, const std::vector<double>& octree) {
+  std::vector<experiments::LocatorsRow> rows;
+  for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
+    std::vector<StageSeconds> seconds;
+    for (const double s : octree) seconds.push_back(stages(1, locator == LocatorKind::octree ? s : 1));
+    rows.push_back(
+        {{measured_case("ccdt", seconds, counts_with(1000)), &StageSeconds::front}, "part", kind, false, 181, locator});
+  }
+  return rows;
+}
+
+TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
+  using Kind = experiments::SurfaceKind;
+  const auto findings = [](Kind kind, const std::vector<double>& octree) {
+    return experiments::locators_result(locators(kind, octree)).findings;
+  };
+  const std::vector<double> fast = {0.5, 0.5, 0.5}, slow = {1.5, 1.5, 1.5}, either = {0.5, 0.9, 1, 1.1, 1.5};
+  EXPECT_TRUE(say(findings(Kind::graded, fast),
+                  "octree is faster than the grid where edges differ by a factor of 181: holds (octree / grid 0.5"));
+  EXPECT_TRUE(say(findings(Kind::graded, slow), "181: does not hold"));
+  EXPECT_TRUE(say(findings(Kind::uniform, slow), "grid is faster than the octree where edges are even: holds"));
+  EXPECT_TRUE(say(findings(Kind::uniform, either), "even: undecided"));
+  EXPECT_TRUE(findings(Kind::input, slow).empty());
+  EXPECT_TRUE(findings(Kind::rough, slow).empty());
+}
+
+TEST(Locators, CompareEachWithTheGrid) {
+  const auto result = experiments::locators_result(locators(experiments::SurfaceKind::uniform, {3, 3, 3}));
+  EXPECT_EQ(texts(result, "ratios", "ratio"), (std::vector<std::string>{"octree / grid", "cavity / grid"}));
+  EXPECT_EQ(numbers(result, "ratios", "value"), (std::vector<double>{3, 1}));
+  EXPECT_EQ(table(result, "sizes").rows.size(), 1u);
+}
+
+TEST(Locators, GiveAFailedRowItsReason) {
+  std::vector<experiments::LocatorsRow> rows = locators(experiments::SurfaceKind::graded, {1, 1, 1});
+  fail(rows[1].measured);
+  const auto result = experiments::locators_result(rows);
+  EXPECT_TRUE(say(result.problems, "timeout: limit of 600 s"));
+  EXPECT_FALSE(result.is_good);
+  EXPECT_EQ(texts(result, "ratios", "ratio"), std::vector<std::string>{"cavity / grid"});
+  EXPECT_TRUE(result.findings.empty());
+}
+
+/// The check takes such a share of Delaunay's time in each run, which has a median of 2 s; the front takes so many.
+experiments::Table1Model table1_model(const std::vector<double>& check = {0.1, 0.1, 0.1}, double front = 14,
+                                      const std::vector<double>& delaunay = {2, 2, 2}) {
+  experiments::Table1Model model{"piston", 2.5};
+  std::vector<StageSeconds> with, without;
+  for (std::size_t i = 0; i < check.size(); ++i) {
+    with.push_back(stages(delaunay[i], check[i] * delaunay[i], 9));
+    without.push_back(stages(2, front, 20));
+  }
+  model.cases["with_check"] = measured_case("ccdt", with, counts_with(1000));
+  model.cases["without_check"] = measured_case("ccdt", without, counts_with(1000));
+  return model;
+}
+
+TEST(Table1, GivesReasonsOnlyWhereThePaperIsNotReached) {
+  const auto findings = [](const experiments::Table1Model& model) {
+    return experiments::table1_result({&model, 1}).findings;
+  };
+  const auto alike = findings(table1_model({0.01, 0.01, 0.01}, 48));
+  ASSERT_EQ(alike.size(), 2u);
+  EXPECT_TRUE(say({alike[0]}, "(paper: 1.019): not more than there."));
+  EXPECT_TRUE(say({alike[1]}, "(paper: 23.59): at least 8."));
+  const auto different = findings(table1_model({0.2, 0.2, 0.2}, 12));
+  ASSERT_EQ(different.size(), 4u);
+  EXPECT_TRUE(say({different[0]}, "more than there."));
+  EXPECT_TRUE(say({different[1]}, "400 microseconds a vertex")) << different[1];
+  EXPECT_TRUE(say({different[2]}, "less than 8."));
+  EXPECT_TRUE(say({different[3]}, "12000 microseconds a tetrahedron")) << different[3];
+  EXPECT_TRUE(say(findings(table1_model({0.005, 0.02, 0.03})), "these runs cannot tell it from there."));
+}
+
+TEST(Table1, DividesWithinARunWhereBothAreOfIt) {
+  const experiments::Table1Model model = table1_model({0.1, 0.1, 0.1}, 14, {1, 2, 3});
+  const auto result = experiments::table1_result({&model, 1});
+  EXPECT_EQ(texts(result, "ratios", "ratio"),
+            (std::vector<std::string>{"with check / Delaunay", "without check / Delaunay", "without / with check"}));
+  const results::ResultTable& ratios = table(result, "ratios");
+  const auto check = std::get<bench::Estimate>(results::cell(ratios, ratios.rows[0], "value"));
+  EXPECT_DOUBLE_EQ(check.low, 1.1);
+  EXPECT_DOUBLE_EQ(check.high, 1.1);
+  EXPECT_DOUBLE_EQ(numbers(result, "ratios", "value")[1], 8);
+  EXPECT_NEAR(numbers(result, "ratios", "paper_value")[0], 26.01 / 25.53, 1e-12);
+}
+
+TEST(Table1, HasARowForAllThatIsTimedOfARun) {
+  const experiments::Table1Model model = table1_model();
+  const auto result = experiments::table1_result({&model, 1});
+  EXPECT_EQ(texts(result, "times", "what"), (std::vector<std::string>{"Delaunay", "CDT with face protection check",
+                                                                      "CDT without", "ccdt, whole mesh"}));
+  EXPECT_EQ(numbers(result, "times", "seconds"), (std::vector<double>{2, 2.2, 16, 9}));
+  EXPECT_EQ(numbers(result, "times", "paper_seconds")[2], 602.25);
+  EXPECT_EQ(texts(result, "sizes", "same_tetrahedra"), std::vector<std::string>{"yes"});
+  EXPECT_EQ(numbers(result, "costs", "delaunay"), std::vector<double>{2000});
+  EXPECT_EQ(numbers(result, "costs", "front"), std::vector<double>{14000});
+  EXPECT_TRUE(say(result.findings, "without the check, it takes 8.00 [8.00, 8.00] times as long as Delaunay"));
+  EXPECT_TRUE(result.is_good);
+}
+
+TEST(Table1, IsNotGoodIfTheTetrahedraDiffer) {
+  experiments::Table1Model model = table1_model();
+  model.cases["without_check"].first.mesh_fingerprint = "abd";
+  const auto result = experiments::table1_result({&model, 1});
+  EXPECT_EQ(texts(result, "sizes", "same_tetrahedra"), std::vector<std::string>{"no"});
+  EXPECT_FALSE(result.is_good);
+}
+
+TEST(Table1, ShowsFailuresAsRows) {
+  experiments::Table1Model model = table1_model();
+  fail(model.cases["without_check"]);
+  const auto result = experiments::table1_result({&model, 1});
+  EXPECT_EQ(texts(result, "times", "status")[2], "timeout");
+  EXPECT_EQ(texts(result, "ratios", "ratio"), std::vector<std::string>{"with check / Delaunay"});
+  EXPECT_TRUE(table(result, "costs").rows.empty());
+  EXPECT_EQ(result.problems.size(), 1u);
+  EXPECT_FALSE(result.is_good);
+}
+
+TEST(TimedCases, AreRepeatedUntilTheyAreKnown) {
+  experiments::ExperimentOptions options;
+  options.tetrahedra = 20000;
+  const cases::Case single = experiments::single_case(options, "name", "ccdt", "part.off", {});
+  EXPECT_TRUE(single.verify);
+  EXPECT_EQ(single.repetitions.at_most, 1);
+  const cases::Case timed = experiments::timed_case(options, "group", single, 0.02, experiments::cdt_seconds);
+  EXPECT_EQ(timed.repetitions.warm_up, 1);
+  EXPECT_EQ(timed.repetitions.at_least, options.runs);
+  EXPECT_GE(timed.repetitions.at_most, 60);
+  EXPECT_EQ(timed.repetitions.until, 0.02);
+  EXPECT_EQ(timed.group, "group");
+}
+
+}  // namespace
+}  // namespace ccdt
