@@ -197,7 +197,8 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
 }
 
 void note_end(const baselines::ProcessResult& ended, RunRecord& record) {
-  const bool says_it_itself = ended.signal == 0 && record.kind && record.kind != baselines::FailureKind::crashed;
+  // One that ended by itself may tell of a program of its own that crashed.
+  const bool says_it_itself = ended.signal == 0 && record.kind;
   if (ended.kind && !says_it_itself) record.set_failure(*ended.kind, ended.reason);
 }
 
