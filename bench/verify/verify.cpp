@@ -382,10 +382,9 @@ Check check_crossings(const plc::InputPlc& boundary) {
 /// The boundary of the mesh encloses its tetrahedra, each point once: by the same argument as above, with the boundary
 /// for an input.
 /// \pre  it does not cross itself
-Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, double flatness,
-                     const Progress& progress) {
+Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, const Progress& progress) {
   Verification by_itself;
-  check_against_input(boundary, topology, {.flatness = flatness, .delaunay = VerifyOptions::Delaunay::no}, progress,
+  check_against_input(boundary, topology, {.flatness = 0, .delaunay = VerifyOptions::Delaunay::no}, progress,
                       by_itself);
   Check enclosed{.name = "boundary that encloses the tetrahedra once", .checked = boundary.triangles.size()};
   for (const Check& check : by_itself.checks) {
@@ -401,8 +400,7 @@ void check_own_surface(const plc::InputPlc& input, const Topology& topology, con
   if (!result.ok()) return;  // a boundary of inverted tetrahedra, or of more than two at a face, encloses nothing
   const plc::InputPlc boundary = boundary_of(topology);
   result.checks.push_back(check_crossings(boundary));
-  if (result.checks.back().failed == 0)
-    result.checks.push_back(check_enclosed(boundary, topology, options.flatness, progress));
+  if (result.checks.back().failed == 0) result.checks.push_back(check_enclosed(boundary, topology, progress));
   result.mesh_volume = mesh_volume(topology.mesh);
   const Tolerances tolerances = find_tolerances(input, options.flatness);
   Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
