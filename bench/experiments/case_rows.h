@@ -39,6 +39,13 @@ cases::Case timed_case(const ExperimentOptions& options, std::string group, cons
 /// A definition: how often timed cases are run.
 std::string repetition_words(const ExperimentOptions& options, double until = usual_precision);
 
+/// Circumstances that say only that there is one run a case; the others are the same for all experiments.
+inline Circumstances once() {
+  Circumstances how;
+  how.runs = 1;
+  return how;
+}
+
 /// A row of a table: a case, and which of its seconds are meant. Experiments derive their rows from it.
 struct CaseRow {
   cases::MeasuredCase measured = {};

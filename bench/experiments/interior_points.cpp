@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
@@ -7,35 +8,20 @@ namespace ccdt::experiments {
 namespace {
 
 constexpr std::array lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
-constexpr std::array rules = {InteriorRule::paper, InteriorRule::no_spheres, InteriorRule::no_distances};
-constexpr std::uint64_t tetrahedra_a_trial = 100;  ///< so many small PLCs a family are tried for the wanted tetrahedra
+constexpr double tetrahedra_a_trial = 100;  ///< so many small PLCs a family are tried for the wanted tetrahedra
 constexpr std::array coarsenings = {4.0, 2.0, 1.0};  ///< of a solid's usual edge length
 
-std::vector<std::string> options_of(InteriorRule rule) {
-  switch (rule) {
-    case InteriorRule::paper:
-      return {"--sphere-factor", "1"};
-    case InteriorRule::no_spheres:
-      return {"--sphere-factor", "0"};
-    case InteriorRule::no_distances:
-      return {"--sphere-factor", "0", "--clearance", "0.01"};
-  }
-  return {};
-}
+/// What keeps interior points away from the surface.
+struct InteriorRule {
+  std::string name;
+  std::vector<std::string> options;
+};
 
-bool has_constrained_delaunay(const SmallPlc& plc) {
-  return search_constrained_delaunay(plc).constrained_delaunay > 0;
-}
-
-InteriorCase run(const ExperimentOptions& options, const SurfaceFile& surface, Lattice lattice, InteriorRule rule,
-                 std::uint64_t number) {
-  std::vector<std::string> words = options_of(rule);
-  append(words, std::vector<std::string>{"--improve", "none", "--lattice", std::string(name_of(lattice))});
-  const std::string record = "runs/interior-points-" + std::to_string(number) + ".json";
-  const RunRecord run =
-      run_call(options, {"ccdt", surface.file, options.folder / "meshes" / "interior-points.vtu", words},
-               options.folder / record);
-  return {{run.status, run.reason, {record}, run.counts}, surface.name, surface.edge_length, lattice, rule};
+const std::vector<InteriorRule>& rules() {
+  static const std::vector<InteriorRule> all = {{"paper", {"--sphere-factor", "1"}},
+                                                {"no spheres", {"--sphere-factor", "0"}},
+                                                {"no distances", {"--sphere-factor", "0", "--clearance", "0.01"}}};
+  return all;
 }
 
 std::vector<std::string> definitions() {
@@ -55,62 +41,81 @@ std::vector<std::string> definitions() {
   };
 }
 
-std::vector<ResultTable> tables_of(const InteriorPoints& points) {
-  const char* dropped_title = "points that would have destroyed a protected edge";
-  ResultTable existence = table_of("existence", "Existence with one interior point more, by exhaustion",
-                                   {label_column("family"), figure_column("cases", "PLCs with a CDT"),
-                                    figure_column("lost", "of these without one with the point"),
-                                    note_column("counterexample", "the smallest, its last vertex the point")});
-  for (const ExistenceTrials& trials : points.existence)
-    add_row(existence, {}, trials.family, trials.cases, trials.lost,
+const char* const dropped_title = "points that would have destroyed a protected edge";
+
+ResultTable existence_table(std::span<const ExistenceTrials> existence) {
+  ResultTable table = table_of("existence", "Existence with one interior point more, by exhaustion",
+                               {label_column("family"), figure_column("cases", "PLCs with a CDT"),
+                                figure_column("lost", "of these without one with the point"),
+                                note_column("counterexample", "the smallest, its last vertex the point")});
+  for (const ExistenceTrials& trials : existence)
+    add_row(table, {}, trials.family, trials.cases, trials.lost,
             cell_if(trials.lost > 0, small_plcs::in_words(trials.counterexample)));
-  ResultTable rules_table = table_of(
+  return table;
+}
+
+ResultTable cases_table(std::span<const InteriorRow> rows) {
+  const RowColumns<InteriorRow> columns = {
+      {label_column("model"), &InteriorRow::model},
+      {label_column("edge_length"),
+       [](const InteriorRow& row) { return row.edge_length > 0 ? rounded(row.edge_length) : ""; }},
+      {label_column("rule"), &InteriorRow::rule},
+      {label_column("lattice"), [](const InteriorRow& row) { return name_of(row.lattice); }},
+      status_column(),
+      count_column("interior_vertices", &MeshCounts::interior_vertices),
+      count_column("dropped", &MeshCounts::dropped_interior_vertices, dropped_title),
+      reason_column()};
+  return table_of_rows("cases", "The cases", columns, rows);
+}
+
+/// The sums over all cases that went well of a rule, with one lattice or all.
+void add_sums(const ResultTable& cases, const std::string& rule, const std::string& lattice, ResultTable& table) {
+  std::uint64_t count = 0, harmed = 0;
+  double placed = 0, dropped = 0;
+  for (const ResultRow& row : cases.rows) {
+    const bool is_meant = text_in(cases, row, "rule") == rule && text_in(cases, row, "status") == "ok" &&
+                          (lattice == "all" || text_in(cases, row, "lattice") == lattice);
+    if (!is_meant) continue;
+    ++count;
+    harmed += number_in(cases, row, "dropped") > 0;
+    placed += number_in(cases, row, "interior_vertices");
+    dropped += number_in(cases, row, "dropped");
+  }
+  add_row(table, {}, rule, lattice, count, placed, dropped, harmed);
+}
+
+ResultTable rules_table(const ResultTable& cases) {
+  ResultTable table = table_of(
       "rules", "What the rules let through",
       {label_column("rule"), label_column("lattice"), figure_column("cases"), figure_column("interior_vertices"),
        figure_column("dropped", dropped_title), figure_column("harmed", "cases with such points")});
-  const auto add = [&](InteriorRule rule, std::string_view lattice, const InteriorSummary& s) {
-    add_row(rules_table, {}, name_of(rule), lattice, s.cases, s.placed, s.dropped, s.harmed);
-  };
-  for (const InteriorRule rule : rules) {
-    for (const Lattice lattice : lattices) add(rule, name_of(lattice), summarize(points.cases, rule, lattice));
-    add(rule, "all", summarize(points.cases, rule));
+  for (const InteriorRule& rule : rules()) {
+    for (const Lattice lattice : lattices) add_sums(cases, rule.name, std::string(name_of(lattice)), table);
+    add_sums(cases, rule.name, "all", table);
   }
-  ResultTable cases = table_of("cases", "The cases",
-                               {label_column("model"), label_column("edge_length"), label_column("rule"),
-                                label_column("lattice"), label_column("status"), figure_column("interior_vertices"),
-                                figure_column("dropped", dropped_title), note_column("reason")});
-  for (const InteriorCase& c : points.cases)
-    add_row(cases, c.runs, c.input, c.edge_length > 0 ? rounded(c.edge_length) : "", name_of(c.rule),
-            name_of(c.lattice), name_of(c.status), c.counts.interior_vertices, c.counts.dropped_interior_vertices,
-            c.reason);
-  return {existence, rules_table, cases};
+  return table;
 }
 
-std::string existence_finding(const InteriorPoints& points) {
+std::string existence_finding(std::span<const ExistenceTrials> existence) {
   std::uint64_t cases = 0, lost = 0;
-  for (const ExistenceTrials& trials : points.existence) {
+  for (const ExistenceTrials& trials : existence) {
     cases += trials.cases;
     lost += trials.lost;
   }
   return share_words(lost, cases) + " small PLCs with a CDT have none when one interior point is added";
 }
 
-std::vector<std::string> findings_of(const InteriorPoints& points) {
-  std::vector<std::string> lines = {existence_finding(points)};
-  for (const InteriorRule rule : rules) {
-    const InteriorSummary s = summarize(points.cases, rule);
-    const std::string rule_words = "Rule \"" + std::string(name_of(rule)) + "\": ";
-    if (s.cases == 0)
-      lines.push_back(rule_words + "no case to judge by");
-    else if (s.harmed == 0)
-      lines.push_back(rule_words + "no point did harm in " + with_separators(s.cases) + " cases with " +
-                      with_separators(s.placed) + " interior vertices");
-    else
-      lines.push_back(rule_words + "points do harm: " + with_separators(s.dropped) + " points of " +
-                      with_separators(s.placed + s.dropped) + " would have destroyed a protected edge, in " +
-                      share_words(s.harmed, s.cases) + " cases");
-  }
-  return lines;
+/// What a row for all lattices says of its rule.
+std::string rule_finding(const ResultTable& table, const ResultRow& row) {
+  const auto count = [&](const char* column) { return static_cast<std::uint64_t>(number_in(table, row, column)); };
+  const std::uint64_t cases = count("cases"), placed = count("interior_vertices"), dropped = count("dropped");
+  const std::string rule = "Rule \"" + text_in(table, row, "rule") + "\": ";
+  if (cases == 0) return rule + "no case to judge by";
+  if (dropped == 0)
+    return rule + "no point did harm in " + with_separators(cases) + " cases with " + with_separators(placed) +
+           " interior vertices";
+  return rule + "points do harm: " + with_separators(dropped) + " points of " + with_separators(placed + dropped) +
+         " would have destroyed a protected edge, in " + share_words(count("harmed"), cases) + " cases";
 }
 
 }  // namespace
@@ -135,70 +140,57 @@ SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed) {
 }
 
 std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
+  const auto has_one = [](const SmallPlc& plc) { return search_constrained_delaunay(plc).constrained_delaunay > 0; };
   std::vector<ExistenceTrials> all;
   std::uint64_t seed = 1;
   for (const Family& family : small_plcs::families()) {
     if (family.is_cospherical) continue;
-    ExistenceTrials trials{.family = std::string(family.name)};
+    ExistenceTrials& trials = all.emplace_back();
+    trials.family = family.name;
     small_plcs::Random random(++seed);
     for (std::uint64_t i = 0; i < cases_a_family; ++i) {
-      const SmallPlc plc = next_plc(family, random);
-      const SmallPlc more = with_interior_point(plc, ++seed);
-      if (more.vertices.empty() || !has_constrained_delaunay(plc)) continue;
+      const SmallPlc plc = next_plc(family, random), more = with_interior_point(plc, ++seed);
+      if (more.vertices.empty() || !has_one(plc)) continue;
       ++trials.cases;
-      if (has_constrained_delaunay(more)) continue;
+      if (has_one(more)) continue;
       const bool is_smallest = trials.lost++ == 0 || more.vertices.size() < trials.counterexample.vertices.size();
       if (is_smallest) trials.counterexample = more;
     }
-    all.push_back(std::move(trials));
   }
   return all;
 }
 
-InteriorSummary summarize(std::span<const InteriorCase> cases, InteriorRule rule, std::optional<Lattice> lattice) {
-  InteriorSummary summary;
-  for (const InteriorCase& c : cases) {
-    if (c.rule != rule || (lattice && c.lattice != *lattice)) continue;
-    if (!c.ok()) {
-      ++summary.failed;
-      continue;
-    }
-    ++summary.cases;
-    summary.harmed += c.counts.dropped_interior_vertices > 0;
-    summary.placed += c.counts.interior_vertices;
-    summary.dropped += c.counts.dropped_interior_vertices;
-  }
-  return summary;
+ExperimentResult interior_points_result(std::span<const InteriorRow> rows, std::span<const ExistenceTrials> existence) {
+  const ResultTable cases = cases_table(rows), by_rule = rules_table(cases);
+  ExperimentResult result{.how = once(),
+                          .definitions = definitions(),
+                          .tables = {existence_table(existence), by_rule, cases},
+                          .findings = {existence_finding(existence)}};
+  for (const ResultRow& row : by_rule.rows)
+    if (text_in(by_rule, row, "lattice") == "all") result.findings.push_back(rule_finding(by_rule, row));
+  for (const InteriorRow& row : rows) add_problem_of(row, result);
+  return result;
 }
 
-InteriorPoints measure_interior_points(const ExperimentOptions& options, const Progress& progress) {
-  InteriorPoints points{start_experiment(options, 1), {}, {}};
+ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner) {
   std::vector<SurfaceFile> files = write_solids(options, "interior-points", coarsenings);
   append(files, input_files(options));
   check_something_is_measured(files.size(), "interior-points");
-  const std::uint64_t total = files.size() * lattices.size() * rules.size();
+  std::vector<InteriorRow> rows;
   for (const SurfaceFile& file : files)
     for (const Lattice lattice : lattices)
-      for (const InteriorRule rule : rules) {
-        const std::uint64_t number = points.cases.size();
-        report(progress, file.name + " " + std::string(name_of(lattice)), number, total);
-        points.cases.push_back(run(options, file, lattice, rule, number));
+      for (const InteriorRule& rule : rules()) {
+        const std::string name(name_of(lattice)), at = file.edge_length > 0 ? " at " + rounded(file.edge_length) : "";
+        std::vector<std::string> words = rule.options;
+        append(words, std::vector<std::string>{"--improve", "none", "--lattice", name});
+        InteriorRow& row = rows.emplace_back();
+        row = {{}, file.name, file.edge_length, rule.name, lattice};
+        row.measured.asked =
+            single_case(options, file.name + at + ", " + name + ", " + rule.name, "ccdt", file.file, words);
       }
-  std::filesystem::remove(options.folder / "meshes" / "interior-points.vtu");
-  points.existence = try_interior_points(static_cast<std::uint64_t>(options.tetrahedra) / tetrahedra_a_trial);
-  return points;
-}
-
-ExperimentResult result_of(const InteriorPoints& points) {
-  ExperimentResult result{
-      .how = points.how, .definitions = definitions(), .tables = tables_of(points), .findings = findings_of(points)};
-  for (const InteriorCase& c : points.cases) {
-    if (c.ok()) continue;
-    const std::string at = c.edge_length > 0 ? " at " + rounded(c.edge_length) : "";
-    add_problem(result, c.input + at + ", " + std::string(name_of(c.lattice)) + ", " + std::string(name_of(c.rule)) +
-                            ": " + c.failure());
-  }
-  return result;
+  measure_rows(runner, rows);
+  return interior_points_result(
+      rows, try_interior_points(static_cast<std::uint64_t>(options.tetrahedra / tetrahedra_a_trial)));
 }
 
 }  // namespace ccdt::experiments

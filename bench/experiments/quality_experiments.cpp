@@ -10,188 +10,212 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr std::array all_lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
-constexpr std::array sphere_factors = {0.9, 1.0, 1.1, 1.2};
-constexpr std::array clearances = {0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8};
+/// By what meshes are compared: columns of the table of quality.
+constexpr std::array<std::string_view, 5> all_criteria = {"mean_r", "p99_r", "worst_r", "smallest_dihedral",
+                                                          "largest_dihedral"};
+constexpr std::span<const std::string_view> judged_criteria = std::span(all_criteria).first<4>();
 
-/// All that this build and this machine have of the meshers to compare, or what the user has asked for.
-std::vector<QualityVariant> mesher_variants(const ExperimentOptions& options) {
-  std::vector<QualityVariant> variants = {
-      {"ccdt fcc", "ccdt", {"--lattice", "fcc", "--improve", "all"}, {}},
-      {"ccdt fcc unimproved", "ccdt", {"--lattice", "fcc", "--improve", "none"}, {}},
-      {"ccdt bcc", "ccdt", {"--lattice", "bcc", "--improve", "all"}, {}}};
-  for (const char* name : {"tetgen", "cgal-mesh3", "gmsh-hxt"})
-    if (is_measured(options, name)) variants.push_back({name, name, {"--improve", "all"}, {}});
-  for (const std::string& file : described_meshers(options))
-    variants.push_back({baselines::mesher(file).name, file, {"--improve", "all"}, {}});
-  for (QualityVariant& variant : variants) variant.labels = {baselines::mesher(variant.mesher).name, variant.name};
-  return variants;
+std::string in_words(std::string_view criterion) {
+  std::string words(criterion);
+  std::ranges::replace(words, '_', ' ');
+  return words;
 }
 
-ResultTable verdicts_table(const MesherQuality& quality) {
+/// Is a strictly better than b?
+bool is_better(std::string_view criterion, double a, double b) {
+  return criterion == "smallest_dihedral" ? a > b : a < b;
+}
+
+/// A row of the table of quality.
+struct Mesh {
+  const ResultTable* table;
+  const ResultRow* row;
+
+  std::string text(std::string_view column) const { return text_in(*table, *row, column); }
+  double number(std::string_view column) const { return number_in(*table, *row, column); }
+  bool ok() const { return text("status") == "ok"; }
+};
+
+/// The meshes of each model.
+std::vector<std::vector<Mesh>> meshes_by_model(const ExperimentResult& result) {
+  const ResultTable& table = *results::find_table(result, "quality");
+  std::vector<std::vector<Mesh>> models;
+  for (const ResultRow& row : table.rows) {
+    const Mesh mesh{&table, &row};
+    if (models.empty() || models.back().front().text("model") != mesh.text("model")) models.emplace_back();
+    models.back().push_back(mesh);
+  }
+  return models;
+}
+
+/// Is none of the others better?
+bool is_best(const Mesh& mesh, const std::vector<Mesh>& others, std::string_view criterion) {
+  return mesh.ok() && std::ranges::none_of(others, [&](const Mesh& other) {
+           return other.ok() && is_better(criterion, other.number(criterion), mesh.number(criterion));
+         });
+}
+
+/// Of other meshers' comparable meshes the best by a criterion; none if there is no such mesh.
+std::optional<Mesh> best_other(const std::vector<Mesh>& meshes, std::string_view criterion) {
+  std::optional<Mesh> best;
+  for (const Mesh& mesh : meshes) {
+    if (mesh.text("mesher") == "ccdt" || !mesh.ok() || mesh.text("comparable") != "yes") continue;
+    if (!best || is_better(criterion, mesh.number(criterion), best->number(criterion))) best = mesh;
+  }
+  return best;
+}
+
+ResultTable verdicts_table(const ExperimentResult& result) {
   ResultTable table =
       table_of("verdicts", "Better than all others?",
                {label_column("model"), label_column("variant"), label_column("criterion", "by"),
                 figure_column("better", "better than all others"), figure_column("ours"),
                 figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")});
-  for (const QualityCase& c : quality.cases)
-    for (const QualityRow& row : c.rows) {
-      if (!row.is_ours) continue;
-      for (const QualityComparison& v : compare_with_others(c, row)) {
-        const bool is_alone = v.best_variant.empty();
-        add_row(table, row.runs, c.name, row.variant, name_of(v.criterion), cell_if(!is_alone, v.is_better()), v.ours,
-                cell_if(!is_alone, v.best), v.best_variant);
+  for (const std::vector<Mesh>& meshes : meshes_by_model(result))
+    for (const Mesh& mesh : meshes) {
+      if (mesh.text("mesher") != "ccdt" || !mesh.ok()) continue;
+      for (const std::string_view criterion : judged_criteria) {
+        const double ours = mesh.number(criterion);
+        const auto best = best_other(meshes, criterion);
+        const double theirs = best ? best->number(criterion) : 0;
+        add_row(table, mesh.row->runs, mesh.text("model"), mesh.text("variant"), in_words(criterion),
+                cell_if(best.has_value(), is_better(criterion, ours, theirs)), ours, cell_if(best.has_value(), theirs),
+                best ? best->text("variant") : "");
       }
     }
   return table;
 }
 
 /// In how many cases each variant of ours is better than all others, by each criterion.
-std::vector<std::string> verdict_findings(const MesherQuality& quality) {
-  struct Score {
-    std::uint64_t better = 0, cases = 0;
-  };
-  std::map<std::string, std::map<Criterion, Score>> scores;
-  for (const QualityCase& c : quality.cases)
-    for (const QualityRow& row : c.rows)
-      for (const QualityComparison& verdict :
-           row.is_ours ? compare_with_others(c, row) : std::vector<QualityComparison>()) {
-        Score& score = scores[row.variant][verdict.criterion];
-        score.better += verdict.is_better();
-        score.cases += !verdict.best_variant.empty();
-      }
-  std::vector<std::string> lines;
+void conclude_mesher_quality(ExperimentResult& result) {
+  const ResultTable verdicts = verdicts_table(result);
+  std::map<std::string, std::map<std::string, std::pair<std::uint64_t, std::uint64_t>>> scores;
+  for (const ResultRow& row : verdicts.rows) {
+    const std::string better = text_in(verdicts, row, "better");
+    auto& [won, cases] = scores[text_in(verdicts, row, "variant")][text_in(verdicts, row, "criterion")];
+    won += better == "yes";
+    cases += !better.empty();
+  }
   for (const auto& [variant, by_criterion] : scores) {
     std::vector<std::string> parts;
-    for (const auto& [criterion, score] : by_criterion)
-      parts.push_back(std::string(name_of(criterion)) + " in " + share_words(score.better, score.cases));
-    lines.push_back(variant + " is better than all others in " + joined(parts) + " cases");
+    for (const std::string_view criterion : judged_criteria) {
+      const auto& [won, cases] = by_criterion.at(in_words(criterion));
+      parts.push_back(in_words(criterion) + " in " + share_words(won, cases));
+    }
+    result.findings.push_back(variant + " is better than all others in " + joined(parts) + " cases");
   }
-  return lines;
+  result.tables.insert(result.tables.begin() + 1, verdicts);
 }
 
-std::string variant_name(Lattice lattice, bool improved) {
-  return std::string(name_of(lattice)) + (improved ? " improved" : "");
-}
+constexpr std::array all_lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
 
-std::vector<QualityVariant> lattice_variants() {
-  std::vector<QualityVariant> all;
-  for (const bool improved : {false, true})
-    for (const Lattice lattice : all_lattices)
-      all.push_back({variant_name(lattice, improved),
-                     "ccdt",
-                     {"--lattice", std::string(name_of(lattice)), "--improve", improved ? "all" : "none"},
-                     {std::string(name_of(lattice)), improved ? "yes" : "no"}});
-  return all;
-}
-
-/// Adds a case to a claim, if all three lattices went well in it.
-void add_case(const QualityCase& c, LatticeClaim& claim) {
-  std::array<double, 3> values{};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto row = std::ranges::find(c.rows, variant_name(all_lattices[i], claim.improved), &QualityRow::variant);
-    if (row == c.rows.end() || !row->ok()) return;
-    values[i] = value_of(row->quality, claim.criterion);
+/// In how many cases each lattice is the best by a criterion, alone or with others; cases in which one failed are left
+/// out.
+void add_best_lattice(const ExperimentResult& result, std::string_view criterion, bool improved, ResultTable& table) {
+  std::uint64_t cases = 0;
+  std::array<std::uint64_t, all_lattices.size()> best{};
+  for (std::vector<Mesh> meshes : meshes_by_model(result)) {
+    std::erase_if(meshes, [&](const Mesh& mesh) { return (mesh.text("improved") == "yes") != improved; });
+    if (meshes.size() != best.size() || !std::ranges::all_of(meshes, &Mesh::ok)) continue;
+    ++cases;
+    for (std::size_t i = 0; i < best.size(); ++i) best[i] += is_best(meshes[i], meshes, criterion);
   }
-  ++claim.cases;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    claim.best[i] += std::ranges::none_of(values, [&](double v) { return is_better(claim.criterion, v, values[i]); });
+  const bool is_confirmed = cases > 0 && best[0] == cases && best[1] == 0 && best[2] == 0;
+  add_row(table, {}, in_words(criterion), improved, is_confirmed, cases, best[0], best[1], best[2]);
 }
 
-/// In how many cases each lattice is the best.
-ResultTable best_lattice_table(const std::vector<LatticeClaim>& claims) {
+void conclude_lattices(ExperimentResult& result) {
   ResultTable table =
       table_of("best", "The best lattice",
                {label_column("criterion", "by"), label_column("improved"),
                 figure_column("confirmed", "FCC alone is the best in every case"), figure_column("cases"),
                 figure_column("fcc", "FCC best"), figure_column("bcc", "BCC best"), figure_column("sc", "SC best")});
-  for (const LatticeClaim& claim : claims)
-    add_row(table, {}, name_of(claim.criterion), claim.improved, claim.is_confirmed(), claim.cases, claim.best[0],
-            claim.best[1], claim.best[2]);
-  return table;
-}
-
-std::vector<std::string> lattice_findings(const std::vector<LatticeClaim>& claims) {
-  std::vector<std::string> lines;
-  for (const bool improved : {false, true}) {
-    std::vector<std::string> confirmed, refuted;
-    for (const LatticeClaim& claim : claims) {
-      if (claim.improved != improved || claim.cases == 0) continue;
-      (claim.is_confirmed() ? confirmed : refuted).emplace_back(name_of(claim.criterion));
+  for (const bool improved : {false, true})
+    for (const std::string_view criterion : all_criteria) add_best_lattice(result, criterion, improved, table);
+  for (const std::string improved : {"no", "yes"})
+    for (const std::string confirmed : {"yes", "no"}) {
+      std::vector<std::string> criteria;
+      for (const ResultRow& row : table.rows)
+        if (text_in(table, row, "improved") == improved && text_in(table, row, "confirmed") == confirmed &&
+            number_in(table, row, "cases") > 0)
+          criteria.push_back(text_in(table, row, "criterion"));
+      if (criteria.empty()) continue;
+      result.findings.push_back("That FCC is best is " + std::string(confirmed == "yes" ? "" : "not ") + "confirmed " +
+                                (improved == "yes" ? "after" : "before") + " improvement by: " + joined(criteria));
     }
-    const std::string meshes = improved ? "after improvement by: " : "before improvement by: ";
-    if (!confirmed.empty()) lines.push_back("That FCC is best is confirmed " + meshes + joined(confirmed));
-    if (!refuted.empty()) lines.push_back("That FCC is best is not confirmed " + meshes + joined(refuted));
-  }
-  return lines;
-}
-
-/// Is no other row of the case better?
-bool is_best(const QualityCase& c, const QualityRow& row, Criterion criterion) {
-  const double ours = value_of(row.quality, criterion);
-  return row.ok() && std::ranges::none_of(c.rows, [&](const QualityRow& other) {
-           return other.ok() && is_better(criterion, value_of(other.quality, criterion), ours);
-         });
+  result.tables.insert(result.tables.begin(), table);
 }
 
 /// In how many cases each part is the best, alone or with others.
-ResultTable best_part_table(const ImprovementParts& parts) {
+void conclude_improvement(ExperimentResult& result) {
   ResultTable table = table_of("best", "The best in so many cases",
                                {label_column("improve", "improvement"), label_column("criterion", "by"),
                                 figure_column("cases"), figure_column("best", "best in")});
-  if (parts.cases.empty()) return table;
-  for (std::size_t i = 0; i < parts.cases.front().rows.size(); ++i)
-    for (const Criterion criterion : judged_criteria) {
-      std::uint64_t best = 0;
-      for (const QualityCase& c : parts.cases) best += i < c.rows.size() && is_best(c, c.rows[i], criterion);
-      add_row(table, {}, parts.cases.front().rows[i].variant, name_of(criterion), parts.cases.size(), best);
+  const auto models = meshes_by_model(result);
+  for (std::size_t part = 0; !models.empty() && part < models.front().size(); ++part)
+    for (const std::string_view criterion : judged_criteria) {
+      const auto is_best_of = [&](const std::vector<Mesh>& meshes) { return is_best(meshes[part], meshes, criterion); };
+      add_row(table, {}, models.front()[part].text("improve"), in_words(criterion), std::uint64_t{models.size()},
+              static_cast<std::uint64_t>(std::ranges::count_if(models, is_best_of)));
     }
-  return table;
+  result.tables.insert(result.tables.begin(), table);
 }
 
-/// The cases that can be summed up: every setting went well.
-std::vector<const QualityCase*> whole_cases(const LatticeFit& fit, std::size_t settings) {
-  std::vector<const QualityCase*> cases;
-  for (const QualityCase& c : fit.cases)
-    if (c.rows.size() == settings && std::ranges::all_of(c.rows, &QualityRow::ok)) cases.push_back(&c);
-  return cases;
+std::string setting_in_words(double sphere_factor, double clearance) {
+  return "sphere " + digits(sphere_factor) + ", clearance " + digits(clearance);
 }
 
-/// From 1: by how many rows this one is surpassed; those that are as good share the mean of their places.
-double rank_of(const QualityRow& row, const QualityCase& c, Criterion criterion) {
-  const double value = value_of(row.quality, criterion);
+std::string default_setting() {
+  return setting_in_words(MeshOptions().sphere_factor, MeshOptions().clearance);
+}
+
+/// From 1: by how many meshes this one is surpassed; those that are as good share the mean of their places.
+double rank_of(const Mesh& mesh, const std::vector<Mesh>& others, std::string_view criterion) {
+  const double value = mesh.number(criterion);
   double better = 0, equal = 0;
-  for (const QualityRow& other : c.rows) {
-    const double theirs = value_of(other.quality, criterion);
-    better += is_better(criterion, theirs, value);
-    equal += theirs == value;
+  for (const Mesh& other : others) {
+    better += is_better(criterion, other.number(criterion), value);
+    equal += other.number(criterion) == value;
   }
   return better + (equal + 1) / 2;
 }
 
-SettingSummary summary_of(const LatticeSetting& setting, std::size_t number,
-                          const std::vector<const QualityCase*>& cases) {
-  SettingSummary sum{setting};
-  sum.least_dihedral = 180;
-  const double share = 1 / static_cast<double>(cases.size());
-  for (const QualityCase* c : cases) {
-    const QualityRow& row = c->rows[number];
-    const bench::Quality& q = row.quality;
-    sum.mean_r += share * q.r.mean;
-    sum.p99_r += share * q.r.p99;
-    sum.worst_r += share * std::log(q.r.max);
-    sum.smallest_dihedral += share * q.dihedral_degrees.min;
-    sum.largest_worst_r = std::max(sum.largest_worst_r, q.r.max);
-    sum.least_dihedral = std::min(sum.least_dihedral, q.dihedral_degrees.min);
-    sum.improve_seconds += row.improve_seconds;
-    for (const Criterion criterion : judged_criteria)
-      sum.rank += share * rank_of(row, *c, criterion) / static_cast<double>(judged_criteria.size());
+/// A setting over all models.
+void add_setting(const std::vector<std::vector<Mesh>>& models, std::size_t setting, ResultTable& table) {
+  double rank = 0, mean_r = 0, p99_r = 0, log_worst_r = 0, largest_worst_r = 0, smallest_dihedral = 0,
+         least_dihedral = 180, improve_seconds = 0;
+  const double share = 1 / static_cast<double>(models.size());
+  for (const std::vector<Mesh>& meshes : models) {
+    const Mesh& mesh = meshes[setting];
+    mean_r += share * mesh.number("mean_r");
+    p99_r += share * mesh.number("p99_r");
+    log_worst_r += share * std::log(mesh.number("worst_r"));
+    smallest_dihedral += share * mesh.number("smallest_dihedral");
+    largest_worst_r = std::max(largest_worst_r, mesh.number("worst_r"));
+    least_dihedral = std::min(least_dihedral, mesh.number("smallest_dihedral"));
+    improve_seconds += mesh.number("improve_seconds");
+    for (const std::string_view criterion : judged_criteria)
+      rank += share * rank_of(mesh, meshes, criterion) / static_cast<double>(judged_criteria.size());
   }
-  sum.worst_r = std::exp(sum.worst_r);
-  return sum;
+  add_row(table, {}, models.front()[setting].text("setting"), rank, mean_r, p99_r, std::exp(log_worst_r),
+          largest_worst_r, smallest_dihedral, least_dihedral, improve_seconds);
 }
 
-ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
+std::vector<std::string> setting_findings(const ResultTable& table) {
+  if (table.rows.empty()) return {"There is no surface on which every setting went well."};
+  const auto setting = [&](const ResultRow& row) { return text_in(table, row, "setting"); };
+  const auto rank = [&](const ResultRow& row) { return number_in(table, row, "rank"); };
+  const auto usual = std::ranges::find(table.rows, default_setting(), setting);
+  auto best = std::ranges::min_element(table.rows, {}, rank);
+  if (rank(*usual) <= rank(*best)) best = usual;  // as good as any
+  return {"The best setting is " + setting(*best) + ", with a mean rank of " + rounded(rank(*best)) + " among " +
+              std::to_string(table.rows.size()),
+          best == usual ? "It is the default"
+                        : "The default, " + default_setting() + ", has a mean rank of " + rounded(rank(*usual))};
+}
+
+/// Sums up the models on which every setting went well.
+void conclude_lattice_fit(ExperimentResult& result) {
   ResultTable table =
       table_of("settings", "The settings",
                {label_column("setting"), figure_column("rank"), figure_column("mean_r"),
@@ -199,206 +223,109 @@ ResultTable settings_table(const std::vector<SettingSummary>& summaries) {
                 figure_column("largest_worst_r", "worst r of all"), figure_column("smallest_dihedral", "", "degrees"),
                 figure_column("least_dihedral", "smallest of all", "degrees"),
                 time_column("improve_seconds", "improvement", "s")});
-  for (const SettingSummary& s : summaries)
-    add_row(table, {}, text_of(s.setting), s.rank, s.mean_r, s.p99_r, s.worst_r, s.largest_worst_r, s.smallest_dihedral,
-            s.least_dihedral, s.improve_seconds);
-  return table;
-}
-
-std::vector<std::string> setting_findings(const std::vector<SettingSummary>& summaries) {
-  if (summaries.empty()) return {"There is no surface on which every setting went well."};
-  const auto usual = std::ranges::find(summaries, default_lattice_setting(), &SettingSummary::setting);
-  auto best = std::ranges::min_element(summaries, {}, &SettingSummary::rank);
-  if (usual->rank <= best->rank) best = usual;  // as good as any
-  std::vector<std::string> lines = {"The best setting is " + text_of(best->setting) + ", with a mean rank of " +
-                                    rounded(best->rank) + " among " + std::to_string(summaries.size())};
-  if (best->setting == usual->setting)
-    lines.emplace_back("It is the default");
-  else
-    lines.push_back("The default, " + text_of(usual->setting) + ", has a mean rank of " + rounded(usual->rank));
-  return lines;
+  auto models = meshes_by_model(result);
+  std::erase_if(models, [](const std::vector<Mesh>& meshes) { return !std::ranges::all_of(meshes, &Mesh::ok); });
+  for (std::size_t setting = 0; !models.empty() && setting < models.front().size(); ++setting)
+    add_setting(models, setting, table);
+  result.findings = setting_findings(table);
+  result.tables.insert(result.tables.begin(), table);
 }
 
 }  // namespace
 
-double value_of(const bench::Quality& quality, Criterion criterion) {
-  switch (criterion) {
-    case Criterion::mean_r:
-      return quality.r.mean;
-    case Criterion::p99_r:
-      return quality.r.p99;
-    case Criterion::worst_r:
-      return quality.r.max;
-    case Criterion::smallest_dihedral:
-      return quality.dihedral_degrees.min;
-    case Criterion::largest_dihedral:
-      return quality.dihedral_degrees.max;
-  }
-  return 0;
+StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::string& experiment,
+                              const std::vector<std::string>& models) {
+  StudyPlan plan{
+      .experiment = experiment,
+      .models = models,
+      .labels = {label_column("mesher"), label_column("variant")},
+      .variants = {{"ccdt fcc", "ccdt", {"--lattice", "fcc", "--improve", "all"}},
+                   {"ccdt fcc unimproved", "ccdt", {"--lattice", "fcc", "--improve", "none"}},
+                   {"ccdt bcc", "ccdt", {"--lattice", "bcc", "--improve", "all"}}},
+      .definitions = {"Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
+                      "Rows that are more than 15% away from that number are shown, and not compared with.",
+                      "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge "
+                      "length.",
+                      "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a.",
+                      "cgal-mesh3: with perturbation and exudation.",
+                      "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
+                      "What takes long has at most three counted runs."},
+      .conclude = conclude_mesher_quality,
+      .equal_counts = true,
+      .keeps_meshes = true};
+  std::vector<std::string> others = described_meshers(options);
+  for (const char* name : {"gmsh-hxt", "cgal-mesh3", "tetgen"})
+    if (is_measured(options, name)) others.insert(others.begin(), name);
+  for (const std::string& other : others)
+    plan.variants.push_back({baselines::mesher(other).name, other, {"--improve", "all"}});
+  for (QualityVariant& variant : plan.variants) variant.labels = {baselines::mesher(variant.mesher).name, variant.name};
+  return plan;
 }
 
-bool is_better(Criterion criterion, double a, double b) {
-  return criterion == Criterion::smallest_dihedral ? a > b : a < b;
-}
-
-std::vector<QualityComparison> compare_with_others(const QualityCase& c, const QualityRow& ours) {
-  std::vector<QualityComparison> comparisons;
-  if (!ours.ok()) return comparisons;
-  for (const Criterion criterion : judged_criteria) {
-    QualityComparison comparison{criterion, value_of(ours.quality, criterion), 0, ""};
-    for (const QualityRow& other : c.rows) {
-      if (other.is_ours || !other.ok() || !other.is_comparable) continue;
-      const double value = value_of(other.quality, criterion);
-      if (!comparison.best_variant.empty() && !is_better(criterion, value, comparison.best)) continue;
-      comparison.best = value;
-      comparison.best_variant = other.variant;
-    }
-    comparisons.push_back(comparison);
-  }
-  return comparisons;
-}
-
-MesherQuality measure_mesher_quality(const ExperimentOptions& options, const std::string& experiment,
-                                     const std::vector<std::string>& models, const Progress& progress) {
-  const StudyPlan plan{.experiment = experiment,
-                       .models = models,
-                       .labels = {label_column("mesher"), label_column("variant")},
-                       .variants = mesher_variants(options),
-                       .equal_counts = true,
-                       .once = false,
-                       .keeps_meshes = true};
-  return {measure_study(options, plan, progress)};
-}
-
-ExperimentResult result_of(const MesherQuality& quality) {
-  const std::vector<std::string> definitions = {
-      "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
-      "Rows that are more than 15% away from that number are shown, and not compared with.",
-      "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge length.",
-      "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a.",
-      "cgal-mesh3: with perturbation and exudation.",
-      "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
-      "What takes long has at most three counted runs.",
-  };
-  ExperimentResult result = study_result(quality, definitions);
-  result.tables.insert(result.tables.begin() + 1, verdicts_table(quality));
-  result.findings = verdict_findings(quality);
-  return result;
-}
-
-std::vector<LatticeClaim> lattice_claims(const Lattices& lattices) {
-  std::vector<LatticeClaim> claims;
+StudyPlan lattices_plan() {
+  StudyPlan plan{
+      .experiment = "lattices",
+      .models = names_of_paper_models(),
+      .labels = {label_column("lattice"), label_column("improved")},
+      .definitions = {"The paper, section 3: of a unit cell, the tetrahedra of the FCC lattice are better than others.",
+                      "All lattices have the same number of vertices per volume, and the same surface.",
+                      "The claim is confirmed by a measure if FCC alone is the best in every case.",
+                      "Improvement stops at a target: lattices that all reach it differ in worst values by chance."},
+      .conclude = conclude_lattices,
+      .once = true};
   for (const bool improved : {false, true})
-    for (const Criterion criterion : lattice_criteria) {
-      LatticeClaim claim{criterion, improved};
-      for (const QualityCase& c : lattices.cases) add_case(c, claim);
-      claims.push_back(claim);
+    for (const Lattice lattice : all_lattices) {
+      const std::string name(name_of(lattice));
+      plan.variants.push_back({name + (improved ? " improved" : ""),
+                               "ccdt",
+                               {"--lattice", name, "--improve", improved ? "all" : "none"},
+                               {name, improved ? "yes" : "no"}});
     }
-  return claims;
+  return plan;
 }
 
-Lattices measure_lattices(const ExperimentOptions& options, const Progress& progress) {
-  const StudyPlan plan{.experiment = "lattices",
-                       .models = names_of_paper_models(),
-                       .labels = {label_column("lattice"), label_column("improved")},
-                       .variants = lattice_variants(),
-                       .equal_counts = false,
-                       .once = true};
-  return {measure_study(options, plan, progress)};
-}
-
-ExperimentResult result_of(const Lattices& lattices) {
-  const std::vector<std::string> definitions = {
-      "The paper, section 3: of a unit cell, the tetrahedra of the FCC lattice are better than others.",
-      "All lattices have the same number of vertices per volume, and the same surface.",
-      "The claim is confirmed by a measure if FCC alone is the best in every case.",
-      "Improvement stops at a target: lattices that all reach it differ in worst values by chance.",
-  };
-  ExperimentResult result = study_result(lattices, definitions);
-  const std::vector<LatticeClaim> claims = lattice_claims(lattices);
-  result.tables.insert(result.tables.begin(), best_lattice_table(claims));
-  result.findings = lattice_findings(claims);
-  return result;
-}
-
-ImprovementParts measure_improvement(const ExperimentOptions& options, const Progress& progress) {
+StudyPlan improvement_plan() {
   StudyPlan plan{.experiment = "improvement",
                  .models = names_of_paper_models(),
                  .labels = {label_column("improve", "improvement")},
-                 .variants = {}};
+                 .definitions = {"none: the constrained Delaunay tetrahedralization with its FCC lattice.",
+                                 "swap: other tetrahedra of the same vertices. smooth: other places for them.",
+                                 "all: both, and vertices inside are inserted and taken out.",
+                                 "Improve: median seconds of the improvement, which are part of the seconds."},
+                 .conclude = conclude_improvement};
   for (const char* improve : {"none", "swap", "smooth", "all"})
     plan.variants.push_back({improve, "ccdt", {"--lattice", "fcc", "--improve", improve}, {improve}});
-  return {measure_study(options, plan, progress)};
+  return plan;
 }
 
-ExperimentResult result_of(const ImprovementParts& parts) {
-  const std::vector<std::string> definitions = {
-      "none: the constrained Delaunay tetrahedralization with its FCC lattice.",
-      "swap: other tetrahedra of the same vertices. smooth: other places for them.",
-      "all: both, and vertices inside are inserted and taken out.",
-      "Improve: median seconds of the improvement, which are part of the seconds.",
-  };
-  ExperimentResult result = study_result(parts, definitions);
-  result.tables.insert(result.tables.begin(), best_part_table(parts));
-  return result;
-}
-
-LatticeSetting default_lattice_setting() {
-  return {MeshOptions().sphere_factor, MeshOptions().clearance};
-}
-
-std::vector<LatticeSetting> lattice_settings() {
-  std::vector<LatticeSetting> settings;
-  for (const double sphere_factor : sphere_factors)
-    for (const double clearance : clearances) settings.push_back({sphere_factor, clearance});
-  if (std::ranges::find(settings, default_lattice_setting()) == settings.end())
-    settings.push_back(default_lattice_setting());
-  return settings;
-}
-
-std::string text_of(const LatticeSetting& setting) {
-  return "sphere " + digits(setting.sphere_factor) + ", clearance " + digits(setting.clearance);
-}
-
-std::vector<SettingSummary> summarize(const LatticeFit& fit) {
-  const std::vector<LatticeSetting> settings = lattice_settings();
-  const auto cases = whole_cases(fit, settings.size());
-  std::vector<SettingSummary> summaries;
-  if (cases.empty()) return summaries;
-  for (std::size_t i = 0; i < settings.size(); ++i) summaries.push_back(summary_of(settings[i], i, cases));
-  return summaries;
-}
-
-LatticeFit measure_lattice_fit(const ExperimentOptions& options, const Progress& progress) {
-  StudyPlan plan{.experiment = "lattice-fit",
-                 .models = names_of_paper_models(),
-                 .labels = {label_column("setting")},
-                 .variants = {},
-                 .equal_counts = false,
-                 .once = true};
-  for (const LatticeSetting& setting : lattice_settings())
-    plan.variants.push_back({text_of(setting),
+StudyPlan lattice_fit_plan() {
+  StudyPlan plan{
+      .experiment = "lattice-fit",
+      .models = names_of_paper_models(),
+      .labels = {label_column("setting")},
+      .definitions =
+          {"Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
+           "Clearance: none nearer to the surface than --clearance edge lengths.",
+           "Rank: of the setting among all, from 1, mean over the cases and the four criteria.",
+           "The criteria: mean, p99 and worst r, and the smallest dihedral angle. The best has the least "
+           "rank.",
+           "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
+           "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together."},
+      .conclude = conclude_lattice_fit,
+      .once = true};
+  const auto add = [&](double sphere_factor, double clearance) {
+    const std::string name = setting_in_words(sphere_factor, clearance);
+    if (std::ranges::find(plan.variants, name, &QualityVariant::name) != plan.variants.end()) return;
+    plan.variants.push_back({name,
                              "ccdt",
-                             {"--lattice", "fcc", "--improve", "all", "--sphere-factor", digits(setting.sphere_factor),
-                              "--clearance", digits(setting.clearance)},
-                             {text_of(setting)}});
-  return {measure_study(options, plan, progress)};
-}
-
-ExperimentResult result_of(const LatticeFit& fit) {
-  const std::vector<std::string> definitions = {
-      "Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
-      "Clearance: none nearer to the surface than --clearance edge lengths.",
-      "Rank: of the setting among all, from 1, mean over the cases and the four criteria.",
-      "The criteria: mean, p99 and worst r, and the smallest dihedral angle. The best has the least rank.",
-      "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
-      "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together.",
+                             {"--lattice", "fcc", "--improve", "all", "--sphere-factor", digits(sphere_factor),
+                              "--clearance", digits(clearance)},
+                             {name}});
   };
-  ExperimentResult result = study_result(fit, definitions);
-  const std::vector<SettingSummary> summaries = summarize(fit);
-  result.tables.insert(result.tables.begin(), settings_table(summaries));
-  result.findings = setting_findings(summaries);
-  return result;
+  for (const double sphere_factor : {0.9, 1.0, 1.1, 1.2})
+    for (const double clearance : {0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8}) add(sphere_factor, clearance);
+  add(MeshOptions().sphere_factor, MeshOptions().clearance);
+  return plan;
 }
 
 }  // namespace ccdt::experiments

@@ -13,19 +13,15 @@ namespace {
 
 using Measure = std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)>;
 
-/// Of an experiment that first measures and then says what it found.
-template <class Measured>
-Measure in_two_steps(Measured (*measure)(const ExperimentOptions&, const Progress&)) {
-  return [measure](const ExperimentOptions& options, cases::Runner& runner) {
-    return result_of(measure(options, runner.settings().progress));
+/// Of a study of quality.
+Measure study(const std::function<StudyPlan(const ExperimentOptions&)>& plan) {
+  return [plan](const ExperimentOptions& options, cases::Runner& runner) {
+    return measure_study(options, runner, plan(options));
   };
 }
 
-/// Of an experiment that has no cases.
-Measure without_cases(ExperimentResult (*measure)(const ExperimentOptions&, const Progress&)) {
-  return [measure](const ExperimentOptions& options, cases::Runner& runner) {
-    return measure(options, runner.settings().progress);
-  };
+Measure quality(const std::string& name, const std::vector<std::string>& models) {
+  return study([=](const ExperimentOptions& options) { return mesher_quality_plan(options, name, models); });
 }
 
 /// The quality of one of the paper's models, which is then not among the user's choices.
@@ -33,18 +29,17 @@ Measure quality_figure(const std::string& name, const std::string& model) {
   return [name, model](const ExperimentOptions& options, cases::Runner& runner) {
     ExperimentOptions own = options;
     own.inputs.clear();
-    return result_of(measure_mesher_quality(own, name, {model}, runner.settings().progress));
+    return quality(name, {model})(own, runner);
   };
-}
-
-ExperimentResult measure_quality(const ExperimentOptions& options, cases::Runner& runner) {
-  return result_of(measure_mesher_quality(options, "quality", names_of_paper_models(), runner.settings().progress));
 }
 
 /// Gives the result the names that all other results of the experiment have.
 Measure named(const KnownExperiment& known) {
   return [known](const ExperimentOptions& options, cases::Runner& runner) {
+    Circumstances how = start_experiment(options, options.runs);
     ExperimentResult result = known.measure(options, runner);
+    if (result.how.runs > 0) how.runs = result.how.runs;
+    if (result.how.scale.empty()) result.how = how;
     result.name = known.name;
     result.title = known.title;
     result.section = known.section;
@@ -68,25 +63,25 @@ std::vector<KnownExperiment> all_experiments() {
       {"fig11", "Fig. 11: quality of the stepping pole's tetrahedra", "6, Fig. 11",
        "the stepping pole's " + quality_words, true, true, quality_figure("fig11", "stepping-pole")},
       {"lattices", "Lattices: is FCC the best?", "3", "FCC, BCC and SC, before and after improvement", true, true,
-       in_two_steps(measure_lattices)},
+       study([](const auto&) { return lattices_plan(); })},
       {"locators", "Locators: who finds the front's vertices and occluders fastest", "4",
        "grid, octree and cavity on even and on graded surfaces", true, false, measure_locators},
       {"delaunay", "Delaunay: insertion and wrapping beside CGAL and TetGen", "5",
        "the Delaunay tetrahedralization of the same points by four programs", true, false, measure_delaunay},
       {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
-       false, in_two_steps(measure_improvement)},
+       false, study([](const auto&) { return improvement_plan(); })},
       {"theorem1", "Theorem 1: protected if and only if there is a DT", "5.2, Theorem 1",
-       "Theorem 1 in both directions, by exhaustive search on small inputs", true, true,
-       without_cases(measure_theorem1)},
+       "Theorem 1 in both directions, by exhaustive search on small inputs", true, true, measure_theorem1},
       {"termination", "Termination: does splitting at midpoints end?", "2",
-       "midpoints and shells where segments meet at small angles", true, true, without_cases(measure_termination)},
+       "midpoints and shells where segments meet at small angles", true, true, measure_termination},
       {"interior-points", "Interior points: do they never harm existence?", "3",
-       "do interior points never harm existence, as the paper says?", true, true,
-       in_two_steps(measure_interior_points)},
+       "do interior points never harm existence, as the paper says?", true, true, measure_interior_points},
       {"quality", "Quality: our tetrahedra beside those of other meshers", "6",
-       "all three models and files of yours beside other meshers", false, false, measure_quality},
+       "all three models and files of yours beside other meshers", false, false,
+       quality("quality", names_of_paper_models())},
       {"lattice-fit", "Lattice fit: how near to the surface should lattice points be?", "3",
-       "many settings of --sphere-factor and --clearance", false, false, in_two_steps(measure_lattice_fit)},
+       "many settings of --sphere-factor and --clearance", false, false,
+       study([](const auto&) { return lattice_fit_plan(); })},
   };
   for (KnownExperiment& known : all) known.measure = named(known);
   return all;

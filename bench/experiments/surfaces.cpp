@@ -52,34 +52,28 @@ std::vector<SurfaceFile> input_files(const ExperimentOptions& options) {
   return files;
 }
 
-SurfaceSource solid_source(const std::string& name) {
+SurfaceSource surface_source(const std::string& name, const std::filesystem::path& file) {
+  const auto volume_of = [](const plc::InputPlc& input) { return bench::enclosed_volume(plc::build_plc(input)); };
+  if (!file.empty()) {
+    const plc::InputPlc input = io::read_plc(file);
+    return {.make = [input](double) { return input; }, .volume = volume_of(input)};
+  }
   const auto solid = std::ranges::find(models::solids(), name, &models::Solid::name);
-  SurfaceSource source{name, true, solid->finest, solid->coarsest, 0, {}};
-  source.volume = bench::enclosed_volume(plc::build_plc(models::make_solid(name, solid->default_edge_length)));
-  return source;
-}
-
-SurfaceSource file_source(const std::filesystem::path& file) {
-  SurfaceSource source;
-  source.name = file.string();
-  source.input = io::read_plc(file);
-  source.volume = bench::enclosed_volume(plc::build_plc(source.input));
-  return source;
+  return {.make = [name](double edge_length) { return models::make_solid(name, edge_length); },
+          .shortest = solid->finest,
+          .longest = solid->coarsest,
+          .volume = volume_of(models::make_solid(name, solid->default_edge_length))};
 }
 
 EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, const std::filesystem::path& file) {
-  EvenSurface surface;
-  surface.file = file;
-  surface.edge_length = edge_length;
-  plc::InputPlc input = source.is_solid ? models::make_solid(source.name, edge_length) : source.input;
-  surface.remeshed = !bench::has_even_triangles(plc::build_plc(input), edge_length);
-  if (surface.remeshed) input = surface::remesh_surface(input, {.edge_length = edge_length});
-  const plc::Plc plc = plc::build_plc(input);
-  surface.angles = bench::smallest_angles(plc);
-  surface.vertices = plc.vertices.size();
-  for (const plc::Facet& facet : plc.facets) surface.triangles += facet.triangles.size();
+  plc::InputPlc input = source.make(edge_length);
+  const bool is_even = bench::has_even_triangles(plc::build_plc(input), edge_length);
+  if (!is_even) input = surface::remesh_surface(input, {.edge_length = edge_length});
   io::write_plc(input, file);
-  return surface;
+  const plc::Plc plc = plc::build_plc(input);
+  EvenSurface made{file, edge_length, !is_even, plc.vertices.size(), 0, bench::smallest_angles(plc)};
+  for (const plc::Facet& facet : plc.facets) made.triangles += facet.triangles.size();
+  return made;
 }
 
 }  // namespace ccdt::experiments

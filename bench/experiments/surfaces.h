@@ -1,15 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/experiments/experiment.h"
 #include "bench/surface_measures.h"
-#include "engine/base/point.h"
 #include "engine/plc/input.h"
-#include "engine/plc/plc.h"
 
 namespace ccdt::experiments {
 
@@ -44,16 +43,14 @@ std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
 
 /// Where surfaces of any edge length come from: one of our solids, or a file of the user's.
 struct SurfaceSource {
-  std::string name;  ///< of the solid, or the path of the file
-  bool is_solid = false;
-  double shortest = 0, longest = 1e300;  ///< edge lengths that it can have
-  double volume = 0;                     ///< of what is inside
-  plc::InputPlc input;                   ///< a file's content
+  std::function<plc::InputPlc(double edge_length)> make;  ///< a file has the edges that it has
+  double shortest = 0, longest = 1e300;                   ///< edge lengths that it can have
+  double volume = 0;                                      ///< of what is inside
 };
 
+/// \param file  of the user's; empty: the solid of that name
 /// \throw InputError  the file cannot be read or is no valid PLC
-SurfaceSource solid_source(const std::string& name);
-SurfaceSource file_source(const std::filesystem::path& file);
+SurfaceSource surface_source(const std::string& name, const std::filesystem::path& file);
 
 /// A surface of triangles of nearly one size, in a file.
 struct EvenSurface {
@@ -64,8 +61,8 @@ struct EvenSurface {
   bench::SurfaceAngles angles;
 };
 
-/// Makes a solid of an edge length, or takes the user's file; remeshes it where its triangles are not even and of about
-/// that length; and writes it.
+/// Makes a surface of an edge length, remeshes it where its triangles are not even and of about that length, and writes
+/// it.
 ///
 /// \throw InputError, MeshError  as `remesh_surface`
 EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, const std::filesystem::path& file);

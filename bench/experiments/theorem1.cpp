@@ -10,31 +10,36 @@ namespace {
 constexpr double tetrahedra_per_case = 20;  ///< that a model is to get, for one PLC of each family
 constexpr std::uint64_t seed = 20050901;
 
-bool has_counterexample(const FamilyTrials& family) {
-  return family.against_if + family.against_only_if > 0;
-}
+/// What is counted of the trials of a family.
+struct TrialCount {
+  const char* name;
+  const char* title;
+  bool (*counts)(const small_plcs::Trial&);
+};
+using small_plcs::Trial;
+constexpr std::array trial_counts = {
+    TrialCount{"cases", "PLCs", [](const Trial&) { return true; }},
+    TrialCount{"premise", "edges and faces protected", [](const Trial& t) { return t.protection.premise(); }},
+    TrialCount{"dt", "with a DT", [](const Trial& t) { return t.has_dt; }},
+    TrialCount{"against_if", "protected, without a DT",
+               [](const Trial& t) { return t.protection.premise() && !t.has_dt; }},
+    TrialCount{"against_only_if", "with a DT, not protected",
+               [](const Trial& t) { return t.has_dt && !t.protection.premise(); }},
+    TrialCount{"edges_alone", "faces protected, an edge not",
+               [](const Trial& t) { return t.protection.faces && !t.protection.edges; }},
+    TrialCount{
+        "edges_alone_loose", "of these, the edge is of no facet",
+        [](const Trial& t) { return t.protection.faces && !t.protection.edges && t.protection.missing_is_loose; }},
+    TrialCount{"edge_protected", "edges protected", [](const Trial& t) { return t.protection.edges; }},
+    TrialCount{"edge_protected_without_cdt", "of these, without a CDT",
+               [](const Trial& t) { return t.protection.edges && t.search.constrained_delaunay == 0; }},
+    TrialCount{"engine_agrees", "the engine agrees", [](const Trial& t) { return t.disagreement.empty(); }},
+};
 
-std::uint64_t sum(std::span<const FamilyTrials> families, bool cospherical, std::uint64_t FamilyTrials::*count) {
-  std::uint64_t total = 0;
-  for (const FamilyTrials& family : families)
-    if (family.is_cospherical == cospherical) total += family.*count;
-  return total;
-}
-
-std::string model_file(const FamilyTrials& family) {
-  std::string name = family.name;
+std::string model_file(const Family& family) {
+  std::string name(family.name);
   std::ranges::replace(name, ' ', '-');
   return "models/theorem1-" + name + ".poly";
-}
-
-FamilyTrials measure(const Family& family, std::uint64_t cases, StepCounter& steps) {
-  FamilyTrials trials{.name = std::string(family.name), .is_cospherical = family.is_cospherical};
-  small_plcs::Random random(seed);
-  for (std::uint64_t i = 0; i < cases; ++i) {
-    steps.next(family.name);
-    add_trial(small_plcs::try_plc(small_plcs::next_plc(family, random), family.is_cospherical), trials);
-  }
-  return trials;
 }
 
 std::vector<std::string> definitions() {
@@ -57,100 +62,90 @@ std::vector<std::string> definitions() {
 
 ResultTable families_table(std::span<const FamilyTrials> families) {
   ResultTable table = table_of("families", "Small random PLCs held against Theorem 1",
-                               {label_column("family"), label_column("position"), figure_column("cases", "PLCs"),
-                                figure_column("premise", "edges and faces protected"), figure_column("dt", "with a DT"),
-                                figure_column("against_if", "protected, without a DT"),
-                                figure_column("against_only_if", "with a DT, not protected"),
-                                figure_column("edges_alone", "faces protected, an edge not"),
-                                figure_column("edges_alone_loose", "of these, the edge is of no facet"),
-                                figure_column("edge_protected", "edges protected"),
-                                figure_column("edge_protected_without_cdt", "of these, without a CDT"),
-                                figure_column("engine_agrees", "the engine agrees"),
-                                note_column("counterexample", "the smallest counterexample")});
-  for (const FamilyTrials& f : families) {
-    const std::string counterexample = model_file(f) + ": " + small_plcs::in_words(f.counterexample);
-    add_row(table, {}, f.name, f.is_cospherical ? "one sphere" : "general", f.cases, f.premise, f.dt, f.against_if,
-            f.against_only_if, f.edges_alone, f.edges_alone_loose, f.edge_protected, f.edge_protected_without_cdt,
-            cell_if(!f.is_cospherical, f.cases - f.disagreements), cell_if(has_counterexample(f), counterexample));
+                               {label_column("family"), label_column("position")});
+  for (const TrialCount& count : trial_counts) table.columns.push_back(figure_column(count.name, count.title));
+  table.columns.push_back(note_column("counterexample", "the smallest counterexample"));
+  for (const FamilyTrials& trials : families) {
+    const bool is_cospherical = trials.family.is_cospherical;
+    std::vector<Cell> values = cells(trials.family.name, is_cospherical ? "one sphere" : "general");
+    for (const std::uint64_t count : trials.counts) values.push_back(as_cell(count));
+    if (is_cospherical) values.back() = {};  // the engine takes another PLC
+    values.push_back(cell_if(trials.has_counterexample(),
+                             model_file(trials.family) + ": " + small_plcs::in_words(trials.counterexample)));
+    table.rows.push_back({std::move(values)});
   }
   return table;
 }
 
-/// "20 of 1,000", of the families in general position: those of `whole` without those of `exceptions`.
-std::string general_share(std::span<const FamilyTrials> families, std::uint64_t FamilyTrials::*whole,
-                          std::uint64_t FamilyTrials::*exceptions) {
-  const std::uint64_t all = sum(families, false, whole);
-  return share_words(all - sum(families, false, exceptions), all);
-}
-
-std::vector<std::string> findings_of(std::span<const FamilyTrials> families) {
-  using F = FamilyTrials;
-  const auto on_sphere = [&](auto part, auto whole) {
-    return share_words(sum(families, true, part), sum(families, true, whole));
+std::vector<std::string> findings_of(const ResultTable& table) {
+  const auto sum = [&](const char* position, const char* column) {
+    double total = 0;
+    for (const ResultRow& row : table.rows)
+      if (text_in(table, row, "position") == position) total += number_in(table, row, column);
+    return static_cast<std::uint64_t>(total);
+  };
+  const auto share = [&](const char* position, const char* part, const char* whole) {
+    return share_words(sum(position, part), sum(position, whole));
+  };
+  /// Of the families in general position: those of `whole` without those of `exceptions`.
+  const auto all_but = [&](const char* exceptions, const char* whole) {
+    const std::uint64_t all = sum("general", whole);
+    return share_words(all - sum("general", exceptions), all);
   };
   return {
-      "If: " + general_share(families, &F::premise, &F::against_if) +
+      "If: " + all_but("against_if", "premise") +
           " PLCs in general position that are grazeable edge protected and face protected have a DT",
-      "Only if: " + general_share(families, &F::dt, &F::against_only_if) +
+      "Only if: " + all_but("against_only_if", "dt") +
           " PLCs in general position that have a DT are grazeable edge protected and face protected",
-      "The theorem's proviso: with all vertices on one sphere, " + on_sphere(&F::against_only_if, &F::dt) +
-          " PLCs with a DT are not protected, and " + on_sphere(&F::against_if, &F::premise) +
+      "The theorem's proviso: with all vertices on one sphere, " + share("one sphere", "against_only_if", "dt") +
+          " PLCs with a DT are not protected, and " + share("one sphere", "against_if", "premise") +
           " that are protected have no DT",
       "Where all faces were protected but an edge was not, the edge was of no facet in " +
-          share_words(sum(families, false, &F::edges_alone_loose), sum(families, false, &F::edges_alone)) + " PLCs",
-      "Section 2: " + general_share(families, &F::edge_protected, &F::edge_protected_without_cdt) +
+          share("general", "edges_alone_loose", "edges_alone") + " PLCs",
+      "Section 2: " + all_but("edge_protected_without_cdt", "edge_protected") +
           " PLCs in general position that are grazeable edge protected have a CDT",
-      "The engine and the exhaustive tests agree on " + general_share(families, &F::cases, &F::disagreements) +
+      "The engine and the exhaustive tests agree on " + share("general", "engine_agrees", "cases") +
           " PLCs in general position",
   };
 }
 
 }  // namespace
 
-void add_trial(const small_plcs::Trial& trial, FamilyTrials& family) {
-  const small_plcs::ProtectionState& protection = trial.protection;
-  const bool premise = protection.premise();
-  ++family.cases;
-  family.premise += premise;
-  family.dt += trial.has_dt;
-  family.edges_alone += protection.faces && !protection.edges;
-  family.edges_alone_loose += protection.faces && !protection.edges && protection.missing_is_loose;
-  family.edge_protected += protection.edges;
-  family.edge_protected_without_cdt += protection.edges && trial.search.constrained_delaunay == 0;
-  if (!trial.disagreement.empty() && family.disagreements++ == 0)
-    family.first_disagreement = trial.disagreement + ": " + small_plcs::in_words(trial.plc);
-  if (premise == trial.has_dt) return;
-  if (!has_counterexample(family) || trial.plc.vertices.size() < family.counterexample.vertices.size())
-    family.counterexample = trial.plc;
-  ++(premise ? family.against_if : family.against_only_if);
+void add_trial(const Trial& trial, FamilyTrials& trials) {
+  trials.counts.resize(trial_counts.size());
+  for (std::size_t i = 0; i < trial_counts.size(); ++i) trials.counts[i] += trial_counts[i].counts(trial);
+  if (!trial.disagreement.empty() && trials.disagreements++ == 0)
+    trials.first_disagreement = trial.disagreement + ": " + small_plcs::in_words(trial.plc);
+  if (trial.protection.premise() == trial.has_dt) return;
+  if (!trials.has_counterexample() || trial.plc.vertices.size() < trials.counterexample.vertices.size())
+    trials.counterexample = trial.plc;
 }
 
 ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
-  ExperimentResult result;
-  result.definitions = definitions();
-  result.tables = {families_table(families)};
-  result.findings = findings_of(families);
-  for (const FamilyTrials& family : families) {
-    if (family.disagreements == 0) continue;
-    add_problem(result, family.name + ": " + with_separators(family.disagreements) +
-                            " PLCs; the first: " + family.first_disagreement);
-  }
+  ExperimentResult result{.how = once(), .definitions = definitions(), .tables = {families_table(families)}};
+  result.findings = findings_of(result.tables.front());
+  for (const FamilyTrials& trials : families)
+    if (trials.disagreements > 0)
+      add_problem(result, std::string(trials.family.name) + ": " + with_separators(trials.disagreements) +
+                              " PLCs; the first: " + trials.first_disagreement);
   return result;
 }
 
-ExperimentResult measure_theorem1(const ExperimentOptions& options, const Progress& progress) {
-  Circumstances how = start_experiment(options, 1);
+ExperimentResult measure_theorem1(const ExperimentOptions& options, cases::Runner& runner) {
   const auto cases = static_cast<std::uint64_t>(std::max(1.0, std::round(options.tetrahedra / tetrahedra_per_case)));
   std::vector<FamilyTrials> families;
-  StepCounter steps(progress, cases * small_plcs::families().size());
   for (const Family& family : small_plcs::families()) {
-    families.push_back(measure(family, cases, steps));
-    if (has_counterexample(families.back()))
-      io::write_plc(small_plcs::as_input(families.back().counterexample), options.folder / model_file(families.back()));
+    FamilyTrials& trials = families.emplace_back(FamilyTrials{family});
+    small_plcs::Random random(seed);
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      report(runner.settings().progress, family.name, i + cases * (families.size() - 1),
+             cases * small_plcs::families().size());
+      add_trial(small_plcs::try_plc(small_plcs::next_plc(family, random), family.is_cospherical), trials);
+    }
+    if (trials.has_counterexample())
+      io::write_plc(small_plcs::as_input(trials.counterexample), options.folder / model_file(family));
   }
-  ExperimentResult result = theorem1_result(families);
-  result.how = std::move(how);
-  return result;
+  return theorem1_result(families);
 }
 
 }  // namespace ccdt::experiments

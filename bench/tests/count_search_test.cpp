@@ -1,9 +1,9 @@
+#include "bench/count_search.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
-
-#include "bench/experiments/quality_experiments.h"
 
 namespace ccdt {
 namespace {
@@ -23,7 +23,7 @@ struct Mesher {
 
 TEST(CountSearch, NeedsTwoTriesWhereTheCountIsTheThirdPower) {
   Mesher mesher;
-  const auto found = experiments::search_edge_length({.wanted = 80000, .first = 1}, std::ref(mesher));
+  const auto found = bench::search_edge_length({.wanted = 80000, .first = 1}, std::ref(mesher));
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->is_near);
   EXPECT_NEAR(found->edge_length, 0.5, 0.001);
@@ -33,7 +33,7 @@ TEST(CountSearch, NeedsTwoTriesWhereTheCountIsTheThirdPower) {
 TEST(CountSearch, FindsItsWayWhereTheCountGrowsOtherwise) {
   for (const double exponent : {1.2, 2.0, 4.5}) {
     Mesher mesher{.exponent = exponent, .least = 3000};
-    const auto found = experiments::search_edge_length({.wanted = 50000, .first = 1.5}, std::ref(mesher));
+    const auto found = bench::search_edge_length({.wanted = 50000, .first = 1.5}, std::ref(mesher));
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->is_near) << exponent;
     EXPECT_NEAR(found->count, 50000, 2500) << exponent;
@@ -42,7 +42,7 @@ TEST(CountSearch, FindsItsWayWhereTheCountGrowsOtherwise) {
 
 TEST(CountSearch, KeepsTheNearestTryWhereTheCountCannotBeReached) {
   Mesher mesher{.least = 20000};
-  const auto found = experiments::search_edge_length({.wanted = 10000, .first = 1}, std::ref(mesher));
+  const auto found = bench::search_edge_length({.wanted = 10000, .first = 1}, std::ref(mesher));
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->is_near);
   EXPECT_LT(found->count, 20010);
@@ -52,7 +52,7 @@ TEST(CountSearch, KeepsTheNearestTryWhereTheCountCannotBeReached) {
 TEST(CountSearch, StaysWithinTheEdgeLengthsThatMayBeTried) {
   Mesher mesher;
   const auto found =
-      experiments::search_edge_length({.wanted = 1e9, .first = 1, .shortest = 0.4, .longest = 2}, std::ref(mesher));
+      bench::search_edge_length({.wanted = 1e9, .first = 1, .shortest = 0.4, .longest = 2}, std::ref(mesher));
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->is_near);
   EXPECT_NEAR(found->edge_length, 0.4, 1e-9);
@@ -61,10 +61,10 @@ TEST(CountSearch, StaysWithinTheEdgeLengthsThatMayBeTried) {
 
 TEST(CountSearch, EndsWhereTheMesherFails) {
   Mesher never{.fails_after = 0};
-  EXPECT_FALSE(experiments::search_edge_length({.wanted = 1e6, .first = 1}, std::ref(never)));
+  EXPECT_FALSE(bench::search_edge_length({.wanted = 1e6, .first = 1}, std::ref(never)));
   EXPECT_EQ(never.tried.size(), 1u);
   Mesher once{.fails_after = 1};
-  const auto found = experiments::search_edge_length({.wanted = 1e6, .first = 1}, std::ref(once));
+  const auto found = bench::search_edge_length({.wanted = 1e6, .first = 1}, std::ref(once));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->edge_length, 1);
 }
@@ -72,7 +72,7 @@ TEST(CountSearch, EndsWhereTheMesherFails) {
 TEST(CountSearch, EndsWhenLongerEdgesMakeHardlyFewer) {
   int tries = 0;
   const auto found =
-      experiments::search_edge_length({.wanted = 1000, .first = 1}, [&](double) -> std::optional<std::uint64_t> {
+      bench::search_edge_length({.wanted = 1000, .first = 1}, [&](double) -> std::optional<std::uint64_t> {
         ++tries;
         return 5000;
       });

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/experiments/measured_case.h"
 #include "bench/experiments/registry.h"
 #include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
@@ -91,28 +90,35 @@ TEST(InteriorExistence, IsLostInCounterexamplesThatCanBeLookedAt) {
   EXPECT_GT(lost, 0u);
 }
 
-experiments::InteriorCase interior_case(const char* input, Lattice lattice, experiments::InteriorRule rule,
-                                        std::uint64_t placed, std::uint64_t dropped) {
-  experiments::InteriorCase c{{}, input, 1, lattice, rule};
-  c.counts.interior_vertices = placed;
-  c.counts.dropped_interior_vertices = dropped;
-  return c;
+experiments::InteriorRow interior_row(const char* rule, Lattice lattice, std::uint64_t placed, std::uint64_t dropped) {
+  experiments::InteriorRow row{{}, "cube", 0.5, rule, lattice};
+  bench::RunRecord run;
+  run.counts.interior_vertices = placed;
+  run.counts.dropped_interior_vertices = dropped;
+  cases::add_run(row.measured, run);
+  return row;
 }
 
-TEST(InteriorPointsSummary, CountsCasesOfARuleAndAsideThoseThatFailed) {
-  const std::vector<experiments::InteriorCase> cases = {
-      interior_case("a", Lattice::fcc, experiments::InteriorRule::paper, 100, 0),
-      interior_case("a", Lattice::bcc, experiments::InteriorRule::paper, 90, 2),
-      interior_case("a", Lattice::bcc, experiments::InteriorRule::no_spheres, 95, 7),
-      {{baselines::RunStatus::failed, "why"}, "b", 1, Lattice::fcc, experiments::InteriorRule::paper}};
-  const experiments::InteriorSummary paper = experiments::summarize(cases, experiments::InteriorRule::paper);
-  EXPECT_EQ(paper.cases, 2u);
-  EXPECT_EQ(paper.failed, 1u);
-  EXPECT_EQ(paper.harmed, 1u);
-  EXPECT_EQ(paper.placed, 190u);
-  EXPECT_EQ(paper.dropped, 2u);
-  EXPECT_EQ(experiments::summarize(cases, experiments::InteriorRule::paper, Lattice::fcc).harmed, 0u);
-  EXPECT_EQ(experiments::summarize(cases, experiments::InteriorRule::no_distances).cases, 0u);
+TEST(InteriorPoints, ResultCountsTheHarmAndAsideTheCasesThatFailed) {
+  std::vector<experiments::InteriorRow> rows = {
+      interior_row("paper", Lattice::fcc, 1000, 0), interior_row("paper", Lattice::bcc, 90, 0),
+      interior_row("no spheres", Lattice::fcc, 1200, 3), interior_row("paper", Lattice::sc, 7, 7)};
+  rows.back().measured.asked.name = "part.off, sc, paper";
+  rows.back().measured.first.set_failure(baselines::FailureKind::invalid_input, "it is open");
+  const experiments::ExistenceTrials existence{"segments", 40, 7, {}};
+  const auto result = experiments::interior_points_result(rows, std::vector{existence});
+  EXPECT_EQ(result.findings,
+            (std::vector<std::string>{
+                "7 of 40 small PLCs with a CDT have none when one interior point is added",
+                "Rule \"paper\": no point did harm in 2 cases with 1,090 interior vertices",
+                "Rule \"no spheres\": points do harm: 3 points of 1,203 would have destroyed a protected edge, in 1 of "
+                "1 cases",
+                "Rule \"no distances\": no case to judge by"}));
+  EXPECT_EQ(result.problems, std::vector<std::string>{"part.off, sc, paper: failed: it is open"});
+  EXPECT_EQ(results::find_table(result, "cases")->rows.size(), 4u);
+  const results::ResultTable& rules = *results::find_table(result, "rules");
+  EXPECT_EQ(results::number_in(rules, rules.rows.at(0), "interior_vertices"), 1000);  // paper, fcc
+  EXPECT_EQ(results::number_in(rules, rules.rows.at(3), "cases"), 2);                 // paper, all
 }
 
 }  // namespace

@@ -1,119 +1,203 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "bench/experiments/quality_experiments.h"
 
 namespace ccdt {
 namespace {
 
-experiments::QualityRow row(const std::string& variant, double mean_r, double worst_r, double dihedral) {
-  experiments::QualityRow made;
-  made.variant = variant;
-  made.quality.r = {1, mean_r, mean_r, 0.5 * (mean_r + worst_r), worst_r};
-  made.quality.dihedral_degrees = {dihedral, 180 - dihedral, {}};
-  made.is_comparable = true;
-  made.is_ours = variant.starts_with("ccdt");
+using experiments::QualityRow;
+using results::ExperimentResult;
+using results::ResultTable;
+
+/// Is a part of these words in one of the lines?
+bool say(const std::vector<std::string>& lines, const std::string& words) {
+  return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
+}
+
+/// The row of a variant of a plan, as if it had been measured.
+QualityRow row(const experiments::StudyPlan& plan, const std::string& variant, double mean_r, double worst_r,
+               double dihedral, const std::string& model = "part.off") {
+  const auto& found = *std::ranges::find(plan.variants, variant, &experiments::QualityVariant::name);
+  QualityRow made{{}, model, found.labels, 0.5, 10000};
+  made.measured.asked.name = model + ", " + variant;
+  made.measured.asked.mesher = found.mesher;
+  bench::RunRecord run;
+  run.counts.tetrahedra = 10000;
+  run.quality.r = {1, mean_r, mean_r, 0.5 * (mean_r + worst_r), worst_r, {{1, 1.1, 1.2, 1000}, {9000, 999, 1}}};
+  run.quality.dihedral_degrees = {dihedral, 180 - dihedral, {{0, 5, 10, 180}, {0, 6, 59994}}};
+  cases::add_run(made.measured, run);
   return made;
 }
 
-TEST(Criteria, KnowWhichWayIsBetter) {
-  const bench::Quality quality = row("a", 1.2, 3, 18).quality;
-  EXPECT_EQ(experiments::value_of(quality, experiments::Criterion::mean_r), 1.2);
-  EXPECT_EQ(experiments::value_of(quality, experiments::Criterion::p99_r), 2.1);
-  EXPECT_EQ(experiments::value_of(quality, experiments::Criterion::worst_r), 3);
-  EXPECT_EQ(experiments::value_of(quality, experiments::Criterion::smallest_dihedral), 18);
-  EXPECT_EQ(experiments::value_of(quality, experiments::Criterion::largest_dihedral), 162);
-  for (const experiments::Criterion criterion : experiments::lattice_criteria) {
-    EXPECT_EQ(experiments::is_better(criterion, 2, 1), criterion == experiments::Criterion::smallest_dihedral);
-    EXPECT_FALSE(experiments::is_better(criterion, 1, 1));
+void fail(QualityRow& row) {
+  row.measured.first.set_failure(baselines::FailureKind::crashed, "ended by signal SIGSEGV");
+}
+
+/// The values of a column.
+std::vector<double> numbers(const ExperimentResult& result, const char* table_name, const char* column) {
+  std::vector<double> all;
+  const ResultTable& table = *results::find_table(result, table_name);
+  for (const results::ResultRow& row : table.rows) all.push_back(results::number_in(table, row, column));
+  return all;
+}
+
+std::vector<std::string> texts(const ExperimentResult& result, const char* table_name, const char* column) {
+  std::vector<std::string> all;
+  const ResultTable& table = *results::find_table(result, table_name);
+  for (const results::ResultRow& row : table.rows) all.push_back(results::text_in(table, row, column));
+  return all;
+}
+
+using Texts = std::vector<std::string>;
+
+/// Our meshes beside two others, which stand for meshers that this build need not have.
+class MesherQuality : public testing::Test {
+ protected:
+  MesherQuality() {
+    for (const char* name : {"tetgen", "gmsh-hxt"}) {
+      std::erase_if(plan_.variants, [&](const auto& variant) { return variant.name == name; });
+      plan_.variants.push_back({name, name, {}, {name, name}});
+    }
+    rows_ = {row(plan_, "ccdt fcc", 1.2, 3, 17), row(plan_, "ccdt bcc", 1.1, 2, 30), row(plan_, "tetgen", 1.5, 8, 10),
+             row(plan_, "gmsh-hxt", 1.4, 4, 18)};
   }
+
+  ExperimentResult result() const { return experiments::study_result(plan_, rows_, {}); }
+
+  experiments::StudyPlan plan_ = experiments::mesher_quality_plan({}, "quality", {});
+  std::vector<QualityRow> rows_;
+};
+
+TEST_F(MesherQuality, IsComparedWithTheBestOfTheOthersByEachCriterion) {
+  EXPECT_EQ(texts(result(), "verdicts", "criterion"), (Texts{"mean r", "p99 r", "worst r", "smallest dihedral",
+                                                             "mean r", "p99 r", "worst r", "smallest dihedral"}));
+  // HXT has the larger smallest angle than our FCC.
+  EXPECT_EQ(texts(result(), "verdicts", "better"), (Texts{"yes", "yes", "yes", "no", "yes", "yes", "yes", "yes"}));
+  EXPECT_EQ(texts(result(), "verdicts", "best_other_variant"), Texts(8, "gmsh-hxt"));
+  EXPECT_EQ(numbers(result(), "verdicts", "best_other")[0], 1.4);
+  EXPECT_TRUE(say(result().findings,
+                  "ccdt fcc is better than all others in mean r in 1 of 1, p99 r in 1 of 1, worst r in 1 of 1, "
+                  "smallest dihedral in 0 of 1 cases"));
 }
 
-TEST(MesherQuality, ComparesWithTheBestOfTheOthersByEachCriterion) {
-  experiments::QualityCase c;
-  c.rows = {row("ccdt fcc", 1.2, 3, 17), row("ccdt bcc", 1.1, 2, 30), row("tetgen", 1.5, 8, 10),
-            row("gmsh-hxt", 1.4, 4, 18)};
-  const auto comparisons = experiments::compare_with_others(c, c.rows[0]);
-  ASSERT_EQ(comparisons.size(), 4u);
-  EXPECT_EQ(comparisons[0].best_variant, "gmsh-hxt");
-  EXPECT_EQ(comparisons[0].best, 1.4);
-  EXPECT_TRUE(comparisons[0].is_better());
-  EXPECT_TRUE(comparisons[2].is_better());
-  EXPECT_FALSE(comparisons[3].is_better());  // HXT has the larger smallest angle
-  EXPECT_TRUE(experiments::compare_with_others(c, c.rows[1])[3].is_better());
+TEST_F(MesherQuality, IsNotComparedWithOtherCountsOrFailures) {
+  rows_[2].reference = 20000;
+  fail(rows_[3]);
+  EXPECT_EQ(texts(result(), "verdicts", "better"), Texts(8));
+  EXPECT_EQ(texts(result(), "verdicts", "best_other_variant"), Texts(8));
+  EXPECT_TRUE(result().is_good);
+  EXPECT_TRUE(say(result().problems, "part.off, gmsh-hxt: crashed: ended by signal SIGSEGV"));
+  EXPECT_TRUE(say(result().problems, "part.off, tetgen: 10,000 tetrahedra are not comparable"));
+  fail(rows_[0]);
+  EXPECT_EQ(numbers(result(), "verdicts", "ours").size(), 4u);
+  EXPECT_FALSE(result().is_good);
 }
 
-TEST(MesherQuality, DoesNotCompareWithOtherCountsOrFailures) {
-  experiments::QualityCase c;
-  c.rows = {row("ccdt fcc", 1.2, 3, 17), row("tetgen", 1.1, 2, 30), row("cgal-mesh3", 1, 2, 40)};
-  c.rows[1].is_comparable = false;
-  c.rows[2].status = baselines::RunStatus::crashed;
-  const auto comparisons = experiments::compare_with_others(c, c.rows[0]);
-  EXPECT_TRUE(comparisons[0].best_variant.empty());
-  EXPECT_FALSE(comparisons[0].is_better());
-  c.rows[0].status = baselines::RunStatus::failed;
-  EXPECT_TRUE(experiments::compare_with_others(c, c.rows[0]).empty());
+TEST_F(MesherQuality, HasFiguresOfWhatWentWellAndHistogramsInPercent) {
+  fail(rows_[3]);
+  EXPECT_EQ(texts(result(), "quality", "status"), (Texts{"ok", "ok", "ok", "crashed"}));
+  EXPECT_EQ(numbers(result(), "quality", "largest_dihedral")[1], 150);
+  EXPECT_TRUE(std::isnan(numbers(result(), "quality", "mean_r")[3]));
+  const auto percent = numbers(result(), "r_histogram", "percent");
+  ASSERT_EQ(percent.size(), 9u);
+  EXPECT_EQ(percent[0], 90);
+  EXPECT_EQ(numbers(result(), "r_histogram", "high")[0], 1.1);
 }
 
-experiments::QualityCase lattices_case(double fcc, double bcc, double sc) {
-  experiments::QualityCase c;
+std::vector<QualityRow> lattice_rows(const std::string& model, double fcc, double bcc, double sc) {
+  const experiments::StudyPlan plan = experiments::lattices_plan();
+  std::vector<QualityRow> rows;
   for (const std::string suffix : {"", " improved"}) {
-    c.rows.push_back(row("fcc" + suffix, fcc, 2 * fcc, 20));
-    c.rows.push_back(row("bcc" + suffix, bcc, 2 * bcc, 20));
-    c.rows.push_back(row("sc" + suffix, sc, 2 * sc, 10));
+    rows.push_back(row(plan, "fcc" + suffix, fcc, 2 * fcc, 20, model));
+    rows.push_back(row(plan, "bcc" + suffix, bcc, 2 * bcc, 20, model));
+    rows.push_back(row(plan, "sc" + suffix, sc, 2 * sc, 10, model));
   }
-  return c;
+  return rows;
 }
 
 TEST(Lattices, ConfirmTheClaimOnlyIfFccAloneIsBestInEveryCase) {
-  experiments::Lattices lattices;
-  lattices.cases = {lattices_case(1.1, 1.2, 1.3), lattices_case(1.15, 1.2, 1.5)};
-  EXPECT_TRUE(experiments::lattice_claims(lattices)[0].is_confirmed());
-  EXPECT_FALSE(experiments::lattice_claims(lattices)[3].is_confirmed());  // smallest dihedral: a tie with bcc
-  EXPECT_EQ(experiments::lattice_claims(lattices)[3].best, (std::array<std::uint64_t, 3>{2, 2, 0}));
-  lattices.cases.push_back(lattices_case(1.2, 1.1, 1.3));
-  EXPECT_FALSE(experiments::lattice_claims(lattices)[0].is_confirmed());
-  EXPECT_EQ(experiments::lattice_claims(lattices)[0].best, (std::array<std::uint64_t, 3>{2, 1, 0}));
-  EXPECT_EQ(experiments::lattice_claims(lattices).size(), 2 * experiments::lattice_criteria.size());
+  std::vector<QualityRow> rows = lattice_rows("a", 1.1, 1.2, 1.3);
+  std::ranges::copy(lattice_rows("b", 1.15, 1.2, 1.5), std::back_inserter(rows));
+  ExperimentResult result = experiments::study_result(experiments::lattices_plan(), rows, {});
+  // By the smallest dihedral angle there is a tie with BCC, by the largest as well.
+  EXPECT_EQ(texts(result, "best", "confirmed"),
+            (Texts{"yes", "yes", "yes", "no", "no", "yes", "yes", "yes", "no", "no"}));
+  EXPECT_EQ(numbers(result, "best", "bcc")[3], 2);
+  EXPECT_EQ(result.findings, (Texts{"That FCC is best is confirmed before improvement by: mean r, p99 r, worst r",
+                                    "That FCC is best is not confirmed before improvement by: smallest dihedral, "
+                                    "largest dihedral",
+                                    "That FCC is best is confirmed after improvement by: mean r, p99 r, worst r",
+                                    "That FCC is best is not confirmed after improvement by: smallest dihedral, "
+                                    "largest dihedral"}));
+  std::ranges::copy(lattice_rows("c", 1.2, 1.1, 1.3), std::back_inserter(rows));
+  result = experiments::study_result(experiments::lattices_plan(), rows, {});
+  EXPECT_EQ(texts(result, "best", "confirmed"), Texts(10, "no"));
+  EXPECT_EQ(numbers(result, "best", "fcc")[0], 2);
+  EXPECT_EQ(numbers(result, "best", "bcc")[0], 1);
 }
 
 TEST(Lattices, LeaveOutCasesInWhichOneFailed) {
-  experiments::Lattices lattices;
-  lattices.cases = {lattices_case(1.1, 1.2, 1.3)};
-  lattices.cases[0].rows[5].status = baselines::RunStatus::failed;
-  const auto claims = experiments::lattice_claims(lattices);
-  EXPECT_EQ(claims.front().cases, 1u);
-  EXPECT_EQ(claims.back().cases, 0u);
-  EXPECT_FALSE(claims.back().is_confirmed());
+  std::vector<QualityRow> rows = lattice_rows("a", 1.1, 1.2, 1.3);
+  fail(rows[5]);  // improved
+  const ExperimentResult result = experiments::study_result(experiments::lattices_plan(), rows, {});
+  EXPECT_EQ(numbers(result, "best", "cases"), (std::vector<double>{1, 1, 1, 1, 1, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(say(result.findings, "after improvement"));
 }
 
-TEST(LatticeFit, HasTheDefaultAmongItsSettings) {
-  const auto settings = experiments::lattice_settings();
-  EXPECT_EQ(std::ranges::count(settings, experiments::default_lattice_setting()), 1);
-  EXPECT_EQ(experiments::text_of(experiments::LatticeSetting{1.1, 0.5}), "sphere 1.1, clearance 0.5");
+TEST(Improvement, CountsInHowManyCasesEachPartIsBest) {
+  const experiments::StudyPlan plan = experiments::improvement_plan();
+  const std::vector<QualityRow> rows = {row(plan, "none", 1.3, 50, 1), row(plan, "swap", 1.2, 9, 5),
+                                        row(plan, "all", 1.2, 3, 18)};
+  EXPECT_EQ(numbers(experiments::study_result(plan, rows, {}), "best", "best"),
+            (std::vector<double>{0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
 }
 
-TEST(LatticeFit, RanksSettingsOverAllCases) {
-  experiments::LatticeFit fit;
-  fit.cases.resize(2);
-  const auto settings = experiments::lattice_settings();
-  for (experiments::QualityCase& c : fit.cases)
-    for (std::size_t i = 0; i < settings.size(); ++i)
-      c.rows.push_back(row(experiments::text_of(settings[i]), 1.2, i == 3 ? 2 : 8, i == 3 ? 20 : 10));
-  auto summaries = experiments::summarize(fit);
-  ASSERT_EQ(summaries.size(), settings.size());
-  const double n = static_cast<double>(settings.size());
+class LatticeFit : public testing::Test {
+ protected:
+  /// On each of two models one setting is better than the others, which are equal.
+  std::vector<QualityRow> rows_with(const std::string& best) const {
+    std::vector<QualityRow> rows;
+    for (const char* model : {"a", "b"})
+      for (const auto& variant : plan_.variants)
+        rows.push_back(variant.name == best ? row(plan_, variant.name, 1.2, 2, 20, model)
+                                            : row(plan_, variant.name, 1.2, 8, 10, model));
+    return rows;
+  }
+  ExperimentResult result_of(const std::vector<QualityRow>& rows) const {
+    return experiments::study_result(plan_, rows, {});
+  }
+
+  const experiments::StudyPlan plan_ = experiments::lattice_fit_plan();
+  const std::string default_ = "sphere 1, clearance 0.55";
+};
+
+TEST_F(LatticeFit, RanksSettingsOverAllModels) {
+  std::vector<QualityRow> rows = rows_with(plan_.variants[3].name);
+  ExperimentResult result = result_of(rows);
+  const double n = static_cast<double>(plan_.variants.size());
+  ASSERT_EQ(numbers(result, "settings", "rank").size(), plan_.variants.size());
   // Best alone in p99, worst r and the angle, tied with all in mean r.
-  EXPECT_NEAR(summaries[3].rank, (3 + (n + 1) / 2) / 4, 1e-12);
-  EXPECT_NEAR(summaries[0].rank, (3 * (n + 2) / 2 + (n + 1) / 2) / 4, 1e-12);
-  EXPECT_NEAR(summaries[3].worst_r, 2, 1e-12);
-  fit.cases[0].rows[0].status = baselines::RunStatus::failed;
-  fit.cases[1].rows[0].quality.r.max = 32;
-  summaries = experiments::summarize(fit);  // of the second case alone
-  EXPECT_NEAR(summaries[0].worst_r, 32, 1e-12);
-  fit.cases.pop_back();
-  EXPECT_TRUE(experiments::summarize(fit).empty());
+  EXPECT_NEAR(numbers(result, "settings", "rank")[3], (3 + (n + 1) / 2) / 4, 1e-12);
+  EXPECT_NEAR(numbers(result, "settings", "rank")[0], (3 * (n + 2) / 2 + (n + 1) / 2) / 4, 1e-12);
+  EXPECT_NEAR(numbers(result, "settings", "worst_r")[3], 2, 1e-12);
+  fail(rows[0]);  // so that only the second model counts
+  rows[plan_.variants.size()].measured.first.quality.r.max = 32;
+  EXPECT_NEAR(numbers(result_of(rows), "settings", "worst_r")[0], 32, 1e-12);
+  fail(rows.back());
+  EXPECT_TRUE(say(result_of(rows).findings, "no surface on which every setting went well"));
+}
+
+TEST_F(LatticeFit, NamesTheBestSettingAndWhetherItIsTheDefault) {
+  EXPECT_EQ(std::ranges::count(plan_.variants, default_, &experiments::QualityVariant::name), 1);
+  EXPECT_TRUE(say(result_of(rows_with(default_)).findings, "The best setting is " + default_));
+  EXPECT_TRUE(say(result_of(rows_with(default_)).findings, "It is the default"));
+  const std::string other = plan_.variants.front().name;
+  EXPECT_TRUE(say(result_of(rows_with(other)).findings, "The best setting is " + other));
+  EXPECT_TRUE(say(result_of(rows_with(other)).findings, "The default, " + default_ + ", has a mean rank of"));
 }
 
 }  // namespace

@@ -256,22 +256,20 @@ TEST(Theorem1, ResultNamesCounterexamplesAndDisagreements) {
   against.protection.edges = false;
   Trial broken = sound;
   broken.disagreement = "two answers";
-  experiments::FamilyTrials family{.name = "test"};
-  for (const Trial& trial : {sound, against, sound, broken}) experiments::add_trial(trial, family);
-  EXPECT_EQ(family.cases, 4u);
-  EXPECT_EQ(family.premise, 3u);
-  EXPECT_EQ(family.dt, 4u);
-  EXPECT_EQ(family.against_only_if, 1u);
-  EXPECT_EQ(family.against_if, 0u);
-  EXPECT_EQ(family.edges_alone, 1u);
+  experiments::FamilyTrials trials{{"test", "", false, nullptr}};
+  for (const Trial& trial : {sound, against, sound, broken}) experiments::add_trial(trial, trials);
 
-  const results::ExperimentResult result = experiments::theorem1_result(std::vector{family});
+  const results::ExperimentResult result = experiments::theorem1_result(std::vector{trials});
   EXPECT_FALSE(result.is_good);
   ASSERT_EQ(result.problems.size(), 1u);
   EXPECT_NE(result.problems[0].find("two answers: vertices (0 0 0)"), std::string::npos);
   const results::ResultTable& table = result.tables.front();
   EXPECT_NE(results::text_in(table, table.rows[0], "counterexample").find("(-50 -31 1)"), std::string::npos);
-  EXPECT_EQ(results::number_in(table, table.rows[0], "engine_agrees"), 3);
+  const std::vector<std::pair<const char*, double>> counts = {
+      {"cases", 4},      {"premise", 3},     {"dt", 4},           {"against_only_if", 1},
+      {"against_if", 0}, {"edges_alone", 1}, {"engine_agrees", 3}};
+  for (const auto& [column, count] : counts)
+    EXPECT_EQ(results::number_in(table, table.rows[0], column), count) << column;
   EXPECT_EQ(result.findings[0].find("If: 3 of 3 "), 0u);
   EXPECT_EQ(result.findings[1].find("Only if: 3 of 4 "), 0u);
 }
