@@ -132,7 +132,7 @@ std::string machine(const bench::Environment& e) {
 
 std::string how_measured(const results::Circumstances& how) {
   if (how.runs <= 1) return "One run of each; all but the seconds is the same in every run.";
-  return "Medians of " + std::to_string(how.runs) + " runs in turn after one that is not counted, with " +
+  return "Medians of " + std::to_string(how.runs) + " runs or more, in turn after one that is not counted, with " +
          rounded(100 * how.confidence, 2) + "% intervals.";
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "baselines/mesher.h"
+#include "baselines/stop.h"
 #include "bench/cases/identity.h"
 #include "bench/experiments/registry.h"
 #include "bench/json.h"
@@ -14,8 +15,10 @@
 #include "models/solids.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
+#include "tools/folder_lock.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
+#include "tools/stop_signals.h"
 
 namespace ccdt::tools {
 namespace {
@@ -147,11 +150,15 @@ bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& comm
   command.options.command = command_of(known, command);
   const results::ExperimentResult result = [&] {
     ProgressBar bar;
+    const auto progress = [draw = bar.progress()](std::string_view what, std::uint64_t done, std::uint64_t total) {
+      if (baselines::stop_requested()) throw baselines::Stopped();
+      report(draw, what, done, total);
+    };
     cases::Runner runner({.program = command.options.program,
                           .folder = command.options.folder,
                           .identities = identities,
                           .retry_failed = command.retry_failed,
-                          .progress = bar.progress()});
+                          .progress = progress});
     return known.measure(command.options, runner);
   }();
   results::write_experiment_result(result, command.options.folder);
@@ -167,6 +174,7 @@ bool run(ReproduceCommand& command) {
   options.folder = std::filesystem::absolute(command.folder).lexically_normal();
   options.limits.memory_bytes = static_cast<std::uint64_t>(command.memory_gibibytes * bytes_per_gibibyte);
   std::filesystem::create_directories(options.folder);
+  const FolderLock lock(options.folder);
   take_files(command);
   check_can_be_written(options.folder / "report.json");
   const std::vector<cases::Identity> identities = identities_of(command);
@@ -175,6 +183,16 @@ bool run(ReproduceCommand& command) {
     is_good = reproduce(*known, command, identities) && is_good;
   make_report(options.folder);
   return is_good;
+}
+
+ExitCode run_until_stopped(ReproduceCommand& command) {
+  const StopSignals signals;
+  try {
+    return run(command) ? done : failed_a_check;
+  } catch (const baselines::Stopped&) {
+    std::fprintf(stderr, "stopped: all finished runs are kept; call the same command to go on\n");
+    return static_cast<ExitCode>(stopped_exit_code());
+  }
 }
 
 std::string footer() {
@@ -251,7 +269,7 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   add_limits(*verb, *command);
   add_what_to_keep(*verb, *command);
   verb->footer(footer());
-  verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
+  verb->callback([command, &exit_code] { exit_code = run_until_stopped(*command); });
 }
 
 }  // namespace ccdt::tools

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -34,6 +35,74 @@ TEST_F(Program, ReproducesTable1AtACoarseScale) {
       EXPECT_EQ(Json::parse(text_of(work() / "report" / file.get<std::string>()))["schema"], "ccdt.run/1");
   }
   EXPECT_NE(text_of(work() / "report/table1.md").find("## Ratios"), std::string::npos);
+}
+
+/// A part of Table 1 that takes a second or two.
+class InterruptedTable1 : public Program {
+ protected:
+  static constexpr const char* arguments = "reproduce table1 -o report --scale 500 --models piston --beside ccdt";
+
+  /// Calls the program, and sends it a signal as soon as there are so many records.
+  /// \return  as of waitpid
+  int call_until(std::size_t records, int signal) const {
+    const std::string command = "cd '" + work().string() + "' && exec '" CCDT_PROGRAM "' " + arguments;
+    const pid_t child = fork();
+    if (child == 0) {
+      execl("/bin/sh", "sh", "-c", (command + " >../out 2>../err").c_str(), nullptr);
+      _exit(127);
+    }
+    int status = 0;
+    bool is_sent = false;
+    while (waitpid(child, &status, WNOHANG) == 0)
+      if (!is_sent && times_of_records().size() >= records) is_sent = kill(child, signal) == 0;
+    return status;
+  }
+
+  /// When each record was written.
+  std::map<std::string, std::filesystem::file_time_type> times_of_records() const {
+    std::map<std::string, std::filesystem::file_time_type> times;
+    if (!std::filesystem::exists(work() / "report/runs")) return times;
+    for (const auto& entry : std::filesystem::directory_iterator(work() / "report/runs"))
+      if (entry.path().extension() == ".json") times[entry.path().filename()] = entry.last_write_time();
+    return times;
+  }
+
+  /// Are all of these records there as they were?
+  void expect_kept(const std::map<std::string, std::filesystem::file_time_type>& before) const {
+    const auto now = times_of_records();
+    for (const auto& [file, time] : before) {
+      ASSERT_TRUE(now.contains(file)) << file;
+      EXPECT_EQ(now.at(file), time) << file;
+    }
+  }
+};
+
+TEST_F(InterruptedTable1, GoesOnWhereItWasAndRunsNothingTwice) {
+  const int killed = call_until(3, SIGKILL);
+  ASSERT_TRUE(WIFSIGNALED(killed));
+  EXPECT_FALSE(std::filesystem::exists(work() / "report/table1.json"));
+  const auto first = times_of_records();
+  const int stopped = call_until(first.size() + 3, SIGTERM);
+  ASSERT_TRUE(WIFEXITED(stopped));
+  EXPECT_EQ(WEXITSTATUS(stopped), 128 + SIGTERM);
+  expect_kept(first);
+  const auto second = times_of_records();
+  EXPECT_GT(second.size(), first.size());
+
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  expect_kept(second);
+  const auto all = times_of_records();
+  const Json tables = Json::parse(text_of(work() / "report/table1.json"))["tables"];
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  EXPECT_EQ(times_of_records(), all);
+  EXPECT_EQ(Json::parse(text_of(work() / "report/table1.json"))["tables"], tables);
+
+  ASSERT_EQ(run("reproduce table1 -o undisturbed --scale 500 --models piston --beside ccdt").exit_code, 0);
+  ASSERT_EQ(run("report undisturbed report -o difference").exit_code, 0);
+  const Json comparison = Json::parse(text_of(work() / "difference/report.json"))["experiments"][0];
+  EXPECT_TRUE(rows_of(comparison, "differences").empty()) << comparison;
+  EXPECT_GT(rows_of(comparison, "summary")[0]["values"]["figures"], 0);
+  EXPECT_EQ(rows_of(comparison, "summary")[0]["values"]["unmatched"], 0);
 }
 
 TEST_F(Program, ReproducesFig8AtACoarseScale) {
@@ -141,6 +210,23 @@ TEST_F(SmallReport, RepeatedIsTheSameBitForBit) {
   const Json comparison = Json::parse(text_of(work() / "again/comparison/report.json"))["experiments"][0];
   EXPECT_TRUE(rows_of(comparison, "differences").empty()) << comparison;
   EXPECT_GT(rows_of(comparison, "summary")[0]["values"]["figures"], 0);
+}
+
+TEST_F(SmallReport, IsNotContinuedByOtherProgramsUnlessThatIsWanted) {
+  ASSERT_EQ(outcome_.exit_code, 0) << outcome_.err;
+  Json identity = Json::parse(text_of(work() / "report/identity.json"));
+  identity["identity"]["ccdt.binary"] = "another";
+  write("report/identity.json", identity.dump());
+  const std::string arguments = "reproduce fig7 -o report --scale 1000 --models piston";
+  const Outcome refused = run(arguments);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("ccdt.binary"), std::string::npos) << refused.err;
+  EXPECT_EQ(run(arguments + " --mixed --refresh").exit_code, 2);
+  ASSERT_EQ(run(arguments + " --mixed").exit_code, 0);
+  const Json mixed = Json::parse(text_of(work() / "report/identity.json"));
+  EXPECT_NE(mixed["identity"]["ccdt.binary"], "another");
+  EXPECT_EQ(mixed["mixed_with"][0]["ccdt.binary"], "another");
+  EXPECT_EQ(run(arguments).exit_code, 0);
 }
 
 TEST_F(Program, ReportRefusesAFolderWithoutExperiments) {
