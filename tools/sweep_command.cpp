@@ -30,7 +30,8 @@ constexpr std::size_t most_names = 5;  ///< of cases that a message lists
 /// The file of a spec, or the spec of that name that comes with the program.
 std::filesystem::path spec_file(const std::string& spec) {
   const auto known = share_folder() / "sweeps" / (spec + ".json");
-  return !std::filesystem::exists(spec) && std::filesystem::exists(known) ? known : std::filesystem::path(spec);
+  const bool is_known = !std::filesystem::is_regular_file(spec) && std::filesystem::exists(known);
+  return is_known ? known : std::filesystem::path(spec);
 }
 
 sweep::SweepSpec spec_of(const SweepCommand& command, const sweep::MeshOptionRules& rules) {
@@ -138,6 +139,7 @@ ExitCode run_all(const SweepCommand& command) {
     return done;
   }
   const ExitCode code = print_results(run_cases(command, sweep, sweep.cases));
+  if (command.jobs > 1) std::printf("\nTimes are disturbed: %d cases ran at the same time.\n", command.jobs);
   std::printf("\nTables, figures and the page: ccdt report %s\n", command.folder.c_str());
   return code;
 }

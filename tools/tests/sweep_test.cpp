@@ -271,8 +271,9 @@ TEST_F(SweepCommand, RefusesWrongSpecsBeforeItRunsAnything) {
 }
 
 TEST_F(SweepCommand, FindsReadyMadeSweepsByName) {
-  ASSERT_EQ(run("model cube --edge-length 0.5 -o part.off").exit_code, 0);
-  for (const std::string name : {"scaling", "strategies", "parts --input part.off"}) {
+  std::filesystem::create_directory(work() / "parts");  // is no spec, though it has the name of one
+  ASSERT_EQ(run("model cube --edge-length 0.5 -o parts/a.off").exit_code, 0);
+  for (const std::string name : {"scaling", "strategies", "parts --input 'parts/*.off'"}) {
     const Outcome outcome = run("sweep " + name + " -o out --dry-run --json");
     ASSERT_EQ(outcome.exit_code, 0) << name << outcome.err;
     EXPECT_GT(Json::parse(outcome.out)["cases"], 0);
