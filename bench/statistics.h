@@ -8,6 +8,8 @@ namespace ccdt::bench {
 /// An estimate with its confidence interval.
 struct Estimate {
   double value = 0, low = 0, high = 0;
+
+  bool operator==(const Estimate&) const = default;
 };
 
 /// How a bootstrap is drawn. The seed is fixed, so the same samples always give the same interval.

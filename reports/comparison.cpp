@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "bench/experiments/experiment.h"
 #include "reports/report.h"
@@ -15,27 +17,26 @@ using experiments::time_column;
 using results::Column;
 using results::ColumnKind;
 
+/// Columns that look like labels, but say how a row went: they are compared.
+bool is_outcome(const Column& column) {
+  return column.name == "status" || column.name == "failure";
+}
+
 /// The labels of a row.
 std::string key_of(const ResultTable& table, const ResultRow& row) {
   std::vector<std::string> labels;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (table.columns[c].kind == ColumnKind::label)
+    if (table.columns[c].kind == ColumnKind::label && !is_outcome(table.columns[c]))
       if (const auto* text = std::get_if<std::string>(&row.cells[c]); text != nullptr && !text->empty())
         labels.push_back(*text);
   return joined(labels);
 }
 
-/// The row of the other table with the same labels: of several the one at the same place among them.
-const ResultRow* counterpart(const ResultTable& table, std::size_t number, const ResultTable& other) {
-  const std::string key = key_of(table, table.rows[number]);
-  const auto is_alike = [&](const ResultTable& t) {
-    return [&t, &key](const ResultRow& row) { return key_of(t, row) == key; };
-  };
-  auto before = std::ranges::count_if(table.rows.begin(), table.rows.begin() + static_cast<std::ptrdiff_t>(number),
-                                      is_alike(table));
-  for (const ResultRow& row : other.rows)
-    if (is_alike(other)(row) && before-- == 0) return &row;
-  return nullptr;
+/// The rows of a table by their labels; of several with the same labels in their order.
+std::unordered_map<std::string, std::deque<const ResultRow*>> rows_by_key(const ResultTable& table) {
+  std::unordered_map<std::string, std::deque<const ResultRow*>> rows;
+  for (const ResultRow& row : table.rows) rows[key_of(table, row)].push_back(&row);
+  return rows;
 }
 
 /// The tables of the new section while they are filled.
@@ -75,18 +76,21 @@ class ExperimentComparison {
   ExperimentComparison(std::string experiment, ComparisonTables& tables)
       : experiment_(std::move(experiment)), tables_(tables) {}
 
+  /// Rows belong together that have the same labels; of several those at the same place among them.
   void compare_tables(const ResultTable& first, const ResultTable& second) {
-    for (std::size_t r = 0; r < first.rows.size(); ++r) {
-      const ResultRow* other = counterpart(first, r, second);
-      if (other == nullptr) {
+    auto others = rows_by_key(second);
+    for (const ResultRow& row : first.rows) {
+      std::deque<const ResultRow*>& alike = others[key_of(first, row)];
+      if (alike.empty()) {
         ++counts_.unmatched;
         continue;
       }
       for (std::size_t c = 0; c < first.columns.size(); ++c) {
         const auto same = std::ranges::find(second.columns, first.columns[c].name, &Column::name);
         if (same - second.columns.begin() == static_cast<std::ptrdiff_t>(c))
-          compare_cells(first, c, first.rows[r], *other);
+          compare_cells(first, c, row, *alike.front());
       }
+      alike.pop_front();
     }
   }
 
@@ -106,7 +110,7 @@ class ExperimentComparison {
       for (const std::string& run : b.runs) runs.push_back(tables_.second + "/" + run);
       add_row(to, runs, experiment_, table.title, key_of(table, a), c.title, first, second, more...);
     };
-    if (c.kind == ColumnKind::figure) {
+    if (c.kind == ColumnKind::figure || is_outcome(c)) {
       const bool is_same = results::cell_json(first) == results::cell_json(second);
       if (is_of_another_mesher(table, a)) {
         counts_.others_different += !is_same;
@@ -117,7 +121,7 @@ class ExperimentComparison {
       if (!is_same) add(tables_.differences);
     }
     const auto *e = std::get_if<bench::Estimate>(&first), *f = std::get_if<bench::Estimate>(&second);
-    if (c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
+    if (table.is_data || c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
     const bool is_within = f->value >= e->low && f->value <= e->high;
     ++counts_.times;
     counts_.outside += !is_within;
@@ -199,7 +203,7 @@ Report compare_reports(const std::filesystem::path& first, const std::filesystem
       "Rows belong together that have the same labels."};
   section.result.is_good = tables.differences.rows.empty();
   section.result.tables = {tables.summary, verdicts_table(a, b), tables.differences, tables.times};
-  add_charts(charts, section);
+  section.charts = charts_for(section.result, charts);
   Report report;
   report.title = section.result.title;
   take_runs(a, tables.first, report);

@@ -4,27 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/registry.h"
-#include "bench/run_record.h"
+#include "bench/sweep_results/sweep_result.h"
 #include "engine/base/errors.h"
-#include "engine/io/files.h"
 
 namespace ccdt::reports {
 namespace {
-
-/// What all charts have in common; whoever draws them has it.
-constexpr const char* shared_file = "config.json";
-
-ReportChart read_chart(const std::filesystem::path& file) {
-  try {
-    const bench::Json json = bench::Json::parse(io::read_whole_file(file).bytes);
-    return {json.at("experiment"), json.at("name"),   json.at("title"),
-            json.at("caption"),    json.at("tables"), json.at("spec").dump()};
-  } catch (const bench::Json::exception& error) {
-    Place place;
-    place.file = file.string();
-    throw InputError(std::string("no chart: ") + error.what(), place, "build ccdt anew: its charts are broken");
-  }
-}
 
 /// The command, but for its results, which go to files of their own.
 std::string repeating(std::vector<std::string> command) {
@@ -35,14 +19,14 @@ std::string repeating(std::vector<std::string> command) {
   return experiments::command_line(command);
 }
 
+RunLine run_line(const sweep_results::RunValues& run) {
+  return {repeating(run.command), std::string(text_of(run, "status")), std::string(text_of(run, "mesher")),
+          std::string(text_of(run, "version")), run.settings};
+}
+
 RunLine run_line(const std::filesystem::path& file) {
-  try {
-    const bench::RunRecord run = bench::read_run_record(file);
-    return {repeating(run.command), std::string(name_of(run.status)), run.mesher.name, run.mesher.version,
-            run.mesher_settings};
-  } catch (const InputError& error) {
-    return {"", std::string("missing: ") + error.what(), "", "", {}};
-  }
+  const auto run = sweep_results::read_run_values(file);
+  return run ? run_line(*run) : RunLine{"", "missing: " + file.string() + " cannot be read", "", "", {}};
 }
 
 /// Reads every run that a section stands on, once.
@@ -81,9 +65,48 @@ ReportSection read_section(const std::filesystem::path& folder, const experiment
   return section;
 }
 
+/// Of so many runs a page holds the whole records.
+constexpr std::size_t most_raw_runs = 3000;
+
 std::string_view status_of(const ReportSection& section) {
   if (section.is_missing) return "missing";
   return section.result.is_good ? "ok" : "failed";
+}
+
+/// The experiments that the folder has, and those that it should have.
+void add_experiments(const std::filesystem::path& folder, std::span<const ReportChart> charts, Report& report) {
+  for (const experiments::KnownExperiment& known : experiments::known_experiments()) {
+    ReportSection section = read_section(folder, known);
+    if (section.is_missing && !known.is_usual) continue;
+    section.charts = charts_for(section.result, charts);
+    add_runs(folder, section, report);
+    report.sections.push_back(std::move(section));
+  }
+}
+
+void add_claims(Report& report) {
+  std::vector<ExperimentResult> results;
+  for (ReportSection& section : report.sections) {
+    if (section.is_missing)
+      section.result.how.command =
+          "ccdt reproduce " + section.result.name + " --scale " + usual_scale(report) + " -o .";
+    else
+      results.push_back(section.result);
+  }
+  report.claims = judge_claims(results);
+}
+
+void add_sweep(const std::filesystem::path& folder, std::span<const ReportChart> charts, Report& report) {
+  const sweep_results::Sweep sweep = sweep_results::read_sweep(folder);
+  ReportSection section;
+  section.result = sweep_results::sweep_result(sweep, folder);
+  section.charts = charts_for(section.result, charts);
+  for (const sweep_results::SweepCase& one : sweep.cases)
+    for (const sweep_results::NumberedRun& run : one.runs) report.runs[run.file] = run_line(run.values);
+  if (report.sections.empty()) report.title = section.result.title;
+  report.has_raw_runs = false;
+  report.more_files = {{"runs.csv", runs_as_csv(sweep)}, {"runs.jsonl", runs_as_json_lines(sweep)}};
+  report.sections.push_back(std::move(section));
 }
 
 }  // namespace
@@ -154,60 +177,26 @@ static void to_json(bench::Json& json, const RunLine& run) {
 }
 /// @}
 
-std::vector<ReportChart> read_charts(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::exists(folder)) return {};
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".json" && entry.path().filename() != shared_file) files.push_back(entry.path());
-  std::ranges::sort(files);
-  std::vector<ReportChart> charts;
-  for (const auto& file : files) charts.push_back(read_chart(file));
-  return charts;
-}
-
-void add_charts(std::span<const ReportChart> charts, ReportSection& section) {
-  for (const ReportChart& chart : charts) {
-    const bool has_tables = std::ranges::all_of(chart.tables, [&](const std::string& name) {
-      const ResultTable* table = results::find_table(section.result, name);
-      return table != nullptr && !table->rows.empty();
-    });
-    if (chart.experiment == section.result.name && has_tables) section.charts.push_back(chart);
-  }
-}
-
 Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts) {
   Report report;
   report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization, measured again";
-  for (const experiments::KnownExperiment& known : experiments::known_experiments()) {
-    ReportSection section = read_section(folder, known);
-    if (section.is_missing && !known.is_usual) continue;
-    add_charts(charts, section);
-    add_runs(folder, section, report);
-    report.sections.push_back(std::move(section));
-  }
+  add_experiments(folder, charts, report);
+  const bool has_sweep = std::filesystem::exists(folder / sweep_results::sweep_file);
   if (std::ranges::all_of(report.sections, &ReportSection::is_missing)) {
-    Place place;
-    place.file = folder.string();
-    throw InputError("there is no experiment in this folder", place, "fill one with `ccdt reproduce -o DIR`");
+    if (!has_sweep)
+      throw InputError("there is neither an experiment nor a sweep in this folder", {.file = folder.string()},
+                       "fill one with `ccdt reproduce -o DIR` or `ccdt sweep SPEC.json -o DIR`");
+    report.sections.clear();
   }
-  std::vector<ExperimentResult> results;
-  for (ReportSection& section : report.sections) {
-    if (section.is_missing)
-      section.result.how.command =
-          "ccdt reproduce " + section.result.name + " --scale " + usual_scale(report) + " -o .";
-    else
-      results.push_back(section.result);
-  }
-  report.claims = judge_claims(results);
+  if (!report.sections.empty()) add_claims(report);
+  report.has_raw_runs = report.runs.size() <= most_raw_runs;
+  if (has_sweep) add_sweep(folder, charts, report);
   return report;
 }
 
 bench::Json report_json(const Report& report) {
-  return {{"schema", "ccdt.report/1"},
-          {"title", report.title},
-          {"claims", report.claims},
-          {"experiments", report.sections},
-          {"runs", report.runs}};
+  return {{"schema", "ccdt.report/1"},      {"title", report.title}, {"claims", report.claims},
+          {"experiments", report.sections}, {"runs", report.runs},   {"raw_runs", report.has_raw_runs}};
 }
 
 bench::Json claims_json(const Report& report) {

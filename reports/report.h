@@ -8,20 +8,10 @@
 #include <vector>
 
 #include "bench/results/experiment_result.h"
+#include "reports/charts.h"
 #include "reports/claims.h"
 
 namespace ccdt::reports {
-
-/// A declarative description of a chart: Vega-Lite, without its data, which are tables of an experiment.
-struct ReportChart {
-  std::string experiment, name, title, caption;
-  std::vector<std::string> tables;  ///< each a data set of its name
-  std::string spec;                 ///< the JSON of Vega-Lite
-};
-
-/// All charts of a folder, by the names of their files. None if there is no such folder.
-/// \throw InputError  a file is no chart
-std::vector<ReportChart> read_charts(const std::filesystem::path& folder);
 
 /// An experiment as a report shows it.
 struct ReportSection {
@@ -45,16 +35,15 @@ struct Report {
   std::vector<PaperClaim> claims;
   std::vector<ReportSection> sections;
   std::map<std::string, RunLine> runs;  ///< by file, relative to the folder
+  bool has_raw_runs = true;  ///< the records of the runs are in the page; else it links to them, as there are many
+  std::map<std::string, std::string> more_files = {};  ///< made of the runs, as runs.csv: contents by name
 };
 
-/// What the JSON of a folder says. An experiment that is missing or cannot be read is a section that says so, a run
-/// that is missing a line that does.
+/// What the JSON of a folder says: of `ccdt reproduce`, where an experiment that is missing or cannot be read is a
+/// section that says so, and a run that is missing a line that does; of `ccdt sweep`, one section.
 ///
-/// \throw InputError  the folder has no experiment at all
+/// \throw InputError  the folder has neither an experiment nor a sweep
 Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts);
-
-/// Gives sections their charts, of which all tables are there.
-void add_charts(std::span<const ReportChart> charts, ReportSection& section);
 
 /// As JSON of schema `ccdt.report/1`, and of schema `ccdt.claims/1` its claims alone.
 bench::Json report_json(const Report& report);
@@ -76,7 +65,7 @@ struct WrittenReport {
 };
 
 /// Writes everything that is made of a report's JSON: report.json, claims.json, NAME.md and tables/ (Markdown, CSV,
-/// LaTeX) for each experiment, figures/ (SVG, PDF, PNG), and the page index.html, which holds all of it.
+/// LaTeX) for each experiment, figures/ (SVG, PDF, PNG), more files, and the page index.html, which holds all of it.
 ///
 /// \param folder  where the runs and meshes of the report are, and its files go
 /// \param share   where ccdt's own files are: page.html, charts, render_figures.mjs

@@ -187,6 +187,14 @@ std::string improvement(const ImproveCounts& c) {
          (c.stop == ImproveStop::time ? "the time was up" : "which nothing makes better") + "\n";
 }
 
+/// The first rows of a table, and how many more there are.
+std::string first_rows(const ResultTable& table, std::size_t most) {
+  if (table.rows.size() <= most) return to_terminal(text_table(table));
+  ResultTable part = table;
+  part.rows.resize(most);
+  return to_terminal(text_table(part)) + with_separators(table.rows.size() - most) + " more rows are in tables/\n";
+}
+
 std::string check_word(const verify::Check& check) {
   if (check.failed == 0) return "ok";
   return check.required ? "FAILED" : "differs";
@@ -274,10 +282,10 @@ std::string to_latex(const ResultTable& table, const std::string& experiment) {
   return text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
 }
 
-std::string to_terminal(const ExperimentResult& result) {
+std::string to_terminal(const ExperimentResult& result, std::size_t most_rows) {
   std::string text = result.title + "\n\n";
   for (const ResultTable& table : result.tables)
-    if (!table.is_data && !table.rows.empty()) text += table.title + "\n\n" + to_terminal(text_table(table)) + "\n";
+    if (!table.is_data && !table.rows.empty()) text += table.title + "\n\n" + first_rows(table, most_rows) + "\n";
   return text + list("What this says", "  ", result.findings) + list("What went wrong", "  ", result.problems) +
          how_measured(result.how) + "\n";
 }

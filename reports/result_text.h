@@ -32,8 +32,8 @@ std::string to_csv(const ResultTable& table);
 /// A `tabular` with the rules of LaTeX's package booktabs, in a `table` with a caption and a label.
 std::string to_latex(const ResultTable& table, const std::string& experiment);
 
-/// What a reader at a terminal gets of an experiment, or one of Markdown.
-std::string to_terminal(const ExperimentResult& result);
+/// What a reader at a terminal gets of an experiment, or one of Markdown. A terminal gets so many rows of each table.
+std::string to_terminal(const ExperimentResult& result, std::size_t most_rows = std::string::npos);
 std::string to_markdown(const ExperimentResult& result);
 
 /// What a person wants to know after a mesh: counts, Steiner vertices, seconds by stage and the worst quality; a few

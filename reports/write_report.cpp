@@ -5,6 +5,7 @@
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
+#include "bench/results/compact_mesh.h"
 #include "bench/results/kept_mesh.h"
 #include "engine/io/files.h"
 #include "reports/report.h"
@@ -93,18 +94,34 @@ std::set<std::string> mesh_files(const Report& report) {
   return files;
 }
 
+/// The kept meshes, small enough for a page of many.
+bench::Json compact_meshes(const Report& report, const std::filesystem::path& folder) {
+  bench::Json meshes = contents_of(mesh_files(report), folder);
+  for (auto& [file, mesh] : meshes.items()) mesh = results::compact_mesh(mesh);
+  return meshes;
+}
+
 std::set<std::string> raw_files(const Report& report) {
   std::set<std::string> files;
   for (const ReportSection& section : report.sections) {
     if (!section.is_missing) files.insert(section.result.name + ".json");
     files.insert(section.result.raw_files.begin(), section.result.raw_files.end());
   }
-  for (const auto& [file, run] : report.runs) files.insert(file);
+  if (report.has_raw_runs)
+    for (const auto& [file, run] : report.runs) files.insert(file);
   return files;
 }
 
 std::string element(const std::string& id, const std::string& type, const std::string& content) {
   return "<script type=\"" + type + "\" id=\"" + id + "\">" + content + "</script>\n";
+}
+
+constexpr std::size_t largest_plain_report = 3 << 19;  ///< bytes; a larger one is deflated
+
+std::string report_element(const Report& report) {
+  const std::string text = inside_script(report_json(report));
+  if (text.size() <= largest_plain_report) return element("ccdt-report", "application/json", text);
+  return element("ccdt-packed-report", "text/plain", results::packed(text.data(), text.size()));
 }
 
 }  // namespace
@@ -115,8 +132,8 @@ std::string fill_page(const std::string& page, const Report& report, const std::
   const std::string raw =
       contents_of(raw_files(report), folder).dump(-1, ' ', false, bench::Json::error_handler_t::replace);
   const std::string json = "application/json";
-  return page.substr(0, at) + element("ccdt-report", json, inside_script(report_json(report))) +
-         element("ccdt-meshes", json, inside_script(contents_of(mesh_files(report), folder))) +
+  return page.substr(0, at) + report_element(report) +
+         element("ccdt-meshes", json, inside_script(compact_meshes(report, folder))) +
          element("ccdt-files", "text/plain", results::packed(raw.data(), raw.size())) +
          page.substr(at + place_of_data.size());
 }
@@ -131,6 +148,7 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
   write_text(bench::to_text(report_json(report)), folder / "report.json");
   write_text(bench::to_text(claims_json(report)), folder / "claims.json");
   for (const ReportSection& section : report.sections) write_tables(section, folder);
+  for (const auto& [name, content] : report.more_files) write_text(content, folder / name);
   draw_figures(folder, share, written);
   const auto page = share / "page.html";
   if (!std::filesystem::exists(page)) {

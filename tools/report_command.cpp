@@ -1,6 +1,9 @@
 #include <cstdio>
 #include <memory>
+#include <sstream>
+#include <utility>
 
+#include "bench/sweep_results/sweep_result.h"
 #include "reports/report.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -13,6 +16,8 @@ struct ReportCommand {
   std::vector<std::string> folders;
   std::string output;
 };
+
+constexpr std::size_t most_rows = 20;  ///< of a table of a sweep, on a terminal
 
 std::string verdicts(const reports::Report& report) {
   reports::TextTable table = {{"the paper's claim", "verdict"}};
@@ -27,6 +32,16 @@ void write_and_print(const reports::Report& report, const std::filesystem::path&
   for (const std::string& note : written.notes) std::fprintf(stderr, "%s\n", note.c_str());
   const auto place = std::filesystem::absolute(written.page.empty() ? folder : written.page).lexically_normal();
   std::printf("\nThe report is in\n%s\n", place.c_str());
+}
+
+/// Words in lines of at most that width, indented.
+std::string in_lines(const std::string& words, std::size_t width) {
+  std::string text;
+  std::istringstream list(words);
+  std::string line = " ";
+  for (std::string word; list >> word; line += " " + word)
+    if (line.size() + 1 + word.size() > width) text += std::exchange(line, " ") + "\n";
+  return text + line + "\n";
 }
 
 void compare(const ReportCommand& command) {
@@ -47,13 +62,23 @@ void run(const ReportCommand& command) {
 }
 
 constexpr const char* footer =
-    "The folder is one that `ccdt reproduce` has filled. All is made anew from the JSON files in it: report.json,\n"
-    "claims.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG) and the page index.html.\n"
-    "The report says what is missing.\n\n"
+    "The folder is one that `ccdt reproduce` or `ccdt sweep` has filled. All is made anew from the JSON files in it:\n"
+    "report.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG), the page index.html, and\n"
+    "claims.json. The report says what is missing.\n\n"
+    "Of a sweep there are runs.csv and runs.jsonl as well, for pandas and R: a line for each run, with these "
+    "columns:\n";
+
+constexpr const char* examples =
+    "where `counted` is yes or no (a warm-up run), `file` the whole record, `seconds` those of meshing alone, "
+    "`verified`\n"
+    "and `kind` empty where the record does not say, and each option of the sweep a column option_NAME. What is not\n"
+    "known is empty in CSV and null in JSON.\n\n"
     "Example: the report of a folder, after one of its experiments was made again\n"
     "  ccdt reproduce fig8 -o build/paper --scale paper && ccdt report build/paper\n"
     "Example: what has changed from one folder to the other; the report goes to new/comparison\n"
-    "  ccdt report old new\n";
+    "  ccdt report old new\n"
+    "Example: the median seconds of each mesher of a sweep, in Python\n"
+    "  runs = pandas.read_csv('DIR/runs.csv'); runs[runs.counted == 'yes'].groupby('mesher').seconds.median()\n";
 
 }  // namespace
 
@@ -69,7 +94,10 @@ std::filesystem::path share_folder() {
 
 void make_report(const std::filesystem::path& folder) {
   const reports::Report report = reports::read_report(folder, reports::read_charts(share_folder() / "charts"));
-  std::fputs(verdicts(report).c_str(), stdout);
+  if (!report.claims.empty()) std::fputs(verdicts(report).c_str(), stdout);
+  for (const reports::ReportSection& section : report.sections)
+    if (section.result.name == sweep_results::sweep_name)
+      std::fputs(reports::to_terminal(section.result, most_rows).c_str(), stdout);
   for (const reports::ReportSection& section : report.sections)
     if (section.is_missing)
       std::printf("\nMissing: %s %s\n  %s\n", section.result.title.c_str(), section.reason.c_str(),
@@ -80,12 +108,13 @@ void make_report(const std::filesystem::path& folder) {
 void add_report_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ReportCommand>();
   CLI::App* verb = app.add_subcommand("report", "tables, figures and the page from the JSON of a folder");
-  verb->add_option("DIR", command->folders, "a folder that `ccdt reproduce` has filled; two are compared")
+  verb->add_option("DIR", command->folders,
+                   "a folder that `ccdt reproduce` or `ccdt sweep` has filled; two are compared")
       ->required()
       ->expected(1, 2)
       ->check(CLI::ExistingDirectory);
   verb->add_option("-o,--output", command->output, "folder of a comparison; default: comparison in the second DIR");
-  verb->footer(footer);
+  verb->footer(footer + in_lines(sweep_results::run_columns_help(), 116) + examples);
   verb->callback([command, &exit_code] {
     if (command->folders.size() == 1 && !command->output.empty())
       throw CLI::ValidationError("--output", "a report goes to its own folder; only a comparison has another");

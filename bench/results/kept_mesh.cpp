@@ -3,7 +3,10 @@
 #include <openssl/evp.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -33,7 +36,38 @@ std::string deflated(const void* data, std::size_t size) {
   return bytes;
 }
 
+std::string from_base64(const std::string& text) {
+  std::string bytes(text.size() / 4 * 3, '\0');
+  const int length =
+      EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
+                      reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
+  if (length < 0) throw std::runtime_error("not in base64");
+  const std::size_t padding = text.size() - std::min(text.size(), text.find_last_not_of('=') + 1);
+  bytes.resize(static_cast<std::size_t>(length) - padding);
+  return bytes;
+}
+
+std::string inflated(const std::string& bytes) {
+  std::string text;
+  for (std::size_t room = 8 * bytes.size() + 64;; room *= 4) {
+    text.resize(room);
+    uLongf length = text.size();
+    const int code = uncompress(reinterpret_cast<Bytef*>(text.data()), &length,
+                                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+    if (code == Z_OK) {
+      text.resize(length);
+      return text;
+    }
+    if (code != Z_BUF_ERROR || room > std::numeric_limits<std::uint32_t>::max())
+      throw std::runtime_error("zlib could not inflate " + std::to_string(bytes.size()) + " bytes");
+  }
+}
+
 }  // namespace
+
+std::string unpacked(const std::string& text) {
+  return inflated(from_base64(text));
+}
 
 std::string packed(const void* data, std::size_t size) {
   return base64(deflated(data, size));

@@ -2,8 +2,8 @@
  * Bundles the page and the program that draws the figures, or the tests.
  *
  *   node build.mjs page WORK OUT    OUT/page.html, OUT/render_figures.mjs, OUT/charts/*.json
- *   node build.mjs tests WORK       WORK/tests/unit_tests.mjs, validate.mjs, write_page.mjs, and NAME_test.mjs of
- *                                   tests/browser
+ *   node build.mjs tests WORK       WORK/tests/unit_tests.mjs, compare_meshes.mjs, validate.mjs, write_page.mjs, and
+ *                                   NAME_test.mjs of tests/browser
  *
  * WORK is a folder in which `npm ci` has been run: the libraries are there, not beside the sources. A file
  * WORK/page.d or WORK/tests.d tells the build system what went in.
@@ -108,7 +108,7 @@ async function buildTests(esbuild, common, work) {
   });
   const programs = await esbuild.build({
     ...node,
-    entryPoints: [...testsIn("tests/browser"), "./tests/validate.mjs", "./tests/fixture/write_page.mjs"],
+    entryPoints: [...testsIn("tests/browser"), "./tests/compare_meshes.mjs", "./tests/validate.mjs", "./tests/fixture/write_page.mjs"],
     outdir: out,
     entryNames: "[name]",
     outExtension: { ".js": ".mjs" },

@@ -14,6 +14,7 @@ export function meshOf(points, cells, regions = cells.map(() => 0)) {
     points: new Float32Array(points.flat()),
     cells: new Uint32Array(cells.flat()),
     regions: new Int32Array(regions),
+    numbers: Uint32Array.from(points.keys()),
   };
 }
 

@@ -55,14 +55,15 @@ async function widthOf(view) {
  * @param {object} section  of the report
  * @param {object} chart    of the section
  * @param {object} options  of `completeSpec`
- * @returns {Promise<{view: vega.View, warnings: string[]}>}  a view that has run, not yet in a page
+ * @param {number} [options.room]  that it took the last time, if it was drawn before: a good guess saves time
+ * @returns {Promise<{view: vega.View, warnings: string[], room: number}>}  a view that has run, not yet in a page
  */
 export async function drawn(section, chart, options) {
-  let room = FIRST_ROOM;
+  let room = options.room ?? FIRST_ROOM;
   for (let fitting = 1; ; ++fitting) {
     const made = await run(completeSpec(section, chart, { ...options, room }));
     const excess = (await widthOf(made.view)) - options.width;
-    if ((excess <= 0 && excess > -CLOSE_ENOUGH) || fitting === MOST_FITTINGS) return made;
+    if ((excess <= 0 && excess > -CLOSE_ENOUGH) || fitting === MOST_FITTINGS) return { ...made, room };
     made.view.finalize();
     room += excess + 1;
   }

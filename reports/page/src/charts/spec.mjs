@@ -7,11 +7,13 @@ import { textWidth } from "./text_width.mjs";
 import { chartConfig, colourIn, textScale } from "./themes.mjs";
 
 const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
+const PLACES = ["x", "y"];
 const TABLE_ORDER = ["x", "y", "facet"];
 const SERIES_ORDER = ["xOffset", "yOffset"];
 const HALF_A_LINE = 6.5;
 const LONGEST_LABEL = 0.28; // of the width, in one line
 const SYMBOL_ROOM = 30; // of a legend's entry, beside its text
+const LINE_ROOM = 48; // the same of a line that shows its dashes
 
 /** Calls a function for each definition of a channel, at any depth. */
 function eachChannel(spec, visit) {
@@ -54,22 +56,22 @@ function legendWidth(entries, columns) {
 }
 
 /** A legend's entries in as few rows as there is room for, and these as full as each other. */
-function legendColumns(values, theme, width) {
-  const entries = values.map((value) => textWidth(value, 10.5 * textScale(theme)) + SYMBOL_ROOM);
+function legendColumns(values, theme, width, room) {
+  const entries = values.map((value) => textWidth(value, 10.5 * textScale(theme)) + room);
   let columns = values.length;
   while (columns > 1 && legendWidth(entries, columns) > width) --columns;
   const rows = Math.ceil(values.length / columns);
   return Math.ceil(values.length / rows);
 }
 
-function styleSeries(channel, definition, values, theme, width) {
+function styleSeries(channel, definition, values, { theme, width, symbol }) {
   const styles = seriesStyles(values);
   const range = styles.map(({ colour, shape, dash }) =>
     channel === "shape" ? shape : channel === "strokeDash" ? dash : colourIn(theme, colour),
   );
   definition.scale = { domain: values, range };
   if (definition.legend !== null)
-    definition.legend = { columns: legendColumns(values, theme, width), ...definition.legend };
+    definition.legend = { columns: legendColumns(values, theme, width, symbol), ...definition.legend };
 }
 
 // Lines at the powers of ten alone: a logarithmic axis has a tick for each digit.
@@ -83,6 +85,13 @@ function completeLogarithmic(definition) {
   definition.scale = { nice: false, padding: 10, ...definition.scale };
   if (definition.axis !== null && !definition.axis?.values)
     definition.axis = { gridOpacity: POWERS_OF_TEN, ...definition.axis };
+}
+
+/** How much of a legend's entry its symbol takes: where series are lines alone, these are long. */
+function symbolRoom(spec) {
+  const channels = new Set();
+  eachChannel(spec, (channel) => channels.add(channel));
+  return channels.has("strokeDash") && !channels.has("shape") ? LINE_ROOM : SYMBOL_ROOM;
 }
 
 /** What the layers of a chart say of themselves: {"color": {"datum": "the paper"}}. */
@@ -99,15 +108,16 @@ function datumsOf(spec, channel) {
  * A channel with a scale or an order of its own keeps it.
  */
 function completeChannels(spec, data, { theme, width, room }) {
+  const legend = { theme, width: width - room, symbol: symbolRoom(spec) };
   eachChannel(spec, (channel, definition) => {
     if (SERIES_CHANNELS.includes(channel) && typeof definition.datum === "string")
-      styleSeries(channel, definition, datumsOf(spec, channel), theme, width - room);
-    if (definition.scale?.type === "log") completeLogarithmic(definition);
+      styleSeries(channel, definition, datumsOf(spec, channel), legend);
+    if (definition.scale?.type === "log" && PLACES.includes(channel)) completeLogarithmic(definition);
     if (!isText(definition)) return;
     const values = textsOf(data, definition.field);
     if (values.length === 0) return;
     if (SERIES_CHANNELS.includes(channel) && definition.scale === undefined)
-      styleSeries(channel, definition, inSeriesOrder(values), theme, width - room);
+      styleSeries(channel, definition, inSeriesOrder(values), legend);
     if (channel === "y") wrapLabels(definition, values, theme, width);
     if (definition.sort !== undefined) return;
     if (TABLE_ORDER.includes(channel)) definition.sort = values;

@@ -2,8 +2,9 @@ import { drawn } from "../charts/draw.mjs";
 import { element } from "./dom.mjs";
 import { download } from "./downloads.mjs";
 import { inTurn } from "./in_turn.mjs";
-import { traceRow } from "./trace.mjs";
-import { rowOf, tooltipOf } from "./tooltip.mjs";
+import { factsOf } from "./mark_facts.mjs";
+import { openTrace } from "./trace.mjs";
+import { tooltipOf } from "./tooltip.mjs";
 import { pageFont } from "./theme.mjs";
 import { printWidth } from "../charts/print.mjs";
 
@@ -41,6 +42,7 @@ export function chartView(report, section, chart) {
   let passes = () => true,
     view = null,
     drawnWidth = 0,
+    room,
     wanted = 0;
 
   async function draw(turn) {
@@ -52,22 +54,25 @@ export function chartView(report, section, chart) {
     );
     view?.finalize();
     view = null;
+    if (width !== drawnWidth) room = undefined;
     drawnWidth = width;
     if (!hasData) {
       drawing.replaceChildren(element("p.quiet", {}, "Nothing passes the filters."));
       return;
     }
     const container = element("div", { "aria-hidden": "true" });
-    const made = await drawn(section, chart, { theme: "page", width, font: pageFont(), passes });
+    const made = await drawn(section, chart, { theme: "page", width, font: pageFont(), passes, room });
+    room = made.room;
     if (turn !== wanted) {
       made.view.finalize();
       return;
     }
     view = made.view;
-    await view.renderer("svg").tooltip(tooltipOf(section)).initialize(container).runAsync();
+    const found = (item) => factsOf(section, chart, item?.datum, passes);
+    await view.renderer("svg").tooltip(tooltipOf(found)).initialize(container).runAsync();
     view.addEventListener("click", (_, item) => {
-      const found = rowOf(section, item?.datum);
-      if (found?.row.runs.length > 0) traceRow(report, found.table, found.row);
+      const { title, facts, runs } = found(item) ?? { runs: [] };
+      if (runs.length > 0) openTrace(report, title, facts, runs);
     });
     drawing.replaceChildren(container);
     drawing.dataset.drawn = "true";

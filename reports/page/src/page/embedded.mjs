@@ -4,10 +4,12 @@ function textOf(id) {
   return document.getElementById(id)?.textContent ?? null;
 }
 
-/** @returns {object|null} JSON of schema ccdt.report/1 */
-export function embeddedReport() {
+/** @returns {Promise<object|null>} JSON of schema ccdt.report/1, deflated where it is large */
+export async function embeddedReport() {
   const text = textOf("ccdt-report");
-  return text === null ? null : JSON.parse(text);
+  if (text !== null) return JSON.parse(text);
+  const packed = textOf("ccdt-packed-report");
+  return packed === null ? null : unpack(packed);
 }
 
 /** @returns {Object<string, object>} JSON of schema ccdt.mesh/1, by file */

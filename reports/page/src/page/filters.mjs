@@ -57,13 +57,20 @@ function roundBounds(low, high) {
   return bounds.slice(first, last + 1);
 }
 
+function extentOf(sizes) {
+  return sizes.reduce(({ low, high }, size) => ({ low: Math.min(low, size), high: Math.max(high, size) }), {
+    low: Infinity,
+    high: -Infinity,
+  });
+}
+
 /** @returns {Range[]} */
 export function rangesOf(section) {
   const tables = section.tables.filter((table) => !table.data);
   return columnsOf(tables, (column) => RANGES.includes(column.name))
-    .map(({ name, title }) => ({ name, title, sizes: cellsOf(tables, name).filter((size) => size > 0) }))
-    .filter(({ sizes }) => Math.max(...sizes) >= SMALLEST_SPREAD * Math.min(...sizes))
-    .map(({ name, title, sizes }) => ({ name, title, bounds: roundBounds(Math.min(...sizes), Math.max(...sizes)) }));
+    .map(({ name, title }) => ({ name, title, ...extentOf(cellsOf(tables, name).filter((size) => size > 0)) }))
+    .filter(({ low, high }) => high >= SMALLEST_SPREAD * low)
+    .map(({ name, title, low, high }) => ({ name, title, bounds: roundBounds(low, high) }));
 }
 
 /** @returns {FilterState} that lets all pass */

@@ -8,9 +8,21 @@ function magnitude(number) {
   return number === 0 ? 0 : Math.floor(Math.log10(Math.abs(number)));
 }
 
+// By the number of decimals: to make one takes longer than to use it a thousand times.
+const formats = new Map();
+
+function formatOf(decimals) {
+  if (!formats.has(decimals))
+    formats.set(
+      decimals,
+      new Intl.NumberFormat("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals }),
+    );
+  return formats.get(decimals);
+}
+
 function grouped(number, decimals) {
   const rounded = Number(number.toFixed(decimals)) || 0; // never -0
-  return rounded.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
+  return formatOf(decimals).format(rounded);
 }
 
 function scientific(number) {

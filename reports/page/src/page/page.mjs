@@ -10,12 +10,25 @@ import { rawFilesSection } from "./raw_files_section.mjs";
 import { defineChartColours, themeSwitch } from "./theme.mjs";
 import { verdictCounts, verdictSection } from "./verdicts.mjs";
 
+/** "3 experiments and 120 runs", "2,000 cases and 10,000 runs" */
+function counts(report, made) {
+  const sweeps = made.filter(({ name }) => name === "sweep");
+  const cases = sweeps.reduce((sum, { tables }) => sum + tables.find(({ name }) => name === "cases").rows.length, 0);
+  return [
+    made.length > sweeps.length ? counted(made.length - sweeps.length, "experiment") : "",
+    sweeps.length > 0 ? counted(cases, "case") : "",
+    counted(Object.keys(report.runs).length, "run"),
+  ]
+    .filter(Boolean)
+    .join(" and ");
+}
+
 function summary(report) {
   const made = report.experiments.filter(({ status }) => status !== "missing");
   const processors = [...new Set(made.map(({ environment }) => environment?.cpu).filter(Boolean))];
   const claims = report.claims.length > 0 ? `${counted(report.claims.length, "claim")} of the paper, tested by ` : "";
   return (
-    `${claims}${counted(made.length, "experiment")} and ${counted(Object.keys(report.runs).length, "run")}` +
+    `${claims}${counts(report, made)}` +
     `${processors.length > 0 ? ` on ${processors.join(" and ")}` : ""}.`
   );
 }
@@ -84,10 +97,10 @@ function show(report) {
 }
 
 defineChartColours();
-const report = embeddedReport();
-if (report) show(report);
-else
+embeddedReport().then((report) => {
+  if (report) return show(report);
   append(
     document.getElementById("page"),
     element("p", {}, "There is no report in this page: ccdt report puts one in."),
   );
+});

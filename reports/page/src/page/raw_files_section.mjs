@@ -5,25 +5,21 @@ import { counted, numberText } from "./numbers.mjs";
 
 const MOST_SHOWN = 200;
 
+/** A file; one that is not in the page can only be opened. */
 function fileEntry(file, content) {
+  const save = () => download(baseName(file), jsonText(content), "application/json");
   return element(
     "li",
     {},
     element("a", { href: file }, file),
-    element(
-      "button.small",
-      {
-        type: "button",
-        "aria-label": `Download ${file}`,
-        onclick: () => download(baseName(file), jsonText(content), "application/json"),
-      },
-      "Download",
-    ),
+    content === undefined
+      ? null
+      : element("button.small", { type: "button", "aria-label": `Download ${file}`, onclick: save }, "Download"),
   );
 }
 
-function fileList(files) {
-  const names = Object.keys(files).sort(
+function fileList(files, runs) {
+  const names = [...new Set([...Object.keys(files), ...runs])].sort(
     (a, b) => a.split("/").length - b.split("/").length || a.localeCompare(b, "en", { numeric: true }),
   );
   const shown = element("ul.files");
@@ -51,14 +47,15 @@ function fileList(files) {
 /** All JSON that the report was made of, to download; unpacked when it is asked for. */
 export function rawFilesSection(report) {
   const save = (name, content) => download(name, jsonText(content), "application/json");
+  const isSweep = report.experiments.some(({ name }) => name === "sweep");
   const place = element("div");
   const details = element("details.definitions", {}, element("summary", {}, "Each file"), place);
   details.addEventListener("toggle", async () => {
     if (!details.open || place.hasChildNodes()) return;
     const files = await embeddedFiles();
     place.append(
-      element("p.quiet", {}, `${counted(Object.keys(files).length, "file")}, also in the folder of this page.`),
-      ...fileList(files),
+      element("p.quiet", {}, `${counted(Object.keys(files).length, "file")} in this page, and in its folder.`),
+      ...fileList(files, Object.keys(report.runs)),
     );
   });
   return element(
@@ -68,8 +65,19 @@ export function rawFilesSection(report) {
     element(
       "p.lead",
       {},
-      "All that this page shows was computed from these JSON files; ccdt report makes the page from them again.",
+      "All that this page shows was computed from JSON files; ccdt report makes the page from them again.",
+      report.raw_runs === false
+        ? " The records of the runs are not in this page, as they are many, but in its folder: in runs, a file for each."
+        : "",
+      isSweep ? " runs.csv and runs.jsonl have a line for each run, for pandas and R." : "",
     ),
+    isSweep
+      ? element(
+          "p.actions",
+          {},
+          ["runs.csv", "runs.jsonl"].map((file) => element("a.file", { href: file }, file)),
+        )
+      : null,
     element(
       "p.actions",
       {},

@@ -2,12 +2,13 @@ import { csvOf } from "./csv.mjs";
 import { element } from "./dom.mjs";
 import { download } from "./downloads.mjs";
 import { cellContent } from "./cells.mjs";
-import { commonDecimals, counted, isEstimate, sortKey } from "./numbers.mjs";
+import { commonDecimals, counted, isEstimate, numberText, sortKey } from "./numbers.mjs";
 import { rowTitle, saysUnit, sortedRows, STATUS, unitText } from "./rows.mjs";
 import { traceButton, traceRow } from "./trace.mjs";
 
 const ROWS_AT_FIRST = 12;
 const MOST_ROWS_WITHOUT_BUTTON = 16;
+const MOST_ROWS_AT_ONCE = 100; // longer tables are turned over like pages, so that the browser has little to lay out
 const LONG_TITLE = 24;
 const LONG_TEXT = 44; // characters; longer ones are wrapped
 
@@ -18,9 +19,8 @@ function shownColumns(table) {
   const hasStatus = table.columns.some(({ name }) => name === STATUS);
   const says = ({ name, kind }) => {
     if (kind === "note" && hasStatus) return false;
-    return table.rows.some(
-      (row) => sortKey(row.values[name]) !== null && (name !== STATUS || row.values[name] !== "ok"),
-    );
+    if (name === STATUS) return table.rows.some((row) => row.values[STATUS] !== "ok" || notesOf(table, row).length > 0);
+    return table.rows.some((row) => sortKey(row.values[name]) !== null);
   };
   return table.columns.filter(says).map((column) => {
     const cells = table.rows.map((row) => row.values[column.name]);
@@ -53,14 +53,17 @@ function hasRuns(table) {
   return table.rows.some((row) => row.runs.length > 0);
 }
 
-function statusContent(table, row) {
-  const notes = table.columns
+function notesOf(table, row) {
+  return table.columns
     .filter(({ kind }) => kind === "note")
     .map(({ name }) => row.values[name])
     .filter(Boolean);
+}
+
+function statusContent(table, row) {
   return [
     element("span.status", { "data-status": row.values[STATUS] }, row.values[STATUS]),
-    notes.map((note) => element("span.quiet", {}, ` ${note}`)),
+    notesOf(table, row).map((note) => element("span.quiet", {}, ` ${note}`)),
   ];
 }
 
@@ -87,6 +90,7 @@ export function tableView(report, section, table) {
   const columns = shownColumns(table);
   let sorting = null,
     rows = table.rows,
+    first = 0, // row that is shown
     isUnfolded = false;
 
   const head = element("thead"),
@@ -104,15 +108,42 @@ export function tableView(report, section, table) {
   );
   unfold.addEventListener("click", () => {
     isUnfolded = !isUnfolded;
+    first = 0;
     draw();
   });
 
+  const turn = (rowsAway) => {
+    first = Math.min(Math.max(0, first + rowsAway), rows.length - 1);
+    draw();
+  };
+  const back = element("button.small", { type: "button", onclick: () => turn(-MOST_ROWS_AT_ONCE) }, "Back");
+  const next = element("button.small", { type: "button", onclick: () => turn(MOST_ROWS_AT_ONCE) }, "Next");
+  const place = element("span.quiet", { "aria-live": "polite" });
+  const pager = element("p.actions.pager", {}, back, place, next);
+
   const sort = (name) => {
+    first = 0;
     const isSame = sorting?.name === name;
     sorting = isSame && sorting.descending ? null : { name, descending: isSame };
     draw();
     head.querySelector(`[data-column="${name}"]`).focus();
   };
+
+  /** The rows that are in the page; folded ones are not shown, but found by a search and printed. */
+  function rowsInPage(mustFold) {
+    const sorted = sortedRows(rows, sorting);
+    if (rows.length <= MOST_ROWS_AT_ONCE) return sorted;
+    return mustFold ? sorted.slice(0, ROWS_AT_FIRST) : sorted.slice(first, first + MOST_ROWS_AT_ONCE);
+  }
+
+  function showPager(isShown) {
+    pager.hidden = !isShown;
+    if (!isShown) return;
+    const last = Math.min(first + MOST_ROWS_AT_ONCE, rows.length);
+    place.textContent = ` Rows ${numberText(first + 1)} to ${numberText(last)} of ${numberText(rows.length)} `;
+    back.disabled = first === 0;
+    next.disabled = last === rows.length;
+  }
 
   function draw() {
     const mustFold = rows.length > MOST_ROWS_WITHOUT_BUTTON && !isUnfolded;
@@ -125,12 +156,13 @@ export function tableView(report, section, table) {
       ),
     );
     body.replaceChildren(
-      ...sortedRows(rows, sorting).map((row, index) =>
+      ...rowsInPage(mustFold).map((row, index) =>
         bodyRow(report, table, columns, row, mustFold && index >= ROWS_AT_FIRST),
       ),
     );
     count.textContent =
       rows.length === table.rows.length ? "" : `${rows.length} of ${counted(table.rows.length, "row")}`;
+    showPager(!mustFold && rows.length > MOST_ROWS_AT_ONCE);
     unfold.hidden = rows.length <= MOST_ROWS_WITHOUT_BUTTON;
     unfold.textContent = mustFold ? `Show all ${counted(rows.length, "row")}` : "Show fewer rows";
     unfold.setAttribute("aria-expanded", String(!mustFold));
@@ -147,10 +179,12 @@ export function tableView(report, section, table) {
       { tabindex: 0, role: "region", "aria-label": `${section.title}: ${table.title}` },
       element("table", {}, head, body),
     ),
+    pager,
     unfold,
   );
   const show = (passes) => {
     rows = table.rows.filter((row) => passes(row, table));
+    first = 0;
     draw();
   };
   return { node, show };

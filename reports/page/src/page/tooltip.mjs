@@ -1,5 +1,4 @@
 import { element, list } from "./dom.mjs";
-import { rowFacts, rowTitle } from "./rows.mjs";
 
 const DISTANCE = 14;
 
@@ -15,25 +14,20 @@ function place(event) {
   box.style.transform = `translate(${x}px, ${y}px)`;
 }
 
-/** The row of a table that a mark of a chart stands for. */
-export function rowOf(section, datum) {
-  const table = section.tables.find(({ name }) => name === datum?._table);
-  const row = table?.rows[datum._row];
-  return row ? { table, row } : null;
-}
-
-/** For Vega: shows what the row behind a mark says. */
-export function tooltipOf(section) {
+/**
+ * For Vega: shows what is known of a mark.
+ * @param {(item: object) => {title: string, facts: string[], runs: string[]}|null} factsOf
+ */
+export function tooltipOf(factsOf) {
   return (_, event, item) => {
-    const found = item ? rowOf(section, item.datum) : null;
+    const found = item ? factsOf(item) : null;
     box ??= document.body.appendChild(element("div.tooltip", { role: "tooltip" }));
     box.hidden = !found;
     if (!found) return;
-    const { table, row } = found;
     box.replaceChildren(
-      element("strong", {}, rowTitle(table, row)),
-      list("ul", rowFacts(table, row)) ?? "",
-      row.runs.length > 0 ? element("span.quiet", {}, "Click to trace it to its runs") : "",
+      element("strong", {}, found.title),
+      list("ul", found.facts) ?? "",
+      found.runs.length > 0 ? element("span.quiet", {}, "Click to trace it to its runs") : "",
     );
     place(event);
   };

@@ -21,7 +21,9 @@ function rawJson(file) {
     return found === undefined ? null : jsonText(found);
   };
   details.addEventListener("toggle", async () => {
-    if (details.open) text.textContent = (await content()) ?? "This file is not in the page.";
+    const isHere = (await content()) !== null;
+    save.hidden = !isHere;
+    if (details.open) text.textContent = (await content()) ?? `This file is not in the page, but in its folder: ${file}`;
   });
   save.addEventListener("click", async () => {
     const json = await content();
@@ -62,6 +64,8 @@ function runEntry(file, run, open) {
   );
 }
 
+const MOST_RUNS = 100; // in one list
+
 let dialog = null;
 
 function openDialog(title, ...content) {
@@ -71,7 +75,7 @@ function openDialog(title, ...content) {
     "dialog.trace",
     { "aria-labelledby": "trace-title" },
     element("header", {}, element("h2", { id: "trace-title" }, title), close),
-    ...content,
+    ...content.filter(Boolean),
   );
   close.addEventListener("click", () => dialog.close());
   dialog.addEventListener("click", (event) => {
@@ -96,8 +100,9 @@ export function openTrace(report, title, facts, files) {
     element(
       "ol.runs",
       {},
-      files.map((file, index) => runEntry(file, report.runs[file], index === 0)),
+      files.slice(0, MOST_RUNS).map((file, index) => runEntry(file, report.runs[file], index === 0)),
     ),
+    files.length > MOST_RUNS ? element("p.quiet", {}, `and ${counted(files.length - MOST_RUNS, "more run")}.`) : null,
   );
 }
 

@@ -1,3 +1,6 @@
+import { unpackCompactMesh } from "./compact_mesh.mjs";
+import { inflated } from "./inflated.mjs";
+
 /**
  * A mesh as the viewer works on it.
  * @typedef {object} Mesh
@@ -5,32 +8,30 @@
  * @property {Float32Array} points  x y z of each vertex
  * @property {Uint32Array} cells    four vertices of each tetrahedron, positively oriented
  * @property {Int32Array} regions   one a tetrahedron
+ * @property {Uint32Array} numbers  of the vertices, in the file of the mesh
  */
 
 /**
- * Unpacks a mesh of schema `ccdt.mesh/1`, in a browser as in node.
+ * Unpacks a mesh of schema `ccdt.mesh/1` or `ccdt.pagemesh/1`, in a browser as in node.
  * @param {object} kept  the parsed JSON
  * @returns {Promise<Mesh>}
  * @throws {Error} when the arrays do not make a mesh
  */
 export async function unpackMesh(kept) {
-  const [points, cells, regions] = await Promise.all([kept.points, kept.cells, kept.regions].map(inflated));
-  const mesh = {
-    title: kept.title,
-    points: new Float32Array(points),
-    cells: new Uint32Array(cells),
-    regions: new Int32Array(regions),
-  };
+  const mesh = kept.schema === "ccdt.pagemesh/1" ? await unpackCompactMesh(kept) : await unpackPlainMesh(kept);
   expectConsistent(mesh, kept);
   return mesh;
 }
 
-async function inflated(base64) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).arrayBuffer();
+async function unpackPlainMesh(kept) {
+  const [points, cells, regions] = await Promise.all([kept.points, kept.cells, kept.regions].map(inflated));
+  return {
+    title: kept.title,
+    points: new Float32Array(points),
+    cells: new Uint32Array(cells),
+    regions: new Int32Array(regions),
+    numbers: Uint32Array.from({ length: kept.vertices }, (_, vertex) => vertex),
+  };
 }
 
 function expectConsistent(mesh, kept) {

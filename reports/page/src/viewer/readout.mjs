@@ -21,9 +21,9 @@ export function tetrahedronFacts(viewed, cell) {
   const { mesh } = viewed;
   const corners = cornersOf(mesh, cell);
   const angles = dihedralAngles(corners).sort((a, b) => a - b);
-  const vertices = corners.map((point, i) => `${mesh.cells[4 * cell + i]} (${point.map(numberText).join(", ")})`);
+  const vertices = corners.map((point, i) => `${mesh.numbers[mesh.cells[4 * cell + i]]} (${point.map(numberText).join(", ")})`);
   return [
-    element("strong", {}, `Tetrahedron ${countText(cell)}`),
+    element("strong", {}, "Tetrahedron"),
     facts([
       ["r", numberText(measureR(corners))],
       ["dihedral angles", `${angles.map((angle) => angle.toFixed(1)).join(", ")}°`],

@@ -1,5 +1,11 @@
 /** The report that a page has in it. */
-export const reportOf = (page) => page.evaluate(() => JSON.parse(document.getElementById("ccdt-report").textContent));
+export const reportOf = (page) => page.evaluate(async () => {
+  const plain = document.getElementById("ccdt-report");
+  if (plain) return JSON.parse(plain.textContent);
+  const base64 = document.getElementById("ccdt-packed-report").textContent;
+  const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
+});
 
 /** Marks with which data are drawn, in a chart or in all charts of a section: no axes, legends and words. */
 export const marksIn = (locator) =>

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "bench/statistics.h"
+#include "bench/sweep_results/sweep_tables.h"
+
+namespace ccdt::sweep_results {
+namespace {
+
+using results::Cell;
+using results::cell_of;
+using results::ColumnKind;
+using results::ResultRow;
+
+/// Ours if it takes part, else the first.
+std::string reference_of(const Sweep& sweep) {
+  const bool has_ours = std::ranges::any_of(sweep.cases, [](const SweepCase& c) { return c.mesher == "ccdt"; });
+  return has_ours || sweep.cases.empty() ? "ccdt" : sweep.cases.front().mesher;
+}
+
+/// Are the options equal that both meshers have?
+bool have_same_options(const SweepCase& a, const SweepCase& b) {
+  for (std::size_t i = 0; i < a.options.size(); ++i)
+    if (!a.options[i].empty() && !b.options[i].empty() && a.options[i] != b.options[i]) return false;
+  return true;
+}
+
+/// What is known of all pairs with one other mesher.
+struct PairCounts {
+  std::vector<double> ratios = {};
+  std::uint64_t first_alone = 0, second_alone = 0, neither = 0;
+  double low = std::numeric_limits<double>::infinity(), high = 0;  ///< of the seconds of both
+};
+
+void count(const CaseSummary& first, const CaseSummary& second, PairCounts& counts) {
+  if (!first.seconds || !second.seconds) {
+    ++(first.seconds ? counts.first_alone : second.seconds ? counts.second_alone : counts.neither);
+    return;
+  }
+  const double a = first.seconds->value, b = second.seconds->value;
+  counts.ratios.push_back(a / b);
+  counts.low = std::min({counts.low, a, b});
+  counts.high = std::max({counts.high, a, b});
+}
+
+/// The median with the interval between two order statistics (the sign test's): there may be very many.
+bench::Estimate middle_of(std::span<const double> ratios) {
+  const double reach = 0.98 / std::sqrt(static_cast<double>(ratios.size()));
+  return {bench::median(ratios), bench::quantile(ratios, std::max(0.0, 0.5 - reach)),
+          bench::quantile(ratios, std::min(1.0, 0.5 + reach))};
+}
+
+void add_pair(const CaseSummary& first, const CaseSummary& second, ResultTable& pairs) {
+  ResultRow& row = pairs.rows.emplace_back(ResultRow{label_cells(first), first.runs});
+  row.runs.insert(row.runs.end(), second.runs.begin(), second.runs.end());
+  row.cells.insert(row.cells.end(), {first.of->mesher + " / " + second.of->mesher, first.legend, Cell(*first.seconds),
+                                     Cell(*second.seconds), first.seconds->value / second.seconds->value});
+}
+
+}  // namespace
+
+PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
+  PairTables tables{reference_of(sweep),
+                    {"pairs_summary",
+                     "Two meshers on the same inputs",
+                     {{"first", "first", ColumnKind::label},
+                      {"second", "second", ColumnKind::label},
+                      {"both", "solved by both", ColumnKind::time},
+                      {"first_alone", "by the first alone", ColumnKind::time},
+                      {"second_alone", "by the second alone", ColumnKind::time},
+                      {"neither", "by neither", ColumnKind::time},
+                      {"faster", "first is faster", ColumnKind::time},
+                      {"ratio", "seconds of the first / second, median", ColumnKind::time}}},
+                    {"pairs", "Pairs of cases", label_columns(sweep), {}, true},
+                    {"diagonals",
+                     "Diagonals",
+                     {{"meshers", "meshers", ColumnKind::note}, {"seconds", "seconds", ColumnKind::time, "s"}},
+                     {},
+                     true}};
+  tables.pairs.columns.insert(tables.pairs.columns.end(),
+                              {{"meshers", "meshers", ColumnKind::note},
+                               {"legend", "legend", ColumnKind::note},
+                               {"first_seconds", "seconds of the first", ColumnKind::time, "s"},
+                               {"second_seconds", "seconds of the second", ColumnKind::time, "s"},
+                               {"ratio", "ratio", ColumnKind::time}});
+  std::unordered_map<std::string, std::vector<const CaseSummary*>> others;
+  for (const CaseSummary& s : cases)
+    if (s.of->mesher != tables.reference && s.is_run()) others[s.of->input].push_back(&s);
+  std::map<std::string, PairCounts> counts;
+  for (const CaseSummary& first : cases) {
+    if (first.of->mesher != tables.reference || !first.is_run()) continue;
+    for (const CaseSummary* second : others[first.of->input]) {
+      if (!have_same_options(*first.of, *second->of)) continue;
+      count(first, *second, counts[second->of->mesher]);
+      if (first.seconds && second->seconds) add_pair(first, *second, tables.pairs);
+    }
+  }
+  for (const auto& [other, c] : counts) {
+    const auto faster = static_cast<std::uint64_t>(std::ranges::count_if(c.ratios, [](double r) { return r < 1; }));
+    tables.summary.rows.push_back({{tables.reference, other, cell_of(std::uint64_t{c.ratios.size()}),
+                                    cell_of(c.first_alone), cell_of(c.second_alone), cell_of(c.neither),
+                                    cell_of(faster), c.ratios.empty() ? Cell() : Cell(middle_of(c.ratios))}});
+    if (c.high > 0)
+      for (const double end : {c.low, c.high})
+        tables.diagonals.rows.push_back({{tables.reference + " / " + other, end}});
+  }
+  return tables;
+}
+
+}  // namespace ccdt::sweep_results

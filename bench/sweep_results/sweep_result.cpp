@@ -1,0 +1,143 @@
+#include "bench/sweep_results/sweep_result.h"
+
+#include <algorithm>
+#include <set>
+
+#include "bench/results/numbers.h"
+#include "bench/run_record.h"
+#include "bench/sweep_results/sweep_tables.h"
+#include "engine/base/errors.h"
+
+namespace ccdt::sweep_results {
+namespace {
+
+using results::ExperimentResult;
+using results::with_separators;
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return with_separators(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string share(std::size_t part, std::size_t whole) {
+  return with_separators(part) + " of " + with_separators(whole);
+}
+
+template <class Test>
+std::size_t count_of(std::span<const CaseSummary> cases, Test test) {
+  return static_cast<std::size_t>(std::ranges::count_if(cases, test));
+}
+
+/// Of the first run that can be read.
+bench::Environment environment_of(const Sweep& sweep, const std::filesystem::path& folder) {
+  for (const SweepCase& one : sweep.cases)
+    for (const NumberedRun& run : one.runs) try {
+        return bench::read_run_record(folder / run.file).environment;
+      } catch (const InputError&) {  // an older program's; the next may do
+      }
+  return {};
+}
+
+void add_circumstances(const Sweep& sweep, const std::filesystem::path& folder, ExperimentResult& result) {
+  result.how.environment = environment_of(sweep, folder);
+  result.how.limits = {.seconds = sweep.limit_seconds, .memory_bytes = static_cast<std::uint64_t>(sweep.limit_bytes)};
+  for (const SweepCase& one : sweep.cases) result.how.runs = std::max(result.how.runs, one.wanted.at_least);
+  result.how.command = "ccdt sweep sweep.json -o .";
+}
+
+void add_case_findings(std::span<const CaseSummary> cases, ExperimentResult& result) {
+  const std::size_t run = count_of(cases, &CaseSummary::is_run), solved = count_of(cases, &CaseSummary::is_solved);
+  result.findings.push_back(share(solved, cases.size()) + " cases are solved.");
+  const std::size_t verified = count_of(cases, [](const auto& s) { return text_of(s, "verified") == "yes"; });
+  if (verified > 0) result.findings.push_back(share(verified, solved) + " meshes are verified to be right.");
+  const std::size_t wide = count_of(cases, [](const auto& s) { return !s.spread.empty(); });
+  if (wide > 0)
+    result.findings.push_back("The times of " + counted(wide, "case") + " spread wider than was asked for, or than " +
+                              results::rounded(100 * widest_spread, 2) + "%; their rows say so.");
+  if (run < cases.size())
+    result.problems.push_back(counted(cases.size() - run, "case") +
+                              " of the sweep have no run yet; call `ccdt sweep` again to go on");
+}
+
+void add_table_findings(const ExperimentResult& result, std::vector<std::string>& findings) {
+  if (const ResultTable* fits = results::find_table(result, "scaling"))
+    for (const auto& row : fits->rows) {
+      const auto labels = [&](const char* name) { return results::text_in(*fits, row, name); };
+      const auto& slope = std::get<bench::Estimate>(results::cell(*fits, row, "exponent"));
+      std::vector<std::string> of;
+      for (std::size_t c = 0; c < fits->columns.size(); ++c)
+        if (const std::string text = labels(fits->columns[c].name.c_str()); !text.empty()) of.push_back(text);
+      findings.push_back(results::joined(of) + ": the time grows with the number of tetrahedra to the power " +
+                         results::with_interval(slope) + ".");
+    }
+  if (const ResultTable* pairs = results::find_table(result, "pairs_summary"))
+    for (const auto& row : pairs->rows) {
+      const auto* ratio = std::get_if<bench::Estimate>(&results::cell(*pairs, row, "ratio"));
+      if (ratio == nullptr) continue;
+      findings.push_back(results::text_in(*pairs, row, "first") + " takes " + results::with_interval(*ratio) +
+                         " times as long as " + results::text_in(*pairs, row, "second") + " (median of " +
+                         with_separators(static_cast<std::uint64_t>(results::number_in(*pairs, row, "both"))) +
+                         " pairs).");
+    }
+}
+
+/// Nothing of our own may be wrong.
+void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentResult& result) {
+  std::size_t wrong = 0, crashed = 0;
+  for (const CaseSummary& s : cases) {
+    if (s.of->mesher != "ccdt") continue;
+    wrong += s.kind == "wrong";
+    crashed += s.kind == "crashed";
+  }
+  if (wrong > 0) result.problems.push_back(counted(wrong, "mesh") + " of ccdt failed the verification");
+  if (crashed > 0) result.problems.push_back("ccdt crashed in " + counted(crashed, "case"));
+  std::size_t different = 0;
+  const ResultTable& same = *results::find_table(result, "same_mesh");
+  for (const auto& row : same.rows) different += results::text_in(same, row, "same") == "no";
+  if (different > 0)
+    result.problems.push_back(share(different, same.rows.size()) + " groups of strategies give different meshes");
+  else if (!same.rows.empty())
+    result.findings.push_back("All strategies that must give the same mesh do, in " +
+                              counted(same.rows.size(), "group") + ".");
+  result.is_good = wrong + crashed + different == 0;
+  if (sweep.broken_records > 0)
+    result.problems.push_back(counted(sweep.broken_records, "file") + " in runs are no records; they count as missing");
+  std::set<std::string_view> machines;
+  for (const SweepCase& one : sweep.cases)
+    for (const NumberedRun& run : one.runs) machines.insert(text_of(run.values, "cpu"));
+  machines.erase("");
+  if (machines.size() > 1) {
+    const std::vector<std::string> names(machines.begin(), machines.end());
+    result.problems.push_back("runs were made on " + counted(machines.size(), "processor") + " (" +
+                              results::joined(names) + "), so their times cannot be compared");
+  }
+}
+
+}  // namespace
+
+ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& folder) {
+  const std::vector<CaseSummary> cases = summarize_cases(sweep);
+  ExperimentResult result{.name = sweep_name, .title = "Sweep " + sweep.name};
+  add_circumstances(sweep, folder, result);
+  ScalingTables scaling = scaling_tables(sweep, cases);
+  PairTables pairs = pair_tables(sweep, cases);
+  result.tables = {cases_table(sweep, cases),  failures_table(cases),      std::move(scaling.fits),
+                   std::move(pairs.summary),   pareto_table(sweep, cases), same_mesh_table(sweep, cases),
+                   solved_table(sweep, cases), std::move(scaling.points),  std::move(scaling.lines),
+                   std::move(pairs.pairs),     std::move(pairs.diagonals)};
+  add_case_findings(cases, result);
+  std::vector<std::string> findings;
+  add_table_findings(result, findings);
+  result.findings.insert(result.findings.end(), findings.begin(), findings.end());
+  judge(sweep, cases, result);
+  result.definitions = {
+      "A case is one mesher on one input with one set of options; its seconds are the median of its counted runs, of "
+      "meshing alone, with the interval of a bootstrap.",
+      "spread: the interval is wider than was asked for, or than 10% of the median on either side.",
+      "r is 1 for the regular tetrahedron and larger for all others.",
+      "A failure's kind is one of invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong.",
+      "Quality against time: over the inputs that all meshers with these options solve; one that solves less than half "
+      "is left out."};
+  return result;
+}
+
+}  // namespace ccdt::sweep_results

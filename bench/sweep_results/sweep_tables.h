@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/results/result_table.h"
+#include "bench/sweep_results/case_summary.h"
+
+namespace ccdt::sweep_results {
+
+using results::ResultTable;
+
+/// \name The tables of a sweep. Those without rows have nothing to say of it.
+/// @{
+
+/// A row for each case: what it is, how it ended, counts, seconds, memory and quality.
+ResultTable cases_table(const Sweep& sweep, std::span<const CaseSummary> cases);
+
+/// A row for each mesher: how many of its cases were solved, and how many failed by which kind.
+ResultTable failures_table(std::span<const CaseSummary> cases);
+
+/// Groups of cases of our mesher whose strategies must give the same mesh, and whether they do.
+ResultTable same_mesh_table(const Sweep& sweep, std::span<const CaseSummary> cases);
+
+/// The solved cases with their seconds, for charts.
+ResultTable solved_table(const Sweep& sweep, std::span<const CaseSummary> cases);
+
+/// Power laws of seconds over tetrahedra: one fit for each model, mesher and set of options with at least three sizes
+/// over a decade; its points, and its line, for charts.
+struct ScalingTables {
+  ResultTable fits, points, lines;
+};
+ScalingTables scaling_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
+
+/// Each solved case of one mesher beside that of another with the same input and, as far as both have them, the same
+/// options; and the diagonals of their charts.
+struct PairTables {
+  std::string reference;  ///< the mesher that all others are beside
+  ResultTable summary, pairs, diagonals;
+};
+PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
+
+/// Time and quality of each mesher and set of options, over the inputs of a model (or all files) that all of them
+/// solve.
+ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases);
+/// @}
+
+/// The columns that say what a case is: input, model, edge length, mesher, options; and the cells of a case.
+std::vector<results::Column> label_columns(const Sweep& sweep);
+std::vector<results::Cell> label_cells(const CaseSummary& summary);
+
+/// The name of an option's column in all tables: "face_protection".
+std::string option_column(const std::string& option);
+
+}  // namespace ccdt::sweep_results
