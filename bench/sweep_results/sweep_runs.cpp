@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "bench/cases/identity.h"
 #include "bench/json.h"
+#include "bench/sweep/sweep_document.h"
 #include "bench/sweep_results/in_parallel.h"
 
 namespace ccdt::sweep_results {
@@ -55,6 +57,7 @@ SweepCase case_from(const bench::Json& json, Sweep& sweep) {
 Sweep sweep_from(const bench::Json& json) {
   Sweep sweep;
   sweep.name = json.value("name", "sweep");
+  sweep.is_mixed = json.contains("mixed_with") && !json["mixed_with"].empty();
   if (json.contains("limits")) {
     sweep.limit_seconds = json["limits"].value("seconds", 0.0);
     sweep.limit_bytes = json["limits"].value("bytes", 0.0);
@@ -64,30 +67,52 @@ Sweep sweep_from(const bench::Json& json) {
   return sweep;
 }
 
+/// Which case a record is of, by the first part of its file's name, and how old its identity is: 0 is that of now.
+struct Owner {
+  std::size_t of = 0, age = 0;
+};
+using Owners = std::unordered_map<std::string, Owner>;
+
+/// With the identities that the sweep is mixed with, cases have other ids as well.
+Owners owners_of(const std::filesystem::path& folder, const Sweep& sweep) {
+  Owners owners;
+  for (std::size_t i = 0; i < sweep.cases.size(); ++i) owners.emplace(sweep.cases[i].id, Owner{i, 0});
+  if (!sweep.is_mixed) return owners;
+  const sweep::SweepDocument document = sweep::read_sweep(folder);
+  cases::FileHashes hashes;
+  for (std::size_t age = 1; age < document.identities.size(); ++age)
+    for (std::size_t i = 0; i < document.cases.size(); ++i)
+      owners.emplace(id_of(document.cases[i].asked, document.identities[age], hashes), Owner{i, age});
+  return owners;
+}
+
 /// A record that is there, and the case that it is of.
 struct Record {
-  std::size_t of = 0;
+  Owner owner;
   NumberedRun run;
   bool is_broken = false;
 };
 
-/// The records of the cases, by the names ID-NUMBER.json of their files.
+/// The records of the cases, by the names ID-NUMBER.json of their files. A case that has been run with the identity of
+/// now has these alone.
 std::vector<Record> find_records(const std::filesystem::path& folder, const Sweep& sweep) {
-  std::unordered_map<std::string, std::size_t> cases;
-  for (std::size_t i = 0; i < sweep.cases.size(); ++i) cases.emplace(sweep.cases[i].id, i);
   std::vector<Record> records;
   if (!std::filesystem::exists(folder / "runs")) return records;
+  const Owners owners = owners_of(folder, sweep);
+  std::vector<std::size_t> newest(sweep.cases.size(), owners.size());
   for (const auto& entry : std::filesystem::directory_iterator(folder / "runs")) {
     if (entry.path().extension() != ".json") continue;
     const std::string stem = entry.path().stem().string();
     const std::size_t dash = std::min(stem.rfind('-'), stem.size());
-    const auto of = cases.find(stem.substr(0, dash));
+    const auto owner = owners.find(stem.substr(0, dash));
     int number = -1;
     std::from_chars(stem.data() + std::min(dash + 1, stem.size()), stem.data() + stem.size(), number);
-    if (of != cases.end() && number >= 0)
-      records.push_back({of->second, {number, "runs/" + entry.path().filename().string(), {}}});
+    if (owner == owners.end() || number < 0) continue;
+    newest[owner->second.of] = std::min(newest[owner->second.of], owner->second.age);
+    records.push_back({owner->second, {number, "runs/" + entry.path().filename().string(), {}}});
   }
-  std::ranges::sort(records, {}, [](const Record& r) { return std::pair(r.of, r.run.number); });
+  std::erase_if(records, [&](const Record& r) { return r.owner.age != newest[r.owner.of]; });
+  std::ranges::sort(records, {}, [](const Record& r) { return std::pair(r.owner.of, r.run.number); });
   return records;
 }
 
@@ -109,7 +134,7 @@ Sweep read_sweep(const std::filesystem::path& folder) {
     if (record.is_broken)
       ++sweep.broken_records;
     else
-      sweep.cases[record.of].runs.push_back(std::move(record.run));
+      sweep.cases[record.owner.of].runs.push_back(std::move(record.run));
   }
   return sweep;
 }

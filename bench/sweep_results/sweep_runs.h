@@ -41,6 +41,7 @@ struct Sweep {
   std::vector<SweepCase> cases;
   double limit_seconds = 0;        ///< of a run; 0: none
   double limit_bytes = 0;          ///< the same of memory
+  bool is_mixed = false;           ///< with records that were made with another identity
   std::size_t broken_records = 0;  ///< files that are no record; they count as missing
 };
 
