@@ -65,7 +65,7 @@ SweepSpec spec_from(const bench::Json& json, const std::filesystem::path& file, 
 bench::Json to_json(const SweepSpec& spec);
 
 /// Of the member "limits" of a spec, which may be missing.
-baselines::Limits limits_from(const bench::Json& spec);
+baselines::Limits limits_from(const bench::Json& json);
 
 /// The user's files instead of those that the spec names; the models stay. Names begin in the current folder.
 void replace_files(SweepSpec& spec, const std::vector<std::string>& files);

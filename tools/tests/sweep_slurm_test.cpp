@@ -50,7 +50,7 @@ class SlurmSweep : public Program {
   }
 
   void submit() const {
-    const Outcome outcome = run("sweep spec.json -o out --slurm --chunk-minutes 0.1");
+    const Outcome outcome = run("sweep spec.json -o out --slurm --chunk-minutes 0.003");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   }
 
