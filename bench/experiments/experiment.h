@@ -14,6 +14,7 @@
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
 #include "bench/results/row_columns.h"
+#include "bench/results/row_views.h"
 #include "bench/run_record.h"
 #include "bench/statistics.h"
 #include "engine/base/progress.h"
@@ -39,6 +40,9 @@ using results::ResultTable;
 using results::rounded;
 using results::RowColumn;
 using results::RowColumns;
+using results::rows_with;
+using results::RowView;
+using results::RowViews;
 using results::table_of_rows;
 using results::time_column;
 using results::with_interval;

@@ -68,54 +68,38 @@ ResultTable cases_table(std::span<const InteriorRow> rows) {
   return table_of_rows("cases", "The cases", columns, rows);
 }
 
-/// The sums over all cases that went well of a rule, with one lattice or all.
-void add_sums(const ResultTable& cases, const std::string& rule, const std::string& lattice, ResultTable& table) {
-  std::uint64_t count = 0, harmed = 0;
-  double placed = 0, dropped = 0;
-  for (const ResultRow& row : cases.rows) {
-    const bool is_meant = text_in(cases, row, "rule") == rule && text_in(cases, row, "status") == "ok" &&
-                          (lattice == "all" || text_in(cases, row, "lattice") == lattice);
-    if (!is_meant) continue;
-    ++count;
-    harmed += number_in(cases, row, "dropped") > 0;
-    placed += number_in(cases, row, "interior_vertices");
-    dropped += number_in(cases, row, "dropped");
-  }
-  add_row(table, {}, rule, lattice, count, placed, dropped, harmed);
-}
-
+/// The sums over all cases that went well of each rule, with one lattice and with all.
 ResultTable rules_table(const ResultTable& cases) {
   ResultTable table = table_of(
       "rules", "What the rules let through",
       {label_column("rule"), label_column("lattice"), figure_column("cases"), figure_column("interior_vertices"),
        figure_column("dropped", dropped_title), figure_column("harmed", "cases with such points")});
+  const auto add = [&](const std::string& rule, const std::string& lattice, const RowViews& rows) {
+    const auto harmed = std::ranges::count_if(rows, [](const RowView& row) { return row.number("dropped") > 0; });
+    add_row(table, {}, rule, lattice, std::uint64_t{rows.size()}, sum(rows, "interior_vertices"), sum(rows, "dropped"),
+            static_cast<std::uint64_t>(harmed));
+  };
   for (const InteriorRule& rule : rules()) {
-    for (const Lattice lattice : lattices) add_sums(cases, rule.name, std::string(name_of(lattice)), table);
-    add_sums(cases, rule.name, "all", table);
+    for (const Lattice lattice : lattices) {
+      const std::string name(name_of(lattice));
+      add(rule.name, name, rows_with(cases, {{"rule", rule.name}, {"lattice", name}, {"status", "ok"}}));
+    }
+    add(rule.name, "all", rows_with(cases, {{"rule", rule.name}, {"status", "ok"}}));
   }
   return table;
 }
 
-std::string existence_finding(std::span<const ExistenceTrials> existence) {
-  std::uint64_t cases = 0, lost = 0;
-  for (const ExistenceTrials& trials : existence) {
-    cases += trials.cases;
-    lost += trials.lost;
-  }
-  return share_words(lost, cases) + " small PLCs with a CDT have none when one interior point is added";
-}
-
 /// What a row for all lattices says of its rule.
-std::string rule_finding(const ResultTable& table, const ResultRow& row) {
-  const auto count = [&](const char* column) { return static_cast<std::uint64_t>(number_in(table, row, column)); };
-  const std::uint64_t cases = count("cases"), placed = count("interior_vertices"), dropped = count("dropped");
-  const std::string rule = "Rule \"" + text_in(table, row, "rule") + "\": ";
+std::string rule_finding(const RowView& row) {
+  const std::string rule = "Rule \"" + row.text("rule") + "\": ";
+  const std::uint64_t cases = row.count("cases"), placed = row.count("interior_vertices"),
+                      dropped = row.count("dropped");
   if (cases == 0) return rule + "no case to judge by";
   if (dropped == 0)
     return rule + "no point did harm in " + with_separators(cases) + " cases with " + with_separators(placed) +
            " interior vertices";
   return rule + "points do harm: " + with_separators(dropped) + " points of " + with_separators(placed + dropped) +
-         " would have destroyed a protected edge, in " + share_words(count("harmed"), cases) + " cases";
+         " would have destroyed a protected edge, in " + share_words(row.count("harmed"), cases) + " cases";
 }
 
 }  // namespace
@@ -160,14 +144,15 @@ std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
   return all;
 }
 
-ExperimentResult interior_points_result(std::span<const InteriorRow> rows, std::span<const ExistenceTrials> existence) {
-  const ResultTable cases = cases_table(rows), by_rule = rules_table(cases);
+ExperimentResult interior_points_result(std::span<const InteriorRow> rows, std::span<const ExistenceTrials> trials) {
+  const ResultTable existence = existence_table(trials), cases = cases_table(rows), by_rule = rules_table(cases);
+  const RowViews families = rows_with(existence);
   ExperimentResult result{.how = once(),
                           .definitions = definitions(),
-                          .tables = {existence_table(existence), by_rule, cases},
-                          .findings = {existence_finding(existence)}};
-  for (const ResultRow& row : by_rule.rows)
-    if (text_in(by_rule, row, "lattice") == "all") result.findings.push_back(rule_finding(by_rule, row));
+                          .tables = {existence, by_rule, cases},
+                          .findings = {share_words(sum(families, "lost"), sum(families, "cases")) +
+                                       " small PLCs with a CDT have none when one interior point is added"}};
+  for (const RowView& row : rows_with(by_rule, {{"lattice", "all"}})) result.findings.push_back(rule_finding(row));
   for (const InteriorRow& row : rows) add_problem_of(row, result);
   return result;
 }

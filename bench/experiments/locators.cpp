@@ -1,4 +1,5 @@
 #include "bench/experiments/surfaces.h"
+#include "bench/surface_measures.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"
 

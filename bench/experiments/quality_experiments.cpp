@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "baselines/mesher.h"
 #include "engine/base/digits.h"
@@ -26,40 +27,43 @@ bool is_better(std::string_view criterion, double a, double b) {
   return criterion == "smallest_dihedral" ? a > b : a < b;
 }
 
-/// A row of the table of quality.
-struct Mesh {
-  const ResultTable* table;
-  const ResultRow* row;
+bool is_ok(const RowView& mesh) {
+  return mesh.text("status") == "ok";
+}
 
-  std::string text(std::string_view column) const { return text_in(*table, *row, column); }
-  double number(std::string_view column) const { return number_in(*table, *row, column); }
-  bool ok() const { return text("status") == "ok"; }
-};
-
-/// The meshes of each model.
-std::vector<std::vector<Mesh>> meshes_by_model(const ExperimentResult& result) {
-  const ResultTable& table = *results::find_table(result, "quality");
-  std::vector<std::vector<Mesh>> models;
-  for (const ResultRow& row : table.rows) {
-    const Mesh mesh{&table, &row};
+/// The rows of the table of quality that have these texts, by model.
+std::vector<RowViews> meshes_by_model(const ExperimentResult& result,
+                                      const std::map<std::string, std::string>& texts = {}) {
+  std::vector<RowViews> models;
+  for (const RowView& mesh : rows_with(*results::find_table(result, "quality"), texts)) {
     if (models.empty() || models.back().front().text("model") != mesh.text("model")) models.emplace_back();
     models.back().push_back(mesh);
   }
   return models;
 }
 
-/// Is none of the others better?
-bool is_best(const Mesh& mesh, const std::vector<Mesh>& others, std::string_view criterion) {
-  return mesh.ok() && std::ranges::none_of(others, [&](const Mesh& other) {
-           return other.ok() && is_better(criterion, other.number(criterion), mesh.number(criterion));
-         });
+/// Leaves those of which every mesh went well.
+std::vector<RowViews> whole(std::vector<RowViews> models) {
+  std::erase_if(models, [](const RowViews& meshes) { return !std::ranges::all_of(meshes, is_ok); });
+  return models;
+}
+
+/// On how many models no other mesh is better than the one of this number.
+std::uint64_t best_in(const std::vector<RowViews>& models, std::size_t number, std::string_view criterion) {
+  const auto is_best = [&](const RowViews& meshes) {
+    const RowView& mesh = meshes[number];
+    return is_ok(mesh) && std::ranges::none_of(meshes, [&](const RowView& other) {
+             return is_ok(other) && is_better(criterion, other.number(criterion), mesh.number(criterion));
+           });
+  };
+  return static_cast<std::uint64_t>(std::ranges::count_if(models, is_best));
 }
 
 /// Of other meshers' comparable meshes the best by a criterion; none if there is no such mesh.
-std::optional<Mesh> best_other(const std::vector<Mesh>& meshes, std::string_view criterion) {
-  std::optional<Mesh> best;
-  for (const Mesh& mesh : meshes) {
-    if (mesh.text("mesher") == "ccdt" || !mesh.ok() || mesh.text("comparable") != "yes") continue;
+std::optional<RowView> best_other(const RowViews& meshes, std::string_view criterion) {
+  std::optional<RowView> best;
+  for (const RowView& mesh : meshes) {
+    if (mesh.text("mesher") == "ccdt" || !is_ok(mesh) || mesh.text("comparable") != "yes") continue;
     if (!best || is_better(criterion, mesh.number(criterion), best->number(criterion))) best = mesh;
   }
   return best;
@@ -71,9 +75,9 @@ ResultTable verdicts_table(const ExperimentResult& result) {
                {label_column("model"), label_column("variant"), label_column("criterion", "by"),
                 figure_column("better", "better than all others"), figure_column("ours"),
                 figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")});
-  for (const std::vector<Mesh>& meshes : meshes_by_model(result))
-    for (const Mesh& mesh : meshes) {
-      if (mesh.text("mesher") != "ccdt" || !mesh.ok()) continue;
+  for (const RowViews& meshes : meshes_by_model(result))
+    for (const RowView& mesh : meshes) {
+      if (mesh.text("mesher") != "ccdt" || !is_ok(mesh)) continue;
       for (const std::string_view criterion : judged_criteria) {
         const double ours = mesh.number(criterion);
         const auto best = best_other(meshes, criterion);
@@ -89,56 +93,47 @@ ResultTable verdicts_table(const ExperimentResult& result) {
 /// In how many cases each variant of ours is better than all others, by each criterion.
 void conclude_mesher_quality(ExperimentResult& result) {
   const ResultTable verdicts = verdicts_table(result);
-  std::map<std::string, std::map<std::string, std::pair<std::uint64_t, std::uint64_t>>> scores;
-  for (const ResultRow& row : verdicts.rows) {
-    const std::string better = text_in(verdicts, row, "better");
-    auto& [won, cases] = scores[text_in(verdicts, row, "variant")][text_in(verdicts, row, "criterion")];
-    won += better == "yes";
-    cases += !better.empty();
-  }
-  for (const auto& [variant, by_criterion] : scores) {
-    std::vector<std::string> parts;
+  std::set<std::string> variants;
+  for (const RowView& row : rows_with(verdicts)) variants.insert(row.text("variant"));
+  for (const std::string& variant : variants) {
+    std::vector<std::string> shares;
     for (const std::string_view criterion : judged_criteria) {
-      const auto& [won, cases] = by_criterion.at(in_words(criterion));
-      parts.push_back(in_words(criterion) + " in " + share_words(won, cases));
+      const auto count = [&](const std::string& better) {
+        return rows_with(verdicts, {{"variant", variant}, {"criterion", in_words(criterion)}, {"better", better}})
+            .size();
+      };
+      shares.push_back(in_words(criterion) + " in " + share_words(count("yes"), count("yes") + count("no")));
     }
-    result.findings.push_back(variant + " is better than all others in " + joined(parts) + " cases");
+    result.findings.push_back(variant + " is better than all others in " + joined(shares) + " cases");
   }
   result.tables.insert(result.tables.begin() + 1, verdicts);
 }
 
-constexpr std::array all_lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
-
-/// In how many cases each lattice is the best by a criterion, alone or with others; cases in which one failed are left
-/// out.
-void add_best_lattice(const ExperimentResult& result, std::string_view criterion, bool improved, ResultTable& table) {
-  std::uint64_t cases = 0;
-  std::array<std::uint64_t, all_lattices.size()> best{};
-  for (std::vector<Mesh> meshes : meshes_by_model(result)) {
-    std::erase_if(meshes, [&](const Mesh& mesh) { return (mesh.text("improved") == "yes") != improved; });
-    if (meshes.size() != best.size() || !std::ranges::all_of(meshes, &Mesh::ok)) continue;
-    ++cases;
-    for (std::size_t i = 0; i < best.size(); ++i) best[i] += is_best(meshes[i], meshes, criterion);
-  }
-  const bool is_confirmed = cases > 0 && best[0] == cases && best[1] == 0 && best[2] == 0;
-  add_row(table, {}, in_words(criterion), improved, is_confirmed, cases, best[0], best[1], best[2]);
-}
-
-void conclude_lattices(ExperimentResult& result) {
+/// In how many cases each lattice is the best by each criterion, alone or with others.
+ResultTable best_lattices_table(const ExperimentResult& result) {
   ResultTable table =
       table_of("best", "The best lattice",
                {label_column("criterion", "by"), label_column("improved"),
                 figure_column("confirmed", "FCC alone is the best in every case"), figure_column("cases"),
                 figure_column("fcc", "FCC best"), figure_column("bcc", "BCC best"), figure_column("sc", "SC best")});
-  for (const bool improved : {false, true})
-    for (const std::string_view criterion : all_criteria) add_best_lattice(result, criterion, improved, table);
+  for (const std::string improved : {"no", "yes"})
+    for (const std::string_view criterion : all_criteria) {
+      const auto models = whole(meshes_by_model(result, {{"improved", improved}}));
+      const auto best = [&](std::size_t lattice) { return best_in(models, lattice, criterion); };
+      const bool is_confirmed = !models.empty() && best(0) == models.size() && best(1) == 0 && best(2) == 0;
+      add_row(table, {}, in_words(criterion), improved, is_confirmed, std::uint64_t{models.size()}, best(0), best(1),
+              best(2));
+    }
+  return table;
+}
+
+void conclude_lattices(ExperimentResult& result) {
+  const ResultTable table = best_lattices_table(result);
   for (const std::string improved : {"no", "yes"})
     for (const std::string confirmed : {"yes", "no"}) {
       std::vector<std::string> criteria;
-      for (const ResultRow& row : table.rows)
-        if (text_in(table, row, "improved") == improved && text_in(table, row, "confirmed") == confirmed &&
-            number_in(table, row, "cases") > 0)
-          criteria.push_back(text_in(table, row, "criterion"));
+      for (const RowView& row : rows_with(table, {{"improved", improved}, {"confirmed", confirmed}}))
+        if (row.count("cases") > 0) criteria.push_back(row.text("criterion"));
       if (criteria.empty()) continue;
       result.findings.push_back("That FCC is best is " + std::string(confirmed == "yes" ? "" : "not ") + "confirmed " +
                                 (improved == "yes" ? "after" : "before") + " improvement by: " + joined(criteria));
@@ -153,11 +148,9 @@ void conclude_improvement(ExperimentResult& result) {
                                 figure_column("cases"), figure_column("best", "best in")});
   const auto models = meshes_by_model(result);
   for (std::size_t part = 0; !models.empty() && part < models.front().size(); ++part)
-    for (const std::string_view criterion : judged_criteria) {
-      const auto is_best_of = [&](const std::vector<Mesh>& meshes) { return is_best(meshes[part], meshes, criterion); };
+    for (const std::string_view criterion : judged_criteria)
       add_row(table, {}, models.front()[part].text("improve"), in_words(criterion), std::uint64_t{models.size()},
-              static_cast<std::uint64_t>(std::ranges::count_if(models, is_best_of)));
-    }
+              best_in(models, part, criterion));
   result.tables.insert(result.tables.begin(), table);
 }
 
@@ -170,10 +163,10 @@ std::string default_setting() {
 }
 
 /// From 1: by how many meshes this one is surpassed; those that are as good share the mean of their places.
-double rank_of(const Mesh& mesh, const std::vector<Mesh>& others, std::string_view criterion) {
+double rank_of(const RowView& mesh, const RowViews& others, std::string_view criterion) {
   const double value = mesh.number(criterion);
   double better = 0, equal = 0;
-  for (const Mesh& other : others) {
+  for (const RowView& other : others) {
     better += is_better(criterion, other.number(criterion), value);
     equal += other.number(criterion) == value;
   }
@@ -181,18 +174,19 @@ double rank_of(const Mesh& mesh, const std::vector<Mesh>& others, std::string_vi
 }
 
 /// A setting over all models.
-void add_setting(const std::vector<std::vector<Mesh>>& models, std::size_t setting, ResultTable& table) {
+void add_setting(const std::vector<RowViews>& models, std::size_t setting, ResultTable& table) {
   double rank = 0, mean_r = 0, p99_r = 0, log_worst_r = 0, largest_worst_r = 0, smallest_dihedral = 0,
          least_dihedral = 180, improve_seconds = 0;
   const double share = 1 / static_cast<double>(models.size());
-  for (const std::vector<Mesh>& meshes : models) {
-    const Mesh& mesh = meshes[setting];
+  for (const RowViews& meshes : models) {
+    const RowView& mesh = meshes[setting];
+    const double worst_r = mesh.number("worst_r"), dihedral = mesh.number("smallest_dihedral");
     mean_r += share * mesh.number("mean_r");
     p99_r += share * mesh.number("p99_r");
-    log_worst_r += share * std::log(mesh.number("worst_r"));
-    smallest_dihedral += share * mesh.number("smallest_dihedral");
-    largest_worst_r = std::max(largest_worst_r, mesh.number("worst_r"));
-    least_dihedral = std::min(least_dihedral, mesh.number("smallest_dihedral"));
+    log_worst_r += share * std::log(worst_r);
+    largest_worst_r = std::max(largest_worst_r, worst_r);
+    smallest_dihedral += share * dihedral;
+    least_dihedral = std::min(least_dihedral, dihedral);
     improve_seconds += mesh.number("improve_seconds");
     for (const std::string_view criterion : judged_criteria)
       rank += share * rank_of(mesh, meshes, criterion) / static_cast<double>(judged_criteria.size());
@@ -202,16 +196,16 @@ void add_setting(const std::vector<std::vector<Mesh>>& models, std::size_t setti
 }
 
 std::vector<std::string> setting_findings(const ResultTable& table) {
-  if (table.rows.empty()) return {"There is no surface on which every setting went well."};
-  const auto setting = [&](const ResultRow& row) { return text_in(table, row, "setting"); };
-  const auto rank = [&](const ResultRow& row) { return number_in(table, row, "rank"); };
-  const auto usual = std::ranges::find(table.rows, default_setting(), setting);
-  auto best = std::ranges::min_element(table.rows, {}, rank);
-  if (rank(*usual) <= rank(*best)) best = usual;  // as good as any
-  return {"The best setting is " + setting(*best) + ", with a mean rank of " + rounded(rank(*best)) + " among " +
-              std::to_string(table.rows.size()),
-          best == usual ? "It is the default"
-                        : "The default, " + default_setting() + ", has a mean rank of " + rounded(rank(*usual))};
+  const RowViews settings = rows_with(table);
+  if (settings.empty()) return {"There is no surface on which every setting went well."};
+  const auto rank = [](const RowView& row) { return row.number("rank"); };
+  const RowView usual = rows_with(table, {{"setting", default_setting()}}).front();
+  RowView best = *std::ranges::min_element(settings, {}, rank);
+  if (rank(usual) <= rank(best)) best = usual;  // as good as any
+  return {"The best setting is " + best.text("setting") + ", with a mean rank of " + rounded(rank(best)) + " among " +
+              std::to_string(settings.size()),
+          best.row == usual.row ? "It is the default"
+                                : "The default, " + default_setting() + ", has a mean rank of " + rounded(rank(usual))};
 }
 
 /// Sums up the models on which every setting went well.
@@ -223,8 +217,7 @@ void conclude_lattice_fit(ExperimentResult& result) {
                 figure_column("largest_worst_r", "worst r of all"), figure_column("smallest_dihedral", "", "degrees"),
                 figure_column("least_dihedral", "smallest of all", "degrees"),
                 time_column("improve_seconds", "improvement", "s")});
-  auto models = meshes_by_model(result);
-  std::erase_if(models, [](const std::vector<Mesh>& meshes) { return !std::ranges::all_of(meshes, &Mesh::ok); });
+  const auto models = whole(meshes_by_model(result));
   for (std::size_t setting = 0; !models.empty() && setting < models.front().size(); ++setting)
     add_setting(models, setting, table);
   result.findings = setting_findings(table);
@@ -274,13 +267,11 @@ StudyPlan lattices_plan() {
       .conclude = conclude_lattices,
       .once = true};
   for (const bool improved : {false, true})
-    for (const Lattice lattice : all_lattices) {
-      const std::string name(name_of(lattice));
+    for (const std::string name : {"fcc", "bcc", "sc"})
       plan.variants.push_back({name + (improved ? " improved" : ""),
                                "ccdt",
                                {"--lattice", name, "--improve", improved ? "all" : "none"},
                                {name, improved ? "yes" : "no"}});
-    }
   return plan;
 }
 

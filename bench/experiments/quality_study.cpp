@@ -8,6 +8,10 @@
 #include "bench/count_search.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
+#include "engine/io/plc_files.h"
+#include "engine/plc/build_plc.h"
+#include "engine/surface/remesh_surface.h"
+#include "models/solids.h"
 
 namespace ccdt::experiments {
 namespace {
@@ -41,30 +45,46 @@ std::optional<std::uint64_t> count_of(const cases::MeasuredCase& measured) {
   return measured.first.counts.tetrahedra;
 }
 
+/// Remeshes a surface if its triangles are not even and of about that length, and writes it.
+/// \throw InputError, MeshError  as `remesh_surface`
+EvenSurface make_even_surface(plc::InputPlc input, double edge_length, const std::filesystem::path& file) {
+  const bool is_even = bench::has_even_triangles(plc::build_plc(input), edge_length);
+  if (!is_even) input = surface::remesh_surface(input, {.edge_length = edge_length});
+  io::write_plc(input, file);
+  const plc::Plc plc = plc::build_plc(input);
+  EvenSurface made{{}, file, edge_length, !is_even, plc.vertices.size(), 0, bench::smallest_angles(plc)};
+  for (const plc::Facet& facet : plc.facets) made.triangles += facet.triangles.size();
+  return made;
+}
+
 /// Looks for the edge length of the surface at which our FCC lattice makes the wanted number of tetrahedra, the surface
 /// having edges of the length of those inside.
 EvenSurface find_surface(const SourceStudy& study) {
-  const QualityVariant bare = {"surface", "ccdt", {"--lattice", "fcc", "--improve", "none"}};
-  const SurfaceSource source = surface_source(study.source.name, study.source.file);
+  const auto& [name, user_file, ignored] = study.source;
+  const auto solid = std::ranges::find(models::solids(), name, &models::Solid::name);
+  const bool is_solid = user_file.empty();
+  const plc::InputPlc input = is_solid ? models::make_solid(name, solid->default_edge_length) : io::read_plc(user_file);
+  const double volume = bench::enclosed_volume(plc::build_plc(input)), wanted = study.options.tetrahedra;
+  bench::CountSearch search{.wanted = wanted,
+                            .first = std::cbrt(volume / wanted / baselines::regular_tetrahedron_volume(1)),
+                            .most_tries = 5};
+  if (is_solid) search.shortest = solid->finest;
+  if (is_solid) search.longest = solid->coarsest;
   std::vector<EvenSurface> tried;
   std::string reason;
-  const auto try_length = [&](double edge_length) {
-    const std::string file = study.plan.experiment + "-" + study.source.name + "-" + digits(edge_length) + ".poly";
-    tried.push_back(make_even_surface(source, edge_length, study.options.folder / "models" / file));
-    const cases::MeasuredCase measured = study.runner.run(study.case_of(bare, tried.back().file, edge_length));
+  const auto found = bench::search_edge_length(search, [&](double edge_length) {
+    const std::string file = study.plan.experiment + "-" + name + "-" + digits(edge_length) + ".poly";
+    tried.push_back(make_even_surface(is_solid ? models::make_solid(name, edge_length) : input, edge_length,
+                                      study.options.folder / "models" / file));
+    const cases::MeasuredCase measured = study.runner.run(
+        study.case_of({"surface", "ccdt", {"--lattice", "fcc", "--improve", "none"}}, tried.back().file, edge_length));
     reason = measured.first.reason;
     return count_of(measured);
-  };
-  const double wanted = study.options.tetrahedra;
-  const auto found =
-      bench::search_edge_length({.wanted = wanted,
-                                 .first = std::cbrt(source.volume / wanted / baselines::regular_tetrahedron_volume(1)),
-                                 .shortest = source.shortest,
-                                 .longest = source.longest,
-                                 .most_tries = 5},
-                                try_length);
+  });
   if (!found) throw MeshError("no surface of this source was meshed: " + reason, {}, "");
-  return *std::ranges::find(tried, found->edge_length, &EvenSurface::edge_length);
+  EvenSurface best = *std::ranges::find(tried, found->edge_length, &EvenSurface::edge_length);
+  best.model = name;
+  return best;
 }
 
 /// The edge lengths that the variants are asked for.
@@ -101,9 +121,8 @@ std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const Ev
   return study.runner.run(all);
 }
 
-void measure_source(const SourceStudy& study, std::vector<QualityRow>& rows, std::vector<StudySurface>& surfaces) {
-  const EvenSurface surface = find_surface(study);
-  surfaces.push_back({study.source.name, surface});
+void measure_source(const SourceStudy& study, std::vector<QualityRow>& rows, std::vector<EvenSurface>& surfaces) {
+  const EvenSurface& surface = surfaces.emplace_back(find_surface(study));
   const std::vector<double> edge_lengths = edge_lengths_of(study, surface);
   std::vector<cases::MeasuredCase> measured = run_variants(study, surface, edge_lengths);
   const std::uint64_t reference = measured.front().first.counts.tetrahedra;
@@ -211,7 +230,7 @@ std::string coordinates(const Point3& p) {
   return "(" + rounded(p.x, 5) + ", " + rounded(p.y, 5) + ", " + rounded(p.z, 5) + ")";
 }
 
-ResultTable surfaces_table(std::span<const StudySurface> surfaces) {
+ResultTable surfaces_table(std::span<const EvenSurface> surfaces) {
   ResultTable table = table_of(
       "surfaces", "The surfaces",
       {label_column("model"), figure_column("edge_length"), figure_column("vertices"), figure_column("triangles"),
@@ -219,8 +238,8 @@ ResultTable surfaces_table(std::span<const StudySurface> surfaces) {
        figure_column("smallest_angle_at", "at"),
        figure_column("smallest_facet_angle", "smallest angle between facets", "degrees"),
        figure_column("smallest_facet_angle_at", "at")});
-  for (const auto& [model, s] : surfaces)
-    add_row(table, {}, model, s.edge_length, s.vertices, s.triangles, s.remeshed ? "remeshed" : "kept",
+  for (const EvenSurface& s : surfaces)
+    add_row(table, {}, s.model, s.edge_length, s.vertices, s.triangles, s.remeshed ? "remeshed" : "kept",
             s.angles.planar.degrees, coordinates(s.angles.planar.at), s.angles.dihedral.degrees,
             coordinates(s.angles.dihedral.at));
   return table;
@@ -235,7 +254,7 @@ bool QualityRow::is_comparable() const {
 }
 
 ExperimentResult study_result(const StudyPlan& plan, std::span<const QualityRow> rows,
-                              std::span<const StudySurface> surfaces) {
+                              std::span<const EvenSurface> surfaces) {
   ExperimentResult result{.how = plan.once ? once() : Circumstances(), .definitions = study_definitions()};
   append(result.definitions, plan.definitions);
   result.tables = {
@@ -262,7 +281,7 @@ ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& 
   const std::vector<SurfaceFile> sources = sources_of(options, plan);
   check_something_is_measured(sources.size(), plan.experiment);
   std::vector<QualityRow> rows;
-  std::vector<StudySurface> surfaces;
+  std::vector<EvenSurface> surfaces;
   std::vector<std::string> problems;
   for (const SurfaceFile& source : sources) {
     const std::string title =

@@ -6,6 +6,7 @@
 
 #include "bench/experiments/case_rows.h"
 #include "bench/experiments/surfaces.h"
+#include "bench/surface_measures.h"
 
 namespace ccdt::experiments {
 
@@ -30,10 +31,14 @@ struct StudyPlan {
   bool keeps_meshes = false;  ///< for the viewer, those that are small enough
 };
 
-/// A surface that variants have filled.
-struct StudySurface {
+/// A surface of triangles of nearly one size, for the variants to fill.
+struct EvenSurface {
   std::string model;
-  EvenSurface surface;
+  std::filesystem::path file;
+  double edge_length = 0;
+  bool remeshed = false;  ///< else its triangles are as they came, because they were even enough
+  std::uint64_t vertices = 0, triangles = 0;
+  bench::SurfaceAngles angles;
 };
 
 /// A variant on a surface. Seconds are of meshing.
@@ -59,6 +64,6 @@ ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& 
 
 /// The tables that all studies have: a row a mesh, its histograms, the surfaces; with what the plan adds.
 ExperimentResult study_result(const StudyPlan& plan, std::span<const QualityRow> rows,
-                              std::span<const StudySurface> surfaces);
+                              std::span<const EvenSurface> surfaces);
 
 }  // namespace ccdt::experiments

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "engine/io/plc_files.h"
-#include "engine/plc/build_plc.h"
-#include "engine/surface/remesh_surface.h"
 #include "models/solids.h"
 
 namespace ccdt::experiments {
@@ -50,30 +48,6 @@ std::vector<SurfaceFile> input_files(const ExperimentOptions& options) {
   std::vector<SurfaceFile> files;
   for (const auto& input : options.inputs) files.push_back({input.filename().string(), input});
   return files;
-}
-
-SurfaceSource surface_source(const std::string& name, const std::filesystem::path& file) {
-  const auto volume_of = [](const plc::InputPlc& input) { return bench::enclosed_volume(plc::build_plc(input)); };
-  if (!file.empty()) {
-    const plc::InputPlc input = io::read_plc(file);
-    return {.make = [input](double) { return input; }, .volume = volume_of(input)};
-  }
-  const auto solid = std::ranges::find(models::solids(), name, &models::Solid::name);
-  return {.make = [name](double edge_length) { return models::make_solid(name, edge_length); },
-          .shortest = solid->finest,
-          .longest = solid->coarsest,
-          .volume = volume_of(models::make_solid(name, solid->default_edge_length))};
-}
-
-EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, const std::filesystem::path& file) {
-  plc::InputPlc input = source.make(edge_length);
-  const bool is_even = bench::has_even_triangles(plc::build_plc(input), edge_length);
-  if (!is_even) input = surface::remesh_surface(input, {.edge_length = edge_length});
-  io::write_plc(input, file);
-  const plc::Plc plc = plc::build_plc(input);
-  EvenSurface made{file, edge_length, !is_even, plc.vertices.size(), 0, bench::smallest_angles(plc)};
-  for (const plc::Facet& facet : plc.facets) made.triangles += facet.triangles.size();
-  return made;
 }
 
 }  // namespace ccdt::experiments

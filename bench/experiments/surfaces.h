@@ -1,14 +1,11 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/experiments/experiment.h"
-#include "bench/surface_measures.h"
-#include "engine/plc/input.h"
 
 namespace ccdt::experiments {
 
@@ -40,31 +37,5 @@ std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const st
 
 /// The user's files, named without their folder.
 std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
-
-/// Where surfaces of any edge length come from: one of our solids, or a file of the user's.
-struct SurfaceSource {
-  std::function<plc::InputPlc(double edge_length)> make;  ///< a file has the edges that it has
-  double shortest = 0, longest = 1e300;                   ///< edge lengths that it can have
-  double volume = 0;                                      ///< of what is inside
-};
-
-/// \param file  of the user's; empty: the solid of that name
-/// \throw InputError  the file cannot be read or is no valid PLC
-SurfaceSource surface_source(const std::string& name, const std::filesystem::path& file);
-
-/// A surface of triangles of nearly one size, in a file.
-struct EvenSurface {
-  std::filesystem::path file;
-  double edge_length = 0;
-  bool remeshed = false;  ///< else its triangles are as they came, because they were even enough
-  std::uint64_t vertices = 0, triangles = 0;
-  bench::SurfaceAngles angles;
-};
-
-/// Makes a surface of an edge length, remeshes it where its triangles are not even and of about that length, and writes
-/// it.
-///
-/// \throw InputError, MeshError  as `remesh_surface`
-EvenSurface make_even_surface(const SurfaceSource& source, double edge_length, const std::filesystem::path& file);
 
 }  // namespace ccdt::experiments

@@ -150,40 +150,25 @@ ResultTable stars_table(std::span<const TerminationRow> rows) {
   return table;
 }
 
-/// Where the midpoints of a star ended, and where not.
-std::string midpoint_finding(const ResultTable& stars, const std::string& star) {
-  double cases = 0, ended = 0, least = 180, least_stopped = 180, largest_stopped = 0, least_safe = 180;
-  for (const ResultRow& row : stars.rows) {  // from large angles to small ones
-    if (text_in(stars, row, "star") != star) continue;
-    least = number_in(stars, row, "degrees");
-    const double ended_here = number_in(stars, row, "midpoint_ended"), cases_here = number_in(stars, row, "cases");
-    cases += cases_here;
-    ended += ended_here;
-    if (ended_here == cases_here) {
-      if (largest_stopped == 0) least_safe = least;
-      continue;
-    }
-    largest_stopped = std::max(largest_stopped, least);
-    least_stopped = least;
-  }
-  const std::string share = "Midpoint, " + star + ": ended in " +
-                            share_words(static_cast<std::uint64_t>(ended), static_cast<std::uint64_t>(cases)) +
-                            " cases";
-  if (largest_stopped == 0) return share + ", down to " + in_words(least);
+/// Where the midpoints of a star ended, and where not; of its rows, from large angles to small ones.
+std::string midpoint_finding(const std::string& star, const RowViews& rows) {
+  const auto has_stopped = [](const RowView& row) { return row.number("midpoint_ended") < row.number("cases"); };
+  const auto angle = [](const RowView& row) { return in_words(row.number("degrees")); };
+  const std::string share =
+      "Midpoint, " + star + ": ended in " + share_words(sum(rows, "midpoint_ended"), sum(rows, "cases")) + " cases";
+  const auto largest = std::ranges::find_if(rows, has_stopped);
+  if (largest == rows.end()) return share + ", down to " + angle(rows.back());
+  const auto least = std::ranges::find_if(rows.rbegin(), rows.rend(), has_stopped);
   const std::string safe =
-      least_safe < 180 ? "from " + in_words(least_safe) + " up it always ended" : "it was safe at no angle";
-  return share + "; " + safe + "; it did not at " + std::to_string(std::lround(largest_stopped)) + " to " +
-         in_words(least_stopped);
+      largest == rows.begin() ? "it was safe at no angle" : "from " + angle(*(largest - 1)) + " up it always ended";
+  return share + "; " + safe + "; it did not at " + std::to_string(largest->count("degrees")) + " to " + angle(*least);
 }
 
 /// In how many of these runs one way ended.
 void add_share(const std::string& what, const ResultTable& runs, Protection way, std::vector<std::string>& findings) {
-  std::uint64_t cases = 0, ended = 0;
-  for (const ResultRow& row : runs.rows) {
-    if (text_in(runs, row, "protection") != name_of(way)) continue;
-    ++cases;
-    ended += text_in(runs, row, "ended") == "yes";
-  }
+  const std::string name(name_of(way));
+  const std::size_t cases = rows_with(runs, {{"protection", name}}).size(),
+                    ended = rows_with(runs, {{"protection", name}, {"ended", "yes"}}).size();
   if (cases > 0) findings.push_back(what + " ended in " + share_words(ended, cases) + " cases");
 }
 
@@ -194,9 +179,9 @@ ExperimentResult termination_result(std::span<const TerminationRow> rows) {
                     star_runs = runs_table("star_runs", "Each run on a star", rows, true);
   ExperimentResult result{.how = once(), .definitions = definitions(), .tables = {stars, solids, star_runs}};
   for (const models::Star& star : models::stars()) {
-    const auto is_of_star = [&](const ResultRow& row) { return text_in(stars, row, "star") == star.name; };
-    if (std::ranges::any_of(stars.rows, is_of_star))
-      result.findings.push_back(midpoint_finding(stars, std::string(star.name)));
+    const std::string name(star.name);
+    const RowViews rows_of_star = rows_with(stars, {{"star", name}});
+    if (!rows_of_star.empty()) result.findings.push_back(midpoint_finding(name, rows_of_star));
   }
   add_share("Midpoint on solids and files", solids, Protection::midpoint, result.findings);
   add_share("Shell on solids and files", solids, Protection::shell, result.findings);

@@ -78,33 +78,28 @@ ResultTable families_table(std::span<const FamilyTrials> families) {
 }
 
 std::vector<std::string> findings_of(const ResultTable& table) {
-  const auto sum = [&](const char* position, const char* column) {
-    double total = 0;
-    for (const ResultRow& row : table.rows)
-      if (text_in(table, row, "position") == position) total += number_in(table, row, column);
-    return static_cast<std::uint64_t>(total);
+  const RowViews general = rows_with(table, {{"position", "general"}}),
+                 sphere = rows_with(table, {{"position", "one sphere"}});
+  const auto share = [](const RowViews& families, const char* part, const char* whole) {
+    return share_words(sum(families, part), sum(families, whole));
   };
-  const auto share = [&](const char* position, const char* part, const char* whole) {
-    return share_words(sum(position, part), sum(position, whole));
-  };
-  /// Of the families in general position: those of `whole` without those of `exceptions`.
+  /// In general position, those of `whole` without those of `exceptions`.
   const auto all_but = [&](const char* exceptions, const char* whole) {
-    const std::uint64_t all = sum("general", whole);
-    return share_words(all - sum("general", exceptions), all);
+    return share_words(sum(general, whole) - sum(general, exceptions), sum(general, whole));
   };
   return {
       "If: " + all_but("against_if", "premise") +
           " PLCs in general position that are grazeable edge protected and face protected have a DT",
       "Only if: " + all_but("against_only_if", "dt") +
           " PLCs in general position that have a DT are grazeable edge protected and face protected",
-      "The theorem's proviso: with all vertices on one sphere, " + share("one sphere", "against_only_if", "dt") +
-          " PLCs with a DT are not protected, and " + share("one sphere", "against_if", "premise") +
+      "The theorem's proviso: with all vertices on one sphere, " + share(sphere, "against_only_if", "dt") +
+          " PLCs with a DT are not protected, and " + share(sphere, "against_if", "premise") +
           " that are protected have no DT",
       "Where all faces were protected but an edge was not, the edge was of no facet in " +
-          share("general", "edges_alone_loose", "edges_alone") + " PLCs",
+          share(general, "edges_alone_loose", "edges_alone") + " PLCs",
       "Section 2: " + all_but("edge_protected_without_cdt", "edge_protected") +
           " PLCs in general position that are grazeable edge protected have a CDT",
-      "The engine and the exhaustive tests agree on " + share("general", "engine_agrees", "cases") +
+      "The engine and the exhaustive tests agree on " + share(general, "engine_agrees", "cases") +
           " PLCs in general position",
   };
 }
