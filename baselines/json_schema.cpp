@@ -39,10 +39,15 @@ bool has_type(const Json& rule, const Json& value) {
          ((type == "number" || type == "integer") && value.is_number());
 }
 
+/// The rule that a reference leads to.
+const Json& referred(const Json& schema, const Json& rule) {
+  if (!rule.contains("$ref")) return rule;
+  return referred(schema, schema.at(Pointer(rule["$ref"].get<std::string>().substr(1))));
+}
+
 /// The rule for a value: what a reference leads to, and of several alternatives the one of the value's type.
-const Json& rule_for(const Json& schema, const Json& rule, const Json& value) {
-  if (rule.contains("$ref"))
-    return rule_for(schema, schema.at(Pointer(rule["$ref"].get<std::string>().substr(1))), value);
+const Json& rule_for(const Json& schema, const Json& reference, const Json& value) {
+  const Json& rule = referred(schema, reference);
   if (rule.contains("oneOf"))
     for (const Json& alternative : rule["oneOf"]) {
       const Json& one = rule_for(schema, alternative, value);
@@ -77,12 +82,32 @@ std::string description_at(const Json& schema, const Json& root, const Pointer& 
   for (const std::string& token : tokens) {
     rule = rule_for_member(rule_for(schema, *rule, *value), token);
     if (rule == nullptr) break;
+    const std::string name = value->is_array() ? "" : token + ": ";
     value = value->is_array() ? &value->at(std::stoul(token)) : &value->at(token);
-    const Json& resolved = rule_for(schema, *rule, *value);
-    for (const Json* said : {&resolved, rule})
-      if (said->contains("description")) text = token + ": " + (*said)["description"].get<std::string>();
+    for (const Json* said : {rule, &referred(schema, *rule), &rule_for(schema, *rule, *value)})
+      if (said->contains("description")) text = name + (*said)["description"].get<std::string>();
   }
   return text.empty() ? "the members are " + listed(members_of(schema)) : text;
+}
+
+/// The rule for a value with the alternative of its type wherever there are several, so that faults are about what the
+/// user meant.
+Json rule_as_meant(const Json& schema, const Json& rule_of_value, const Json& value) {
+  Json rule = rule_for(schema, rule_of_value, value);
+  if (rule.contains("patternProperties")) return rule;
+  if (value.is_array() && rule.contains("items") && rule["items"].is_object()) {
+    const Json of_all = rule["items"];
+    rule["items"] = Json::array();
+    for (const Json& item : value) rule["items"].push_back(rule_as_meant(schema, of_all, item));
+  }
+  if (value.is_object())
+    for (const auto& [name, member] : value.items()) {
+      const Json* of_member = rule_for_member(rule, name);
+      if (of_member == nullptr) continue;
+      Json meant = rule_as_meant(schema, *of_member, member);
+      rule["properties"][name] = std::move(meant);
+    }
+  return rule;
 }
 
 /// \throw InputError  a member that the schema does not know
@@ -106,7 +131,8 @@ void check_schema(const Json& value, const std::string& file, const UserFile& ki
   const Json rules = Json::parse(kind.schema);
   check_members(rules, rules, value, Pointer(), file, kind);
   valijson::Schema schema;
-  valijson::SchemaParser().populateSchema(Adapter(rules), schema);
+  const Json meant = rule_as_meant(rules, rules, value);
+  valijson::SchemaParser().populateSchema(Adapter(meant), schema);
   valijson::ValidationResults faults;
   if (valijson::Validator().validate(schema, Adapter(value), &faults)) return;
   // The first one of the deepest is the cause; the others follow from it.
