@@ -1,10 +1,16 @@
 #include "baselines/process_tree.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace ccdt::baselines {
@@ -14,22 +20,63 @@ std::string folder_of(pid_t process) {
   return "/proc/" + std::to_string(process);
 }
 
+/// The beginning of a file of the kernel's, read at once, as it is read a hundred times a second; empty if it cannot be
+/// read.
+class KernelText {
+ public:
+  explicit KernelText(const std::string& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    const ssize_t size = read(descriptor, bytes_.data(), bytes_.size());
+    close(descriptor);
+    end_ = bytes_.data() + std::max<ssize_t>(0, size);
+  }
+
+  /// The next number, after whatever is before it; none at the end.
+  std::optional<std::uint64_t> next_number() {
+    while (at_ != end_ && (*at_ < '0' || *at_ > '9')) ++at_;
+    std::uint64_t number = 0;
+    const auto [after, error] = std::from_chars(at_, end_, number);
+    if (error != std::errc()) return std::nullopt;
+    at_ = after;
+    return number;
+  }
+
+  void skip_behind(std::string_view word) {
+    const auto found = std::search(at_, end_, word.begin(), word.end());
+    at_ = found == end_ ? end_ : found + word.size();
+  }
+
+ private:
+  std::array<char, 4096> bytes_;
+  const char* at_ = bytes_.data();
+  const char* end_ = bytes_.data();
+};
+
 /// Resident memory, a shared page in each process that has it.
 std::uint64_t resident_bytes(pid_t process) {
-  std::ifstream statm(folder_of(process) + "/statm");
-  std::uint64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return statm ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+  KernelText statm(folder_of(process) + "/statm");
+  statm.next_number();  // the size of its address space
+  return statm.next_number().value_or(0) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// Resident memory, of a page that n processes share the nth part. This takes the kernel milliseconds per GB.
 std::uint64_t proportional_bytes(pid_t process) {
-  std::ifstream rollup(folder_of(process) + "/smaps_rollup");
-  for (std::string name; rollup >> name;) {
-    std::uint64_t kilobytes = 0;
-    if (name == "Pss:" && rollup >> kilobytes) return kilobytes << 10;
-  }
-  return resident_bytes(process);
+  KernelText rollup(folder_of(process) + "/smaps_rollup");
+  rollup.skip_behind("\nPss:");
+  const auto kilobytes = rollup.next_number();
+  return kilobytes ? *kilobytes << 10 : resident_bytes(process);
+}
+
+/// The names in a folder of the kernel's that are numbers.
+std::vector<std::string> numbers_in(const std::string& folder) {
+  std::vector<std::string> names;
+  DIR* const entries = opendir(folder.c_str());
+  if (entries == nullptr) return names;  // a process may end at any time
+  for (const dirent* entry = readdir(entries); entry != nullptr; entry = readdir(entries))
+    if (entry->d_name[0] != '.') names.emplace_back(entry->d_name);
+  closedir(entries);
+  return names;
 }
 
 template <class BytesOf>
@@ -45,15 +92,13 @@ std::vector<pid_t> descendants_of(pid_t process) {
   std::vector<pid_t> all;
   std::vector<pid_t> parents = {process};
   while (!parents.empty()) {
-    const std::filesystem::path threads = folder_of(parents.back()) + "/task";
+    const std::string threads = folder_of(parents.back()) + "/task/";
     parents.pop_back();
-    std::error_code error;  // a process may end at any time
-    for (std::filesystem::directory_iterator thread(threads, error), end; !error && thread != end;
-         thread.increment(error)) {
-      std::ifstream children(thread->path() / "children");
-      for (pid_t child = 0; children >> child;) {
-        all.push_back(child);
-        parents.push_back(child);
+    for (const std::string& thread : numbers_in(threads)) {
+      KernelText children(threads + thread + "/children");
+      while (const auto child = children.next_number()) {
+        all.push_back(static_cast<pid_t>(*child));
+        parents.push_back(all.back());
       }
     }
   }

@@ -64,6 +64,7 @@ TEST_F(Descriptions, OfTheLeastThatIsNeededHasDefaults) {
   EXPECT_EQ(d.name, "mine-2");
   EXPECT_EQ(d.command, (Names{"./mine", "{input}"}));
   EXPECT_EQ(d.success_codes, std::vector<int>{0});
+  EXPECT_TRUE(d.keeps_surface);
   EXPECT_TRUE(d.files.empty() && d.choices.empty() && d.seconds_pattern.empty());
 }
 
@@ -71,6 +72,7 @@ TEST_F(Descriptions, OfEverythingSayEverything) {
   const baselines::MesherDescription d =
       baselines::read_mesher_description(with(R"("output")", R"json("install": "buy it",
     "choices": {"fine": {"if": "improvement", "then": "{edge_length}"}}, "success_codes": [0, 3],
+    "keeps_surface": false,
     "files": {"a.txt": ["one {fine}", "two"], "b.txt": "three"}, "environment": {"THREADS": "1"},
     "version_command": ["mine", "-v"], "version_pattern": "v(.*)", "seconds_pattern": "([0-9.]+) s",
     "output")json"));
@@ -86,6 +88,7 @@ TEST_F(Descriptions, OfEverythingSayEverything) {
   EXPECT_EQ(d.version_command.size(), 2u);
   EXPECT_EQ(d.seconds_pattern, "([0-9.]+) s");
   EXPECT_EQ(d.success_codes, (std::vector<int>{0, 3}));
+  EXPECT_FALSE(d.keeps_surface);
 }
 
 TEST_F(Descriptions, ThatAreWrongAreRefusedAtTheJsonPointer) {

@@ -140,6 +140,18 @@ TEST_F(Program, VerifyExitsWithOneForAMeshOfAnotherPart) {
   EXPECT_NE(outcome.out.find("FAILED"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Program, VerifyAcceptsASurfaceOfTheMeshersOwnIfAsked) {
+  ASSERT_EQ(run("model sphere --edge-length 0.3 -o sphere.off").exit_code, 0);
+  ASSERT_EQ(run("model sphere --edge-length 0.2 -o finer.off").exit_code, 0);
+  ASSERT_EQ(run("mesh finer.off -o sphere.mesh").exit_code, 0);
+  EXPECT_EQ(run("verify sphere.off sphere.mesh").exit_code, 1);
+  const Outcome own = run("verify --surface own sphere.off sphere.mesh --report checks.json");
+  EXPECT_EQ(own.exit_code, 0) << own.out;
+  const Json checks = Json::parse(text_of(work() / "checks.json"));
+  EXPECT_EQ(checks.at("schema"), "ccdt.verify/1");
+  EXPECT_TRUE(checks.at("ok").get<bool>());
+}
+
 TEST_F(Program, ReportOfARunSaysWhatWasMeshedHowAndHowLong) {
   ASSERT_EQ(run("model cube --edge-length 0.25 -o cube.off").exit_code, 0);
   ASSERT_EQ(run("mesh cube.off -o cube.vtu --edge-length 0.25 --lattice bcc --report r.json").exit_code, 0);
