@@ -117,7 +117,8 @@ TEST_F(SlurmSweep, AccountsForEveryCaseThoughANodeDiesAndACaseRunsOutOfMemory) {
   EXPECT_GE(cases, 200);
 
   // In the middle of the sweep a node dies with all that runs on it.
-  ASSERT_TRUE(wait_for(60, [&] { return records().size() > 40; }));
+  const auto is_busy = [] { return shell("squeue --noheader --nodelist=n2 --states=RUNNING | grep -q .") == 0; };
+  ASSERT_TRUE(wait_for(60, [&] { return records().size() > 40 && is_busy(); }));
   ASSERT_EQ(loopback("kill-node", "n2"), 0);
   ASSERT_LT(records().size(), static_cast<std::size_t>(cases));
 
@@ -154,12 +155,12 @@ TEST_F(SlurmSweep, SubmitsNothingTwiceAndWhatWasCanceledAgain) {
   ASSERT_TRUE(wait_for(30, [&] { return chunks("running") > 0; }));
   const int all = chunks("running") + chunks("queued");
   submit();
-  EXPECT_EQ(chunks("running") + chunks("queued"), all);
+  EXPECT_EQ(chunks("running") + chunks("queued"), all) << status().dump();
   EXPECT_EQ(chunks("missing"), 0);
   ASSERT_EQ(shell("scancel --user=$(id -un)"), 0);
   ASSERT_TRUE(wait_for(30, [&] { return chunks("missing") == all; }));
   submit();
-  EXPECT_EQ(chunks("running") + chunks("queued"), all);
+  EXPECT_EQ(chunks("running") + chunks("queued"), all) << status().dump();
 }
 
 }  // namespace
