@@ -20,6 +20,7 @@
 #include <map>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "baselines/process_tree.h"
 #include "baselines/supervisor.h"
@@ -259,6 +260,14 @@ ProcessResult run_child(const OutputFiles& files, Body body) {
   return result;
 }
 
+/// Batch systems and shutdowns end this process and the program alike, and the program perhaps a moment earlier. Then
+/// its end says nothing about it.
+bool is_to_stop_too() {
+  constexpr auto a_moment = std::chrono::milliseconds(10);
+  if (!stop_requested()) std::this_thread::sleep_for(a_moment);
+  return stop_requested();
+}
+
 /// The same in a process group of its own, with a supervisor, limits, and an end when this process is to stop.
 template <class Body>
 ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, const std::filesystem::path& scratch,
@@ -293,6 +302,7 @@ ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, con
     int of_program = 0;  // is missing if the supervisor was killed
     if (pread(program_status.value, &of_program, sizeof of_program, 0) == sizeof of_program) status = of_program;
     explain_end(status, result);
+    if (result.kind && is_to_stop_too()) throw Stopped();
   } else {
     set_failure(kind_of(reached), result);
     result.signal = SIGKILL;

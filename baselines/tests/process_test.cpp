@@ -195,6 +195,22 @@ TEST(RunProgram, EndsAtOnceWhenTheProcessIsToStop) {
   EXPECT_FALSE(baselines::stop_requested());
 }
 
+TEST(RunProgram, ThatEndsTogetherWithTheProcessHasNotFailed) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const baselines::ProcessResult fork = baselines::run_function([]() -> std::string {
+      std::signal(SIGTERM, [](int) { baselines::request_stop(); });
+      const std::string end_both = "kill -TERM " + std::to_string(getpid()) + "; kill -KILL $$";
+      try {
+        baselines::run_program({"/bin/sh", "-c", end_both}, {.limits = baselines::Limits{.seconds = 60}});
+      } catch (const baselines::Stopped&) {
+        return "stopped";
+      }
+      return "failed";
+    });
+    ASSERT_EQ(fork.value, "stopped") << fork.reason;
+  }
+}
+
 TEST(RunProgram, ThatDoesNotExistIsAFailureWithAReason) {
   const baselines::ProcessResult result = baselines::run_program({"/nowhere/no-such-program"});
   EXPECT_EQ(result.status, baselines::RunStatus::failed);
