@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/experiments/case_rows.h"
-#include "bench/experiments/small_plcs/small_plc.h"
-#include "bench/experiments/small_plcs/trial.h"
+#include "bench/small_plcs/small_plc.h"
+#include "bench/small_plcs/trial.h"
 
 namespace ccdt::experiments {
 
@@ -50,21 +50,6 @@ struct TerminationRow : CaseRow {
 ExperimentResult measure_termination(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult termination_result(std::span<const TerminationRow> rows);
 
-/// What one interior point did to small random PLCs of a family that have a constrained Delaunay tetrahedralization.
-struct ExistenceTrials {
-  std::string family;
-  std::uint64_t cases = 0;
-  std::uint64_t lost = 0;        ///< that have none with the point
-  SmallPlc counterexample = {};  ///< of these the first with the fewest vertices; the point is its last vertex
-};
-
-/// The PLC with a point inside, strictly and in general position; empty if none is found.
-/// \param seed  of the draws
-SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed);
-
-/// Looks for existence by exhaustion, without and with the point, in so many PLCs of each family in general position.
-std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family);
-
 /// One input with one lattice under one rule of what keeps interior points away from the surface. Its counts tell how
 /// many points were placed, and how many were dropped because they would have destroyed a protected edge.
 struct InteriorRow : CaseRow {
@@ -81,6 +66,7 @@ struct InteriorRow : CaseRow {
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the models that were asked for is part of it
 ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner);
-ExperimentResult interior_points_result(std::span<const InteriorRow> rows, std::span<const ExistenceTrials> existence);
+ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
+                                        std::span<const small_plcs::ExistenceTrials> existence);
 
 }  // namespace ccdt::experiments

@@ -43,12 +43,12 @@ std::vector<std::string> definitions() {
 
 const char* const dropped_title = "points that would have destroyed a protected edge";
 
-ResultTable existence_table(std::span<const ExistenceTrials> existence) {
+ResultTable existence_table(std::span<const small_plcs::ExistenceTrials> existence) {
   ResultTable table = table_of("existence", "Existence with one interior point more, by exhaustion",
                                {label_column("family"), figure_column("cases", "PLCs with a CDT"),
                                 figure_column("lost", "of these without one with the point"),
                                 note_column("counterexample", "the smallest, its last vertex the point")});
-  for (const ExistenceTrials& trials : existence)
+  for (const small_plcs::ExistenceTrials& trials : existence)
     add_row(table, {}, trials.family, trials.cases, trials.lost,
             cell_if(trials.lost > 0, small_plcs::in_words(trials.counterexample)));
   return table;
@@ -104,47 +104,8 @@ std::string rule_finding(const RowView& row) {
 
 }  // namespace
 
-SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed) {
-  constexpr int most_draws = 50;
-  small_plcs::Random random(seed);
-  small_plcs::Point low = plc.vertices.front(), high = low;
-  for (const small_plcs::Point& p : plc.vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const auto last = static_cast<small_plcs::Vertex>(plc.vertices.size());
-  SmallPlc more = plc;
-  more.vertices.emplace_back();
-  for (int draw = 0; draw < most_draws; ++draw) {
-    more.vertices.back() = {random.between(low.x, high.x), random.between(low.y, high.y),
-                            random.between(low.z, high.z)};
-    if (is_inside(more, {last}) && is_generic(more)) return more;
-  }
-  return {};
-}
-
-std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
-  const auto has_one = [](const SmallPlc& plc) { return search_constrained_delaunay(plc).constrained_delaunay > 0; };
-  std::vector<ExistenceTrials> all;
-  std::uint64_t seed = 1;
-  for (const Family& family : small_plcs::families()) {
-    if (family.is_cospherical) continue;
-    ExistenceTrials& trials = all.emplace_back();
-    trials.family = family.name;
-    small_plcs::Random random(++seed);
-    for (std::uint64_t i = 0; i < cases_a_family; ++i) {
-      const SmallPlc plc = next_plc(family, random), more = with_interior_point(plc, ++seed);
-      if (more.vertices.empty() || !has_one(plc)) continue;
-      ++trials.cases;
-      if (has_one(more)) continue;
-      const bool is_smallest = trials.lost++ == 0 || more.vertices.size() < trials.counterexample.vertices.size();
-      if (is_smallest) trials.counterexample = more;
-    }
-  }
-  return all;
-}
-
-ExperimentResult interior_points_result(std::span<const InteriorRow> rows, std::span<const ExistenceTrials> trials) {
+ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
+                                        std::span<const small_plcs::ExistenceTrials> trials) {
   const ResultTable existence = existence_table(trials), cases = cases_table(rows), by_rule = rules_table(cases);
   const RowViews families = rows_with(existence);
   ExperimentResult result{.how = once(),
@@ -175,7 +136,7 @@ ExperimentResult measure_interior_points(const ExperimentOptions& options, cases
       }
   measure_rows(runner, rows);
   return interior_points_result(
-      rows, try_interior_points(static_cast<std::uint64_t>(options.tetrahedra / tetrahedra_a_trial)));
+      rows, small_plcs::try_interior_points(static_cast<std::uint64_t>(options.tetrahedra / tetrahedra_a_trial)));
 }
 
 }  // namespace ccdt::experiments

@@ -1,6 +1,6 @@
 #include "bench/experiments/surfaces.h"
-#include "bench/surface_measures.h"
 #include "bench/experiments/timing_experiments.h"
+#include "bench/surface_measures.h"
 #include "engine/io/plc_files.h"
 
 namespace ccdt::experiments {

@@ -5,9 +5,9 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/registry.h"
-#include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
+#include "bench/small_plcs/trial.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -68,17 +68,17 @@ small_plcs::SmallPlc dented_tetrahedron() {
 }
 
 TEST(InteriorExistence, AddsAPointStrictlyInside) {
-  const small_plcs::SmallPlc more = experiments::with_interior_point(dented_tetrahedron(), 7);
+  const small_plcs::SmallPlc more = small_plcs::with_interior_point(dented_tetrahedron(), 7);
   ASSERT_EQ(more.vertices.size(), 6u);
   EXPECT_EQ(more.boundary, dented_tetrahedron().boundary);
   EXPECT_TRUE(is_inside(more, {5}));
   EXPECT_TRUE(is_generic(more));
-  EXPECT_EQ(experiments::with_interior_point(dented_tetrahedron(), 7).vertices, more.vertices);
+  EXPECT_EQ(small_plcs::with_interior_point(dented_tetrahedron(), 7).vertices, more.vertices);
 }
 
 TEST(InteriorExistence, IsLostInCounterexamplesThatCanBeLookedAt) {
   std::uint64_t lost = 0;
-  for (const experiments::ExistenceTrials& trials : experiments::try_interior_points(20)) {
+  for (const small_plcs::ExistenceTrials& trials : small_plcs::try_interior_points(20)) {
     EXPECT_GT(trials.cases, 0u) << trials.family;
     if (trials.lost == 0) continue;
     lost += trials.lost;
@@ -105,7 +105,7 @@ TEST(InteriorPoints, ResultCountsTheHarmAndAsideTheCasesThatFailed) {
       interior_row("no spheres", Lattice::fcc, 1200, 3), interior_row("paper", Lattice::sc, 7, 7)};
   rows.back().measured.asked.name = "part.off, sc, paper";
   rows.back().measured.first.set_failure(baselines::FailureKind::invalid_input, "it is open");
-  const experiments::ExistenceTrials existence{"segments", 40, 7, {}};
+  const small_plcs::ExistenceTrials existence{"segments", 40, 7, {}};
   const auto result = experiments::interior_points_result(rows, std::vector{existence});
   EXPECT_EQ(result.findings,
             (std::vector<std::string>{

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/experiments/small_plcs/small_plc.h"
+#include "bench/small_plcs/small_plc.h"
 
 namespace ccdt {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/experiments/small_plcs/trial.h"
+#include "bench/small_plcs/trial.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -392,6 +392,46 @@ Trial try_plc(SmallPlc plc, bool is_cospherical) {
   trial.engine = ask_engine(trial.plc);
   trial.disagreement = disagreement_of(trial, is_cospherical);
   return trial;
+}
+
+SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed) {
+  constexpr int most_draws = 50;
+  Random random(seed);
+  Point low = plc.vertices.front(), high = low;
+  for (const Point& p : plc.vertices) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const auto last = static_cast<Vertex>(plc.vertices.size());
+  SmallPlc more = plc;
+  more.vertices.emplace_back();
+  for (int draw = 0; draw < most_draws; ++draw) {
+    more.vertices.back() = {random.between(low.x, high.x), random.between(low.y, high.y),
+                            random.between(low.z, high.z)};
+    if (is_inside(more, {last}) && is_generic(more)) return more;
+  }
+  return {};
+}
+
+std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
+  const auto has_one = [](const SmallPlc& plc) { return search_constrained_delaunay(plc).constrained_delaunay > 0; };
+  std::vector<ExistenceTrials> all;
+  std::uint64_t seed = 1;
+  for (const Family& family : families()) {
+    if (family.is_cospherical) continue;
+    ExistenceTrials& trials = all.emplace_back();
+    trials.family = family.name;
+    Random random(++seed);
+    for (std::uint64_t i = 0; i < cases_a_family; ++i) {
+      const SmallPlc plc = next_plc(family, random), more = with_interior_point(plc, ++seed);
+      if (more.vertices.empty() || !has_one(plc)) continue;
+      ++trials.cases;
+      if (has_one(more)) continue;
+      const bool is_smallest = trials.lost++ == 0 || more.vertices.size() < trials.counterexample.vertices.size();
+      if (is_smallest) trials.counterexample = more;
+    }
+  }
+  return all;
 }
 
 }  // namespace ccdt::small_plcs

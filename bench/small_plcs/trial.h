@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/small_plcs/small_plc.h"
+#include "bench/small_plcs/small_plc.h"
 
 namespace ccdt::small_plcs {
 
@@ -86,5 +86,20 @@ struct Trial {
   std::string disagreement = {};
 };
 Trial try_plc(SmallPlc plc, bool is_cospherical);
+
+/// What one interior point did to small random PLCs of a family that have a constrained Delaunay tetrahedralization.
+struct ExistenceTrials {
+  std::string family;
+  std::uint64_t cases = 0;
+  std::uint64_t lost = 0;        ///< that have none with the point
+  SmallPlc counterexample = {};  ///< of these the first with the fewest vertices; the point is its last vertex
+};
+
+/// The PLC with a point inside, strictly and in general position; empty if none is found.
+/// \param seed  of the draws
+SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed);
+
+/// Looks for existence by exhaustion, without and with the point, in so many PLCs of each family in general position.
+std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family);
 
 }  // namespace ccdt::small_plcs
