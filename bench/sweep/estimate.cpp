@@ -16,14 +16,14 @@ namespace {
 // Of a mesher without any finished case; measured with ours and TetGen on one core of a usual machine.
 constexpr double usual_seconds = 12e-6;  ///< per tetrahedron
 constexpr double usual_check_seconds = 6e-6;
-constexpr double usual_bytes = 500;
+constexpr double usual_bytes = 400;
 
 // Besides what depends on the size.
 constexpr double seconds_of_process = 0.02;
 constexpr double bytes_of_process = 15e6;
 constexpr double bytes_of_record = 12e3;
 
-constexpr double mesh_bytes = 45;   ///< of a kept mesh, per tetrahedron
+constexpr double mesh_bytes = 77;   ///< of a mesh, per tetrahedron
 constexpr double model_bytes = 50;  ///< of a model, per triangle
 
 constexpr double least_exponent = 0.3, largest_exponent = 2;  ///< others are noise
@@ -62,7 +62,8 @@ double seconds_of(const cases::RunRecord& record) {
 
 void add_case(Neighbors& neighbors, double tetrahedra, const cases::MeasuredCase& measured) {
   neighbors.seconds.add(tetrahedra, seconds_of(measured.first));
-  neighbors.bytes.add(tetrahedra, std::max(0.0, static_cast<double>(measured.first.peak_rss_bytes) - bytes_of_process));
+  const double bytes = static_cast<double>(measured.first.peak_rss_bytes) - bytes_of_process;
+  if (bytes > 0) neighbors.bytes.add(tetrahedra, bytes);  // a small one tells nothing of larger ones
   if (measured.first.verification) neighbors.check.add(tetrahedra, measured.first.verification->seconds);
 }
 
@@ -88,7 +89,7 @@ void set_usual(CaseEstimate& estimate) {
 void set_from(CaseEstimate& estimate, const Neighbors& neighbors) {
   estimate.neighbors = static_cast<int>(neighbors.seconds.size.size());
   estimate.seconds = neighbors.seconds.at(estimate.tetrahedra);
-  estimate.memory_bytes = neighbors.bytes.at(estimate.tetrahedra);
+  if (!neighbors.bytes.size.empty()) estimate.memory_bytes = neighbors.bytes.at(estimate.tetrahedra);
   if (!neighbors.check.size.empty()) estimate.check_seconds = neighbors.check.at(estimate.tetrahedra);
 }
 
@@ -151,6 +152,7 @@ SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::Me
   sum.cases = cases.size();
   std::set<std::filesystem::path> models;
   std::set<std::string> unknown;
+  double largest_mesh = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const CaseEstimate& estimate = estimates[i];
     if (is_neighbor(measured[i])) ++sum.finished_cases;
@@ -162,11 +164,13 @@ SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::Me
     sum.most_seconds += estimate.missing_seconds() + (estimate.most_runs - estimate.runs) * estimate.seconds;
     sum.memory_bytes = std::max(sum.memory_bytes, estimate.memory_bytes);
     sum.disk_bytes += estimate.most_runs * bytes_of_record;
+    largest_mesh = std::max(largest_mesh, mesh_bytes * estimate.tetrahedra);
     if (!cases[i].asked.mesh_ending.empty()) sum.disk_bytes += mesh_bytes * estimate.tetrahedra;
     if (!std::filesystem::exists(cases[i].input.file) && models.insert(cases[i].input.file).second)
       sum.disk_bytes += model_bytes * size_of(cases[i].input).triangles;
     if (estimate.neighbors == 0) unknown.insert(cases[i].mesher());
   }
+  sum.disk_bytes += largest_mesh;  // every mesh is written, and removed if it is not kept
   sum.unknown_meshers.assign(unknown.begin(), unknown.end());
   return sum;
 }

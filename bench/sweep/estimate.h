@@ -35,10 +35,10 @@ std::vector<CaseEstimate> estimate_cases(std::span<const SweepCase> cases,
 struct SweepEstimate {
   std::size_t cases = 0, runs = 0;  ///< all there will be, at least
   std::size_t missing_cases = 0, missing_runs = 0;
-  double seconds = 0, most_seconds = 0;           ///< of what is missing
-  double memory_bytes = 0;                        ///< the most that a missing run takes
-  double disk_bytes = 0;                          ///< of records, models and kept meshes of what is missing
-  std::size_t finished_cases = 0;                 ///< that it was made from
+  double seconds = 0, most_seconds = 0;  ///< of what is missing
+  double memory_bytes = 0;               ///< the most that a missing run takes
+  double disk_bytes = 0;           ///< of what is missing: records, models, kept meshes, and a mesh while it is there
+  std::size_t finished_cases = 0;  ///< that it was made from
   std::vector<std::string> unknown_meshers = {};  ///< without a finished case, estimated by usual figures
 };
 
