@@ -59,7 +59,10 @@ int main(int argc, char** argv) {
     return 3;
   }
   if (how == "abort") std::abort();
-  if (how == "segfault") std::raise(SIGSEGV);
+  if (how == "segfault") {
+    std::signal(SIGSEGV, SIG_DFL);  // sanitizers have a handler, which exits
+    std::raise(SIGSEGV);
+  }
   if (how == "kill-itself") std::raise(SIGKILL);
   if (how == "sleep") sleep_long();
   if (how == "sleep-in-grandchild") {
