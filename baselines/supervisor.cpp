@@ -63,9 +63,10 @@ void Supervisor::watch(pid_t program, int report) const {
     has_ended = true;
     return ended;
   };
-  for (int signal = SIGCHLD; signal != SIGTERM && !has_ended;) {
-    signal = sigwaitinfo(&watched_, nullptr);
-    while (signal == SIGCHLD && reap(WNOHANG) > 0) {
+  int why = SIGCHLD;
+  while (why != SIGTERM && !has_ended) {
+    why = sigwaitinfo(&watched_, nullptr);
+    while (why == SIGCHLD && reap(WNOHANG) > 0) {
     }
   }
   pid_t last = 0;
@@ -74,6 +75,11 @@ void Supervisor::watch(pid_t program, int report) const {
     kill_children();
     last = reap(0);  // whatever its children leave behind becomes a child of this process
   } while (last > 0 || errno == EINTR);
+  if (why == SIGTERM) {  // this is how it ended, and not by what has just been sent to it
+    signal(SIGTERM, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &usual_, nullptr);
+    raise(SIGTERM);
+  }
   _exit(has_ended && pwrite(report, &status, sizeof status, 0) == sizeof status ? 0 : 1);
 }
 

@@ -20,7 +20,7 @@ class Supervisor {
   /// In the supervisor's own fork, before the program starts: it dies with the supervisor, and gets signals as usual.
   void release_child() const;
 
-  /// Waits for the end of the program and kills what is left of its descendants.
+  /// Waits for the end of the program and kills what is left of its descendants. On SIGTERM it ends by that.
   /// \param report  descriptor of a file that gets the program's status, as `waitpid` has it
   [[noreturn]] void watch(pid_t program, int report) const;
 

@@ -143,6 +143,13 @@ TEST_F(ServerOfProgram, DiesWithTheProgram) {
   EXPECT_FALSE(is_there(pid()));
 }
 
+TEST(RunProgram, WhoseSupervisorIsToldToEndHasCrashed) {
+  const auto result =
+      baselines::run_program({"/bin/sh", "-c", "kill -TERM $PPID; sleep 60"}, {.limits = baselines::Limits()});
+  EXPECT_EQ(result.kind, FailureKind::crashed);
+  EXPECT_EQ(result.signal, SIGTERM);
+}
+
 TEST_F(ServerOfProgram, DiesWithTheProcessThatStartedTheProgram) {
   const pid_t parent = fork();
   if (parent == 0) {
