@@ -139,7 +139,9 @@ std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
                                       : command.mixed ? cases::OtherIdentity::mixed
                                                       : cases::OtherIdentity::refuse;
   const auto accepted = cases::accepted_identities(file, cases::identity_of(meshers, command.options.program), policy);
-  bench::write_json(cases::identities_json(accepted), file);
+  bench::Json json = {{"schema", "ccdt.identity/1"}};
+  json.update(cases::identities_json(accepted));
+  bench::write_json(json, file);
   return accepted;
 }
 
