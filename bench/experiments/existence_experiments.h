@@ -67,6 +67,6 @@ struct InteriorRow : CaseRow {
 /// \throw InputError   none of the models that were asked for is part of it
 ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
-                                        std::span<const small_plcs::ExistenceTrials> existence);
+                                        std::span<const small_plcs::ExistenceTrials> trials);
 
 }  // namespace ccdt::experiments

@@ -131,8 +131,7 @@ ExperimentResult measure_interior_points(const ExperimentOptions& options, cases
         append(words, std::vector<std::string>{"--improve", "none", "--lattice", name});
         InteriorRow& row = rows.emplace_back();
         row = {{}, file.name, file.edge_length, rule.name, lattice};
-        row.measured.asked =
-            single_case(options, file.name + at + ", " + name + ", " + rule.name, "ccdt", file.file, words);
+        row.measured.asked = single_case(options, joined({file.name + at, name, rule.name}), "ccdt", file.file, words);
       }
   measure_rows(runner, rows);
   return interior_points_result(

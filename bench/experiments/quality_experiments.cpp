@@ -228,24 +228,24 @@ void conclude_lattice_fit(ExperimentResult& result) {
 
 StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::string& experiment,
                               const std::vector<std::string>& models) {
-  StudyPlan plan{
-      .experiment = experiment,
-      .models = models,
-      .labels = {label_column("mesher"), label_column("variant")},
-      .variants = {{"ccdt fcc", "ccdt", {"--lattice", "fcc", "--improve", "all"}},
-                   {"ccdt fcc unimproved", "ccdt", {"--lattice", "fcc", "--improve", "none"}},
-                   {"ccdt bcc", "ccdt", {"--lattice", "bcc", "--improve", "all"}}},
-      .definitions = {"Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
-                      "Rows that are more than 15% away from that number are shown, and not compared with.",
-                      "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge "
-                      "length.",
-                      "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a.",
-                      "cgal-mesh3: with perturbation and exudation.",
-                      "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
-                      "What takes long has at most three counted runs."},
-      .conclude = conclude_mesher_quality,
-      .equal_counts = true,
-      .keeps_meshes = true};
+  StudyPlan plan{.experiment = experiment,
+                 .models = models,
+                 .labels = {label_column("mesher"), label_column("variant")},
+                 .variants = {{"ccdt fcc", "ccdt", {"--lattice", "fcc", "--improve", "all"}},
+                              {"ccdt fcc unimproved", "ccdt", {"--lattice", "fcc", "--improve", "none"}},
+                              {"ccdt bcc", "ccdt", {"--lattice", "bcc", "--improve", "all"}}},
+                 .conclude = conclude_mesher_quality,
+                 .equal_counts = true,
+                 .keeps_meshes = true};
+  plan.definitions = {
+      "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
+      "Rows that are more than 15% away from that number are shown, and not compared with.",
+      "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge length.",
+      "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a.",
+      "cgal-mesh3: with perturbation and exudation.",
+      "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
+      "What takes long has at most three counted runs.",
+  };
   std::vector<std::string> others = described_meshers(options);
   for (const char* name : {"gmsh-hxt", "cgal-mesh3", "tetgen"})
     if (is_measured(options, name)) others.insert(others.begin(), name);
@@ -290,20 +290,19 @@ StudyPlan improvement_plan() {
 }
 
 StudyPlan lattice_fit_plan() {
-  StudyPlan plan{
-      .experiment = "lattice-fit",
-      .models = names_of_paper_models(),
-      .labels = {label_column("setting")},
-      .definitions =
-          {"Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
-           "Clearance: none nearer to the surface than --clearance edge lengths.",
-           "Rank: of the setting among all, from 1, mean over the cases and the four criteria.",
-           "The criteria: mean, p99 and worst r, and the smallest dihedral angle. The best has the least "
-           "rank.",
-           "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
-           "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together."},
-      .conclude = conclude_lattice_fit,
-      .once = true};
+  StudyPlan plan{.experiment = "lattice-fit",
+                 .models = names_of_paper_models(),
+                 .labels = {label_column("setting")},
+                 .conclude = conclude_lattice_fit,
+                 .once = true};
+  plan.definitions = {
+      "Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
+      "Clearance: none nearer to the surface than --clearance edge lengths.",
+      "Rank: of the setting among all, from 1, mean over the cases and the four criteria.",
+      "The criteria: mean, p99 and worst r, and the smallest dihedral angle. The best has the least rank.",
+      "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
+      "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together.",
+  };
   const auto add = [&](double sphere_factor, double clearance) {
     const std::string name = setting_in_words(sphere_factor, clearance);
     if (std::ranges::find(plan.variants, name, &QualityVariant::name) != plan.variants.end()) return;

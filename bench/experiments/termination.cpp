@@ -50,7 +50,7 @@ void add_input(const ExperimentOptions& options, const TerminationRow& input, co
     TerminationRow& row = rows.emplace_back(input);
     row.smallest_angle = smallest_angle;
     row.protection = protection;
-    row.measured.asked = single_case(options, name + ", " + way, "ccdt", file,
+    row.measured.asked = single_case(options, joined({name, way}), "ccdt", file,
                                      {"--protection", way, "--lattice", "none", "--improve", "none"});
   }
 }
