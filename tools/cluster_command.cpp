@@ -11,6 +11,7 @@
 #include "bench/sweep/slurm.h"
 #include "bench/sweep/snakemake.h"
 #include "bench/sweep/sweep_document.h"
+#include "engine/base/errors.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 
@@ -141,7 +142,12 @@ std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& fold
   std::set<std::string> missing;
   for (const cases::MeasuredCase& measured : cases)
     if (cases::needs_run(measured)) missing.insert(measured.id);
-  return sweep::count_chunks(chunks, sweep::ask_slurm(folder), missing);
+  try {
+    return sweep::count_chunks(chunks, sweep::ask_slurm(folder), missing);
+  } catch (const Error& error) {  // the records can be counted without it
+    std::fprintf(stderr, "%s\n", error.what());
+    return {};
+  }
 }
 
 bench::Json to_json(const sweep::ChunkCounts& counts) {

@@ -29,7 +29,7 @@ ExitCode run_chunk(const SweepCommand& command);
 /// it did.
 void prepare_for_cluster(const SweepCommand& command, const PreparedSweep& sweep);
 
-/// Where the chunks of a folder are. None if it has none.
+/// Where the chunks of a folder are. None if it has none, or if Slurm does not say; then that is printed.
 ///
 /// \param cases  as the records stand
 std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& folder,

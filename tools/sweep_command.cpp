@@ -182,6 +182,10 @@ constexpr const char* footer =
     "  ccdt sweep scaling -o build/scaling && ccdt report build/scaling\n"
     "Example: all meshers on parts of your own\n"
     "  ccdt sweep parts -o build/parts --input 'parts/*.off'\n"
+    "Example: on a cluster with Slurm; the folder and the program are where all nodes see them, and variables of "
+    "sbatch\n"
+    "choose the rest, as SBATCH_PARTITION does. Called again, it submits what was lost\n"
+    "  ccdt sweep scaling -o build/scaling --slurm --chunk-minutes 60\n"
     "Example: how far is it?\n"
     "  ccdt sweep scaling -o build/scaling --status\n";
 
