@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <unordered_map>
 
 #include "bench/json.h"
 #include "bench/results/numbers.h"
@@ -27,7 +28,7 @@ ReportChart chart_from(const bench::Json& json) {
                     json.at("caption"),    json.at("tables"), json.at("spec").dump()};
   const bench::Json needs = json.value("needs", bench::Json::array());
   for (const bench::Json& need : needs) chart.needs.push_back({need.at("table"), need.at("column"), need.at("values")});
-  chart.is_of_axes = json.value("axes", false);
+  chart.map_of = json.value("map_of", "");
   return chart;
 }
 
@@ -66,7 +67,7 @@ bool is_met(const ExperimentResult& result, const ChartNeed& need) {
 /// \name The axes of a table: columns that say what a row is of, with several values, but not too many to be seen.
 /// @{
 constexpr std::size_t most_values = 16;
-constexpr std::size_t most_pairs = 3;
+constexpr std::size_t most_pairs = 2;
 
 struct Axis {
   const Column* column = nullptr;
@@ -83,15 +84,43 @@ int rank_of(const Column& column) {
   return column.name == "mesher" ? 3 : 4;
 }
 
-std::vector<Axis> axes_of(const ResultTable& table) {
+/// The name of an input says its model and its edge length as well.
+bool names_input(const Column& column, const Column& axis) {
+  const auto is_of_input = [](const Column& c) {
+    return c.name == "input" || c.name == "model" || c.name == "edge_length";
+  };
+  return is_of_input(column) && is_of_input(axis);
+}
+
+/// Does the column say what a row is of?
+bool is_asked(const Column& column) {
+  if (column.name == "status" || column.name == "failure") return false;
+  return column.kind == ColumnKind::label || column.name == "edge_length";
+}
+
+/// Do rows that differ in nothing else but this axis differ in the value? Strategies, say, do not change a mesh.
+bool has_effect(const ResultTable& table, std::size_t axis, std::size_t of) {
+  std::unordered_map<std::string, std::string> values;
+  for (const ResultRow& row : table.rows) {
+    const std::string value = value_text(row.cells[of]);
+    if (value.empty()) continue;
+    std::string others;
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      if (c != axis && is_asked(table.columns[c]) && !names_input(table.columns[c], table.columns[axis]))
+        others += value_text(row.cells[c]) + '\n';
+    if (values.emplace(others, value).first->second != value) return true;
+  }
+  return false;
+}
+
+std::vector<Axis> axes_of(const ResultTable& table, const std::string& of) {
   std::vector<Axis> axes;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const Column& column = table.columns[c];
-    const bool is_asked = (column.kind == ColumnKind::label && column.name != "status" && column.name != "failure") ||
-                          column.name == "edge_length";
-    if (!is_asked) continue;
+    if (!is_asked(column)) continue;
     const std::size_t values = distinct_values(table, c);
-    if (values >= 2 && values <= most_values) axes.push_back({&column, rank_of(column)});
+    if (values >= 2 && values <= most_values && has_effect(table, c, results::column_of(table, of)))
+      axes.push_back({&column, rank_of(column)});
   }
   return axes;
 }
@@ -110,8 +139,8 @@ bool is_worth_a_map(const ResultTable& table, const AxisPair& pair) {
   return firsts.size() >= 2 && seconds.size() >= 2 && 2 * both.size() >= firsts.size() * seconds.size();
 }
 
-std::vector<AxisPair> axis_pairs(const ResultTable& table) {
-  const std::vector<Axis> axes = axes_of(table);
+std::vector<AxisPair> axis_pairs(const ResultTable& table, const std::string& of) {
+  const std::vector<Axis> axes = axes_of(table, of);
   std::vector<AxisPair> pairs;
   for (std::size_t i = 0; i < axes.size(); ++i)
     for (std::size_t j = i + 1; j < axes.size(); ++j)
@@ -162,11 +191,11 @@ std::vector<ReportChart> charts_for(const ExperimentResult& result, std::span<co
     });
     if (!has_tables || !std::ranges::all_of(chart.needs, [&](const ChartNeed& n) { return is_met(result, n); }))
       continue;
-    if (!chart.is_of_axes) {
+    if (chart.map_of.empty()) {
       made.push_back(chart);
       continue;
     }
-    for (const AxisPair& pair : axis_pairs(*results::find_table(result, chart.tables.front())))
+    for (const AxisPair& pair : axis_pairs(*results::find_table(result, chart.tables.front()), chart.map_of))
       made.push_back(made_for(chart, pair));
   }
   return made;

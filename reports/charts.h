@@ -21,7 +21,9 @@ struct ReportChart {
   std::vector<std::string> tables;  ///< each a data set of its name
   std::string spec;                 ///< the JSON of Vega-Lite
   std::vector<ChartNeed> needs = {};
-  bool is_of_axes = false;  ///< made for pairs of columns that vary; {first}, {second} and their titles stand for them
+  /// A column of the first table; with it, the chart is made for pairs of columns that this one depends on. {first},
+  /// {second}, {first title} and {second title} stand for them.
+  std::string map_of = {};
 };
 
 /// All charts of a folder, by the names of their files. None if there is no such folder.

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -42,34 +43,35 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 }
 
 /// Draws the charts and the cut-open meshes, by the same descriptions that the page has.
-void draw_figures(const std::filesystem::path& folder, const std::filesystem::path& share, WrittenReport& written) {
+/// \return  what could not be drawn, and what to do about it
+std::vector<std::string> draw_figures(const std::filesystem::path& folder, const std::filesystem::path& share) {
   const auto script = share / "render_figures.mjs";
   const auto node = baselines::find_program("node", "CCDT_NODE");
-  if (!std::filesystem::exists(script)) {
-    written.notes.push_back("No figures: this build has no " + script.string() + "; build it with CCDT_BUILD_PAGE=ON.");
-    return;
-  }
-  if (!node) {
-    written.notes.emplace_back("No figures: they are drawn by the program `node`, which is not there; install nodejs.");
-    return;
-  }
+  if (!std::filesystem::exists(script))
+    return {"No figures: this build has no " + script.string() + "; build it with CCDT_BUILD_PAGE=ON."};
+  if (!node) return {"No figures: they are drawn by the program `node`, which is not there; install nodejs."};
   const baselines::TemporaryFolder work;
   const auto log = work.path() / "log";
   const int code = baselines::run_program({node->string(), script.string(), (folder / "report.json").string(),
                                            (folder / "figures").string()},
                                           {.log = log})
                        .shell_code();
-  const std::vector<std::string> words = lines_of(log);
-  written.notes.insert(written.notes.end(), words.begin(), words.end());
-  if (code != 0) written.notes.push_back("Not all figures: drawing them ended with code " + std::to_string(code) + ".");
+  std::vector<std::string> notes = lines_of(log);
+  if (code != 0) notes.push_back("Not all figures: drawing them ended with code " + std::to_string(code) + ".");
+  return notes;
 }
 
 constexpr std::string_view place_of_data = "<!-- ccdt data -->";
 
+std::string compact_text(const bench::Json& json) {
+  return json.dump(-1, ' ', false, bench::Json::error_handler_t::replace);
+}
+
 /// JSON as a script element may hold it: nothing in it ends the element.
-std::string inside_script(const bench::Json& json) {
+std::string inside_script(const std::string& json) {
   std::string text;
-  for (const char c : json.dump(-1, ' ', false, bench::Json::error_handler_t::replace)) {
+  text.reserve(json.size());
+  for (const char c : json) {
     if (c == '/' && text.ends_with('<')) text += '\\';
     text += c;
   }
@@ -118,24 +120,28 @@ std::string element(const std::string& id, const std::string& type, const std::s
 
 constexpr std::size_t largest_plain_report = 3 << 19;  ///< bytes; a larger one is deflated
 
-std::string report_element(const Report& report) {
-  const std::string text = inside_script(report_json(report));
+/// \param json  of the report
+std::string report_element(const std::string& json) {
+  const std::string text = inside_script(json);
   if (text.size() <= largest_plain_report) return element("ccdt-report", "application/json", text);
   return element("ccdt-packed-report", "text/plain", results::packed(text.data(), text.size()));
+}
+
+std::string fill_page(const std::string& page, const Report& report, const std::string& report_text,
+                      const std::filesystem::path& folder) {
+  const auto at = page.find(place_of_data);
+  if (at == std::string::npos) throw std::logic_error("the page has no place for the data");
+  const std::string raw = compact_text(contents_of(raw_files(report), folder));
+  return page.substr(0, at) + report_element(report_text) +
+         element("ccdt-meshes", "application/json", inside_script(compact_text(compact_meshes(report, folder)))) +
+         element("ccdt-files", "text/plain", results::packed(raw.data(), raw.size())) +
+         page.substr(at + place_of_data.size());
 }
 
 }  // namespace
 
 std::string fill_page(const std::string& page, const Report& report, const std::filesystem::path& folder) {
-  const auto at = page.find(place_of_data);
-  if (at == std::string::npos) throw std::logic_error("the page has no place for the data");
-  const std::string raw =
-      contents_of(raw_files(report), folder).dump(-1, ' ', false, bench::Json::error_handler_t::replace);
-  const std::string json = "application/json";
-  return page.substr(0, at) + report_element(report) +
-         element("ccdt-meshes", json, inside_script(compact_meshes(report, folder))) +
-         element("ccdt-files", "text/plain", results::packed(raw.data(), raw.size())) +
-         page.substr(at + place_of_data.size());
+  return fill_page(page, report, compact_text(report_json(report)), folder);
 }
 
 WrittenReport write_report(const Report& report, const std::filesystem::path& folder,
@@ -145,18 +151,23 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
     std::filesystem::remove_all(folder / part);  // or those of experiments that are gone would stay
     std::filesystem::create_directories(folder / part);
   }
-  write_text(bench::to_text(report_json(report)), folder / "report.json");
+  const bench::Json json = report_json(report);
+  const std::string text = compact_text(json);
+  // Nobody reads millions of lines; to write and parse them takes long.
+  write_text(text.size() > largest_plain_report ? text : bench::to_text(json), folder / "report.json");
   write_text(bench::to_text(claims_json(report)), folder / "claims.json");
+  auto figures = std::async(std::launch::async, draw_figures, folder, share);  // which takes as long as all the rest
   for (const ReportSection& section : report.sections) write_tables(section, folder);
   for (const auto& [name, content] : report.more_files) write_text(content, folder / name);
-  draw_figures(folder, share, written);
   const auto page = share / "page.html";
-  if (!std::filesystem::exists(page)) {
+  if (std::filesystem::exists(page)) {
+    written.page = folder / "index.html";
+    write_text(fill_page(io::read_whole_file(page).bytes, report, text, folder), written.page);
+  } else {
     written.notes.push_back("No page: this build has no " + page.string() + "; build it with CCDT_BUILD_PAGE=ON.");
-    return written;
   }
-  written.page = folder / "index.html";
-  write_text(fill_page(io::read_whole_file(page).bytes, report, folder), written.page);
+  const std::vector<std::string> notes = figures.get();
+  written.notes.insert(written.notes.begin(), notes.begin(), notes.end());
   return written;
 }
 

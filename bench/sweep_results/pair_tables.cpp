@@ -2,9 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 #include <unordered_map>
 
+#include "bench/results/numbers.h"
 #include "bench/statistics.h"
 #include "bench/sweep_results/sweep_tables.h"
 
@@ -45,6 +47,18 @@ void count(const CaseSummary& first, const CaseSummary& second, PairCounts& coun
   counts.ratios.push_back(a / b);
   counts.low = std::min({counts.low, a, b});
   counts.high = std::max({counts.high, a, b});
+}
+
+/// A picture of more points than this shows no more, and takes long.
+constexpr std::size_t most_pairs = 3000;
+
+/// Draws so many pairs, the same each time.
+void thin_out(ResultTable& pairs) {
+  if (pairs.rows.size() <= most_pairs) return;
+  const double share = static_cast<double>(most_pairs) / static_cast<double>(pairs.rows.size());
+  pairs.title += ", a sample of " + results::with_separators(pairs.rows.size());
+  std::mt19937_64 random(1);
+  std::erase_if(pairs.rows, [&](const ResultRow&) { return static_cast<double>(random() >> 11) * 0x1p-53 > share; });
 }
 
 /// The median with the interval between two order statistics (the sign test's): there may be very many.
@@ -99,6 +113,7 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
       if (first.seconds && second->seconds) add_pair(first, *second, tables.pairs);
     }
   }
+  thin_out(tables.pairs);
   for (const auto& [other, c] : counts) {
     const auto faster = static_cast<std::uint64_t>(std::ranges::count_if(c.ratios, [](double r) { return r < 1; }));
     tables.summary.rows.push_back({{tables.reference, other, cell_of(std::uint64_t{c.ratios.size()}),

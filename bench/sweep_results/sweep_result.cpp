@@ -1,6 +1,7 @@
 #include "bench/sweep_results/sweep_result.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "bench/results/numbers.h"
@@ -58,26 +59,38 @@ void add_case_findings(std::span<const CaseSummary> cases, ExperimentResult& res
                               " of the sweep have no run yet; call `ccdt sweep` again to go on");
 }
 
-void add_table_findings(const ExperimentResult& result, std::vector<std::string>& findings) {
-  if (const ResultTable* fits = results::find_table(result, "scaling"))
-    for (const auto& row : fits->rows) {
-      const auto labels = [&](const char* name) { return results::text_in(*fits, row, name); };
-      const auto& slope = std::get<bench::Estimate>(results::cell(*fits, row, "exponent"));
-      std::vector<std::string> of;
-      for (std::size_t c = 0; c < fits->columns.size(); ++c)
-        if (const std::string text = labels(fits->columns[c].name.c_str()); !text.empty()) of.push_back(text);
-      findings.push_back(results::joined(of) + ": the time grows with the number of tetrahedra to the power " +
-                         results::with_interval(slope) + ".");
-    }
-  if (const ResultTable* pairs = results::find_table(result, "pairs_summary"))
-    for (const auto& row : pairs->rows) {
-      const auto* ratio = std::get_if<bench::Estimate>(&results::cell(*pairs, row, "ratio"));
-      if (ratio == nullptr) continue;
-      findings.push_back(results::text_in(*pairs, row, "first") + " takes " + results::with_interval(*ratio) +
-                         " times as long as " + results::text_in(*pairs, row, "second") + " (median of " +
-                         with_separators(static_cast<std::uint64_t>(results::number_in(*pairs, row, "both"))) +
-                         " pairs).");
-    }
+/// Of so many fits each is a finding; of more, the range of each mesher's.
+constexpr std::size_t most_single_fits = 6;
+
+void add_fit_findings(const ResultTable& fits, std::vector<std::string>& findings) {
+  constexpr const char* says = ": the time grows with the number of tetrahedra to the power ";
+  std::map<std::string, std::vector<double>> exponents;
+  for (const auto& row : fits.rows) {
+    const auto& slope = std::get<bench::Estimate>(results::cell(fits, row, "exponent"));
+    exponents[results::text_in(fits, row, "mesher")].push_back(slope.value);
+    if (fits.rows.size() > most_single_fits) continue;
+    std::vector<std::string> of;
+    for (const results::Column& column : fits.columns)
+      if (std::string text = results::text_in(fits, row, column.name); !text.empty()) of.push_back(std::move(text));
+    findings.push_back(results::joined(of) + says + results::with_interval(slope) + ".");
+  }
+  if (fits.rows.size() <= most_single_fits) return;
+  for (const auto& [mesher, values] : exponents) {
+    const auto [low, high] = std::ranges::minmax(values);
+    findings.push_back(mesher + says + results::rounded(low) + " to " + results::rounded(high) + ", in " +
+                       counted(values.size(), "fit") + ".");
+  }
+}
+
+void add_pair_findings(const ResultTable& pairs, std::vector<std::string>& findings) {
+  for (const auto& row : pairs.rows) {
+    const auto* ratio = std::get_if<bench::Estimate>(&results::cell(pairs, row, "ratio"));
+    if (ratio == nullptr) continue;
+    findings.push_back(results::text_in(pairs, row, "first") + " takes " + results::with_interval(*ratio) +
+                       " times as long as " + results::text_in(pairs, row, "second") + " (median of " +
+                       with_separators(static_cast<std::uint64_t>(results::number_in(pairs, row, "both"))) +
+                       " pairs).");
+  }
 }
 
 /// Nothing of our own may be wrong.
@@ -125,15 +138,15 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
                    solved_table(sweep, cases), std::move(scaling.points),  std::move(scaling.lines),
                    std::move(pairs.pairs),     std::move(pairs.diagonals)};
   add_case_findings(cases, result);
-  std::vector<std::string> findings;
-  add_table_findings(result, findings);
-  result.findings.insert(result.findings.end(), findings.begin(), findings.end());
+  add_pair_findings(*results::find_table(result, "pairs_summary"), result.findings);
+  add_fit_findings(*results::find_table(result, "scaling"), result.findings);
   judge(sweep, cases, result);
   result.definitions = {
       "A case is one mesher on one input with one set of options; its seconds are the median of its counted runs, of "
       "meshing alone, with the interval of a bootstrap.",
       "spread: the interval is wider than was asked for, or than 10% of the median on either side.",
       "r is 1 for the regular tetrahedron and larger for all others.",
+      "Of very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",
       "A failure's kind is one of invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong.",
       "Quality against time: over the inputs that all meshers with these options solve; one that solves less than half "
       "is left out."};

@@ -214,18 +214,23 @@ TEST_F(SweepReport, ComparedWithAnotherSaysWhatDiffers) {
   EXPECT_FALSE(table(other, "differences").rows.empty());
 }
 
-reports::ReportChart map_of_axes() {
+reports::ReportChart map_of(const std::string& column) {
   reports::ReportChart chart{"sweep", "map", "{first title}", "", {"cases"}, R"({"x":"{first}","y":"{second}"})"};
-  chart.is_of_axes = true;
+  chart.map_of = column;
   return chart;
 }
 
 TEST_F(SweepReport, HasMapsOfTheAxesThatVary) {
-  const std::vector<reports::ReportChart> charts = {map_of_axes()};
-  const auto made = reports::charts_for(result_of(report()), charts);
+  const auto made = reports::charts_for(result_of(report()), std::vector{map_of("seconds")});
   ASSERT_FALSE(made.empty());
   EXPECT_EQ(made[0].name, "map-lattice-locator");
   EXPECT_EQ(made[0].spec, R"({"x":"lattice","y":"locator"})");
+}
+
+TEST_F(SweepReport, HasNoMapsOfAxesWithoutAnEffect) {
+  const auto made = reports::charts_for(result_of(report()), std::vector{map_of("worst_r")});
+  ASSERT_FALSE(made.empty());
+  for (const auto& chart : made) EXPECT_EQ(chart.name.find("locator"), std::string::npos) << chart.name;
 }
 
 TEST_F(SweepReport, HasOnlyTheChartsThatItsDataFill) {

@@ -12,18 +12,29 @@ function asEstimate(cell) {
 /**
  * @param {object} table
  * @param {(row: object) => boolean} passes  the filter
+ * @param {(column: object) => boolean} isUsed  which columns data have
  * @returns {object[]}
  */
-export function tableData(table, passes = () => true) {
-  const times = table.columns.filter((column) => column.kind === "time").map((column) => column.name);
-  return table.rows
-    .map((row, index) => ({ row, index }))
-    .filter(({ row }) => passes(row))
-    .map(({ row, index }) => {
-      const values = { ...row.values, _table: table.name, _row: index };
-      for (const name of times) values[name] = asEstimate(values[name]);
-      return values;
-    });
+export function tableData(table, passes = () => true, isUsed = () => true) {
+  const columns = table.columns.filter(isUsed).map(({ name, kind }) => ({ name, isTime: kind === "time" }));
+  const data = [];
+  table.rows.forEach((row, index) => {
+    if (!passes(row)) return;
+    const values = {};
+    for (const { name, isTime } of columns) values[name] = isTime ? asEstimate(row.values[name]) : row.values[name];
+    values._table = table.name;
+    values._row = index;
+    data.push(values);
+  });
+  return data;
+}
+
+const MANY_ROWS = 500; // of which data have only what the chart names
+
+function usedColumns(chart, table) {
+  if (table.rows.length <= MANY_ROWS) return () => true;
+  const words = JSON.stringify(chart.spec);
+  return ({ name }) => words.includes(name);
 }
 
 /** @returns {boolean} whether a row is among those that the chart itself wants, by `usermeta.only` */
@@ -41,7 +52,9 @@ export function chartData(section, chart, passes = () => true) {
   const sets = {};
   for (const name of chart.tables) {
     const table = section.tables.find((one) => one.name === name);
-    sets[name] = table ? tableData(table, (row) => isWanted(chart, row) && passes(row, table)) : [];
+    sets[name] = table
+      ? tableData(table, (row) => isWanted(chart, row) && passes(row, table), usedColumns(chart, table))
+      : [];
   }
   sets.all = Object.values(sets).flat();
   return sets;

@@ -1,5 +1,6 @@
 import * as vega from "vega";
 import { compile } from "vega-lite";
+import { chartData } from "./chart_data.mjs";
 import { FIRST_ROOM } from "./sizes.mjs";
 import { completeSpec } from "./spec.mjs";
 
@@ -50,6 +51,21 @@ async function widthOf(view) {
   return Number(/ width="([\d.]+)"/.exec(await view.toSVG())[1]);
 }
 
+const MANY_DATA = 2000; // which are not drawn several times, but a part of them
+
+/** What axes and legend take, as far as it can be said without drawing all data. */
+async function roomOf(section, chart, options, data) {
+  const largest = Math.max(...Object.values(data).map((set) => set.length));
+  if (largest <= MANY_DATA) return FIRST_ROOM;
+  const step = Math.ceil((2 * largest) / MANY_DATA);
+  const some = Object.fromEntries(
+    Object.entries(data).map(([name, set]) => [name, set.filter((_, index) => set.length <= MANY_DATA || index % step === 0)]),
+  );
+  const { view, room } = await drawn(section, chart, { ...options, room: undefined, data: some });
+  view.finalize();
+  return room;
+}
+
 /**
  * Draws a chart of a report as wide as wanted. How much its axes take of that is known only when it has been drawn.
  * @param {object} section  of the report
@@ -59,9 +75,10 @@ async function widthOf(view) {
  * @returns {Promise<{view: vega.View, warnings: string[], room: number}>}  a view that has run, not yet in a page
  */
 export async function drawn(section, chart, options) {
-  let room = options.room ?? FIRST_ROOM;
+  const data = options.data ?? chartData(section, chart, options.passes);
+  let room = options.room ?? (await roomOf(section, chart, options, data));
   for (let fitting = 1; ; ++fitting) {
-    const made = await run(completeSpec(section, chart, { ...options, room }));
+    const made = await run(completeSpec(section, chart, { ...options, room, data }));
     const excess = (await widthOf(made.view)) - options.width;
     if ((excess <= 0 && excess > -CLOSE_ENOUGH) || fitting === MOST_FITTINGS) return { ...made, room };
     made.view.finalize();

@@ -135,14 +135,14 @@ function completeChannels(spec, data, { theme, width, room }) {
  * @param {number} [options.room]  what of the width is not for the plot, or the cells of facets
  * @param {string} [options.font]
  * @param {(row: object, table: object) => boolean} [options.passes]  a filter of the rows
+ * @param {Object<string, object[]>} [options.data]  of `chartData`, if it is known already
  * @returns {object} a specification of Vega-Lite
  */
 export function completeSpec(
   section,
   chart,
-  { theme = "light", width = config.columnWidth, room = FIRST_ROOM, font, passes } = {},
+  { theme = "light", width = config.columnWidth, room = FIRST_ROOM, font, passes, data = chartData(section, chart, passes) } = {},
 ) {
-  const data = chartData(section, chart, passes);
   const spec = structuredClone(chart.spec);
   completeChannels(spec, data, { theme, width, room });
   return {

@@ -4,8 +4,7 @@
  * @param {string} field
  */
 export function textsOf(data, field) {
-  const values = Object.values(data)
-    .flat()
-    .map((datum) => datum[field]);
-  return [...new Set(values.filter((value) => typeof value === "string" && value !== ""))];
+  const values = new Set();
+  for (const set of Object.values(data)) for (const datum of set) values.add(datum[field]);
+  return [...values].filter((value) => typeof value === "string" && value !== "");
 }

@@ -94,7 +94,7 @@ laptopTest("a filter is answered at once", async (page, context) => {
 laptopTest("a cell of a map leads to the runs of its cases", async (page) => {
   const map = page.locator('[data-chart="sweep/heat-seconds-lattice-locator"]');
   await map.scrollIntoViewIfNeeded();
-  await map.locator("svg g.role-mark.mark-rect > path").first().click();
+  await map.locator("svg g.role-mark.mark-rect > path").first().click({ position: { x: 4, y: 4 } });
   const dialog = page.locator("dialog.trace[open]");
   assert.ok((await dialog.locator("details.run").count()) > 1);
   const run = dialog.locator("details.run").first();
