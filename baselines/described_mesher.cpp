@@ -75,17 +75,6 @@ std::optional<std::filesystem::path> program_of(const Description& description, 
   return std::filesystem::exists(file) ? std::optional(file) : std::nullopt;
 }
 
-/// As one would type it.
-std::string command_line(const std::vector<std::string>& command) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=+,:@%";
-  std::string line;
-  for (const std::string& word : command) {
-    const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
-    line += (line.empty() ? "" : " ") + (is_plain ? word : "'" + word + "'");
-  }
-  return line;
-}
-
 MesherSettings settings_of_described(const Description& description, const InputPlc& input,
                                      const MeshOptions& options) {
   const std::vector<Placeholder> values = values_for(description, input, options, "{folder}");

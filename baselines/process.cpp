@@ -311,6 +311,16 @@ ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, con
   return result;
 }
 
+std::string quoted_for_shell(const std::string& word) {
+  const bool is_plain = !word.empty() && word.find_first_not_of(
+                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                             "0123456789-_./=:,+@%") == std::string::npos;
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 }  // namespace
 
 ProcessResult run_program(const std::vector<std::string>& command, const ProgramOptions& options) {
@@ -343,6 +353,12 @@ ProcessResult run_function(const std::function<std::string()>& function) {
   bytes.pop_back();
   result.value = std::move(bytes);
   return result;
+}
+
+std::string command_line(const std::vector<std::string>& command) {
+  std::string line;
+  for (const std::string& word : command) line += (line.empty() ? "" : " ") + quoted_for_shell(word);
+  return line;
 }
 
 }  // namespace ccdt::baselines

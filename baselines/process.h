@@ -63,4 +63,7 @@ ProcessResult run_program(const std::vector<std::string>& command, const Program
 /// \throw std::system_error  no process can be started
 ProcessResult run_function(const std::function<std::string()>& function);
 
+/// A command as one types it in a shell.
+std::string command_line(const std::vector<std::string>& command);
+
 }  // namespace ccdt::baselines

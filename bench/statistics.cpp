@@ -105,4 +105,14 @@ LineFit fit_power(std::span<const double> x, std::span<const double> y, double c
   return fit_line(logarithms(x), logarithms(y), confidence);
 }
 
+BoundTest is_at_most(const Estimate& estimate, double bound) {
+  if (estimate.high <= bound) return BoundTest::holds;
+  return estimate.low > bound ? BoundTest::fails : BoundTest::undecided;
+}
+
+BoundTest is_at_least(const Estimate& estimate, double bound) {
+  if (estimate.low >= bound) return BoundTest::holds;
+  return estimate.high < bound ? BoundTest::fails : BoundTest::undecided;
+}
+
 }  // namespace ccdt::bench

@@ -12,6 +12,15 @@ struct Estimate {
   bool operator==(const Estimate&) const = default;
 };
 
+/// The result of comparing an interval with a bound.
+enum class BoundTest {
+  holds,      ///< all of the interval is on the right side
+  undecided,  ///< the bound is inside
+  fails       ///< all of the interval is on the wrong side
+};
+BoundTest is_at_most(const Estimate& estimate, double bound);
+BoundTest is_at_least(const Estimate& estimate, double bound);
+
 /// How a bootstrap is drawn. The seed is fixed, so the same samples always give the same interval.
 struct Bootstrap {
   double confidence = 0.95;

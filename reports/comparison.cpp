@@ -9,13 +9,13 @@
 namespace ccdt::reports {
 namespace {
 
-using experiments::add_row;
-using experiments::figure_column;
-using experiments::label_column;
-using experiments::table_of;
-using experiments::time_column;
+using results::add_row;
 using results::Column;
 using results::ColumnKind;
+using results::figure_column;
+using results::label_column;
+using results::table_of;
+using results::time_column;
 
 /// Columns that look like labels, but say how a row went: they are compared.
 bool is_outcome(const Column& column) {

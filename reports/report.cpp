@@ -16,7 +16,7 @@ std::string repeating(std::vector<std::string> command) {
     const std::string ending = std::filesystem::path(command[i + 1]).extension().string();
     if (command[i] == "-o" || command[i] == "--report") command[i + 1] = "again" + ending;
   }
-  return experiments::command_line(command);
+  return baselines::command_line(command);
 }
 
 RunLine run_line(const sweep_results::RunValues& run) {

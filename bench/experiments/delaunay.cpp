@@ -300,10 +300,10 @@ void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& resu
 }
 
 ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runner& runner) {
-  ExperimentResult result{.how = start_experiment(options, options.runs)};
+  ExperimentResult result;
   const auto file = options.folder / output_file, program = find_bench_delaunay(options.program);
   check_something_is_measured(wanted_sets(options).size(), "delaunay");
-  result.definitions = definitions(command_line(bench_delaunay_command(program_name, options, output_file)));
+  result.definitions = definitions(baselines::command_line(bench_delaunay_command(program_name, options, output_file)));
   evaluate_delaunay(nothing_measured, result);
   if (program.empty()) {
     std::filesystem::remove(file);
@@ -314,7 +314,7 @@ ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runne
     return result;
   }
   std::vector<std::string> command = bench_delaunay_command(program, options, file);
-  const std::string stamp = bench::sha256_of_text(command_line(command) + bench::sha256_of_file(program));
+  const std::string stamp = bench::sha256_of_text(baselines::command_line(command) + bench::sha256_of_file(program));
   if (evaluate_file(file, stamp, result)) return result;  // it was measured before
 
   command.push_back("--benchmark_context=stamp=" + stamp);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/case_rows.h"
+#include "bench/experiments/experiment.h"
 #include "bench/small_plcs/small_plc.h"
 #include "bench/small_plcs/trial.h"
 

@@ -11,14 +11,11 @@
 namespace ccdt::experiments {
 namespace {
 
-std::string quoted_for_shell(const std::string& word) {
-  const bool is_plain = !word.empty() && word.find_first_not_of(
-                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                             "0123456789-_./=:,+@%") == std::string::npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
+constexpr int most_runs = 60;
+
+/// What takes long is run less often. What is long depends on the scale: ten seconds with 100,000 tetrahedra a model.
+double budget(const ExperimentOptions& options) {
+  return options.tetrahedra / 10000;
 }
 
 }  // namespace
@@ -66,14 +63,34 @@ void check_something_is_measured(std::size_t cases, std::string_view experiment)
                      "leave out --models, and it measures all that it has");
 }
 
-BoundTest is_at_most(const Estimate& estimate, double bound) {
-  if (estimate.high <= bound) return BoundTest::holds;
-  return estimate.low > bound ? BoundTest::fails : BoundTest::undecided;
+cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
+                        const std::filesystem::path& input, std::vector<std::string> words) {
+  return {.name = std::move(name),
+          .group = {},
+          .mesher = std::move(mesher),
+          .input = input,
+          .options = std::move(words),
+          .limits = options.limits,
+          .verify = true};
 }
 
-BoundTest is_at_least(const Estimate& estimate, double bound) {
-  if (estimate.low >= bound) return BoundTest::holds;
-  return estimate.high < bound ? BoundTest::fails : BoundTest::undecided;
+cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single, double until,
+                       cases::SecondsOf seconds) {
+  cases::Case timed = single;
+  timed.group = std::move(group);
+  timed.seconds = std::move(seconds);
+  timed.repetitions = {.warm_up = 1,
+                       .at_least = options.runs,
+                       .at_most = std::max(options.runs, most_runs),
+                       .until = until,
+                       .budget_seconds = budget(options)};
+  return timed;
+}
+
+std::string repetition_words(const ExperimentOptions& options, double until) {
+  return "A case is repeated until the interval of its median is within " + rounded(100 * until, 1) + "% of it, " +
+         std::to_string(options.runs) + " to " + std::to_string(std::max(options.runs, most_runs)) +
+         " times; three are enough if they take " + rounded(budget(options), 2) + " s.";
 }
 
 std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails) {
@@ -85,15 +102,13 @@ void add_problem(ExperimentResult& result, std::string problem, bool is_ours) {
   result.is_good = result.is_good && !is_ours;
 }
 
+void add_problem_of(const CaseRow& row, ExperimentResult& result) {
+  if (!row.ok()) add_problem(result, row.measured.asked.name + ": " + failure(row.measured), is_ours(row));
+}
+
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream text(line);
   return {std::istream_iterator<std::string>(text), {}};
-}
-
-std::string command_line(const std::vector<std::string>& command) {
-  std::string line;
-  for (const std::string& word : command) line += (line.empty() ? "" : " ") + quoted_for_shell(word);
-  return line;
 }
 
 std::string share_words(std::uint64_t part, std::uint64_t whole) {

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "baselines/process.h"
+#include "bench/cases/case_rows.h"
+#include "bench/cases/runner.h"
 #include "bench/results/experiment_result.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
@@ -21,19 +23,36 @@
 
 namespace ccdt::experiments {
 
+using bench::BoundTest;
 using bench::Estimate;
+using bench::is_at_least;
+using bench::is_at_most;
 using bench::RunRecord;
+using cases::all_runs_of;
+using cases::CaseRow;
+using cases::cdt_seconds;
+using cases::count_column;
+using cases::measure_rows;
+using cases::reason_column;
+using cases::run_column;
+using cases::seconds_column;
+using cases::status_column;
+using cases::whole_seconds;
+using results::add_row;
 using results::as_cell;
 using results::Cell;
+using results::cell_if;
+using results::cells;
 using results::Circumstances;
-using results::Column;
 using results::column;
+using results::Column;
 using results::ColumnKind;
 using results::ExperimentResult;
 using results::figure_column;
 using results::joined;
 using results::KeptMesh;
 using results::label_column;
+using results::neighbors;
 using results::note_column;
 using results::ResultRow;
 using results::ResultTable;
@@ -43,6 +62,7 @@ using results::RowColumns;
 using results::rows_with;
 using results::RowView;
 using results::RowViews;
+using results::table_of;
 using results::table_of_rows;
 using results::time_column;
 using results::with_interval;
@@ -87,69 +107,49 @@ std::vector<std::string> described_meshers(const ExperimentOptions& options);
 /// \throw InputError  there is nothing to measure, because none of the models that were asked for is part of it
 void check_something_is_measured(std::size_t cases, std::string_view experiment);
 
-/// Reports the steps of an experiment, of which the total is known.
-class StepCounter {
- public:
-  StepCounter(const Progress& progress, std::uint64_t total) : progress_(progress), total_(total) {}
-  void next(std::string_view what) { report(progress_, what, done_ < total_ ? done_++ : total_, total_); }
-
- private:
-  const Progress& progress_;
-  std::uint64_t total_, done_ = 0;
-};
-
-/// The result of comparing an interval with a bound.
-enum class BoundTest {
-  holds,      ///< all of the interval is on the right side
-  undecided,  ///< the bound is inside
-  fails       ///< all of the interval is on the wrong side
-};
-BoundTest is_at_most(const Estimate& estimate, double bound);
-BoundTest is_at_least(const Estimate& estimate, double bound);
-
 /// The text for the outcome of a test.
 std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails);
+
+/// A case that is run once: one whose figures are of interest, but not its times. Its mesh is verified.
+///
+/// \param name  for people and problems: "piston, insert"
+cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
+                        const std::filesystem::path& input, std::vector<std::string> words);
+
+/// How narrow the interval of a median is to be on either side, over the median, where nobody asks for more.
+inline constexpr double usual_precision = 0.05;
+
+/// The same, run until some of its seconds are known as precisely as that.
+///
+/// \param group  of the cases that it takes turns with
+cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single,
+                       double until = usual_precision, cases::SecondsOf seconds = whole_seconds);
+
+/// A definition: how often timed cases are run.
+std::string repetition_words(const ExperimentOptions& options, double until = usual_precision);
+
+/// Circumstances that say only that there is one run a case; the others are the same for all experiments.
+inline Circumstances once() {
+  Circumstances how;
+  how.runs = 1;
+  return how;
+}
 
 /// Adds what went wrong. A result is bad if anything of our own did.
 void add_problem(ExperimentResult& result, std::string problem, bool is_ours = true);
 
+/// Makes the failure of a row a problem. Of our own mesher it is one that makes the result bad.
+void add_problem_of(const CaseRow& row, ExperimentResult& result);
+
 /// The words of a command line, which spaces separate.
 std::vector<std::string> words_of(const std::string& line);
-
-/// A command as one types it in a shell.
-std::string command_line(const std::vector<std::string>& command);
 
 /// "20 of 1,000"
 std::string share_words(std::uint64_t part, std::uint64_t whole);
 
-/// A table that has no rows yet.
-inline ResultTable table_of(std::string name, std::string title, std::vector<Column> columns, bool is_data = false) {
-  return {std::move(name), std::move(title), std::move(columns), {}, is_data};
-}
-
 template <class Items>
 void append(std::vector<typename Items::value_type>& to, const Items& more) {
   to.insert(to.end(), more.begin(), more.end());
-}
-
-/// The value, if it is known; else an empty cell.
-template <class Value>
-Cell cell_if(bool is_known, const Value& value) {
-  return is_known ? as_cell(value) : Cell();
-}
-
-/// Cells of any values: texts, numbers, estimates, yes or no, and those that may be missing.
-template <class... Values>
-std::vector<Cell> cells(const Values&... values) {
-  return {as_cell(values)...};
-}
-
-/// Appends a row with a cell for each value.
-///
-/// \param runs  the files of the runs that the row stands on
-template <class... Values>
-void add_row(ResultTable& table, const std::vector<std::string>& runs, const Values&... values) {
-  table.rows.push_back({cells(values...), runs});
 }
 
 }  // namespace ccdt::experiments

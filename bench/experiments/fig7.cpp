@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "bench/experiments/case_rows.h"
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/quality_experiments.h"
 #include "bench/experiments/timing_experiments.h"
 

@@ -229,14 +229,12 @@ ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
 }
 
 ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner) {
-  const Circumstances how = start_experiment(options, options.runs);
   std::vector<Fig8Row> rows;
   for (const PaperModel& model : paper_models)
     if (is_asked_for(options, model.name)) plan_model(options, model, runner, rows);
   check_something_is_measured(rows.size(), "fig8");
   measure_rows(runner, rows);
   ExperimentResult result = fig8_result(rows);
-  result.how = how;
   result.definitions.push_back(repetition_words(options));
   return result;
 }

@@ -141,12 +141,10 @@ ExperimentResult locators_result(std::span<const LocatorsRow> rows) {
 }
 
 ExperimentResult measure_locators(const ExperimentOptions& options, cases::Runner& runner) {
-  const Circumstances how = start_experiment(options, options.runs);
   std::vector<LocatorsRow> rows = plan(options);
   check_something_is_measured(rows.size(), "locators");
   measure_rows(runner, rows);
   ExperimentResult result = locators_result(rows);
-  result.how = how;
   result.definitions.push_back(repetition_words(options));
   return result;
 }

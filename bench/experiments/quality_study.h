@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/case_rows.h"
+#include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/surface_measures.h"
 

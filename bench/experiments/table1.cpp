@@ -287,13 +287,11 @@ ExperimentResult table1_result(std::span<const Table1Model> models) {
 }
 
 ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner) {
-  const Circumstances how = start_experiment(options, options.runs);
   std::vector<Table1Model> models;
   for (const PaperModel& model : paper_models)
     if (is_asked_for(options, model.name)) models.push_back(measure_model(options, model, runner));
   check_something_is_measured(models.size(), "table1");
   ExperimentResult result = table1_result(models);
-  result.how = how;
   result.definitions.push_back(repetition_words(options));
   return result;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/case_rows.h"
+#include "bench/experiments/experiment.h"
 #include "engine/base/enum_names.h"
 
 namespace ccdt::experiments {

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <functional>
 #include <ranges>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -77,6 +78,42 @@ ResultTable table_of_rows(std::string name, std::string title, const RowColumns<
     if constexpr (requires { runs_of(row); }) made.runs = runs_of(row);
   }
   return table;
+}
+
+/// A table that has no rows yet.
+inline ResultTable table_of(std::string name, std::string title, std::vector<Column> columns, bool is_data = false) {
+  return {std::move(name), std::move(title), std::move(columns), {}, is_data};
+}
+
+/// The value, if it is known; else an empty cell.
+template <class Value>
+Cell cell_if(bool is_known, const Value& value) {
+  return is_known ? as_cell(value) : Cell();
+}
+
+/// Cells of any values: texts, numbers, estimates, yes or no, and those that may be missing.
+template <class... Values>
+std::vector<Cell> cells(const Values&... values) {
+  return {as_cell(values)...};
+}
+
+/// Appends a row with a cell for each value.
+///
+/// \param runs  the files of the runs that the row stands on
+template <class... Values>
+void add_row(ResultTable& table, const std::vector<std::string>& runs, const Values&... values) {
+  table.rows.push_back({cells(values...), runs});
+}
+
+/// Neighbors that belong together.
+template <class Row, class Same>
+std::vector<std::span<const Row>> neighbors(std::span<const Row> rows, Same belong_together) {
+  std::vector<std::span<const Row>> groups;
+  for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+    while (end < rows.size() && belong_together(rows[begin], rows[end])) ++end;
+    groups.push_back(rows.subspan(begin, end - begin));
+  }
+  return groups;
 }
 
 }  // namespace ccdt::results

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/cases/runner.h"
+#include "bench/results/experiment_result.h"
+#include "bench/results/row_columns.h"
+#include "bench/statistics.h"
+#include "engine/mesh/tet_mesh.h"
+
+/// Tables of measured cases: rows that stand for cases, and the columns that many such tables have.
+namespace ccdt::cases {
+
+using bench::Estimate;
+using results::RowColumn;
+
+/// \name Seconds of a run.
+/// @{
+/// Of the constrained Delaunay tetrahedralization of given vertices, the paper's CDT times: Delaunay, face check, front
+/// and labeling.
+double cdt_seconds(const StageSeconds& seconds);
+double whole_seconds(const StageSeconds& seconds);
+/// @}
+
+/// A row of a table: a case, and which of its seconds are meant. Rows with more to say derive from it.
+struct CaseRow {
+  MeasuredCase measured = {};
+  SecondsOf seconds = whole_seconds;
+
+  bool ok() const { return !measured.failed(); }
+};
+
+/// The files of the runs that a row stands on.
+std::vector<std::string> runs_of(const CaseRow& row);
+
+/// The seconds of the counted runs, and their median; none if a run failed.
+std::vector<double> samples_of(const CaseRow& row);
+std::optional<Estimate> seconds_of(const CaseRow& row);
+
+/// Over that of another row; none if one of them failed or took no time.
+std::optional<Estimate> ratio_of(const CaseRow& above, const CaseRow& below);
+
+/// Is it of our own mesher?
+bool is_ours(const CaseRow& row);
+
+/// The name of its mesher, whether built in or described by a file.
+std::string mesher_of(const CaseRow& row);
+
+/// \name Columns of such rows. Figures and seconds are empty where a run failed.
+/// @{
+RowColumn<CaseRow> status_column();
+RowColumn<CaseRow> reason_column();
+RowColumn<CaseRow> seconds_column();
+RowColumn<CaseRow> count_column(std::string name, std::uint64_t MeshCounts::*count, std::string title = {});
+/// A figure of the first run.
+RowColumn<CaseRow> run_column(results::Column column, const std::function<results::Cell(const RunRecord&)>& figure);
+/// @}
+
+/// Why a run failed: "timeout: limit of 600 s".
+std::string failure(const MeasuredCase& measured);
+
+/// The mesh that the case has kept.
+/// \pre it has not failed, and has a `mesh_ending`
+mesh::TetMesh mesh_of(const Runner& runner, const MeasuredCase& measured);
+
+/// Keeps that mesh for pictures and the viewer, too, in meshes/ID.json.
+/// \throw OutputError
+results::KeptMesh keep_mesh(const Runner& runner, const MeasuredCase& measured, const std::string& title);
+
+/// Runs the cases that rows ask for (in `measured.asked`), and fills in what was measured.
+/// \param rows  derived from `CaseRow`
+template <class Rows>
+void measure_rows(Runner& runner, Rows& rows) {
+  std::vector<Case> asked;
+  for (const CaseRow& row : rows) asked.push_back(row.measured.asked);
+  std::vector<MeasuredCase> measured = runner.run(asked);
+  for (std::size_t i = 0; i < measured.size(); ++i) rows[i].measured = std::move(measured[i]);
+}
+
+/// The files of these rows' runs, one row's after the other's, none twice.
+template <class Rows>
+std::vector<std::string> all_runs_of(const Rows& rows) {
+  std::vector<std::string> files;
+  for (const CaseRow& row : rows)
+    for (std::string& file : runs_of(row))
+      if (std::ranges::find(files, file) == files.end()) files.push_back(std::move(file));
+  return files;
+}
+
+}  // namespace ccdt::cases
