@@ -112,9 +112,13 @@ bench::Json identities_json(const std::vector<Identity>& accepted) {
 }
 
 const std::string& FileHashes::of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto written = std::filesystem::last_write_time(file, ignored);
+  const auto size = std::filesystem::file_size(file, ignored);
   const auto [entry, is_new] = known_.try_emplace(file);
-  if (is_new) entry->second = bench::sha256_of_file(file);
-  return entry->second;
+  Known& known = entry->second;
+  if (is_new || known.written != written || known.size != size) known = {written, size, bench::sha256_of_file(file)};
+  return known.hash;
 }
 
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes) {

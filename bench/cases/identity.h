@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -40,14 +41,19 @@ std::vector<Identity> accepted_identities(const std::filesystem::path& file, con
 /// The members "identity" and "mixed_with" of a document that keeps identities.
 bench::Json identities_json(const std::vector<Identity>& accepted);
 
-/// The hashes of files that many cases share, each computed once.
+/// The hashes of files that many cases share, each computed once unless the file changes.
 class FileHashes {
  public:
   /// SHA-256; empty if the file cannot be read.
   const std::string& of(const std::filesystem::path& file);
 
  private:
-  std::map<std::filesystem::path, std::string> known_;
+  struct Known {
+    std::filesystem::file_time_type written;
+    std::uintmax_t size = 0;
+    std::string hash;
+  };
+  std::map<std::filesystem::path, Known> known_;
 };
 
 /// The hash that identifies a case: of the bytes of its input and of other files that its options name, the mesher's

@@ -225,6 +225,12 @@ TEST_F(RunnerTest, AnIdChangesWithAllThatDeterminesTheResult) {
   EXPECT_EQ(ids.size(), 8);
 }
 
+TEST_F(RunnerTest, AFileThatWasWrittenAnewMakesAnotherCase) {
+  Runner one = runner();
+  const std::string before = one.run(case_of("a", "1\n")).id;
+  EXPECT_NE(one.run(case_of("a", "22\n")).id, before);
+}
+
 class IdentitiesTest : public testing::Test {
  protected:
   const Identity a_ = {{"machine.cpu", "A"}, {"ccdt.version", "1"}}, b_ = {{"machine.cpu", "B"}, {"ccdt.version", "1"}};

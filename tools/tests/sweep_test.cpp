@@ -243,7 +243,8 @@ TEST_F(SweepCommand, EstimatesWithoutWriting) {
 TEST_F(SweepCommand, KeepsMeshes) {
   write_spec({{"keep_meshes", true}});
   ASSERT_EQ(sweep().exit_code, 0);
-  for (const Json& one : sweep_json()["cases"]) {
+  const Json cases = sweep_json()["cases"];
+  for (const Json& one : cases) {
     const std::string mesh = "out/meshes/" + one["id"].get<std::string>() + ".vtu";
     EXPECT_EQ(run("verify out/" + one["input"]["file"].get<std::string>() + " " + mesh).exit_code, 0) << mesh;
   }
