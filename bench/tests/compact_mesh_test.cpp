@@ -11,7 +11,8 @@ namespace ccdt {
 namespace {
 
 TEST(PackedBytes, AreUnpackedAgain) {
-  for (const std::string& bytes : {std::string(), std::string("a"), std::string(100000, 'x'), std::string("\0\xff ab", 5)})
+  for (const std::string& bytes :
+       {std::string(), std::string("a"), std::string(100000, 'x'), std::string("\0\xff ab", 5)})
     EXPECT_EQ(results::unpacked(results::packed(bytes.data(), bytes.size())), bytes);
   EXPECT_THROW(results::unpacked("!"), std::runtime_error);
 }
