@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "baselines/mesher.h"
 #include "bench/environment.h"
@@ -36,7 +37,7 @@ Identity part_for(const std::string& mesher, const Identity& identity) {
 
 bench::Json read_identities(const std::filesystem::path& file) {
   const io::FileBytes bytes = io::read_whole_file(file);
-  const bench::Json json = bench::Json::parse(bytes.bytes, nullptr, false);
+  bench::Json json = bench::Json::parse(bytes.bytes, nullptr, false);
   if (!json.is_object() || !json.contains(identity_member))
     throw InputError("this file does not say with which programs its folder was made", io::place_in(file.string()),
                      "choose another folder, or remove the file to measure everything again");
@@ -74,8 +75,10 @@ std::vector<std::string> differences(const Identity& then, const Identity& now) 
   std::vector<std::string> all;
   for (const auto& [field, value] : then) {
     const auto found = now.find(field);
-    if (found != now.end() && found->second != value)
-      all.push_back(field + " was '" + value + "' and is '" + found->second + "'");
+    if (found == now.end() || found->second == value) continue;
+    std::string words = field;
+    words.append(" was '").append(value).append("' and is '").append(found->second).append("'");
+    all.push_back(std::move(words));
   }
   return all;
 }

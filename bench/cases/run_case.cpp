@@ -76,9 +76,13 @@ RunRecord record_without_report(const RunPlace& place, const Case& asked) {
 
 RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesystem::path& report,
                     const baselines::ProcessResult& child) {
-  auto own = bench::find_run_record(report);
-  RunRecord record = own ? *std::move(own) : record_without_report(place, asked);
-  if (!own) record.set_failure(baselines::FailureKind::crashed, "the process ended without a report");
+  RunRecord record;
+  if (auto own = bench::find_run_record(report)) {
+    record = *std::move(own);
+  } else {
+    record = record_without_report(place, asked);
+    record.set_failure(baselines::FailureKind::crashed, "the process ended without a report");
+  }
   bench::note_end(child, record);
   return record;
 }

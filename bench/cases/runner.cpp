@@ -1,20 +1,25 @@
 #include "bench/cases/runner.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "bench/cases/run_case.h"
 #include "bench/environment.h"
+#include "bench/in_parallel.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::cases {
 namespace {
+
+/// Whether all of them were needed was decided when they were made, and to ask again would take longer than to read.
+int most_runs(const Repetitions& repetitions) {
+  const int counted =
+      repetitions.until > 0 ? std::max(repetitions.at_least, repetitions.at_most) : repetitions.at_least;
+  return repetitions.warm_up + counted;
+}
 
 /// The case with this id, and its records.
 ///
@@ -22,7 +27,7 @@ namespace {
 MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const std::string& id,
                        const std::set<std::string>& retried) {
   MeasuredCase measured{asked, id};
-  while (needs_run(measured)) {
+  while (!measured.failed() && measured.runs < most_runs(asked.repetitions)) {
     auto record = bench::find_run_record(settings.folder / run_file(id, measured.runs));
     if (!record) break;
     const bool failed = record->status != baselines::RunStatus::ok;
@@ -30,6 +35,17 @@ MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const 
     add_run(measured, *std::move(record));
   }
   return measured;
+}
+
+/// With the first of these ids that has all its records; without one, with the first of all.
+MeasuredCase find_case(const RunnerSettings& settings, const Case& asked, const std::vector<std::string>& ids,
+                       const std::set<std::string>& retried) {
+  MeasuredCase of_now = read_case(settings, asked, ids.front(), retried);
+  for (std::size_t i = 1; i < ids.size() && of_now.runs == 0; ++i) {
+    MeasuredCase older = read_case(settings, asked, ids[i], retried);
+    if (older.runs > 0 && !needs_run(older)) return older;
+  }
+  return of_now;
 }
 
 /// The cases of a call that are different. Equal inputs make equal cases, which are run once.
@@ -121,44 +137,22 @@ void run_in_turn(const RunPlace& place, const Group& group, std::uint64_t seed, 
 
 /// Several cases at the same time, each with all its repetitions.
 void run_beside(const RunPlace& place, std::vector<MeasuredCase>& cases, RunCounter& counter) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < cases.size(); i = next++)
-        while (needs_run(cases[i])) run_counted(place, cases[i], counter);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      next = cases.size();
-    }
+  const auto run_all = [&](std::size_t i) {
+    while (needs_run(cases[i])) run_counted(place, cases[i], counter);
   };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < place.jobs; ++i) workers.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  bench::in_parallel(cases.size(), run_all, static_cast<std::size_t>(place.jobs));
 }
 
 }  // namespace
 
 Runner::Runner(RunnerSettings settings) : settings_(std::move(settings)) {}
 
-/// With the first of the accepted identities that has all its records; without one, with that of now.
-MeasuredCase Runner::find(const Case& asked) {
-  MeasuredCase of_now = read_case(settings_, asked, id_of(asked, settings_.identities.front(), hashes_), tried_);
-  for (std::size_t i = 1; i < settings_.identities.size() && of_now.runs == 0; ++i) {
-    MeasuredCase older = read_case(settings_, asked, id_of(asked, settings_.identities[i], hashes_), tried_);
-    if (older.runs > 0 && !needs_run(older)) return older;
-  }
-  return of_now;
-}
-
 std::vector<MeasuredCase> Runner::load(std::span<const Case> cases) {
-  std::vector<MeasuredCase> all;
-  all.reserve(cases.size());
-  for (const Case& asked : cases) all.push_back(find(asked));
+  std::vector<std::vector<std::string>> ids(cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i)  // here, since only one thread may use the hashes
+    for (const Identity& identity : settings_.identities) ids[i].push_back(id_of(cases[i], identity, hashes_));
+  std::vector<MeasuredCase> all(cases.size());
+  bench::in_parallel(cases.size(), [&](std::size_t i) { all[i] = find_case(settings_, cases[i], ids[i], tried_); });
   return all;
 }
 

@@ -48,8 +48,6 @@ class Runner {
   std::vector<MeasuredCase> load(std::span<const Case> cases);
 
  private:
-  MeasuredCase find(const Case& asked);
-
   RunnerSettings settings_;
   FileHashes hashes_;
   std::set<std::string> tried_;  ///< ids of the cases that were run here; they are not retried once more

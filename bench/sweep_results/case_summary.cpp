@@ -6,8 +6,8 @@
 #include <set>
 #include <span>
 
+#include "bench/in_parallel.h"
 #include "bench/results/numbers.h"
-#include "bench/sweep_results/in_parallel.h"
 
 namespace ccdt::sweep_results {
 namespace {
@@ -109,7 +109,7 @@ std::vector<CaseSummary> summarize_cases(const Sweep& sweep) {
   const std::vector<std::size_t> varying = varying_options(sweep);
   const std::span<const std::size_t> in_legend = options_of_legend(sweep, varying);
   std::vector<CaseSummary> summaries(sweep.cases.size());
-  in_parallel(summaries.size(), [&](std::size_t i) {
+  bench::in_parallel(summaries.size(), [&](std::size_t i) {
     CaseSummary& summary = summaries[i];
     summary.of = &sweep.cases[i];
     summary.series = series_of(sweep, *summary.of, varying);

@@ -6,9 +6,9 @@
 #include <unordered_map>
 
 #include "bench/cases/identity.h"
+#include "bench/in_parallel.h"
 #include "bench/json.h"
 #include "bench/sweep/sweep_document.h"
-#include "bench/sweep_results/in_parallel.h"
 
 namespace ccdt::sweep_results {
 namespace {
@@ -117,7 +117,7 @@ std::vector<Record> find_records(const std::filesystem::path& folder, const Swee
 }
 
 void read_all(const std::filesystem::path& folder, std::vector<Record>& records) {
-  in_parallel(records.size(), [&](std::size_t i) {
+  bench::in_parallel(records.size(), [&](std::size_t i) {
     auto values = read_run_values(folder / records[i].run.file);
     records[i].is_broken = !values;
     if (values) records[i].run.values = std::move(*values);

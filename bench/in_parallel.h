@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace ccdt::bench {
+
+/// Calls `work(i)` for each i below `count`, in any order.
+///
+/// \param most_threads  that work at the same time
+/// \throw ...           the first exception of `work`; the rest of the calls may be left out then
+template <class Work>
+void in_parallel(std::size_t count, const Work& work, std::size_t most_threads = std::thread::hardware_concurrency()) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto take_all = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = count;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t thread = 1; thread < std::min(count, most_threads); ++thread) others.emplace_back(take_all);
+    take_all();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace ccdt::bench
