@@ -143,6 +143,11 @@ void run_beside(const RunPlace& place, std::vector<MeasuredCase>& cases, RunCoun
   bench::in_parallel(cases.size(), run_all, static_cast<std::size_t>(place.jobs));
 }
 
+bool is_uncertain(const MeasuredCase& measured) {
+  const double until = measured.asked.repetitions.until;
+  return until > 0 && !measured.failed() && spread_of(samples_of(measured, measured.asked.seconds)) > until;
+}
+
 }  // namespace
 
 Runner::Runner(RunnerSettings settings) : settings_(std::move(settings)) {}
@@ -173,6 +178,7 @@ std::vector<MeasuredCase> Runner::run(std::span<const Case> cases) {
     measured = *by_id.at(measured.id);
     measured.asked = std::move(asked);
     tried_.insert(measured.id);
+    if (is_uncertain(measured)) uncertain_.insert(measured.asked.name);
     const bool is_kept = measured.asked.mesh_ending.empty() || exists(settings_.folder / mesh_file(measured));
     if (!is_kept && !measured.failed()) make_mesh_again(place, measured);
   }

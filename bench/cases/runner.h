@@ -44,12 +44,17 @@ class Runner {
   /// Of a single case.
   MeasuredCase run(const Case& asked);
 
+  /// The names of the cases run so far whose times spread wider than they ask for, though they were repeated as often
+  /// as they may be.
+  const std::set<std::string>& uncertain_cases() const { return uncertain_; }
+
   /// What is known of these cases without running anything.
   std::vector<MeasuredCase> load(std::span<const Case> cases);
 
  private:
   RunnerSettings settings_;
   FileHashes hashes_;
+  std::set<std::string> uncertain_;
   std::set<std::string> tried_;  ///< ids of the cases that were run here; they are not retried once more
 };
 

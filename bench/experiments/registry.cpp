@@ -1,6 +1,8 @@
 #include "bench/experiments/registry.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "bench/experiments/existence_experiments.h"
@@ -34,6 +36,19 @@ Measure quality_figure(const std::string& name, const std::string& model) {
 }
 
 /// Gives the result the names that all other results of the experiment have.
+/// Says which times spread too much.
+void add_uncertainty(const std::set<std::string>& names, ExperimentResult& result) {
+  constexpr std::size_t most_named = 5;
+  if (names.empty()) return;
+  std::vector<std::string> some(names.begin(), names.end());
+  some.resize(std::min(some.size(), most_named));
+  const std::string more = names.size() > some.size() ? "; ..." : "";
+  add_problem(result,
+              "the times of " + with_separators(names.size()) +
+                  " cases spread wider than was asked for: " + joined(some, "; ") + more,
+              false);
+}
+
 Measure named(const KnownExperiment& known) {
   return [known](const ExperimentOptions& options, cases::Runner& runner) {
     Circumstances how = start_experiment(options, options.runs);
@@ -43,6 +58,7 @@ Measure named(const KnownExperiment& known) {
     result.name = known.name;
     result.title = known.title;
     result.section = known.section;
+    add_uncertainty(runner.uncertain_cases(), result);
     return result;
   };
 }

@@ -175,7 +175,9 @@ TEST_F(RunnerTest, RunsEqualCasesOnce) {
 TEST_F(RunnerTest, RepeatsUntilTheIntervalIsNarrow) {
   constexpr Repetitions until = {.at_least = 3, .at_most = 20, .until = 0.1};
   const std::vector all = {case_of("even", "1\n", until), case_of("wide", "1\n2\n3\n", until)};
-  const std::vector<MeasuredCase> measured = runner().run(all);
+  Runner one = runner();
+  const std::vector<MeasuredCase> measured = one.run(all);
+  EXPECT_EQ(one.uncertain_cases(), std::set<std::string>{"wide"});
   EXPECT_EQ(measured[0].counted.size(), 3);
   EXPECT_GT(measured[1].counted.size(), 3);
   EXPECT_GT(spread_of(samples_of(measured[1], &StageSeconds::mesh)), 0.1);
