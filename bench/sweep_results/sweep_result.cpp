@@ -142,14 +142,14 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
   add_fit_findings(*results::find_table(result, "scaling"), result.findings);
   judge(sweep, cases, result);
   result.definitions = {
-      "A case is one mesher on one input with one set of options; its seconds are the median of its counted runs, of "
-      "meshing alone, with the interval of a bootstrap.",
+      "A case is one mesher on one input with one set of options.",
+      "Seconds: the median of the counted runs of a case, of meshing alone, with the interval of a bootstrap.",
       "spread: the interval is wider than was asked for, or than 10% of the median on either side.",
       "r is 1 for the regular tetrahedron and larger for all others.",
       "Of very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",
       "A failure's kind is one of invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong.",
-      "Quality against time: over the inputs that all meshers with these options solve; one that solves less than half "
-      "is left out."};
+      "Quality against time: over the inputs that all meshers with these options solve.",
+      "A mesher that solves less than half of them is left out there."};
   return result;
 }
 
