@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "bench/json.h"
 #include "bench/results/numbers.h"
@@ -45,7 +46,8 @@ ReportChart read_chart(const std::filesystem::path& file) {
 /// Empty where nothing is.
 std::string value_text(const Cell& cell) {
   const bench::Json json = results::cell_json(cell);
-  return json.is_null() || json == "" ? "" : json.dump();
+  const bool is_nothing = json.is_null() || (json.is_string() && json.get_ref<const std::string&>().empty());
+  return is_nothing ? "" : json.dump();
 }
 
 /// How many different values a column has; one that has none is not there.
@@ -127,14 +129,15 @@ std::vector<Axis> axes_of(const ResultTable& table, const std::string& of) {
 
 /// Both axes have several values where both are there, and at least half of their combinations exist.
 bool is_worth_a_map(const ResultTable& table, const AxisPair& pair) {
-  std::set<std::string> firsts, seconds, both;
+  std::set<std::string> firsts, seconds;
+  std::set<std::pair<std::string, std::string>> both;
   for (const ResultRow& row : table.rows) {
     const std::string first = value_text(results::cell(table, row, pair.first.column->name));
     const std::string second = value_text(results::cell(table, row, pair.second.column->name));
     if (first.empty() || second.empty()) continue;
     firsts.insert(first);
     seconds.insert(second);
-    both.insert(first + '\n' + second);
+    both.emplace(first, second);
   }
   return firsts.size() >= 2 && seconds.size() >= 2 && 2 * both.size() >= firsts.size() * seconds.size();
 }
