@@ -138,7 +138,7 @@ std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
   const cases::OtherIdentity policy = command.refresh ? cases::OtherIdentity::refresh
                                       : command.mixed ? cases::OtherIdentity::mixed
                                                       : cases::OtherIdentity::refuse;
-  const auto accepted = cases::accepted_identities(file, cases::identity_of(meshers, command.options.program), policy);
+  auto accepted = cases::accepted_identities(file, cases::identity_of(meshers, command.options.program), policy);
   bench::Json json = {{"schema", "ccdt.identity/1"}};
   json.update(cases::identities_json(accepted));
   bench::write_json(json, file);
