@@ -1,14 +1,11 @@
 #include "bench/cases/run_case.h"
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "baselines/mesher.h"
 #include "bench/cases/verify_run.h"
 #include "bench/environment.h"
-#include "engine/base/errors.h"
-#include "engine/io/files.h"
 
 namespace ccdt::cases {
 namespace {

@@ -46,7 +46,7 @@ VerifiedMesh verified_from(const bench::Json& json) {
   return verified;
 }
 
-/// "wrong: positive orientation (3 of 120)"
+/// "the mesh is wrong; positive orientation: 3 of 120"
 std::string words_of(const VerifiedMesh& verified) {
   std::string text = "the mesh is wrong";
   for (const auto& check : verified.checks)
