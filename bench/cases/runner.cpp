@@ -48,22 +48,38 @@ MeasuredCase find_case(const RunnerSettings& settings, const Case& asked, const 
   return of_now;
 }
 
-/// The cases of a call that are different. Equal inputs make equal cases, which are run once.
-std::vector<MeasuredCase> distinct(const std::vector<MeasuredCase>& cases) {
-  std::vector<MeasuredCase> all;
+/// Cases of a call, each with its own id.
+using Group = std::vector<MeasuredCase*>;
+
+/// The first of each id. Equal inputs make equal cases, which are run once.
+Group distinct(std::vector<MeasuredCase>& cases) {
+  Group firsts;
   std::set<std::string> known;
-  for (const MeasuredCase& measured : cases)
-    if (known.insert(measured.id).second) all.push_back(measured);
-  return all;
+  for (MeasuredCase& measured : cases)
+    if (known.insert(measured.id).second) firsts.push_back(&measured);
+  return firsts;
+}
+
+/// What was measured of the first of an id holds for all.
+void share(const Group& firsts, std::vector<MeasuredCase>& cases) {
+  std::map<std::string, const MeasuredCase*> by_id;
+  for (const MeasuredCase* first : firsts) by_id[first->id] = first;
+  for (MeasuredCase& measured : cases) {
+    const MeasuredCase& first = *by_id.at(measured.id);
+    if (&measured == &first) continue;
+    Case asked = std::move(measured.asked);
+    measured = first;
+    measured.asked = std::move(asked);
+  }
 }
 
 /// Counts runs for the progress, from whichever thread.
 class RunCounter {
  public:
-  RunCounter(const Progress& progress, std::span<const MeasuredCase> cases) : progress_(progress) {
-    for (const MeasuredCase& measured : cases) {
-      done_ += static_cast<std::uint64_t>(measured.runs);
-      total_ += static_cast<std::uint64_t>(measured.runs + left(measured));
+  RunCounter(const Progress& progress, const Group& cases) : progress_(progress) {
+    for (const MeasuredCase* measured : cases) {
+      done_ += static_cast<std::uint64_t>(measured->runs);
+      total_ += static_cast<std::uint64_t>(measured->runs + left(*measured));
     }
   }
 
@@ -100,16 +116,14 @@ void run_counted(const RunPlace& place, MeasuredCase& measured, RunCounter& coun
   counter.end(measured, left_before);
 }
 
-using Group = std::vector<MeasuredCase*>;
-
-/// In the order of their first cases.
-std::vector<Group> groups_of(std::vector<MeasuredCase>& cases) {
+/// Those that are compared with each other, in the order of their first cases.
+std::vector<Group> groups_of(const Group& cases) {
   std::vector<Group> groups;
   std::map<std::string, std::size_t> known;
-  for (MeasuredCase& measured : cases) {
-    const auto [found, is_new] = known.try_emplace(measured.asked.group, groups.size());
+  for (MeasuredCase* measured : cases) {
+    const auto [found, is_new] = known.try_emplace(measured->asked.group, groups.size());
     if (is_new) groups.emplace_back();
-    groups[found->second].push_back(&measured);
+    groups[found->second].push_back(measured);
   }
   return groups;
 }
@@ -136,9 +150,9 @@ void run_in_turn(const RunPlace& place, const Group& group, std::uint64_t seed, 
 }
 
 /// Several cases at the same time, each with all its repetitions.
-void run_beside(const RunPlace& place, std::vector<MeasuredCase>& cases, RunCounter& counter) {
+void run_beside(const RunPlace& place, const Group& cases, RunCounter& counter) {
   const auto run_all = [&](std::size_t i) {
-    while (needs_run(cases[i])) run_counted(place, cases[i], counter);
+    while (needs_run(*cases[i])) run_counted(place, *cases[i], counter);
   };
   bench::in_parallel(cases.size(), run_all, static_cast<std::size_t>(place.jobs));
 }
@@ -163,20 +177,16 @@ std::vector<MeasuredCase> Runner::load(std::span<const Case> cases) {
 
 std::vector<MeasuredCase> Runner::run(std::span<const Case> cases) {
   std::vector<MeasuredCase> all = load(cases);
-  std::vector<MeasuredCase> different = distinct(all);
+  const Group different = distinct(all);
   RunCounter counter(settings_.progress, different);
   const RunPlace place{settings_.program, settings_.folder, settings_.jobs};
   if (settings_.jobs > 1)
     run_beside(place, different, counter);
   else
     for (const Group& group : groups_of(different)) run_in_turn(place, group, settings_.seed, counter);
+  share(different, all);
 
-  std::map<std::string, const MeasuredCase*> by_id;
-  for (const MeasuredCase& measured : different) by_id[measured.id] = &measured;
-  for (MeasuredCase& measured : all) {
-    Case asked = std::move(measured.asked);
-    measured = *by_id.at(measured.id);
-    measured.asked = std::move(asked);
+  for (const MeasuredCase& measured : all) {
     tried_.insert(measured.id);
     if (is_uncertain(measured)) uncertain_.insert(measured.asked.name);
     const bool is_kept = measured.asked.mesh_ending.empty() || exists(settings_.folder / mesh_file(measured));
