@@ -45,6 +45,11 @@ std::vector<double> logarithms(std::span<const double> values) {
 
 }  // namespace
 
+double relative_spread(const Estimate& estimate) {
+  const auto& [value, low, high] = estimate;
+  return value > 0 ? std::max(high - value, value - low) / value : 0;
+}
+
 double quantile(std::span<const double> samples, double fraction) {
   assert(!samples.empty() && fraction >= 0 && fraction <= 1);
   std::vector<double> sorted(samples.begin(), samples.end());

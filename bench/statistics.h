@@ -21,6 +21,9 @@ enum class BoundTest {
 BoundTest is_at_most(const Estimate& estimate, double bound);
 BoundTest is_at_least(const Estimate& estimate, double bound);
 
+/// The width of the interval on its wider side, as a share of the value; 0 if that is 0.
+double relative_spread(const Estimate& estimate);
+
 /// How a bootstrap is drawn. The seed is fixed, so the same samples always give the same interval.
 struct Bootstrap {
   double confidence = 0.95;

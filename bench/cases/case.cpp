@@ -64,9 +64,7 @@ std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& se
 }
 
 double spread_of(const std::vector<double>& samples) {
-  if (samples.size() < 2) return 0;
-  const bench::Estimate median = bench::median_estimate(samples);
-  return median.value > 0 ? std::max(median.high - median.value, median.value - median.low) / median.value : 0;
+  return samples.size() < 2 ? 0 : bench::relative_spread(bench::median_estimate(samples));
 }
 
 }  // namespace ccdt::cases

@@ -39,10 +39,9 @@ void add_times(CaseSummary& summary) {
     return;
   }
   summary.seconds = bench::median_estimate(samples);
-  const auto& [value, low, high] = *summary.seconds;
   const double wanted = summary.of->wanted.until;
   const double most = wanted > 0 ? std::min(wanted, widest_spread) : widest_spread;
-  const double spread = value > 0 ? std::max(high - value, value - low) / value : 0;
+  const double spread = bench::relative_spread(*summary.seconds);
   if (spread > most) summary.spread = "spread too wide: " + results::rounded(100 * spread, 2) + "%";
 }
 

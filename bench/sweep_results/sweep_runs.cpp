@@ -23,7 +23,7 @@ std::string option_text(const bench::Json& value) {
   return value.dump();
 }
 
-void read_wanted(const bench::Json& json, WantedRuns& wanted) {
+void read_wanted(const bench::Json& json, cases::Repetitions& wanted) {
   wanted.warm_up = json.value("warm_up", wanted.warm_up);
   wanted.at_least = json.value("at_least", wanted.at_least);
   wanted.at_most = json.value("at_most", wanted.at_most);

@@ -6,15 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/cases/case.h"
 #include "bench/sweep_results/run_values.h"
 
 namespace ccdt::sweep_results {
-
-/// How often a case is run; see `cases::Repetitions`.
-struct WantedRuns {
-  int warm_up = 0, at_least = 1, at_most = 1;
-  double until = 0;
-};
 
 struct NumberedRun {
   int number = 0;
@@ -30,7 +25,7 @@ struct SweepCase {
   std::optional<double> edge_length;  ///< of a model
   std::string mesher;
   std::vector<std::string> options;  ///< one for each of `Sweep::options`; empty: not given to this mesher
-  WantedRuns wanted;
+  cases::Repetitions wanted;
   std::vector<NumberedRun> runs = {};  ///< by number; none: the case has not been run yet
 };
 
