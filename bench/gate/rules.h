@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/gate/recording.h"
+
+namespace ccdt::gate {
+
+/// Of counts, quality and work.
+struct ExactRules {
+  std::vector<std::string> figures = {"*"};  ///< patterns of names (fnmatch)
+  std::vector<std::string> ignore = {};
+  double relative = 1e-9;  ///< of figures that are no integers: libraries differ in the last bits of a logarithm
+};
+
+/// Of the stages' instruction counts. Worse means beyond both.
+struct InstructionRules {
+  std::vector<std::string> cases = {"*"};  ///< patterns of names
+  double relative = 0.005;
+  double absolute = 100000;
+};
+
+/// Of times. Worse means: all of the interval beyond both thresholds, twice.
+struct TimeRules {
+  std::vector<std::string> cases = {"*"};  ///< patterns of names
+  double relative = 0.01;
+  double absolute_seconds = 0.0002;
+  double confidence = 0.95;
+  double largest_noise = 0.02;       ///< half the width of an interval, as a share, that still allows a verdict
+  int at_least = 20, at_most = 200;  ///< pairs
+};
+
+/// Thresholds of some cases.
+struct CaseRules {
+  std::string cases;  ///< pattern of names
+  TimeRules time;
+};
+
+/// What is gated: schema ccdt.rules/1.
+struct Rules {
+  std::set<Layer> layers = {Layer::exact, Layer::instructions, Layer::time};
+  ExactRules exact;
+  InstructionRules instructions;
+  TimeRules time;
+  std::vector<CaseRules> special;  ///< the first that matches a case counts
+  bool shadow = false;
+};
+
+/// Does one of the patterns match?
+bool matches(const std::vector<std::string>& patterns, const std::string& name);
+
+/// The thresholds of a case.
+const TimeRules& time_rules_of(const Rules& rules, const std::string& case_name);
+
+/// \throw InputError  the file cannot be read or is wrong; names the JSON pointer
+Rules read_rules(const std::filesystem::path& file);
+
+}  // namespace ccdt::gate

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/gate/recording.h"
+#include "bench/statistics.h"
+
+namespace ccdt::gate {
+
+/// What came out, of one figure or of all.
+enum class Judgment {
+  passed,  ///< not worse
+  worse,
+  undecided,    ///< too noisy to tell
+  incomparable  ///< base and head were measured under different conditions
+};
+
+constexpr auto names_of(Judgment) {
+  return std::to_array<NamedValue<Judgment>>({{Judgment::passed, "passed"},
+                                              {Judgment::worse, "worse"},
+                                              {Judgment::undecided, "undecided"},
+                                              {Judgment::incomparable, "incomparable"}});
+}
+
+/// One figure of base and head.
+struct JudgedFigure {
+  std::string name, case_name;
+  Layer layer = Layer::exact;
+  std::optional<double> base, head;         ///< medians of samples; none where it is a text or missing
+  std::string base_text, head_text;         ///< of a text
+  std::optional<double> ratio;              ///< head / base; none where base is 0 or there are no numbers
+  std::optional<bench::Estimate> interval;  ///< of the ratio, of what was sampled
+  Judgment verdict = Judgment::passed;
+  bool changed = false;  ///< base and head differ by more than the rules allow
+  double badness = 0;    ///< orders what is listed, the worst first
+  std::string words;     ///< why: threshold, noise, the field that differs
+  std::string command;   ///< that repeats it
+};
+
+/// What a gate says: JSON of schema ccdt.verdict/1.
+struct Verdict {
+  Judgment verdict = Judgment::passed;
+  bool shadow = false;                ///< reports, but always passes
+  std::string base, head;             ///< programs or recordings
+  std::vector<JudgedFigure> figures;  ///< all that were compared
+  std::vector<std::string> notes;     ///< what a reader has to know: a history that only gets worse, layers left out
+  std::string correction;             ///< how the number of cases was accounted for; empty without times
+};
+
+/// Of all figures: worse if one is; else incomparable if nothing could be compared; else undecided if one is; else
+/// passed.
+Judgment judgment_of(const std::vector<JudgedFigure>& figures);
+
+}  // namespace ccdt::gate
