@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "bench/cases/case.h"
+#include "bench/gate/recording.h"
+#include "bench/gate/rules.h"
+#include "engine/base/progress.h"
+
+/// What a program executes, counted by callgrind: the same number in every run of one program on machines with one CPU
+/// model and one set of libraries.
+namespace ccdt::gate {
+
+/// Instructions of each stage, by its name: "delaunay", and of meshing as a whole, "mesh".
+using StageInstructions = std::map<std::string, std::uint64_t>;
+
+/// The stages' instructions from what callgrind has written, with those of all functions that they call. A stage that
+/// did not run is 0.
+///
+/// \param profile  of one process (callgrind.out.PID)
+/// \throw InputError  it is none, or the function of a stage is not in it: inlined, or stripped from the program
+StageInstructions stage_instructions(std::string_view profile);
+
+/// What instruction counts depend on besides the program: "instructions.cpu", "instructions.valgrind",
+/// "instructions.libc", "instructions.libstdc++", and how the program was compiled, "instructions.compiler" and
+/// "instructions.flags".
+///
+/// \throw InputError  there is no valgrind, or the program is no `ccdt`; says what to do
+cases::Identity instruction_identity(const std::filesystem::path& program);
+
+/// Runs `ccdt mesh` of a program once under callgrind for each case of ours that the rules name, and adds the stages'
+/// counts to the case of that name in the recording (to a new one if there is none), as figures "instructions.STAGE".
+/// The identity gains `instruction_identity`.
+///
+/// \param folder  for the profiles, which are kept as CASE.callgrind; exists
+/// \throw InputError  there is no valgrind, or a stage cannot be found; says what to do
+/// \throw MeshError   the program failed on a case; says with what
+/// \throw baselines::Stopped  the user has stopped the program
+void add_instructions(const std::filesystem::path& program, std::span<const cases::Case> cases, const Rules& rules,
+                      const std::filesystem::path& folder, Recording& recording, const Progress& progress = {});
+
+}  // namespace ccdt::gate
