@@ -27,10 +27,12 @@ struct InstructionRules {
 /// Of times. Worse means: all of the interval beyond both thresholds, twice.
 struct TimeRules {
   std::vector<std::string> cases = {"*"};  ///< patterns of names
+  std::string figure = "seconds.mesh";     ///< of the report of `ccdt mesh`; "wall": the time of the whole process
   double relative = 0.01;
   double absolute_seconds = 0.0002;
   double confidence = 0.95;
-  double largest_noise = 0.02;       ///< half the width of an interval, as a share, that still allows a verdict
+  double largest_noise = 0.02;       ///< half the width of an interval, as a share, that still allows a verdict; a
+                                     ///< slowdown of both thresholds together is looked for
   int at_least = 20, at_most = 200;  ///< pairs
 };
 

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/cases/identity.h"
+#include "bench/gate/paired_samples.h"
+#include "bench/gate/rules.h"
+#include "bench/gate/timed_targets.h"
+#include "bench/statistics.h"
+#include "engine/base/progress.h"
+
+namespace ccdt::gate {
+
+/// How noisy a case is: from pairs of runs of one program.
+struct CaseNoise {
+  std::string case_name, figure;
+  double seconds = 0;              ///< median
+  double deviation = 0;            ///< standard deviation of log(second run / first run)
+  double robust_deviation = 0;     ///< the same from the median absolute deviation
+  double autocorrelation = 0;      ///< of consecutive log ratios
+  double noise_floor = 0;          ///< how far the interval of an unchanged program gets away from 1, in 99% of gates
+  int pairs_needed = 0;            ///< until an interval is as narrow as the rules want it
+  std::vector<double> log_ratios;  ///< of all pairs, in order
+};
+
+/// What a whole gate does with programs of which nothing, or everything by one factor, has changed. Simulated with the
+/// measured pairs.
+struct GateRates {
+  int gates = 0;                   ///< simulated
+  bench::Estimate false_alarms;    ///< share, with its Clopper-Pearson interval
+  bench::Estimate undecided;       ///< share of unchanged programs
+  std::optional<double> smallest;  ///< slowdown of one case that is found in 95% of the gates, whichever case it
+                                   ///< is: 0.03 is 3%; none if not even the largest tried is
+};
+
+/// The noise of this host: schema ccdt.calibration/1.
+struct Calibration {
+  std::string program;
+  cases::Identity identity;  ///< of the machine
+  std::uint64_t seed = 0;
+  std::vector<CaseNoise> cases;
+  GateRates rates;
+};
+
+/// What is known of a case; null if it is not in the calibration.
+const CaseNoise* find_noise(const Calibration& calibration, const std::string& case_name);
+
+/// Too few pairs for a calibration.
+class TooFewSamples : public InputError {
+ public:
+  TooFewSamples(const std::string& what, int needed, std::string remedy)
+      : InputError(what, {}, std::move(remedy)), needed_(needed) {}
+
+  int needed() const { return needed_; }  ///< pairs of each case
+
+ private:
+  int needed_;
+};
+
+/// Runs each target in pairs with itself: both sides are the base.
+/// \throw ProgramFailed
+/// \throw baselines::Stopped
+SampleSet measure_noise(std::span<const TimedTarget> targets, int pairs, std::uint64_t seed, const Progress& progress);
+
+/// What follows from the pairs; program and identity are left empty.
+/// \throw TooFewSamples  says how many are needed
+Calibration calibrate(const SampleSet& samples, const Rules& rules);
+
+/// Writes the file whole or not at all. \throw OutputError
+void write_calibration(const Calibration& calibration, const std::filesystem::path& file);
+
+/// \throw InputError  cannot be read, or no JSON of that schema
+Calibration read_calibration(const std::filesystem::path& file);
+
+}  // namespace ccdt::gate

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "baselines/process.h"
+#include "bench/cases/case.h"
+#include "bench/gate/paired_samples.h"
+#include "bench/gate/rules.h"
+#include "engine/base/errors.h"
+
+namespace ccdt::gate {
+
+/// A program failed where its time was to be taken.
+class ProgramFailed : public MeshError {
+ public:
+  ProgramFailed(Side side, const std::string& what, Place place, std::string remedy)
+      : MeshError(what, std::move(place), std::move(remedy)), side_(side) {}
+
+  Side side() const { return side_; }
+
+ private:
+  Side side_;
+};
+
+/// One run of a target.
+struct RunRequest {
+  Side side = Side::base;
+  std::size_t padding = 0;           ///< bytes of a variable that shifts the stack of the process
+  std::set<std::string> cases = {};  ///< that are wanted; empty: all
+};
+
+/// Something that runs as one process and times one case or several.
+struct TimedTarget {
+  std::string name;    ///< for people
+  std::string figure;  ///< what is timed: "seconds.mesh"
+  /// Seconds by case. Cases that were not asked for may be missing.
+  /// \throw ProgramFailed
+  /// \throw baselines::Stopped
+  std::function<std::map<std::string, double>(const RunRequest&)> run;
+  std::function<std::string(Side, const std::string& case_name)> command;  ///< that repeats one run
+};
+
+/// Two programs, which may be the same.
+struct Programs {
+  std::filesystem::path base, head;
+};
+
+/// One target for each case of a sweep; the programs are `ccdt`s. The figure is that of the rules: "seconds.mesh" or
+/// another of the report, or "wall", the time of the whole process.
+///
+/// \param cases   with inputs that exist; their options are passed on
+/// \param folder  for scratch files; exists
+std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const cases::Case> cases, const Rules& rules,
+                                       const std::filesystem::path& folder);
+
+/// Two programs on Google Benchmark. Each benchmark name is a case, and its real time the figure.
+///
+/// \param arguments  of both; they win over those that keep a run short: one repetition of 0.05 s
+TimedTarget benchmark_target(const Programs& programs, const std::vector<std::string>& arguments,
+                             const baselines::Limits& limits, const std::filesystem::path& folder);
+
+/// Two programs of any kind, whose whole processes are timed. There is one case: the arguments.
+TimedTarget command_target(const Programs& programs, const std::vector<std::string>& arguments,
+                           const baselines::Limits& limits, const std::filesystem::path& folder);
+
+}  // namespace ccdt::gate
