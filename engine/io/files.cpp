@@ -73,9 +73,14 @@ std::string lower_ending(const std::filesystem::path& file) {
   return ending;
 }
 
+char line_end_of(std::string_view text) {
+  return text.find('\n') == std::string_view::npos ? '\r' : '\n';
+}
+
 Place line_of_byte(const FileBytes& file, std::size_t byte) {
   const auto begin = file.bytes.begin();
-  return {.file = file.name, .line = 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(byte), '\n')};
+  return {.file = file.name,
+          .line = 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(byte), line_end_of(file.bytes))};
 }
 
 void fail_at_byte(const FileBytes& file, std::size_t byte, const std::string& what, const std::string& remedy,

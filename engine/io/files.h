@@ -41,6 +41,9 @@ inline Place place_in(std::string file) {
   return {.file = std::move(file)};
 }
 
+/// What ends the lines of a text: a line feed, or a carriage return if there is no line feed at all.
+char line_end_of(std::string_view text);
+
 /// The place of the line of a text in which a byte is.
 Place line_of_byte(const FileBytes& file, std::size_t byte);
 

@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
+#include <string_view>
 
 #include "engine/base/errors.h"
 #include "engine/io/formats.h"
@@ -72,10 +75,29 @@ plc::InputPlc read_binary(const FileBytes& file) {
   return plc;
 }
 
-void expect(TextScanner& in, const Item& facet, std::string_view keyword) {
-  const std::string_view found = in.word(facet);
+void expect(TextScanner& in, const Item& facet, std::string_view keyword, std::string_view found) {
   if (!equal_ignoring_case(found, keyword))
     in.fail(facet, "expected '" + std::string(keyword) + "', found " + in_quotes(found));
+}
+
+void expect(TextScanner& in, const Item& facet, std::string_view keyword) {
+  expect(in, facet, keyword, in.word(facet));
+}
+
+bool is_keyword(std::string_view word) {
+  return std::ranges::any_of(
+      std::to_array<std::string_view>({"solid", "facet", "outer", "loop", "vertex", "endloop", "endfacet", "endsolid"}),
+      [&](std::string_view keyword) { return equal_ignoring_case(word, keyword); });
+}
+
+/// The next keyword after the end of a facet or of its loop. Some writers put names and comments there, up to the end
+/// of the line.
+std::string_view next_keyword(TextScanner& in, const Item& facet) {
+  while (true) {
+    const std::string_view word = in.word(facet);
+    if (is_keyword(word)) return word;
+    in.skip_line();
+  }
 }
 
 plc::InputPlc read_text(const FileBytes& file) {
@@ -87,7 +109,7 @@ plc::InputPlc read_text(const FileBytes& file) {
     in.skip_line();  // its name, which may be anything
     while (true) {
       const Item facet{"facet", plc.triangles.size()};
-      const std::string_view keyword = in.word(facet);
+      const std::string_view keyword = next_keyword(in, facet);
       if (equal_ignoring_case(keyword, "endsolid")) break;
       if (!equal_ignoring_case(keyword, "facet"))
         in.fail(facet, "expected 'facet' or 'endsolid', found " + in_quotes(keyword));
@@ -100,7 +122,7 @@ plc::InputPlc read_text(const FileBytes& file) {
         corner = merger.index_of(in.point(facet));
       }
       expect(in, facet, "endloop");
-      expect(in, facet, "endfacet");
+      expect(in, facet, "endfacet", next_keyword(in, facet));
     }
     in.skip_line();
   }

@@ -11,11 +11,8 @@ namespace ccdt::io {
 
 namespace {
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
 bool is_space(char c) {
-  return is_blank(c) || c == '\n';
+  return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits and one value means none
@@ -67,19 +64,24 @@ TextScanner::TextScanner(const FileBytes& file, int comment, std::size_t begin, 
       position_(std::min(begin, file.bytes.size())),
       end_(std::min(end, file.bytes.size())),
       word_begin_(position_),
-      comment_(comment) {}
+      comment_(comment),
+      line_end_(line_end_of(text_.substr(position_, end_ - position_))) {}
+
+bool TextScanner::is_blank(char c) const {
+  return is_space(c) && c != line_end_;
+}
 
 void TextScanner::skip_blanks(bool also_lines) {
   while (position_ < end_) {
     const char c = text_[position_];
-    if (is_blank(c) || (also_lines && c == '\n')) {
+    if (is_blank(c) || (also_lines && c == line_end_)) {
       ++position_;
     } else if (also_lines && static_cast<unsigned char>(c) == comment_) {
       skip_line();
     } else if (joins_lines_ && c == '\\') {
       std::size_t next = position_ + 1;
-      if (next < end_ && text_[next] == '\r') ++next;
-      if (next >= end_ || text_[next] != '\n') return;
+      if (next < end_ && text_[next] == '\r' && line_end_ != '\r') ++next;
+      if (next >= end_ || text_[next] != line_end_) return;
       position_ = next + 1;
     } else {
       return;
@@ -94,11 +96,11 @@ bool TextScanner::at_end() {
 
 bool TextScanner::at_line_end() {
   skip_blanks(false);
-  return position_ >= end_ || text_[position_] == '\n' || static_cast<unsigned char>(text_[position_]) == comment_;
+  return position_ >= end_ || text_[position_] == line_end_ || static_cast<unsigned char>(text_[position_]) == comment_;
 }
 
 void TextScanner::skip_line() {
-  position_ = std::min(text_.find('\n', position_), end_);
+  position_ = std::min(text_.find(line_end_, position_), end_);
   if (position_ < end_) ++position_;
 }
 

@@ -28,6 +28,8 @@ struct Item {
 
 /// Walks over the words of a text. It knows no formats, but it knows where it is: all errors carry the file and the
 /// line, which is counted only when an error needs it.
+///
+/// A line ends as `line_end_of` says.
 class TextScanner {
  public:
   static constexpr int no_comments = -1;
@@ -82,12 +84,14 @@ class TextScanner {
 
  private:
   void skip_blanks(bool also_lines);
+  bool is_blank(char c) const;  ///< and no line end
 
   const FileBytes& file_;
   std::string_view text_;
   std::size_t position_, end_;
   std::size_t word_begin_;  ///< of the last word, where errors are
   int comment_;
+  char line_end_;
   bool joins_lines_ = false;
 };
 

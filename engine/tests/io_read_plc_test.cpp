@@ -56,7 +56,23 @@ TEST(ReadStl, ErrorsHaveTheirPlace) {
                  {"'inf' is not", 11, {}, 1});
   expect_refused("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n",
                  {"expected a number, found 'zero'", 4, {}, 0});
-  expect_refused("a.stl", "solid\nfacett\n", {"expected 'facet' or 'endsolid', found 'facett'", 2, {}, 0});
+  expect_refused("a.stl", "solid\nfacett normal 0 0 1\nouter loop\n", {"expected 'facet' or 'endsolid'", 3, {}, 0});
+}
+
+constexpr const char* stl_facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+
+TEST(ReadStl, SkipsNamesAndCommentsBetweenFacets) {
+  const std::string facet = std::string(stl_facet) + "endloop foo\nendfacet bar\n";
+  const plc::InputPlc plc =
+      plc_of("a.stl", "solid\n# no facet\n" + facet + "this is\n\nan outer wall\n" + facet + "endsolid");
+  EXPECT_EQ(plc.triangles, (Triangles{{0, 1, 2}, {0, 1, 2}}));
+}
+
+TEST(ReadStl, CarriageReturnsEndLinesIfNothingElseDoes) {
+  std::string text =
+      std::string("solid of a facet\n# no facet\n") + stl_facet + "endloop\nendfacet\nendsolid a solid\n";
+  std::ranges::replace(text, '\n', '\r');
+  EXPECT_EQ(plc_of("a.stl", text).triangles, (Triangles{{0, 1, 2}}));
 }
 
 TEST(ReadOff, HeadersCommentsExtrasAndMissingEdgeCount) {
