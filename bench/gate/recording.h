@@ -37,11 +37,34 @@ struct CaseFigures {
   std::vector<Figure> figures;
 };
 
+/// Where a recording is from.
+enum class Source { runs, google_benchmark, hyperfine, baseline };
+
 /// What was measured of one program.
 struct Recording {
   std::filesystem::path source;
-  cases::Identity identity;  ///< field and value, such as "machine.cpu"; what instructions depend on
-  std::vector<CaseFigures> cases;
+  Source kind = Source::runs;
+  cases::Identity identity = {};  ///< field and value, such as "machine.cpu"; what instructions depend on
+  std::vector<CaseFigures> cases = {};
+  std::vector<std::string> notes = {};  ///< what of the source is not in the figures, and why
 };
+
+/// The figure of this name; null if the case has none.
+const Figure* find_figure(const CaseFigures& one, const std::string& name);
+/// The case of this name; null if the recording has none.
+const CaseFigures* find_case(const Recording& recording, const std::string& name);
+
+/// The case of this name, a new one if the recording has none.
+CaseFigures& case_named(const std::string& name, Recording& recording);
+
+/// Reads what was recorded: the folder of a sweep, a folder or a file of ccdt.run/1, the JSON of Google Benchmark or of
+/// hyperfine, or a ccdt.baseline/1.
+///
+/// Several runs of a case are the samples of its figures. Their names are the paths in the JSON; those of a Google
+/// Benchmark are "seconds.real_time", "seconds.cpu_time" and its counters' own, those of hyperfine "seconds.elapsed"
+/// and "exit_codes".
+///
+/// 	hrow InputError  it cannot be read, is none of these or has no cases; names the file and the place in it
+Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace ccdt::gate

@@ -10,11 +10,25 @@
 
 namespace ccdt::gate {
 
+/// Which change of a figure is a loss.
+enum class Better {
+  fewer,  ///< more is worse: work, Steiner vertices
+  more,   ///< less is worse: the smallest dihedral angle
+  same    ///< every change is, until the baseline is updated: the mesh itself
+};
+
+constexpr auto names_of(Better) {
+  return std::to_array<NamedValue<Better>>({{Better::fewer, "fewer"}, {Better::more, "more"}, {Better::same, "same"}});
+}
+
 /// Of counts, quality and work.
 struct ExactRules {
+  std::vector<std::string> cases = {"*"};    ///< patterns of names
   std::vector<std::string> figures = {"*"};  ///< patterns of names (fnmatch)
   std::vector<std::string> ignore = {};
   double relative = 1e-9;  ///< of figures that are no integers: libraries differ in the last bits of a logarithm
+  std::vector<std::pair<std::string, double>> tolerances = {};  ///< pattern, and the share of loss that passes
+  std::vector<std::pair<std::string, Better>> better = {};      ///< pattern of names; before what is usual
 };
 
 /// Of the stages' instruction counts. Worse means beyond both.
@@ -54,6 +68,16 @@ struct Rules {
 
 /// Does one of the patterns match?
 bool matches(const std::vector<std::string>& patterns, const std::string& name);
+
+/// Does the layer compare this figure of this case?
+bool is_gated(const Rules& rules, Layer layer, const std::string& case_name, const std::string& figure);
+
+/// Which change of an exact figure is a loss: the first rule that matches, else what is usual for the names of
+/// ccdt.run/1, else `same`.
+Better better_of(const ExactRules& rules, const std::string& figure);
+
+/// The share of loss of an exact figure that passes.
+double tolerance_of(const ExactRules& rules, const std::string& figure);
 
 /// The thresholds of a case.
 const TimeRules& time_rules_of(const Rules& rules, const std::string& case_name);

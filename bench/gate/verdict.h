@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/gate/recording.h"
+#include "bench/json.h"
 #include "bench/statistics.h"
 
 namespace ccdt::gate {
@@ -52,5 +53,15 @@ struct Verdict {
 /// Of all figures: worse if one is; else incomparable if nothing could be compared; else undecided if one is; else
 /// passed.
 Judgment judgment_of(const std::vector<JudgedFigure>& figures);
+
+/// Sets the verdict from the figures, and sorts them: the worst first, then undecided ones, those that got better or
+/// are new, incomparable ones and the rest.
+void conclude(Verdict& verdict);
+
+/// Did it change without being worse?
+bool is_better(const JudgedFigure& figure);
+
+/// As JSON of schema ccdt.verdict/1.
+bench::Json to_json(const Verdict& verdict);
 
 }  // namespace ccdt::gate

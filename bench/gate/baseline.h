@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/gate/recording.h"
+#include "bench/gate/rules.h"
+#include "bench/gate/verdict.h"
+#include "bench/json.h"
+
+namespace ccdt::gate {
+
+/// Why a baseline changed, and by how much.
+struct BaselineUpdate {
+  std::string date;      ///< "2005-09-01"
+  std::string reason;    ///< not empty
+  std::string revision;  ///< of the source that was measured
+  int changed = 0;       ///< how many figures did
+  /// By the name of the layer: the geometric mean of new over old cost of the figures that changed; above 1 is worse.
+  std::map<std::string, double> ratios;
+};
+
+/// A file of figures to compare with, kept beside the source: schema ccdt.baseline/1.
+struct Baseline {
+  Recording recording;  ///< exact figures and instruction counts only
+  std::vector<BaselineUpdate> history;
+};
+
+bool is_baseline(const bench::Json& json);
+
+/// \throw InputError  it cannot be read or is wrong; names the JSON pointer
+Baseline read_baseline(const std::filesystem::path& file);
+
+/// Writes it with a line for each group of figures, sorted, so that a change of it can be reviewed.
+/// \throw OutputError
+void write_baseline(const Baseline& baseline, const std::filesystem::path& file);
+
+/// The baseline with the figures of `head` that the rules gate. Instruction counts stay if `head` has none.
+///
+/// \param figures  what comparing `old` with `head` gave
+Baseline updated(const Baseline& old, const Recording& head, const Rules& rules,
+                 const std::vector<JudgedFigure>& figures, const std::string& reason);
+
+/// What a reader has to know of a history that only ever gets worse, with the reasons; empty: it does not.
+std::vector<std::string> history_notes(const std::vector<BaselineUpdate>& history);
+
+}  // namespace ccdt::gate

@@ -1,0 +1,307 @@
+#include "bench/gate/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "bench/results/numbers.h"
+
+namespace ccdt::gate {
+namespace {
+
+constexpr double lost_badness = std::numeric_limits<double>::max();  ///< before all that has a size
+constexpr std::size_t fewest_runs = 6;  ///< with fewer, no interval of a median has 95% (2 * 0.5^5 is more than 5%)
+
+bool is_whole(double value) {
+  return value == std::floor(value);
+}
+
+/// Up to the last bits, where a figure is no whole number.
+bool are_equal(double a, double b, double relative) {
+  if (a == b) return true;
+  if (is_whole(a) && is_whole(b)) return false;
+  return std::abs(a - b) <= relative * std::max(std::abs(a), std::abs(b));
+}
+
+JudgedFigure start(const Figure& base, const Figure& head, const CaseFigures& one) {
+  JudgedFigure judged;
+  judged.name = head.name;
+  judged.case_name = one.name;
+  judged.layer = head.layer;
+  judged.command = one.command;
+  judged.base_text = base.text;
+  judged.head_text = head.text;
+  if (!base.samples.empty()) judged.base = bench::median(base.samples);
+  if (!head.samples.empty()) judged.head = bench::median(head.samples);
+  if (judged.base && judged.head && *judged.base != 0) judged.ratio = *judged.head / *judged.base;
+  return judged;
+}
+
+/// A figure or case that only one of the recordings has.
+JudgedFigure lost(const Figure& base, const CaseFigures& one) {
+  JudgedFigure judged = start(base, {base.name, base.layer, {}, "missing"}, one);
+  judged.verdict = Judgment::worse;
+  judged.changed = true;
+  judged.badness = lost_badness;
+  judged.words = "is in the base only";
+  return judged;
+}
+
+JudgedFigure added(const Figure& head, const CaseFigures& one) {
+  JudgedFigure judged = start({head.name, head.layer, {}, "missing"}, head, one);
+  judged.changed = true;
+  judged.words = "is new";
+  return judged;
+}
+
+bool agree_among_runs(const Figure& figure, double relative) {
+  return std::ranges::all_of(figure.samples,
+                             [&](double sample) { return are_equal(sample, figure.samples.front(), relative); }) &&
+         figure.text.find(" or ") == std::string::npos;
+}
+
+/// How much worse the head is, as the logarithm of a ratio; infinite from 0.
+double badness_of(double base, double head) {
+  if (base == 0 || head == 0 || !std::isfinite(base) || !std::isfinite(head) || (base < 0) != (head < 0))
+    return std::numeric_limits<double>::infinity();
+  return std::abs(std::log(head / base));
+}
+
+void judge_numbers(const ExactRules& rules, JudgedFigure& judged) {
+  const double base = *judged.base, head = *judged.head;
+  if (are_equal(base, head, rules.relative)) return;
+  judged.changed = true;
+  const Better better = better_of(rules, judged.name);
+  const bool is_loss = better == Better::same || (better == Better::fewer ? head > base : head < base);
+  const double tolerance = tolerance_of(rules, judged.name);
+  const bool is_tolerated = std::abs(head - base) <= tolerance * std::abs(base);
+  if (!is_loss) {
+    judged.words = "better";
+  } else if (is_tolerated) {
+    judged.words = "worse by less than the tolerance of " + results::rounded(100 * tolerance) + "%";
+  } else {
+    judged.verdict = Judgment::worse;
+    judged.words = better == Better::same ? "must stay the same; exact" : "exact";
+    judged.badness = std::min(badness_of(base, head), lost_badness / 2);
+  }
+}
+
+void judge_texts(JudgedFigure& judged) {
+  if (judged.base_text == judged.head_text) return;
+  judged.changed = true;
+  judged.verdict = Judgment::worse;
+  judged.words = "must stay the same; exact";
+}
+
+JudgedFigure judge_exact(const Figure& base, const Figure& head, const CaseFigures& one, const ExactRules& rules) {
+  JudgedFigure judged = start(base, head, one);
+  if (!agree_among_runs(head, rules.relative) || !agree_among_runs(base, rules.relative)) {
+    const bool is_new = agree_among_runs(base, rules.relative);
+    judged.verdict = is_new ? Judgment::worse : Judgment::incomparable;
+    judged.changed = is_new;
+    judged.words = "is not the same in all runs of " + std::string(is_new ? "the head" : "the base");
+  } else if (judged.base && judged.head) {
+    judge_numbers(rules, judged);
+  } else {
+    if (base.samples.empty() != head.samples.empty()) judged.base_text = "another type";
+    judge_texts(judged);
+  }
+  return judged;
+}
+
+/// A case that failed has no other figures. Empty: both are measured, or both failed.
+std::optional<JudgedFigure> judge_status(const CaseFigures& base, const CaseFigures& head) {
+  const Figure *then = find_figure(base, "status"), *now = find_figure(head, "status");
+  if (then == nullptr || now == nullptr || (then->text == "ok") == (now->text == "ok")) return {};
+  JudgedFigure judged = start(*then, *now, head);
+  judged.changed = true;
+  if (now->text == "ok") {
+    judged.words = "better";
+    return judged;
+  }
+  judged.verdict = Judgment::worse;
+  judged.badness = lost_badness;
+  const Figure* kind = find_figure(head, "kind");
+  judged.words = kind == nullptr ? "failed" : "failed: " + kind->text;
+  return judged;
+}
+
+void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const Rules& rules,
+                        std::vector<JudgedFigure>& all) {
+  if (auto status = judge_status(base, head)) {
+    all.push_back(*std::move(status));
+    return;
+  }
+  const auto is_compared = [&](const Figure& figure) {
+    return figure.layer == Layer::exact && is_gated(rules, Layer::exact, head.name, figure.name);
+  };
+  for (const Figure& figure : base.figures) {
+    if (!is_compared(figure)) continue;
+    const Figure* now = find_figure(head, figure.name);
+    all.push_back(now == nullptr ? lost(figure, head) : judge_exact(figure, *now, head, rules.exact));
+  }
+  for (const Figure& figure : head.figures)
+    if (is_compared(figure) && find_figure(base, figure.name) == nullptr) all.push_back(added(figure, head));
+}
+
+bool is_gated_case(const Rules& rules, const CaseFigures& one) {
+  return std::ranges::any_of(one.figures, [&](const Figure& figure) {
+    return figure.layer == Layer::exact && is_gated(rules, Layer::exact, one.name, figure.name);
+  });
+}
+
+JudgedFigure judge_instructions(const Figure& base, const Figure& head, const CaseFigures& one, const Rules& rules) {
+  JudgedFigure judged = start(base, head, one);
+  if (!judged.base || !judged.head) return judged;
+  const double change = *judged.head - *judged.base;
+  const InstructionRules& limits = rules.instructions;
+  judged.changed = std::abs(change) > limits.absolute && std::abs(change) > limits.relative * *judged.base;
+  if (!judged.changed) return judged;
+  if (change < 0) {
+    judged.words = "better";
+    return judged;
+  }
+  judged.verdict = Judgment::worse;
+  judged.badness = badness_of(*judged.base, *judged.head);
+  judged.words = "beyond " + results::rounded(100 * limits.relative) + "% and " +
+                 results::with_separators(static_cast<std::uint64_t>(limits.absolute)) + " instructions; counted";
+  return judged;
+}
+
+/// Times that were recorded earlier are no base for a verdict.
+std::vector<JudgedFigure> list_times(const Recording& base, const Recording& head, const Rules& rules) {
+  std::vector<JudgedFigure> all;
+  for (const CaseFigures& one : head.cases) {
+    const CaseFigures* then = find_case(base, one.name);
+    if (then == nullptr) continue;
+    for (const Figure& figure : one.figures) {
+      const Figure* before = find_figure(*then, figure.name);
+      if (figure.layer != Layer::time || before == nullptr || !is_gated(rules, Layer::time, one.name, figure.name))
+        continue;
+      JudgedFigure judged = start(*before, figure, one);
+      judged.verdict = Judgment::incomparable;
+      judged.words = "recorded earlier, not measured in turns";
+      all.push_back(std::move(judged));
+    }
+  }
+  return all;
+}
+
+bool have_common_case(const Recording& base, const Recording& head) {
+  return std::ranges::any_of(base.cases, [&](const CaseFigures& one) { return find_case(head, one.name) != nullptr; });
+}
+
+/// Of one command of hyperfine against the first.
+JudgedFigure judge_command(const Figure& base, const Figure& head, const CaseFigures& one, const TimeRules& rules,
+                           double confidence) {
+  JudgedFigure judged = start(base, head, one);
+  if (base.samples.size() < fewest_runs || head.samples.size() < fewest_runs || *judged.base <= 0) {
+    judged.verdict = Judgment::undecided;
+    judged.words = "an interval needs at least " + std::to_string(fewest_runs) + " runs of each";
+    return judged;
+  }
+  const bench::Estimate ratio = bench::ratio_of_medians(head.samples, base.samples, {.confidence = confidence});
+  judged.interval = ratio;
+  judged.ratio = ratio.value;
+  const double threshold = std::max(rules.relative, rules.absolute_seconds / *judged.base);
+  const double noise = (ratio.high - ratio.low) / 2 / ratio.value;
+  if (ratio.low > 1 + threshold) {
+    judged.verdict = Judgment::worse;
+    judged.changed = true;
+    judged.badness = std::log(ratio.value);
+    judged.words = "all of the interval is beyond " + results::rounded(100 * threshold) + "%";
+  } else if (ratio.high > 1 + threshold && noise > rules.largest_noise) {
+    judged.verdict = Judgment::undecided;
+    judged.words = "noise of " + results::rounded(100 * noise, 2) + "% either way; " +
+                   results::rounded(100 * rules.largest_noise, 2) + "% would do";
+  } else if (ratio.high < 1 / (1 + threshold)) {
+    judged.changed = true;
+    judged.words = "better";
+  }
+  return judged;
+}
+
+}  // namespace
+
+std::string other_conditions(const Recording& base, const Recording& head) {
+  std::set<std::string> fields;
+  for (const Recording* one : {&base, &head})
+    for (const auto& [field, value] : one->identity)
+      if (field.starts_with("instructions.")) fields.insert(field);
+  const auto value_in = [](const Recording& one, const std::string& field) {
+    const auto found = one.identity.find(field);
+    return found == one.identity.end() ? std::string("not known") : "'" + found->second + "'";
+  };
+  for (const std::string& field : fields) {
+    const std::string then = value_in(base, field), now = value_in(head, field);
+    if (then != now) return field + " is " + then + " in the base and " + now + " in the head";
+  }
+  return {};
+}
+
+std::vector<JudgedFigure> compare_exact(const Recording& base, const Recording& head, const Rules& rules) {
+  std::vector<JudgedFigure> all;
+  if (!rules.layers.contains(Layer::exact) || !have_common_case(base, head)) return all;
+  for (const CaseFigures& one : base.cases) {
+    const CaseFigures* now = find_case(head, one.name);
+    if (now != nullptr)
+      compare_exact_case(one, *now, rules, all);
+    else if (is_gated_case(rules, one))
+      all.push_back(lost({"case", Layer::exact, {}, "measured"}, one));
+  }
+  for (const CaseFigures& one : head.cases)
+    if (find_case(base, one.name) == nullptr && is_gated_case(rules, one))
+      all.push_back(added({"case", Layer::exact, {}, "measured"}, one));
+  return all;
+}
+
+std::vector<JudgedFigure> compare_instructions(const Recording& base, const Recording& head, const Rules& rules) {
+  std::vector<JudgedFigure> all;
+  if (!rules.layers.contains(Layer::instructions)) return all;
+  const std::string difference = other_conditions(base, head);
+  for (const CaseFigures& one : head.cases) {
+    const CaseFigures* then = find_case(base, one.name);
+    if (then == nullptr) continue;
+    for (const Figure& figure : one.figures) {
+      const Figure* before = find_figure(*then, figure.name);
+      if (figure.layer != Layer::instructions || before == nullptr ||
+          !is_gated(rules, Layer::instructions, one.name, figure.name))
+        continue;
+      all.push_back(difference.empty() ? judge_instructions(*before, figure, one, rules) : start(*before, figure, one));
+      if (difference.empty()) continue;
+      all.back().verdict = Judgment::incomparable;
+      all.back().words = difference;
+    }
+  }
+  return all;
+}
+
+std::vector<JudgedFigure> compare_recordings(const Recording& base, const Recording& head, const Rules& rules) {
+  std::vector<JudgedFigure> all = compare_exact(base, head, rules);
+  for (auto&& some : {compare_instructions(base, head, rules), list_times(base, head, rules)})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+std::vector<JudgedFigure> compare_commands(const Recording& recording, const Rules& rules) {
+  std::vector<JudgedFigure> all;
+  if (recording.cases.empty()) return all;
+  const CaseFigures& base = recording.cases.front();
+  const auto heads = static_cast<double>(recording.cases.size() - 1);
+  for (std::size_t i = 1; i < recording.cases.size(); ++i) {
+    const CaseFigures& one = recording.cases[i];
+    const TimeRules& limits = time_rules_of(rules, one.name);
+    for (const Figure& figure : one.figures) {
+      const Figure* before = find_figure(base, figure.name);
+      if (before == nullptr || !is_gated(rules, figure.layer, one.name, figure.name)) continue;
+      if (figure.layer == Layer::exact)
+        all.push_back(judge_exact(*before, figure, one, rules.exact));
+      else
+        all.push_back(judge_command(*before, figure, one, limits, 1 - (1 - limits.confidence) / heads));
+    }
+  }
+  return all;
+}
+
+}  // namespace ccdt::gate
