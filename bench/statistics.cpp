@@ -1,6 +1,7 @@
 #include "bench/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
@@ -11,14 +12,17 @@
 namespace ccdt::bench {
 namespace {
 
-/// Draws with replacement. `std::uniform_int_distribution` may differ between standard libraries; a product of the
+/// An index below `count`. `std::uniform_int_distribution` may differ between standard libraries; a product of the
 /// generator's 64 bits does not.
+std::size_t draw_index(std::size_t count, std::mt19937_64& random) {
+  const double unit = static_cast<double>(random() >> 11) * 0x1p-53;
+  return static_cast<std::size_t>(unit * static_cast<double>(count));
+}
+
+/// Draws with replacement.
 void resample(std::span<const double> samples, std::mt19937_64& random, std::vector<double>& drawn) {
   drawn.resize(samples.size());
-  for (double& value : drawn) {
-    const double unit = static_cast<double>(random() >> 11) * 0x1p-53;
-    value = samples[static_cast<std::size_t>(unit * static_cast<double>(samples.size()))];
-  }
+  for (double& value : drawn) value = samples[draw_index(samples.size(), random)];
 }
 
 /// The interval between the outer percentiles of the resampled statistic.
@@ -34,6 +38,30 @@ Estimate percentile_interval(double value, const Bootstrap& bootstrap, Statistic
 
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<double> sorted(std::span<const double> samples) {
+  std::vector<double> result(samples.begin(), samples.end());
+  std::ranges::sort(result);
+  return result;
+}
+
+/// How many of so many samples are dropped at each end.
+std::size_t trimmed_at_each_end(std::size_t samples, double share) {
+  return static_cast<std::size_t>(share * static_cast<double>(samples));
+}
+
+/// The trimmed mean of a sample in which each of these values, which are in order, is so many times.
+double trimmed_mean_of_counts(std::span<const double> values, std::span<const std::uint32_t> times, double share) {
+  const std::size_t trimmed = trimmed_at_each_end(values.size(), share), end = values.size() - trimmed;
+  double sum = 0;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t first = std::max(before, trimmed), last = std::min(before + times[i], end);
+    if (last > first) sum += static_cast<double>(last - first) * values[i];
+    before += times[i];
+  }
+  return sum / static_cast<double>(end - trimmed);
 }
 
 std::vector<double> logarithms(std::span<const double> values) {
@@ -68,6 +96,41 @@ double median(std::span<const double> samples) {
   return quantile(samples, 0.5);
 }
 
+double trimmed_mean(std::span<const double> samples, double share) {
+  assert(!samples.empty() && share >= 0 && share < 0.5);
+  const std::size_t trimmed = trimmed_at_each_end(samples.size(), share);
+  const std::vector<double> in_order = sorted(samples);
+  return mean(std::span(in_order).subspan(trimmed, samples.size() - 2 * trimmed));
+}
+
+double standard_deviation(std::span<const double> samples) {
+  if (samples.size() < 2) return 0;
+  const double center = mean(samples);
+  double sum = 0;
+  for (const double sample : samples) sum += (sample - center) * (sample - center);
+  return std::sqrt(sum / static_cast<double>(samples.size() - 1));
+}
+
+double robust_deviation(std::span<const double> samples) {
+  constexpr double of_normal = 1.482602218505602;  // 1 / the third quartile of the normal distribution
+  const double center = median(samples);
+  std::vector<double> distances;
+  distances.reserve(samples.size());
+  for (const double sample : samples) distances.push_back(std::abs(sample - center));
+  return of_normal * median(distances);
+}
+
+double autocorrelation(std::span<const double> samples) {
+  if (samples.size() < 3) return 0;
+  const double center = mean(samples);
+  double next = 0, own = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    own += (samples[i] - center) * (samples[i] - center);
+    if (i > 0) next += (samples[i] - center) * (samples[i - 1] - center);
+  }
+  return own > 0 ? next / own : 0;
+}
+
 Estimate median_estimate(std::span<const double> samples, const Bootstrap& bootstrap) {
   std::vector<double> drawn;
   return percentile_interval(median(samples), bootstrap, [&](std::mt19937_64& random) {
@@ -85,6 +148,25 @@ Estimate ratio_of_medians(std::span<const double> numerator, std::span<const dou
     resample(denominator, random, drawn);
     return above / median(drawn);
   });
+}
+
+Estimate trimmed_mean_estimate(std::span<const double> samples, double share, const Bootstrap& bootstrap) {
+  const std::vector<double> in_order = sorted(samples);
+  std::vector<std::uint32_t> times(samples.size());
+  return percentile_interval(trimmed_mean(samples, share), bootstrap, [&](std::mt19937_64& random) {
+    std::ranges::fill(times, 0);
+    for (std::size_t i = 0; i < samples.size(); ++i) ++times[draw_index(samples.size(), random)];
+    return trimmed_mean_of_counts(in_order, times, share);
+  });
+}
+
+Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence) {
+  assert(hits >= 0 && hits <= trials && trials > 0);
+  using Binomial = boost::math::binomial_distribution<>;
+  const auto all = static_cast<double>(trials), some = static_cast<double>(hits);
+  const double tail = (1 - confidence) / 2;
+  return {some / all, Binomial::find_lower_bound_on_p(all, some, tail),
+          Binomial::find_upper_bound_on_p(all, some, tail)};
 }
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y, double confidence) {

@@ -39,6 +39,20 @@ double median(std::span<const double> samples);
 /// \pre there is a sample, 0 <= fraction <= 1
 double quantile(std::span<const double> samples, double fraction);
 
+/// The mean of what is left when this share of the samples is dropped at each end.
+/// \pre there is a sample, 0 <= share < 0.5
+double trimmed_mean(std::span<const double> samples, double share);
+
+/// The standard deviation that a sample estimates; 0 with fewer than two.
+double standard_deviation(std::span<const double> samples);
+
+/// The standard deviation of a normal distribution with the same median absolute deviation. Outliers do not count.
+/// \pre there is a sample
+double robust_deviation(std::span<const double> samples);
+
+/// The correlation of each sample with the next; 0 with fewer than three or if all are equal.
+double autocorrelation(std::span<const double> samples);
+
 /// The median, with the percentile bootstrap interval (Efron and Tibshirani 1993, chapter 13).
 /// \pre there is a sample
 Estimate median_estimate(std::span<const double> samples, const Bootstrap& bootstrap = {});
@@ -47,6 +61,15 @@ Estimate median_estimate(std::span<const double> samples, const Bootstrap& boots
 /// \pre there is a sample in each and the denominators are positive
 Estimate ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
                           const Bootstrap& bootstrap = {});
+
+/// The trimmed mean with its percentile bootstrap interval, which covers well with heavy tails and few samples
+/// (Wilcox 2017, "Introduction to Robust Estimation and Hypothesis Testing", section 4.4).
+/// \pre as for `trimmed_mean`
+Estimate trimmed_mean_estimate(std::span<const double> samples, double share, const Bootstrap& bootstrap = {});
+
+/// The share of trials that were hits, with the interval of Clopper and Pearson (1934).
+/// \pre there is a trial
+Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence = 0.95);
 
 /// A straight line through measured points.
 struct LineFit {

@@ -76,6 +76,78 @@ TEST(Statistics, RatioOfMediansOfScaledSamplesIsTheScale) {
   EXPECT_LT(ratio.high, 16 * 1.05);
 }
 
+/// Student's t with two degrees of freedom: no variance.
+double heavy_tailed(std::mt19937_64& random) {
+  return std::student_t_distribution<double>(2)(random);
+}
+
+TEST(Statistics, TrimmedMeanDropsItsShareAtEachEnd) {
+  // scipy.stats.trim_mean([1, 2, 3, 4, 5, 6, 7, 8, 9, 100], 0.2) is 5.5
+  EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{100, 2, 3, 4, 5, 6, 7, 8, 9, 1}, 0.2), 5.5);
+  EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{1, 2, 6}, 0), 3);
+  EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{1, 2, 6, 7}, 0.2), 4);
+}
+
+TEST(Statistics, DeviationsOfANormalSampleAreThatOfItsDistribution) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal(10, 2);
+  std::vector<double> samples(4000);
+  for (double& sample : samples) sample = normal(random);
+  EXPECT_NEAR(bench::standard_deviation(samples), 2, 0.1);
+  EXPECT_NEAR(bench::robust_deviation(samples), 2, 0.1);
+  EXPECT_NEAR(bench::autocorrelation(samples), 0, 0.05);
+  samples[7] = 1e6;
+  EXPECT_GT(bench::standard_deviation(samples), 1000);
+  EXPECT_NEAR(bench::robust_deviation(samples), 2, 0.1);
+}
+
+TEST(Statistics, AutocorrelationOfAnAutoregressiveSeriesIsItsCoefficient) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  std::vector<double> samples(4000);
+  double last = 0;
+  for (double& sample : samples) sample = last = 0.6 * last + normal(random);
+  EXPECT_NEAR(bench::autocorrelation(samples), 0.6, 0.05);
+}
+
+TEST(Statistics, IntervalOfTheTrimmedMeanCoversTheCenterOfHeavyTailsAboutAsOftenAsItSays) {
+  std::mt19937_64 random(5);
+  for (const std::size_t count : {20, 60})
+    for (const double confidence : {0.95, 0.98}) {
+      int covered = 0;
+      constexpr int trials = 400;
+      for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> samples(count);
+        for (double& sample : samples) sample = heavy_tailed(random);
+        const auto estimate = bench::trimmed_mean_estimate(samples, 0.2, {.confidence = confidence, .resamples = 500});
+        covered += estimate.low <= 0 && 0 <= estimate.high;
+      }
+      EXPECT_GE(covered, trials * (confidence - 0.03)) << count << " samples";
+      EXPECT_LE(covered, trials * std::min(1.0, confidence + 0.03)) << count << " samples";
+    }
+}
+
+TEST(Statistics, OneOutlierHardlyMovesTheIntervalOfTheTrimmedMean) {
+  std::vector<double> samples(20);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<double>(i % 5);
+  samples[0] = 1e9;
+  const bench::Estimate estimate = bench::trimmed_mean_estimate(samples, 0.2);
+  EXPECT_GT(estimate.low, 1);
+  EXPECT_LT(estimate.high, 3.5);
+}
+
+TEST(Statistics, SharesHaveTheIntervalOfClopperAndPearson) {
+  // scipy.stats.binomtest(k, 200).proportion_ci(): (0.0012133, 0.0356547) for k = 2, (0, 0.0182753) for k = 0
+  const bench::Estimate two = bench::share_of(2, 200), none = bench::share_of(0, 200), all = bench::share_of(200, 200);
+  EXPECT_NEAR(two.value, 0.01, 1e-12);
+  EXPECT_NEAR(two.low, 0.0012133, 1e-7);
+  EXPECT_NEAR(two.high, 0.0356547, 1e-7);
+  EXPECT_EQ(none.low, 0);
+  EXPECT_NEAR(none.high, 0.0182753, 1e-7);
+  EXPECT_NEAR(all.low, 1 - none.high, 1e-9);
+  EXPECT_EQ(all.high, 1);
+}
+
 TEST(Regression, FitsAnscombesFirstSetAsRDoes) {
   // Anscombe 1973. R: summary(lm(y1 ~ x1, anscombe)), confint(lm(y1 ~ x1, anscombe))
   const std::vector<double> x = {10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
