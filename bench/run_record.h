@@ -43,6 +43,8 @@ struct RunRecord {
   Environment environment;
   MeshCounts counts;
   StageSeconds seconds;
+  StageWork work;    ///< of ccdt; nothing but zeros of other meshers and of older programs
+  Work remesh_work;  ///< of the surface; see `remesh_seconds`
   double read_seconds = 0, write_seconds = 0;
   double remesh_seconds = 0;  ///< of the surface, before the mesher got it; not in `seconds.mesh`
   std::uint64_t peak_rss_bytes = 0;

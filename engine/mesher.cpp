@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/base/count_work.h"
 #include "engine/base/stopwatch.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
@@ -17,11 +18,37 @@
 namespace ccdt {
 namespace {
 
-/// Runs a stage, whose wall-clock seconds are added to a figure.
+/// What the stages cost.
+struct StageCosts {
+  StageSeconds seconds;
+  StageWork work;
+};
+
+/// A stage, by its time and its work.
+struct StageName {
+  double StageSeconds::*seconds;
+  Work StageWork::*work;
+};
+
+namespace stage {
+constexpr StageName plc = {&StageSeconds::plc, &StageWork::plc};
+constexpr StageName protect = {&StageSeconds::protect, &StageWork::protect};
+constexpr StageName facets = {&StageSeconds::facets, &StageWork::facets};
+constexpr StageName lattice = {&StageSeconds::lattice, &StageWork::lattice};
+constexpr StageName delaunay = {&StageSeconds::delaunay, &StageWork::delaunay};
+constexpr StageName face_check = {&StageSeconds::face_check, &StageWork::face_check};
+constexpr StageName front = {&StageSeconds::front, &StageWork::front};
+constexpr StageName label = {&StageSeconds::label, &StageWork::label};
+constexpr StageName finish = {&StageSeconds::finish, &StageWork::finish};
+constexpr StageName improve = {&StageSeconds::improve, &StageWork::improve};
+}  // namespace stage
+
+/// Runs a stage, whose wall-clock seconds and work are added to its costs.
 template <class Stage>
-auto timed(double& seconds, const Stage& stage) {
-  const Stopwatch watch(seconds);
-  return stage();
+auto measured(StageCosts& costs, const StageName& name, const Stage& run) {
+  const Stopwatch watch(costs.seconds.*name.seconds);
+  const WorkScope scope(costs.work.*name.work);
+  return run();
 }
 
 BackgroundSizes in_grid_units(BackgroundSizes background, const numbers::DyadicGrid& grid) {
@@ -79,8 +106,8 @@ struct Tetrahedralization {
 
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and the mesh of what they enclose.
 void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
-               const Progress& progress, StageSeconds& s, Tetrahedralization& t) {
-  std::vector<std::uint32_t> codes = timed(s.face_check, [&] {
+               const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
+  std::vector<std::uint32_t> codes = measured(costs, stage::face_check, [&] {
     std::vector<std::uint32_t> found = front::find_delaunay_faces(facets, delaunay);
     if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
       found = front::find_delaunay_faces(facets, delaunay);
@@ -90,7 +117,7 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
   t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, delaunay::no_neighbor));
   if (!options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
 
-  const front::FrontResult front = timed(s.front, [&] {
+  const front::FrontResult front = measured(costs, stage::front, [&] {
     return front::advance_front({t.plc, facets, codes, delaunay},
                                 {options.locator, options.grid_scale, options.face_protection}, progress);
   });
@@ -100,26 +127,28 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
   t.counts.front_faces = front.undelaunay_faces;
 
   const label::CellLabels labels =
-      timed(s.label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
+      measured(costs, stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   t.stuck = labels.stuck;
   if (t.stuck) return;
-  t.mesh = timed(s.label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
-  t.stuck = timed(s.finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
+  t.mesh =
+      measured(costs, stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  t.stuck = measured(costs, stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
   if (t.stuck) return;
-  t.facet_of_face = timed(s.finish, [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
+  t.facet_of_face =
+      measured(costs, stage::finish, [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
 }
 
 /// All stages but improvement.
 Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness,
-                                  const Progress& progress, StageSeconds& s) {
+                                  const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
-  t.plc = timed(s.plc, [&] { return plc::build_plc(input, {flatness}, progress); });
+  t.plc = measured(costs, stage::plc, [&] { return plc::build_plc(input, {flatness}, progress); });
   // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
   // whatever the method is. With another method it is there for the sake of protection alone.
   const bool stays = options.delaunay == DelaunayMethod::insert;
-  delaunay::Delaunay delaunay =
-      timed(stays ? s.delaunay : s.protect, [&] { return delaunay::build_delaunay(t.plc.vertices, progress); });
-  protection::ProtectedDelaunay surface = timed(s.protect, [&] {
+  delaunay::Delaunay delaunay = measured(costs, stays ? stage::delaunay : stage::protect,
+                                         [&] { return delaunay::build_delaunay(t.plc.vertices, progress); });
+  protection::ProtectedDelaunay surface = measured(costs, stage::protect, [&] {
     return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay)), options.protection,
                                      progress);
   });
@@ -128,16 +157,17 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size();
   t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
 
-  facets::FacetMesh facets =
-      timed(s.facets, [&] { return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
+  facets::FacetMesh facets = measured(
+      costs, stage::facets, [&] { return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
   std::vector<Point3> points;
   if (options.lattice != Lattice::none)
-    points = timed(s.lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
-  delaunay = timed(s.delaunay, [&] { return add_points(points, std::move(surface), options, progress); });
+    points = measured(costs, stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
+  delaunay =
+      measured(costs, stage::delaunay, [&] { return add_points(points, std::move(surface), options, progress); });
   t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
   t.counts.dropped_interior_vertices = points.size() - t.counts.interior_vertices;
 
-  constrain(delaunay, std::move(facets), options, progress, s, t);
+  constrain(delaunay, std::move(facets), options, progress, costs, t);
   t.points = points_of(delaunay);
   return t;
 }
@@ -149,29 +179,30 @@ Improvement improvement_of(const MeshOptions& options) {
 }
 
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  StageSeconds s;
-  Tetrahedralization t = tetrahedralize(input, options, options.flatness, progress, s);
+  StageCosts costs;
+  Tetrahedralization t = tetrahedralize(input, options, options.flatness, progress, costs);
   // Only a facet that is flat within the tolerance, but not exactly, makes the front stick: the theorem on protected
   // edges speaks of exact facets. Taken as it is, the surface costs more Steiner vertices, but then its
   // tetrahedralization exists.
-  if (t.stuck && options.flatness != 0) t = tetrahedralize(input, options, 0, progress, s);
+  if (t.stuck && options.flatness != 0) t = tetrahedralize(input, options, 0, progress, costs);
   if (t.stuck) throw MeshError(*t.stuck);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
   if (improve.improvement != Improvement::none) {
-    t.counts.improve = timed(s.improve, [&] {
+    t.counts.improve = measured(costs, stage::improve, [&] {
       return improve::improve_mesh({t.plc, t.chains, std::move(t.facet_of_face), t.first_interior}, improve, t.points,
                                    t.mesh, progress);
     });
     t.counts.interior_vertices = t.points.size() - t.first_interior;
   }
-  t.mesh.vertices = timed(s.finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
+  t.mesh.vertices = measured(costs, stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
+  StageSeconds& s = costs.seconds;
   s.mesh =
       s.plc + s.protect + s.facets + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.finish + s.improve;
-  return {std::move(t.mesh), std::move(t.counts), s, t.plc.largest_rounding};
+  return {std::move(t.mesh), std::move(t.counts), s, costs.work, t.plc.largest_rounding};
 }
 
 }  // namespace ccdt

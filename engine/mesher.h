@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "engine/base/progress.h"
+#include "engine/base/work.h"
 #include "engine/delaunay/options.h"
 #include "engine/improve/counts.h"
 #include "engine/improve/options.h"
@@ -55,6 +56,11 @@ struct StageSeconds {
   double mesh = 0;  ///< meshing alone: all of the above
 };
 
+/// What each stage did; names as in the `ccdt.run/1` schema.
+struct StageWork {
+  Work plc, protect, facets, lattice, delaunay, face_check, front, label, finish, improve;
+};
+
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh
   std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
@@ -74,6 +80,7 @@ struct MeshResult {
   TetMesh mesh;
   MeshCounts counts;
   StageSeconds seconds;
+  StageWork work;
   double largest_rounding = 0;  ///< largest change of an input coordinate, in the units of the input
 };
 

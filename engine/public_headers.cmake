@@ -5,6 +5,7 @@ set(public_headers
   base/errors.h
   base/point.h
   base/progress.h
+  base/work.h
   delaunay/options.h
   improve/counts.h
   improve/options.h

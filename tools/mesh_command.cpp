@@ -6,6 +6,7 @@
 #include "bench/fingerprint.h"
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
+#include "engine/base/count_work.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
@@ -71,6 +72,7 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
 InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progress& progress,
                   bench::RunRecord& record) {
   const Stopwatch watch(record.remesh_seconds);
+  const WorkScope scope(record.remesh_work);
   InputPlc surface = surface::remesh_surface(input,
                                              {.edge_length = command.options.edge_length,
                                               .sharp_angle = command.sharp_angle,
@@ -120,6 +122,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   record.peak_rss_bytes = bench::peak_rss_bytes();  // of the mesher, not of what measures it
   record.counts = run.result.counts;
   record.seconds = run.result.seconds;
+  record.work = run.result.work;
   record.largest_rounding = run.result.largest_rounding;
   record.mesher_settings = std::move(run.settings);
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());

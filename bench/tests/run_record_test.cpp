@@ -25,6 +25,9 @@ bench::RunRecord example() {
   record.counts = {10, 3, 1, 30, 12, 2, 3, {2, 1}, 4};
   record.seconds.delaunay = 0.5;
   record.seconds.mesh = 0.75;
+  record.work.delaunay.cells_created = 17;
+  record.work.delaunay.largest_cavity = 9;
+  record.remesh_work.exact_evaluations = 3;
   record.read_seconds = 0.125;
   record.peak_rss_bytes = 1 << 20;
   record.quality.r = {1, 1.5, 1.25, 3, std::numeric_limits<double>::infinity(), {{1, 2, 3}, {29, 1}}};
@@ -116,6 +119,26 @@ TEST(RunRecord, OfOlderProgramsMayLackTheCountsOfSplits) {
   json["counts"].erase("splits_by_level");
   json["counts"].erase("dropped_interior_vertices");
   EXPECT_TRUE(bench::run_record_from_json(json.dump()).counts.splits_by_level.empty());
+}
+
+TEST(RunRecord, HasTheWorkOfEachStageThatIsNotZero) {
+  const bench::RunRecord record = example();
+  const Json json = Json::parse(bench::to_json(record));
+  EXPECT_EQ(json["work"], Json::parse(R"({"delaunay": {"cells_created": 17, "largest_cavity": 9},
+                                          "remesh": {"exact_evaluations": 3}})"));
+  const bench::RunRecord back = bench::run_record_from_json(json.dump());
+  EXPECT_EQ(back.work.delaunay, record.work.delaunay);
+  EXPECT_EQ(back.work.front, Work());
+  EXPECT_EQ(back.remesh_work, record.remesh_work);
+}
+
+TEST(RunRecord, OfOtherMeshersHasNoWork) {
+  bench::RunRecord record = example();
+  record.work = {};
+  record.remesh_work = {};
+  const Json json = Json::parse(bench::to_json(record));
+  EXPECT_FALSE(json.contains("work"));
+  EXPECT_EQ(bench::run_record_from_json(json.dump()).work.delaunay, Work());
 }
 
 TEST(RunRecord, OfOlderProgramsMayLackTheRatiosOfOtherTools) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/numbers/predicates.h"
@@ -39,6 +40,7 @@ std::vector<std::uint32_t> insertion_order(std::span<const Point3> points) {
 /// The tetrahedron of vertices 0 to 3 with its four ghosts.
 void make_first_cells(Delaunay& d) {
   d.cells.assign(5, {});
+  work_done.cells_created += 5;
   d.cells[0].vertices = {0, 1, 2, 3};
   for (std::uint32_t f = 0; f < 4; ++f) {
     // From outside the face is seen the other way round.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/base/box.h"
+#include "engine/base/count_work.h"
 #include "engine/base/morton.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/filters.h"
@@ -81,7 +82,9 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start) {
   p_ = d_.point(v);
   mark_.resize(d_.cells.size(), Mark::unknown);
   if (local_.size() < d_.vertices.size() + 1) local_.resize(d_.vertices.capacity() + 1, no_local);
+  const unsigned turn = turn_;
   const std::uint32_t first = walk(p_, start);
+  work_done.walk_steps += turn_ - turn;
   for (const std::uint32_t corner : d_.cells[first].vertices) {
     if (corner != ghost_vertex && d_.point(corner) == p_) {
       twin_ = corner;
@@ -89,6 +92,10 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start) {
     }
   }
   spread(first);
+  // Each cell of the cavity but the first, and each one around it, was tested once.
+  work_done.cells_tested += cavity_.size + outside_.size - 1;
+  work_done.largest_cavity = std::max<std::uint64_t>(work_done.largest_cavity, cavity_.size);
+  ++work_done.insertions;
   return true;
 }
 
@@ -130,10 +137,14 @@ std::uint32_t Insertion::fill_cavity() {
   ++insertions_;
   choose_places();
   number_border_vertices();
-  if (border_vertices_.size() <= table_side)
+  if (border_vertices_.size() <= table_side) {
     connect_by_table();
-  else
+  } else {
     connect_by_search();
+    ++work_done.large_cavities;
+  }
+  work_done.cells_created += border_.size;
+  work_done.cells_destroyed += cavity_.size;
   const std::uint32_t some = places_[0];
   d_.vertices[v_].cell = some;
   for (const std::uint32_t u : border_vertices_) local_[u + 1] = no_local;

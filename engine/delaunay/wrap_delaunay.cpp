@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
@@ -247,6 +248,7 @@ class Wrap {
       advance();
     }
     add_ghosts(cells_, postponed_);
+    work_done.cells_created += cells_.size();
     return std::move(cells_);
   }
 

@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdlib>
 
+#include "engine/base/count_work.h"
 #include "engine/numbers/filters.h"
 
 namespace ccdt::numbers {
@@ -106,18 +107,41 @@ int insphere_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 4>& m)
   return (low_digit(second) | low_digit(first)) != 0 ? 1 : 0;
 }
 
+void count_narrow_evaluation() {
+  ++work_done.narrow_evaluations;
+  ++work_done.exact_evaluations;
+}
+
+void count_wide_evaluation() {
+  ++work_done.wide_evaluations;
+  ++work_done.exact_evaluations;
+}
+
+void count_tie() {
+  ++work_done.perturbed_ties;
+  ++work_done.exact_evaluations;
+}
+
 int exact_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Differences<3> m = shifted_differences<3>({&b, &c, &d}, a);
-  if (m.bits <= 20) return sign_of(determinant3<std::int64_t, std::int64_t>(m.row));
-  if (m.bits <= 41) return sign_of(determinant3<Int128, Int128>(m.row));
+  if (m.bits <= 41) {
+    count_narrow_evaluation();
+    return m.bits <= 20 ? sign_of(determinant3<std::int64_t, std::int64_t>(m.row))
+                        : sign_of(determinant3<Int128, Int128>(m.row));
+  }
+  count_wide_evaluation();
   return sign_of(determinant3<WideInt<256>, WideInt<256>>(m.row));
 }
 
 int exact_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
   const Differences<4> m = shifted_differences<4>({&a, &b, &c, &d}, e);
-  if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
-  if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
-  if (m.bits <= 40) return insphere_sign_in_digits(m.row);
+  if (m.bits <= 40) {
+    count_narrow_evaluation();
+    if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
+    if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
+    return insphere_sign_in_digits(m.row);
+  }
+  count_wide_evaluation();
   if (m.bits <= 49) return insphere_sign<Int128, WideInt<256>, WideInt<256>>(m.row);
   return insphere_sign<Int128, WideInt<512>, WideInt<512>>(m.row);
 }
@@ -155,11 +179,13 @@ int first_nonzero(const std::array<std::uint32_t, n>& ranks, const Coefficient& 
 
 int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   if (const Sign sign = orient3d_filter(a, b, c, d); sign != Sign::unknown) return static_cast<int>(sign);
+  ++work_done.orient3d_filter_failures;
   return exact_orient3d(a, b, c, d);
 }
 
 int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
   if (const Sign sign = insphere_filter(a, b, c, d, e); sign != Sign::unknown) return static_cast<int>(sign);
+  ++work_done.insphere_filter_failures;
   return exact_insphere(a, b, c, d, e);
 }
 
@@ -169,6 +195,7 @@ int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                        const std::array<std::uint32_t, 5>& ranks) {
   if (const int sign = insphere(a, b, c, d, e); sign != 0) return sign;
+  count_tie();
   return first_nonzero(ranks, [&](std::size_t i) {
     return i < 4 ? orient3d_with({&a, &b, &c, &d}, i, e) : -orient3d(a, b, c, d);
   });
@@ -177,6 +204,7 @@ int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const 
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
                        const std::array<std::uint32_t, 4>& ranks) {
   if (const int sign = insphere(a, b, c, apex, d); sign != 0) return sign;
+  count_tie();
   return first_nonzero(ranks, [&](std::size_t i) {
     return i < 3 ? orient3d_with({&a, &b, &c, &apex}, i, d) : -orient3d(a, b, c, apex);
   });
@@ -186,9 +214,11 @@ int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const P
                       const Point3& c) {
   if (const Sign sign = orient3d_centroid_filter(p, q, r, a, b, c); sign != Sign::unknown)
     return static_cast<int>(sign);
+  ++work_done.centroid_filter_failures;
   const int sa = orient3d(p, q, r, a), sb = orient3d(p, q, r, b), sc = orient3d(p, q, r, c);
   if (sa >= 0 && sb >= 0 && sc >= 0) return sa + sb + sc > 0 ? 1 : 0;
   if (sa <= 0 && sb <= 0 && sc <= 0) return -1;
+  count_wide_evaluation();
   const WideInt<256> va = signed_volume(p, q, r, a), vb = signed_volume(p, q, r, b), vc = signed_volume(p, q, r, c);
   // The centroid is moved towards b first, then, infinitely less, towards c.
   if (const int sign = sign_of(WideInt<256>(va + vb + vc)); sign != 0) return sign;
