@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 the result failed a check, 2 usage, 3 bad input or a file cannot be read or\n"
-        "written, 4 a limit (time, memory, subdivision) was reached.\n\n"
+        "written, 4 a limit (time, memory, subdivision) was reached, 5 undecided.\n\n"
         "Example: mesh a part and prove the mesh right\n"
         "  ccdt mesh part.stl -o part.vtu && ccdt verify part.stl part.vtu\n");
     add_model_command(app, exit_code);
@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     add_verify_command(app, exit_code);
     add_reproduce_command(app, exit_code);
     add_sweep_command(app, exit_code);
+    add_gate_command(app, exit_code);
     add_report_command(app, exit_code);
     try {
       app.parse(argc, argv);

@@ -49,8 +49,12 @@ cases::OtherIdentity policy_of(const SweepCommand& command) {
   return command.mixed ? cases::OtherIdentity::mixed : cases::OtherIdentity::refuse;
 }
 
+std::filesystem::path program_of(const SweepCommand& command) {
+  return command.program.empty() ? own_program() : command.program;
+}
+
 cases::RunnerSettings settings_of(const SweepCommand& command, const PreparedSweep& sweep) {
-  return {.program = own_program(),
+  return {.program = program_of(command),
           .folder = sweep.folder,
           .identities = sweep.identities,
           .seed = sweep.seed,
@@ -104,7 +108,7 @@ KnownSweep look_at(const SweepCommand& command) {
   if (std::filesystem::exists(sweep::sweep_file(known.sweep.folder)) && !command.refresh)
     known.sweep.identities = sweep::read_sweep(known.sweep.folder).identities;
   else
-    known.sweep.identities = {cases::identity_of(spec.meshers, own_program())};
+    known.sweep.identities = {cases::identity_of(spec.meshers, program_of(command))};
   cases::Runner runner(settings_of(command, known.sweep));
   known.measured = identify(runner, known.sweep.cases);
   return known;
@@ -199,7 +203,7 @@ PreparedSweep prepare_sweep(const SweepCommand& command) {
   sweep.seed = spec.seed;
   sweep.cases = sweep::expand(spec, sweep.folder, rules);
   sweep.identities =
-      cases::accepted_identities(file, cases::identity_of(spec.meshers, own_program()), policy_of(command));
+      cases::accepted_identities(file, cases::identity_of(spec.meshers, program_of(command)), policy_of(command));
   std::filesystem::create_directories(sweep.folder);
   ProgressBar bar;
   sweep::write_models(sweep.cases, command.refresh, bar.progress());

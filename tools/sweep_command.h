@@ -24,6 +24,7 @@ struct ClusterOptions {
 /// What the user has asked for.
 struct SweepCommand {
   std::string spec, folder;
+  std::filesystem::path program = {};  ///< the `ccdt` that is run; empty: this one
   std::vector<std::string> inputs;
   int jobs = 1;
   bool retry_failed = false, refresh = false, mixed = false;

@@ -54,7 +54,13 @@ Judgment judgment_of(const std::vector<JudgedFigure>& figures) {
     return std::ranges::any_of(figures, [&](const JudgedFigure& figure) { return figure.verdict == judgment; });
   };
   if (has(Judgment::worse)) return Judgment::worse;
-  if (!has(Judgment::passed) && !has(Judgment::undecided)) return Judgment::incomparable;
+  // That both ran says little where nothing of what they did can be compared.
+  const bool is_compared = std::ranges::any_of(figures, [&](const JudgedFigure& figure) {
+    const bool is_end = figure.name == "status" || figure.name == "exit_codes";
+    return figure.verdict == Judgment::undecided ||
+           (figure.verdict == Judgment::passed && !(is_end && has(Judgment::incomparable)));
+  });
+  if (!is_compared) return Judgment::incomparable;
   return has(Judgment::undecided) ? Judgment::undecided : Judgment::passed;
 }
 

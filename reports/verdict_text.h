@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "bench/gate/verdict.h"
+
+namespace ccdt::reports {
+
+/// A verdict as a terminal shows it: the verdict, then a line for each figure that is worse, undecided, better or new,
+/// the worst first, then the notes.
+///
+/// \param most_lines  of each kind of figure; the rest is counted
+std::string to_terminal(const gate::Verdict& verdict, std::size_t most_lines = 40);
+
+/// The same in Markdown, with all figures that are worse or undecided.
+std::string to_markdown(const gate::Verdict& verdict);
+
+}  // namespace ccdt::reports

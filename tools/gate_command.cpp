@@ -1,0 +1,254 @@
+#include "tools/gate_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "baselines/stop.h"
+#include "bench/gate/baseline.h"
+#include "bench/gate/compare.h"
+#include "engine/base/errors.h"
+#include "engine/io/files.h"
+#include "reports/verdict_text.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/stop_signals.h"
+
+namespace ccdt::tools {
+namespace {
+
+using gate::Judgment;
+using gate::Verdict;
+
+gate::Rules rules_of(const GateCommand& command) {
+  gate::Rules rules = command.rules.empty() ? gate::Rules() : gate::read_rules(command.rules);
+  if (!command.layers.empty()) rules.layers = {command.layers.begin(), command.layers.end()};
+  rules.shadow = rules.shadow || command.shadow;
+  return rules;
+}
+
+std::string names_of_cases(const gate::Recording& recording) {
+  constexpr std::size_t most_names = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_names, recording.cases.size()); ++i)
+    text += (i == 0 ? "'" : ", '") + recording.cases[i].name + "'";
+  return text + (recording.cases.size() > most_names ? ", ..." : "");
+}
+
+/// Says what of two recordings is not compared, and why.
+void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict& verdict) {
+  for (const gate::Recording* one : {&base, &head})
+    verdict.notes.insert(verdict.notes.end(), one->notes.begin(), one->notes.end());
+  if (verdict.figures.empty())
+    verdict.notes.push_back("nothing can be compared: the cases of the base are " + names_of_cases(base) +
+                            ", those of the head " + names_of_cases(head));
+  for (const gate::JudgedFigure& figure : verdict.figures)
+    if (figure.layer == gate::Layer::instructions && figure.verdict == Judgment::incomparable) {
+      verdict.notes.push_back("instruction counts are not compared: " + figure.words);
+      break;
+    }
+  const auto times = std::ranges::count_if(verdict.figures, [](const gate::JudgedFigure& figure) {
+    return figure.layer == gate::Layer::time && figure.verdict == Judgment::incomparable;
+  });
+  if (times > 0)
+    verdict.notes.push_back(std::to_string(times) +
+                            " times were recorded earlier and are not judged; measure them in turns: "
+                            "ccdt gate --base PROGRAM --head PROGRAM");
+}
+
+/// The commands of one call of hyperfine.
+GateResult compare_alone(const GateCommand& command, const gate::Rules& rules) {
+  GateResult result{{}, gate::read_recording(command.words[0])};
+  if (result.head.kind != gate::Source::hyperfine || result.head.cases.size() < 2)
+    throw CLI::RequiredError("--against");
+  result.verdict.base = result.head.cases.front().name;
+  result.verdict.head = command.words[0];
+  result.verdict.figures = gate::compare_commands(result.head, rules);
+  result.verdict.notes.push_back(
+      "the commands were measured one after the other, not in turns, and nothing was confirmed: what disturbed one of "
+      "them looks like a difference");
+  if (result.head.cases.size() > 2)
+    result.verdict.correction = "the confidence of each interval is raised for the number of commands (Bonferroni)";
+  return result;
+}
+
+GateResult compare_recorded(const GateCommand& command, const gate::Rules& rules) {
+  GateResult result{{}, gate::read_recording(command.words[0])};
+  const bool is_first = command.update && !std::filesystem::exists(command.against);
+  const gate::Recording base =
+      is_first ? gate::Recording{command.against, gate::Source::baseline} : gate::read_recording(command.against);
+  result.verdict.base = command.against;
+  result.verdict.head = command.words[0];
+  result.verdict.figures = gate::compare_recordings(base, result.head, rules);
+  if (!is_first) add_notes(base, result.head, result.verdict);
+  return result;
+}
+
+GateResult judge(const GateCommand& command, const gate::Rules& rules) {
+  if (command.measures()) return measure(command, rules);
+  return command.against.empty() ? compare_alone(command, rules) : compare_recorded(command, rules);
+}
+
+/// Adds to a file that others may have begun, as `$GITHUB_STEP_SUMMARY`.
+void append(const std::filesystem::path& file, const std::string& text) {
+  if (!std::filesystem::exists(file)) {
+    io::OutputFile output(file);
+    output << text;
+    output.commit();
+    return;
+  }
+  std::ofstream output(file, std::ios::app | std::ios::binary);
+  output << text << std::flush;
+  if (!output) throw OutputError("cannot be written to", io::place_in(file.string()), "choose another file");
+}
+
+void write_new_baseline(const GateCommand& command, const gate::Rules& rules, GateResult& result) {
+  const bool is_first = !std::filesystem::exists(command.against);
+  const gate::Baseline old = is_first ? gate::Baseline() : gate::read_baseline(command.against);
+  const gate::Baseline anew = gate::updated(old, result.head, rules, result.verdict.figures, command.reason);
+  gate::write_baseline(anew, command.against);
+  for (std::string& note : gate::history_notes(anew.history)) result.verdict.notes.push_back(std::move(note));
+}
+
+void add_history(const GateCommand& command, Verdict& verdict) {
+  if (command.against.empty() || std::filesystem::is_directory(command.against)) return;
+  const gate::Recording base = gate::read_recording(command.against);
+  if (base.kind != gate::Source::baseline) return;
+  for (std::string& note : gate::history_notes(gate::read_baseline(command.against).history))
+    verdict.notes.push_back(std::move(note));
+}
+
+ExitCode exit_code_for(Judgment judgment) {
+  switch (judgment) {
+    case Judgment::passed:
+      return done;
+    case Judgment::worse:
+      return failed_a_check;
+    case Judgment::undecided:
+      return undecided;
+    case Judgment::incomparable:
+      break;
+  }
+  return bad_input;
+}
+
+ExitCode run_gate(const GateCommand& command) {
+  const gate::Rules rules = rules_of(command);
+  if (!command.markdown.empty()) check_can_be_written(command.markdown);
+  if (!command.folder.empty()) std::filesystem::create_directories(command.folder);
+  GateResult result = judge(command, rules);
+  Verdict& verdict = result.verdict;
+  verdict.shadow = rules.shadow;
+  gate::conclude(verdict);
+  if (command.update)
+    write_new_baseline(command, rules, result);
+  else
+    add_history(command, verdict);
+  if (!command.folder.empty())
+    bench::write_json(to_json(verdict), std::filesystem::path(command.folder) / "verdict.json");
+  if (!command.markdown.empty()) append(command.markdown, reports::to_markdown(verdict));
+  std::fputs(reports::to_terminal(verdict).c_str(), stdout);
+  if (command.update) std::printf("\nThe baseline %s is what was found now.\n", command.against.c_str());
+  return command.update || verdict.shadow ? done : exit_code_for(verdict.verdict);
+}
+
+ExitCode run(const GateCommand& command) {
+  const StopSignals signals;
+  try {
+    return run_gate(command);
+  } catch (const baselines::Stopped&) {
+    return static_cast<ExitCode>(stopped_exit_code());
+  }
+}
+
+void require(bool holds, const std::string& option, const std::string& what) {
+  if (!holds) throw CLI::ValidationError(option, what);
+}
+
+/// Do the options fit together?
+void check(const GateCommand& command) {
+  const bool has_reason = command.reason.find_first_not_of(" \t\n") != std::string::npos;
+  require(!command.update || has_reason, "--reason", "a baseline is updated for a reason that its readers understand");
+  require(command.update || !has_reason, "--reason", "only --update has a reason");
+  require(!command.update || !command.against.empty(), "--update", "the baseline is the file of --against");
+  if (!command.measures()) {
+    require(command.words.size() == 1, "CURRENT", "give one recording, or --base and --head programs to measure");
+    require(command.sweep.empty() && !command.calibrate, "--sweep, --calibrate", "give the programs to measure");
+    return;
+  }
+  require(!command.folder.empty(), "-o,--output", "measurements need a folder");
+  require(command.sweep.empty() || command.words.empty(), "--sweep", "excludes arguments of the programs");
+  require(!command.sweep.empty() || !command.words.empty(), "--sweep", "give a spec, or arguments after --");
+  if (command.calibrate) return require(!command.base.empty(), "--base", "a calibration measures the base");
+  require(!command.head.empty(), "--head", "the program to judge is missing");
+  require(!command.base.empty() || !command.against.empty(), "--base", "give a base program, or --against a baseline");
+  require(command.against.empty() || !command.sweep.empty(), "--against", "a baseline is of the cases of a --sweep");
+}
+
+constexpr const char* footer =
+    "Is a program worse than another, or than a recording? There are three layers:\n\n"
+    "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks, exit codes: any change of what\n"
+    "                must stay the same fails, more work fails, less work passes; compared with a recording\n"
+    "  instructions  what callgrind counts in each stage; compared with a recording of the same CPU model and "
+    "libraries\n"
+    "  time          base and head run in turns on this host; a time that was recorded earlier is never judged\n\n"
+    "CURRENT and BASELINE are folders of `ccdt sweep`, reports of `ccdt mesh --report` or folders of them, JSON of\n"
+    "Google Benchmark (--benchmark_out) or of hyperfine (--export-json), or baselines (ccdt.baseline/1) that --update\n"
+    "wrote. The verdict goes to the terminal, to DIR/verdict.json (ccdt.verdict/1) and, in Markdown, to --markdown.\n\n"
+    "Exit codes: 0 passed, 1 worse, 3 not comparable, 5 undecided (too noisy); with --shadow all of these are 0.\n\n"
+    "Example: keep a baseline beside the source, and gate every change with it\n"
+    "  ccdt gate build/sweep --against gate/baseline.json --update --reason 'first baseline'\n"
+    "  ccdt gate build/sweep --against gate/baseline.json -o build/gate --markdown \"$GITHUB_STEP_SUMMARY\"\n"
+    "Example: all layers, over the cases of a sweep\n"
+    "  ccdt gate --base old/ccdt --head new/ccdt --sweep gate/cases.json -o build/gate\n"
+    "Example: two programs on Google Benchmark, or of any kind\n"
+    "  ccdt gate --base old/bench_x --head new/bench_x -o build/gate -- --benchmark_filter=Insert\n"
+    "  ccdt gate --base old/tool --head new/tool -o build/gate -- input.txt\n"
+    "Example: how noisy is this host?\n"
+    "  ccdt gate --base old/ccdt --sweep gate/cases.json --calibrate -o build/calibration\n"
+    "Example: rules (--rules) that ignore a figure, let another get 1% worse, and judge times from 3% on\n"
+    "  {\"schema\": \"ccdt.rules/1\",\n"
+    "   \"exact\": {\"ignore\": [\"counts.improve.*\"], \"tolerances\": {\"work.front.*\": 0.01}},\n"
+    "   \"time\": {\"relative\": 0.03, \"absolute_seconds\": 0.001}}\n";
+
+void add_measuring_options(CLI::App& verb, GateCommand& command) {
+  verb.add_option("--base", command.base, "program to compare with")->check(CLI::ExistingFile);
+  verb.add_option("--head", command.head, "program to judge")->check(CLI::ExistingFile);
+  verb.add_option("--sweep", command.sweep, "cases that are measured: a spec of `ccdt sweep`");
+  verb.add_option("--seed", command.seed, "of the order of the runs; another one in each call by default");
+  verb.add_flag("--calibrate", command.calibrate, "measure how noisy the base is; writes DIR/calibration.json");
+  verb.add_option("--calibration", command.calibration, "what --calibrate wrote: raises thresholds of noisy cases");
+}
+
+}  // namespace
+
+void add_gate_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<GateCommand>();
+  CLI::App* verb = app.add_subcommand("gate", "is a program worse than another, or than a recording?");
+  verb->add_option("CURRENT", command->words, "a recording to judge; or after -- arguments of the measured programs");
+  verb->add_option("--against", command->against, "the recording, or the baseline file, to compare with");
+  verb->add_option("--rules", command->rules, "what is gated, and thresholds (.json, schema ccdt.rules/1)");
+  verb->add_option_function<std::vector<std::string>>(
+          "--layers",
+          [command](const std::vector<std::string>& names) {
+            for (const std::string& name : names) command->layers.push_back(*value_of<gate::Layer>(name));
+          },
+          "only these layers: exact, instructions, time")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"exact", "instructions", "time"}));
+  verb->add_option("-o,--output", command->folder, "folder of verdict.json and of what is measured; created if needed");
+  verb->add_option("--markdown", command->markdown, "append the verdict to this file, as $GITHUB_STEP_SUMMARY");
+  verb->add_flag("--shadow", command->shadow, "report the verdict, but always pass");
+  verb->add_flag("--update", command->update, "make what is found the new baseline, the file of --against");
+  verb->add_option("--reason", command->reason, "why the baseline changes; is kept in it");
+  add_measuring_options(*verb, *command);
+  verb->footer(footer);
+  verb->callback([command, &exit_code] {
+    check(*command);
+    exit_code = run(*command);
+  });
+}
+
+}  // namespace ccdt::tools

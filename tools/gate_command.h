@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/gate/recording.h"
+#include "bench/gate/rules.h"
+#include "bench/gate/verdict.h"
+
+/// The parts of `ccdt gate`.
+namespace ccdt::tools {
+
+/// What the user has asked for.
+struct GateCommand {
+  std::vector<std::string> words;  ///< CURRENT, or the arguments of the programs that are measured
+  std::string against, rules, markdown, folder;
+  std::string base, head, sweep, calibration;  ///< programs and files
+  std::vector<gate::Layer> layers;             ///< instead of those of the rules; empty: no change
+  std::optional<std::uint64_t> seed;
+  bool shadow = false, update = false, calibrate = false;
+  std::string reason;
+
+  bool measures() const { return !base.empty() || !head.empty(); }
+};
+
+/// What was found, and what a new baseline is made of.
+struct GateResult {
+  gate::Verdict verdict;
+  gate::Recording head;
+};
+
+/// Measures the programs on this host, and compares them with each other or with the baseline.
+///
+/// \throw InputError          a program, the spec or the baseline cannot be read
+/// \throw baselines::Stopped  the user has stopped the program
+GateResult measure(const GateCommand& command, const gate::Rules& rules);
+
+}  // namespace ccdt::tools
