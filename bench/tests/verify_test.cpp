@@ -28,6 +28,40 @@ TEST(Verify, AnyRemovedTetrahedronIsFound) {
   }
 }
 
+/// With all boundary faces listed, marked as the input's facets are.
+MeshedInput cube_with_faces() {
+  MeshedInput m = cube();
+  m.input.triangle_markers.assign(m.input.triangles.size(), 7);
+  m.mesh.faces = m.input.triangles;
+  for (auto& face : m.mesh.faces)
+    for (std::uint32_t& v : face) v = vertex_at(m.mesh, m.input.vertices[v]);
+  m.mesh.face_markers.assign(m.mesh.faces.size(), 7);
+  return m;
+}
+
+TEST(Verify, ListedFacesAreTheBoundary) {
+  const MeshedInput whole = cube_with_faces();
+  expect_ok(whole);
+  MeshedInput m = whole;
+  m.mesh.faces.pop_back();
+  m.mesh.face_markers.pop_back();
+  expect_failure(m, "listed faces");
+  m = whole;
+  m.mesh.faces.back() = m.mesh.faces.front();
+  expect_failure(m, "listed faces");
+  m = whole;
+  std::swap(m.mesh.faces.back()[0], m.mesh.faces.front()[0]);
+  expect_failure(m, "listed faces");
+}
+
+TEST(Verify, AWrongMarkerOfAListedFaceIsFound) {
+  MeshedInput m = cube_with_faces();
+  m.mesh.face_markers[3] = 8;
+  expect_failure(m, "face markers");
+  m.input.triangle_markers.clear();
+  expect_ok(m);
+}
+
 TEST(Verify, ADuplicatedTetrahedronIsFound) {
   MeshedInput m = cube();
   m.mesh.tetrahedra.push_back(m.mesh.tetrahedra[20]);

@@ -10,6 +10,7 @@
 #include "bench/verify/edit_surface.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
+#include "bench/verify/listed_faces.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
@@ -341,6 +342,7 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
   checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
   checks.push_back(check_facets(surface, matches, regions));
   checks.push_back(check_boundary(topology, matches));
+  checks.push_back(check_face_markers(topology, surface, matches));
   check_domain(input, topology.mesh, surface, regions, assigned, result);
   if (options.delaunay == VerifyOptions::Delaunay::no) return;
   auto delaunay = check_delaunay(topology, matches.is_matched, largest_rounding(input, tolerances),
@@ -435,6 +437,7 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
   checks.push_back(check_shared_faces(topology));
   checks.push_back(check_distinct_vertices(topology));
   checks.push_back(check_used_vertices(topology));
+  checks.push_back(check_listed_faces(topology));
   if (options.surface == VerifyOptions::Surface::own)
     check_own_surface(input, topology, options, progress, result);
   else

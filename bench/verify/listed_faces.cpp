@@ -1,0 +1,60 @@
+#include "bench/verify/listed_faces.h"
+
+#include <unordered_map>
+
+#include "bench/verify/findings.h"
+
+namespace ccdt::verify {
+namespace {
+
+std::string described(const mesh::TetMesh& mesh, const Face& face) {
+  return "the face" + text(mesh.vertices, face);
+}
+
+}  // namespace
+
+Check check_listed_faces(const Topology& topology) {
+  const mesh::TetMesh& mesh = topology.mesh;
+  Check check{.name = "listed faces"};
+  if (mesh.faces.empty()) return check;
+  std::vector<bool> listed(topology.faces.size(), false);
+  check.checked = mesh.faces.size();
+  for (const Face& vertices : mesh.faces) {
+    const std::uint32_t face = find_face(topology, vertices);
+    if (face == none) {
+      fail(check, [&] { return described(mesh, vertices) + " is listed, but no tetrahedron has it"; });
+    } else if (listed[face]) {
+      fail(check, [&] { return described(mesh, vertices) + " is listed twice"; });
+    } else {
+      listed[face] = true;
+    }
+  }
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
+    if (listed[f] || !topology.on_boundary(f)) continue;
+    ++check.checked;
+    fail(check, [&] { return described(mesh, topology.faces[f]) + " is on the boundary, but not listed"; });
+  }
+  return check;
+}
+
+Check check_face_markers(const Topology& topology, const Surface& surface, const FacetMatches& matches) {
+  const mesh::TetMesh& mesh = topology.mesh;
+  Check check{.name = "face markers"};
+  if (mesh.face_markers.empty()) return check;
+  std::unordered_multimap<std::uint32_t, int> markers;  // by face
+  for (const MatchedFace& matched : matches.faces)
+    if (surface.marker[matched.piece] != 0) markers.emplace(matched.face, surface.marker[matched.piece]);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const auto [first, last] = markers.equal_range(find_face(topology, mesh.faces[i]));
+    if (first == last) continue;
+    ++check.checked;
+    if (std::any_of(first, last, [&](const auto& marker) { return marker.second == mesh.face_markers[i]; })) continue;
+    fail(check, [&, marker = first->second] {
+      return described(mesh, mesh.faces[i]) + " has the marker " + std::to_string(mesh.face_markers[i]) +
+             " and stands for a facet with the marker " + std::to_string(marker);
+    });
+  }
+  return check;
+}
+
+}  // namespace ccdt::verify
