@@ -42,16 +42,6 @@ std::string mesh_ending(const Case& asked) {
   return asked.mesh_ending.empty() ? ".vtu" : asked.mesh_ending;
 }
 
-/// `ccdt mesh` with everything but its program.
-std::vector<std::string> command_of(const RunPlace& place, const Case& asked, const std::string& mesh,
-                                    const std::string& report) {
-  const bool is_description = baselines::is_mesher_description(asked.mesher);
-  std::vector<std::string> command = {"mesh", name_in(place.folder, asked.input), "-o", mesh, "--report", report};
-  command.insert(command.end(), {"--mesher", is_description ? name_in(place.folder, asked.mesher) : asked.mesher});
-  command.insert(command.end(), asked.options.begin(), asked.options.end());
-  return command;
-}
-
 baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> command, const Scratch& scratch,
                               const baselines::Limits& limits) {
   command.insert(command.begin(), place.program.string());
@@ -107,6 +97,15 @@ void keep_mesh(const RunPlace& place, const MeasuredCase& measured, const Scratc
 
 }  // namespace
 
+std::vector<std::string> mesh_arguments(const std::filesystem::path& folder, const Case& asked, const std::string& mesh,
+                                        const std::string& report) {
+  const bool is_description = baselines::is_mesher_description(asked.mesher);
+  std::vector<std::string> command = {"mesh", name_in(folder, asked.input), "-o", mesh, "--report", report};
+  command.insert(command.end(), {"--mesher", is_description ? name_in(folder, asked.mesher) : asked.mesher});
+  command.insert(command.end(), asked.options.begin(), asked.options.end());
+  return command;
+}
+
 void run_next(const RunPlace& place, MeasuredCase& measured) {
   const Case& asked = measured.asked;
   const auto folder = std::filesystem::absolute(place.folder);
@@ -114,7 +113,7 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   const Scratch scratch(folder / "scratch" / std::filesystem::path(file).stem());
   const RunFiles files = files_of(asked, scratch);
   const auto report = scratch.file("record.json");
-  std::vector<std::string> command = command_of(place, asked, files.mesh.string(), report.string());
+  std::vector<std::string> command = mesh_arguments(place.folder, asked, files.mesh.string(), report.string());
   if (has_new_surface(asked)) command.insert(command.end(), {"--surface-output", files.input.string()});
 
   const baselines::ProcessResult child = call(place, std::move(command), scratch, asked.limits);
@@ -122,7 +121,7 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   record.case_id = measured.id;
   record.number = measured.runs;
   record.environment.jobs = place.jobs;
-  record.command = command_of(place, asked, "again" + mesh_ending(asked), "again.json");
+  record.command = mesh_arguments(place.folder, asked, "again" + mesh_ending(asked), "again.json");
   record.command.insert(record.command.begin(), "ccdt");
   if (asked.verify && record.status == baselines::RunStatus::ok) verify_run(place, measured, files, record);
   if (record.status == baselines::RunStatus::ok && !asked.mesh_ending.empty()) keep_mesh(place, measured, scratch);
@@ -136,7 +135,7 @@ void make_mesh_again(const RunPlace& place, const MeasuredCase& measured) {
   const Scratch scratch(std::filesystem::absolute(place.folder) / "scratch" / (measured.id + "-mesh"));
   const std::string mesh = scratch.file("mesh" + mesh_ending(asked)).string(),
                     report = scratch.file("record.json").string();
-  call(place, command_of(place, asked, mesh, report), scratch, asked.limits);
+  call(place, mesh_arguments(place.folder, asked, mesh, report), scratch, asked.limits);
   keep_mesh(place, measured, scratch);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "bench/cases/case.h"
 
@@ -13,6 +14,10 @@ struct RunPlace {
   std::filesystem::path folder;   ///< of all records; the child runs there
   int jobs = 1;                   ///< how many runs there are at the same time
 };
+
+/// The arguments of a `ccdt` that runs a case in this folder and writes these files.
+std::vector<std::string> mesh_arguments(const std::filesystem::path& folder, const Case& asked, const std::string& mesh,
+                                        const std::string& report);
 
 /// Makes the next run of a case in a child process, verifies the mesh if that is asked for and was not done for an
 /// equal mesh of this case, writes the record as runs/ID-NUMBER.json (whole or not at all), and adds it to the case.

@@ -19,23 +19,23 @@ namespace ccdt::gate {
 /// How noisy a case is: from pairs of runs of one program.
 struct CaseNoise {
   std::string case_name, figure;
-  double seconds = 0;              ///< median
-  double deviation = 0;            ///< standard deviation of log(second run / first run)
-  double robust_deviation = 0;     ///< the same from the median absolute deviation
-  double autocorrelation = 0;      ///< of consecutive log ratios
-  double noise_floor = 0;          ///< how far the interval of an unchanged program gets away from 1, in 99% of gates
-  int pairs_needed = 0;            ///< until an interval is as narrow as the rules want it
-  std::vector<double> log_ratios;  ///< of all pairs, in order
+  double seconds = 0;           ///< median
+  double deviation = 0;         ///< standard deviation of log(second run / first run)
+  double robust_deviation = 0;  ///< the same from the median absolute deviation
+  double autocorrelation = 0;   ///< of consecutive log ratios
+  double noise_floor = 0;       ///< log ratio below which the interval of an unchanged program begins, in 99% of gates
+  int pairs_needed = 0;         ///< until an interval is as narrow as the rules want it
+  std::optional<double> smallest_found = {};  ///< slowdown that a gate finds with 95% probability: 0.03 is 3%; none if
+                                              ///< it does not even find twice the time
+  std::vector<double> log_ratios;             ///< of all pairs, in order
 };
 
-/// What a whole gate does with programs of which nothing, or everything by one factor, has changed. Simulated with the
-/// measured pairs.
+/// What a whole gate does with an unchanged program. Simulated with the measured pairs; the intervals are those of
+/// Clopper and Pearson.
 struct GateRates {
-  int gates = 0;                   ///< simulated
-  bench::Estimate false_alarms;    ///< share, with its Clopper-Pearson interval
-  bench::Estimate undecided;       ///< share of unchanged programs
-  std::optional<double> smallest;  ///< slowdown of one case that is found in 95% of the gates, whichever case it
-                                   ///< is: 0.03 is 3%; none if not even the largest tried is
+  int gates = 0;                 ///< simulated
+  bench::Estimate false_alarms;  ///< share of gates
+  bench::Estimate undecided;     ///< share of gates
 };
 
 /// The noise of this host: schema ccdt.calibration/1.
@@ -70,6 +70,9 @@ SampleSet measure_noise(std::span<const TimedTarget> targets, int pairs, std::ui
 /// What follows from the pairs; program and identity are left empty.
 /// \throw TooFewSamples  says how many are needed
 Calibration calibrate(const SampleSet& samples, const Rules& rules);
+
+/// For people: each case's noise, the false-alarm rate of the whole gate, and the smallest slowdown that it finds.
+std::string to_text(const Calibration& calibration);
 
 /// Writes the file whole or not at all. \throw OutputError
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file);

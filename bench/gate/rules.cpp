@@ -24,7 +24,8 @@ inline constexpr auto fields<gate::InstructionRules> =
 
 template <>
 inline constexpr auto fields<gate::TimeRules> = std::tuple(
-    optional_field("cases", &gate::TimeRules::cases), optional_field("relative", &gate::TimeRules::relative),
+    optional_field("cases", &gate::TimeRules::cases), optional_field("figure", &gate::TimeRules::figure),
+    optional_field("relative", &gate::TimeRules::relative),
     optional_field("absolute_seconds", &gate::TimeRules::absolute_seconds),
     optional_field("confidence", &gate::TimeRules::confidence),
     optional_field("largest_noise", &gate::TimeRules::largest_noise),

@@ -43,8 +43,8 @@ struct TimedTarget {
   /// Seconds by case. Cases that were not asked for may be missing.
   /// \throw ProgramFailed
   /// \throw baselines::Stopped
-  std::function<std::map<std::string, double>(const RunRequest&)> run;
-  std::function<std::string(Side, const std::string& case_name)> command;  ///< that repeats one run
+  std::function<std::map<std::string, double>(const RunRequest&)> run = {};
+  std::function<std::string(Side, const std::string& case_name)> command = {};  ///< that repeats one run
 };
 
 /// Two programs, which may be the same.
@@ -68,6 +68,6 @@ TimedTarget benchmark_target(const Programs& programs, const std::vector<std::st
 
 /// Two programs of any kind, whose whole processes are timed. There is one case: the arguments.
 TimedTarget command_target(const Programs& programs, const std::vector<std::string>& arguments,
-                           const baselines::Limits& limits, const std::filesystem::path& folder);
+                           const baselines::Limits& limits);
 
 }  // namespace ccdt::gate

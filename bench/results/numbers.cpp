@@ -42,6 +42,10 @@ std::string with_interval(const bench::Estimate& e) {
          with_decimals(e.high, decimals) + "]";
 }
 
+std::string percent(double share) {
+  return rounded(100 * share) + "%";
+}
+
 std::string with_separators(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");

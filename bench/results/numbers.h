@@ -15,6 +15,9 @@ std::string rounded(double value, int digits = 3);
 /// An estimate with its interval, to as many digits as tell them apart: "1.02 [1.01, 1.03]".
 std::string with_interval(const bench::Estimate& estimate);
 
+/// 0.0312 as "3.12%".
+std::string percent(double share);
+
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t count);
 

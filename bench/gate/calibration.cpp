@@ -1,0 +1,264 @@
+#include "bench/gate/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "bench/gate/pair_statistics.h"
+#include "bench/json_fields.h"
+#include "bench/results/numbers.h"
+
+namespace ccdt::bench {
+
+template <>
+inline constexpr auto fields<Estimate> = std::tuple(field("value", &Estimate::value), field("low", &Estimate::low),
+                                                    field("high", &Estimate::high));
+
+template <>
+inline constexpr auto fields<gate::CaseNoise> = std::tuple(
+    field("case", &gate::CaseNoise::case_name), field("figure", &gate::CaseNoise::figure),
+    field("seconds", &gate::CaseNoise::seconds), field("deviation", &gate::CaseNoise::deviation),
+    field("robust_deviation", &gate::CaseNoise::robust_deviation),
+    field("autocorrelation", &gate::CaseNoise::autocorrelation), field("noise_floor", &gate::CaseNoise::noise_floor),
+    field("pairs_needed", &gate::CaseNoise::pairs_needed),
+    field_if_any("smallest_found", &gate::CaseNoise::smallest_found),
+    field("log_ratios", &gate::CaseNoise::log_ratios));
+
+template <>
+inline constexpr auto fields<gate::GateRates> = std::tuple(field("gates", &gate::GateRates::gates),
+                                                           field("false_alarms", &gate::GateRates::false_alarms),
+                                                           field("undecided", &gate::GateRates::undecided));
+
+template <>
+inline constexpr auto fields<gate::Calibration> = std::tuple(field("program", &gate::Calibration::program),
+                                                             field("identity", &gate::Calibration::identity),
+                                                             field("seed", &gate::Calibration::seed),
+                                                             field("rates", &gate::Calibration::rates),
+                                                             field("cases", &gate::Calibration::cases));
+
+}  // namespace ccdt::bench
+
+namespace ccdt::gate {
+namespace {
+
+constexpr bench::DocumentKind calibration_kind = {"ccdt.calibration/1", "not the calibration of a gate",
+                                                  "give the calibration.json that `ccdt gate --calibrate` wrote"};
+
+constexpr int simulated_resamples = 500;  ///< of a bootstrap in a simulated gate
+
+/// Draws log ratios as an unchanged program would have them: blocks of consecutive pairs, so that what lasts longer
+/// than a pair stays together (Künsch 1989). Base and head of a block change places at random: they are the same.
+class BlockDraw {
+ public:
+  BlockDraw(std::span<const double> measured, std::uint64_t seed)
+      : measured_(measured),
+        block_(static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(measured.size()))))),
+        random_(seed) {}
+
+  /// Adds to the drawn ones until there are so many.
+  void extend(std::vector<double>& drawn, std::size_t count, double shift) {
+    while (drawn.size() < count) {
+      const std::size_t begin = draw(measured_.size() - block_ + 1);
+      const double sign = draw(2) == 0 ? 1 : -1;
+      for (std::size_t i = begin; i < begin + block_ && drawn.size() < count; ++i)
+        drawn.push_back(sign * measured_[i] + shift);
+    }
+  }
+
+  std::uint64_t seed() { return random_(); }
+
+ private:
+  std::size_t draw(std::size_t count) { return static_cast<std::size_t>(random_() >> 32) * count >> 32; }
+
+  std::span<const double> measured_;
+  std::size_t block_;
+  std::mt19937_64 random_;
+};
+
+/// A case as a simulated gate knows it.
+struct SimulatedCase {
+  const CaseNoise& noise;
+  const TimeRules& rules;
+  double threshold = 0;
+};
+
+Look screen(const SimulatedCase& c, double shift, BlockDraw& draw) {
+  std::vector<double> drawn;
+  for (;;) {
+    draw.extend(drawn, static_cast<std::size_t>(next_look(static_cast<int>(drawn.size()), c.rules)), shift);
+    const Look look = look_at(drawn, c.threshold, c.rules, {c.rules.confidence, simulated_resamples, draw.seed()});
+    if (look.call != Call::open || static_cast<int>(drawn.size()) >= c.rules.at_most) return look;
+  }
+}
+
+Look confirm(const SimulatedCase& c, const Look& screening, int suspects, double shift, BlockDraw& draw) {
+  const bench::Bootstrap bootstrap =
+      bootstrap_for(confirmation_confidence(c.rules, suspects), draw.seed(), simulated_resamples);
+  std::vector<double> drawn;
+  for (;;) {
+    draw.extend(drawn, static_cast<std::size_t>(next_look(static_cast<int>(drawn.size()), c.rules)), shift);
+    const Look look = look_at(drawn, c.threshold, c.rules, bootstrap);
+    if (half_width(look.log_ratio) <= wanted_half_width(screening, c.rules) ||
+        static_cast<int>(drawn.size()) >= c.rules.at_most)
+      return look;
+  }
+}
+
+struct Counts {
+  int worse = 0, undecided = 0;  ///< gates
+};
+
+/// One gate with unchanged programs.
+void simulate_unchanged(std::span<const SimulatedCase> cases, std::span<BlockDraw> draws, Counts& counts) {
+  std::vector<std::pair<std::size_t, Look>> suspects;
+  bool worse = false, undecided = false;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Look look = screen(cases[i], 0, draws[i]);
+    if (look.call == Call::worse) suspects.emplace_back(i, look);
+    undecided = undecided || is_too_wide(look, cases[i].rules);
+  }
+  for (const auto& [i, screening] : suspects) {
+    const Look look = confirm(cases[i], screening, static_cast<int>(suspects.size()), 0, draws[i]);
+    worse = worse || look.call == Call::worse;
+    undecided = undecided || is_too_wide(look, cases[i].rules);
+  }
+  counts.worse += worse;
+  counts.undecided += !worse && undecided;
+}
+
+GateRates simulate_gates(std::span<const SimulatedCase> cases, std::uint64_t seed) {
+  constexpr int gates = 1000;
+  std::vector<BlockDraw> draws;
+  for (std::size_t i = 0; i < cases.size(); ++i) draws.emplace_back(cases[i].noise.log_ratios, seed + i);
+  Counts counts;
+  for (int i = 0; i < gates; ++i) simulate_unchanged(cases, draws, counts);
+  return {gates, bench::share_of(counts.worse, gates), bench::share_of(counts.undecided, gates)};
+}
+
+/// How often a slowdown of one case is found. The draws are the same for every slowdown.
+double share_found(const SimulatedCase& c, double slowdown, std::uint64_t seed) {
+  constexpr int gates = 400;
+  BlockDraw draw(c.noise.log_ratios, seed);
+  int found = 0;
+  for (int i = 0; i < gates; ++i) {
+    const Look screening = screen(c, std::log1p(slowdown), draw);
+    found += screening.call == Call::worse && confirm(c, screening, 1, std::log1p(slowdown), draw).call == Call::worse;
+  }
+  return static_cast<double>(found) / gates;
+}
+
+/// The smallest slowdown that is found with 95% probability, to 1/20 of it.
+std::optional<double> smallest_found(const SimulatedCase& c, std::uint64_t seed) {
+  constexpr double wanted = 0.95, precision = 1.05;
+  double low = std::expm1(c.threshold), high = 1;
+  if (share_found(c, high, seed) < wanted) return {};
+  while (high > precision * low) {
+    const double middle = std::sqrt(low * high);
+    (share_found(c, middle, seed) < wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+/// In 99% of the gates with an unchanged program, the interval begins below this.
+double noise_floor(const SimulatedCase& c, std::uint64_t seed) {
+  constexpr int gates = 400;
+  BlockDraw draw(c.noise.log_ratios, seed);
+  std::vector<double> lows;
+  for (int i = 0; i < gates; ++i) lows.push_back(screen(c, 0, draw).log_ratio.low);
+  return std::max(0.0, bench::quantile(lows, 0.99));
+}
+
+/// An interval narrows as the root of the number of pairs; half of `largest_noise` excludes either the threshold or the
+/// slowdown that is looked for. Pairs that resemble their neighbors say less.
+int pairs_needed(const CaseNoise& noise, const TimeRules& rules, std::uint64_t seed) {
+  const Look look = look_at(noise.log_ratios, 0, rules, bootstrap_for(rules.confidence, seed));
+  const double correlation = std::clamp(noise.autocorrelation, 0.0, 0.9);
+  const double pairs = static_cast<double>(noise.log_ratios.size()) *
+                       std::pow(half_width(look.log_ratio) / (rules.largest_noise / 2), 2) * (1 + correlation) /
+                       (1 - correlation);
+  return std::max(rules.at_least, static_cast<int>(std::ceil(std::min(pairs, 1e6))));
+}
+
+CaseNoise noise_of(const PairedSamples& samples, const TimeRules& rules, std::uint64_t seed) {
+  CaseNoise noise;
+  noise.case_name = samples.case_name;
+  noise.figure = samples.figure;
+  noise.log_ratios = log_ratios(samples.screening);
+  noise.seconds = bench::median(seconds_of(samples.screening, Side::base));
+  noise.deviation = bench::standard_deviation(noise.log_ratios);
+  noise.robust_deviation = bench::robust_deviation(noise.log_ratios);
+  noise.autocorrelation = bench::autocorrelation(noise.log_ratios);
+  noise.pairs_needed = pairs_needed(noise, rules, seed);
+  return noise;
+}
+
+/// A simulated gate draws from the measured pairs as many as a real one takes. It cannot know what fewer did not show.
+void require_enough(const CaseNoise& noise, const TimeRules& rules) {
+  const int needed = std::max(2 * rules.at_least, std::min(noise.pairs_needed, rules.at_most));
+  const auto there = static_cast<int>(noise.log_ratios.size());
+  if (there >= needed) return;
+  throw TooFewSamples("too few samples for a calibration: " + noise.case_name + " has " + std::to_string(there) +
+                          " pairs, and " + std::to_string(needed) + " are needed",
+                      needed, "measure at least " + std::to_string(needed) + " pairs of each case");
+}
+
+using results::percent;
+using results::rounded;
+
+std::string shares(const bench::Estimate& share) {
+  return percent(share.value) + " [" + percent(share.low) + ", " + percent(share.high) + "]";
+}
+
+}  // namespace
+
+const CaseNoise* find_noise(const Calibration& calibration, const std::string& case_name) {
+  const auto found = std::ranges::find(calibration.cases, case_name, &CaseNoise::case_name);
+  return found == calibration.cases.end() ? nullptr : &*found;
+}
+
+Calibration calibrate(const SampleSet& samples, const Rules& rules) {
+  Calibration calibration;
+  calibration.seed = samples.seed;
+  for (const PairedSamples& s : samples.cases)
+    calibration.cases.push_back(noise_of(s, time_rules_of(rules, s.case_name), samples.seed));
+  for (const CaseNoise& noise : calibration.cases) require_enough(noise, time_rules_of(rules, noise.case_name));
+
+  std::vector<SimulatedCase> simulated;
+  for (CaseNoise& noise : calibration.cases) {
+    SimulatedCase c = {noise, time_rules_of(rules, noise.case_name)};
+    c.threshold = threshold_of(c.rules, noise.seconds, 0);
+    noise.noise_floor = noise_floor(c, samples.seed);
+    c.threshold = std::max(c.threshold, noise.noise_floor);
+    noise.smallest_found = smallest_found(c, samples.seed);
+    simulated.push_back(c);
+  }
+  calibration.rates = simulate_gates(simulated, samples.seed);
+  return calibration;
+}
+
+std::string to_text(const Calibration& calibration) {
+  std::string text = "case: pairs, seconds, deviation (robust), noise floor, pairs needed, smallest slowdown found\n";
+  for (const CaseNoise& c : calibration.cases)
+    text += c.case_name + ": " + std::to_string(c.log_ratios.size()) + ", " + rounded(c.seconds) + ", " +
+            percent(c.deviation) + " (" + percent(c.robust_deviation) + "), " + percent(std::expm1(c.noise_floor)) +
+            ", " + std::to_string(c.pairs_needed) + ", " +
+            (c.smallest_found ? percent(*c.smallest_found) : "more than 100%") + "\n";
+  const GateRates& rates = calibration.rates;
+  text += "false alarms of the whole gate: " + shares(rates.false_alarms) + "; undecided: " + shares(rates.undecided) +
+          " (of " + std::to_string(rates.gates) + " simulated gates, with 95% intervals)\n";
+  return text;
+}
+
+void write_calibration(const Calibration& calibration, const std::filesystem::path& file) {
+  bench::Json json = {{"schema", calibration_kind.schema}};
+  json.update(bench::Json(calibration));
+  bench::write_json(json, file);
+}
+
+Calibration read_calibration(const std::filesystem::path& file) {
+  Calibration calibration;
+  bench::parse_document(file, calibration_kind, [&](const bench::Json& json) { json.get_to(calibration); });
+  return calibration;
+}
+
+}  // namespace ccdt::gate

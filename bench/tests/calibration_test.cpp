@@ -1,0 +1,115 @@
+#include "bench/gate/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "baselines/external_program.h"
+#include "bench/gate/time_layer.h"
+
+namespace ccdt::gate {
+namespace {
+
+/// Pairs of an unchanged program whose log ratios have this deviation.
+PairedSamples noise(const std::string& name, double deviation, std::size_t pairs, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0, deviation);
+  PairedSamples samples;
+  samples.case_name = name;
+  samples.figure = "seconds.mesh";
+  for (std::size_t i = 0; i < pairs; ++i) samples.screening.push_back({0.1, 0.1 * std::exp(normal(random))});
+  return samples;
+}
+
+TEST(Calibration, KnowsTheNoiseOfEachCase) {
+  const Calibration c = calibrate({1, {noise("quiet", 0.01, 100, 1), noise("loud", 0.04, 200, 2)}}, {});
+  const CaseNoise& quiet = *find_noise(c, "quiet");
+  const CaseNoise& loud = *find_noise(c, "loud");
+  EXPECT_EQ(find_noise(c, "other"), nullptr);
+  EXPECT_NEAR(quiet.deviation, 0.01, 0.002);
+  EXPECT_NEAR(quiet.robust_deviation, 0.01, 0.003);
+  EXPECT_NEAR(loud.deviation, 0.04, 0.008);
+  EXPECT_NEAR(quiet.seconds, 0.1, 1e-9);
+  EXPECT_EQ(quiet.pairs_needed, 20);
+  EXPECT_NEAR(loud.pairs_needed, 70, 40);  // (1.96 * 0.04 / 0.01)^2, somewhat more for the trimmed mean
+  EXPECT_LT(quiet.noise_floor, loud.noise_floor);
+  ASSERT_TRUE(quiet.smallest_found && loud.smallest_found);
+  EXPECT_LT(*quiet.smallest_found, *loud.smallest_found);
+  EXPECT_GT(*quiet.smallest_found, 0.01);
+  EXPECT_LT(*loud.smallest_found, 0.06);
+  EXPECT_LT(c.rates.false_alarms.value, 0.01);
+  EXPECT_GT(c.rates.false_alarms.high, c.rates.false_alarms.value);
+  EXPECT_NE(to_text(c).find("loud"), std::string::npos);
+}
+
+TEST(Calibration, TheSmallestSlowdownFoundIsFoundByRealGatesAboutAsOften) {
+  const Calibration c = calibrate({1, {noise("a", 0.03, 150, 5)}}, {});
+  ASSERT_TRUE(c.cases.front().smallest_found);
+  const double factor = 1 + *c.cases.front().smallest_found;
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal(0, 0.03 / std::sqrt(2));
+  TimedTarget fake = {"a", "seconds.mesh"};
+  fake.run = [&](const RunRequest& request) {
+    return std::map<std::string, double>{
+        {"a", 0.1 * (request.side == Side::head ? factor : 1) * std::exp(normal(random))}};
+  };
+  fake.command = [](Side, const std::string&) { return ""; };
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const SampleSet samples = measure_times(std::vector{fake}, {}, &c, seed, {});
+    found += judgment_of(judge_times(samples, {}, &c)) == Judgment::worse;
+  }
+  EXPECT_GE(found, 175);
+  EXPECT_LT(found, 200);
+}
+
+TEST(Calibration, TooFewPairsSayHowManyAreNeeded) {
+  try {
+    calibrate({1, {noise("quiet", 0.01, 60, 1), noise("loud", 0.04, 30, 2)}}, {});
+    FAIL() << "30 pairs are not enough";
+  } catch (const TooFewSamples& e) {
+    EXPECT_GT(e.needed(), 40);
+    EXPECT_LE(e.needed(), 200);
+    EXPECT_NO_THROW(calibrate({1, {noise("quiet", 0.01, 60, 1), noise("loud", 0.04, 200, 2)}}, {}));
+  }
+}
+
+TEST(Calibration, NoiseThatNoGateOvercomesIsToldInAdvance) {
+  const Calibration c = calibrate({1, {noise("a", 0.8, 200, 3)}}, {});
+  EXPECT_GT(c.cases.front().pairs_needed, 200);
+  EXPECT_GT(c.rates.undecided.value, 0.9);
+  EXPECT_LT(c.rates.false_alarms.value, 0.05);
+}
+
+TEST(Calibration, BothSidesAreTheBase) {
+  TimedTarget fake = {"a", "seconds.mesh"};
+  int heads = 0;
+  fake.run = [&](const RunRequest& request) {
+    heads += request.side == Side::head;
+    return std::map<std::string, double>{{"a", 1}};
+  };
+  fake.command = [](Side, const std::string&) { return "again"; };
+  const SampleSet samples = measure_noise(std::vector{fake}, 45, 1, {});
+  EXPECT_EQ(samples.cases.front().screening.size(), 45U);
+  EXPECT_EQ(heads, 0);
+}
+
+TEST(Calibration, IsTheSameAfterAFile) {
+  const baselines::TemporaryFolder folder;
+  Calibration c = calibrate({7, {noise("a", 0.02, 80, 1)}}, {});
+  c.program = "ccdt";
+  c.identity = {{"machine.cpu", "this one"}};
+  write_calibration(c, folder.path() / "calibration.json");
+  const Calibration read = read_calibration(folder.path() / "calibration.json");
+  EXPECT_EQ(read.program, "ccdt");
+  EXPECT_EQ(read.identity, c.identity);
+  EXPECT_EQ(read.seed, 7U);
+  EXPECT_EQ(read.rates.false_alarms, c.rates.false_alarms);
+  EXPECT_EQ(read.cases.front().noise_floor, c.cases.front().noise_floor);
+  EXPECT_EQ(read.cases.front().smallest_found, c.cases.front().smallest_found);
+  EXPECT_EQ(read.cases.front().log_ratios, c.cases.front().log_ratios);
+}
+
+}  // namespace
+}  // namespace ccdt::gate
