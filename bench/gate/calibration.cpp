@@ -44,7 +44,7 @@ namespace {
 constexpr bench::DocumentKind calibration_kind = {"ccdt.calibration/1", "not the calibration of a gate",
                                                   "give the calibration.json that `ccdt gate --calibrate` wrote"};
 
-constexpr int simulated_resamples = 500;  ///< of a bootstrap in a simulated gate
+constexpr int simulated_resamples = 300;  ///< of a bootstrap in a simulated gate
 
 /// Draws log ratios as an unchanged program would have them: blocks of consecutive pairs, so that what lasts longer
 /// than a pair stays together (Künsch 1989). Base and head of a block change places at random: they are the same.
@@ -137,7 +137,7 @@ GateRates simulate_gates(std::span<const SimulatedCase> cases, std::uint64_t see
 
 /// How often a slowdown of one case is found. The draws are the same for every slowdown.
 double share_found(const SimulatedCase& c, double slowdown, std::uint64_t seed) {
-  constexpr int gates = 400;
+  constexpr int gates = 200;
   BlockDraw draw(c.noise.log_ratios, seed);
   int found = 0;
   for (int i = 0; i < gates; ++i) {
@@ -197,9 +197,11 @@ void require_enough(const CaseNoise& noise, const TimeRules& rules) {
   const int needed = std::max(2 * rules.at_least, std::min(noise.pairs_needed, rules.at_most));
   const auto there = static_cast<int>(noise.log_ratios.size());
   if (there >= needed) return;
+  // A quarter more, since more pairs may show more noise.
+  const int enough = std::min(needed + needed / 4, std::max(rules.at_most, 2 * rules.at_least));
   throw TooFewSamples("too few samples for a calibration: " + noise.case_name + " has " + std::to_string(there) +
-                          " pairs, and " + std::to_string(needed) + " are needed",
-                      needed, "measure at least " + std::to_string(needed) + " pairs of each case");
+                          " pairs, and at least " + std::to_string(needed) + " are needed",
+                      enough, "measure " + std::to_string(enough) + " pairs of each case");
 }
 
 using results::percent;

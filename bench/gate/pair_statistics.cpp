@@ -26,9 +26,11 @@ double threshold_of(const TimeRules& rules, double base_seconds, double noise_fl
 Look look_at(std::span<const double> log_ratios, double threshold, const TimeRules& rules,
              const bench::Bootstrap& bootstrap) {
   Look look = {bench::trimmed_mean_estimate(log_ratios, trimmed, bootstrap), threshold};
+  const double high = look.log_ratio.high;
+  const bool is_narrow = half_width(look.log_ratio) <= rules.largest_noise;
   if (look.log_ratio.low > threshold)
     look.call = Call::worse;
-  else if (look.log_ratio.high < threshold + rules.largest_noise)
+  else if (high <= threshold || (is_narrow && high < threshold + rules.largest_noise))
     look.call = Call::not_worse;
   return look;
 }
@@ -40,7 +42,7 @@ bench::Bootstrap bootstrap_for(double confidence, std::uint64_t seed, int at_lea
 }
 
 int next_look(int pairs, const TimeRules& rules) {
-  return std::min(std::max(rules.at_least, pairs + pairs / 2), rules.at_most);
+  return std::min(std::max(rules.at_least, pairs + std::max(1, pairs / 2)), rules.at_most);
 }
 
 double confirmation_confidence(const TimeRules& rules, int suspects) {
@@ -50,7 +52,8 @@ double confirmation_confidence(const TimeRules& rules, int suspects) {
 double wanted_half_width(const Look& screening, const TimeRules& rules) {
   // Half the way to the threshold: the first estimate is too large rather than too small, as that is what made the case
   // a suspect.
-  return std::max(rules.largest_noise, screening.log_ratio.value - screening.threshold) / 2;
+  const double half_way = (screening.log_ratio.value - screening.threshold) / 2;
+  return std::clamp(half_way, rules.largest_noise / 2, rules.largest_noise);
 }
 
 }  // namespace ccdt::gate

@@ -11,7 +11,7 @@ namespace ccdt::gate {
 /// What pairs say of one case.
 enum class Call {
   worse,      ///< all of the interval is beyond the threshold
-  not_worse,  ///< a slowdown of the threshold and `largest_noise` together is excluded
+  not_worse,  ///< all of it is below, or it is narrow and excludes a slowdown of threshold and `largest_noise` together
   open        ///< neither
 };
 

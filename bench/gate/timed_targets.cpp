@@ -63,7 +63,8 @@ std::map<std::string, std::vector<double>> times_of_benchmarks(const std::filesy
   static const std::map<std::string, double> units = {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}};
   std::map<std::string, std::vector<double>> times;
   try {
-    for (const bench::Json& run : bench::Json::parse(io::read_whole_file(file).bytes).at("benchmarks")) {
+    const auto json = bench::Json::parse(io::read_whole_file(file).bytes);
+    for (const bench::Json& run : json.at("benchmarks")) {
       if (run.value("error_occurred", false))
         fail(side, command, run.at("name").get<std::string>() + ": " + run.value("error_message", ""));
       if (run.value("run_type", "iteration") != "iteration") continue;

@@ -221,7 +221,9 @@ TEST(TimeLayer, OnlyCasesThatTheRulesNameAreTimed) {
 
 TEST(TimeLayer, ANoiseFloorOfACalibrationRaisesTheThreshold) {
   Calibration calibration;
-  calibration.cases.push_back({.case_name = "a", .noise_floor = 0.1});
+  calibration.cases.emplace_back();
+  calibration.cases.back().case_name = "a";
+  calibration.cases.back().noise_floor = 0.2;
   const SampleSet samples = measure_times(std::vector{target("a", 1.06, 1)}, {}, nullptr, 1, {});
   EXPECT_EQ(judgment_of(judge_times(samples, {}, nullptr)), Judgment::worse);
   EXPECT_EQ(judgment_of(judge_times(samples, {}, &calibration)), Judgment::passed);

@@ -46,7 +46,7 @@ class TimedTargets : public testing::Test {
   cases::Case part() const {
     const auto input = folder_.path() / "part.off";
     std::ofstream(input) << "OFF";
-    return {.name = "part", .input = input, .options = {"--lattice", "bcc"}};
+    return {.name = "part", .group = "parts", .input = input, .options = {"--lattice", "bcc"}};
   }
 
   baselines::TemporaryFolder folder_;
@@ -106,21 +106,20 @@ TEST_F(TimedTargets, AReportWithoutTheFigureIsAnError) {
 }
 
 TEST_F(TimedTargets, EachBenchmarkIsACaseInSeconds) {
-  const auto program = benchmark("bench", R"({"name": "insert/8", "real_time": 3, "time_unit": "ms"},
+  const auto program = benchmark("bench", R"json({"name": "insert/8", "real_time": 3, "time_unit": "ms"},
     {"name": "walk(1)", "run_name": "walk(1)", "run_type": "iteration", "real_time": 4, "time_unit": "us"},
     {"name": "walk(1)", "run_name": "walk(1)", "run_type": "iteration", "real_time": 6, "time_unit": "us"},
-    {"name": "walk(1)_mean", "run_name": "walk(1)", "run_type": "aggregate", "real_time": 9, "time_unit": "us"})");
-  const TimedTarget target =
-      benchmark_target({program, program}, {"--benchmark_min_time=1"}, {}, folder_.path());
-const auto seconds = target.run({Side::base, 0});
-ASSERT_EQ(seconds.size(), 2U);
-EXPECT_DOUBLE_EQ(seconds.at("insert/8"), 0.003);
-EXPECT_DOUBLE_EQ(seconds.at("walk(1)"), 5e-6);
-const std::string call = last_call();
-EXPECT_GT(call.find("--benchmark_min_time=1 "), call.find("--benchmark_min_time=0.05")) << "the user's is the last";
-target.run({Side::head, 0, {"walk(1)"}});
-EXPECT_NE(last_call().find("--benchmark_filter=^(walk\\(1\\))$"), std::string::npos);
-EXPECT_NE(target.command(Side::head, "insert/8").find("insert/8"), std::string::npos);
+    {"name": "walk(1)_mean", "run_name": "walk(1)", "run_type": "aggregate", "real_time": 9, "time_unit": "us"})json");
+  const TimedTarget target = benchmark_target({program, program}, {"--benchmark_min_time=1"}, {}, folder_.path());
+  const auto seconds = target.run({Side::base, 0});
+  ASSERT_EQ(seconds.size(), 2U);
+  EXPECT_DOUBLE_EQ(seconds.at("insert/8"), 0.003);
+  EXPECT_DOUBLE_EQ(seconds.at("walk(1)"), 5e-6);
+  const std::string call = last_call();
+  EXPECT_GT(call.find("--benchmark_min_time=1 "), call.find("--benchmark_min_time=0.05")) << "the user's is the last";
+  target.run({Side::head, 0, {"walk(1)"}});
+  EXPECT_NE(last_call().find("--benchmark_filter=^(walk\\(1\\))$"), std::string::npos);
+  EXPECT_NE(target.command(Side::head, "insert/8").find("insert/8"), std::string::npos);
 }
 
 TEST_F(TimedTargets, BenchmarksThatFailOrAreNoneAreErrors) {
