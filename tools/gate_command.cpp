@@ -149,8 +149,8 @@ ExitCode run_gate(const GateCommand& command) {
   if (!command.folder.empty())
     bench::write_json(to_json(verdict), std::filesystem::path(command.folder) / "verdict.json");
   if (!command.markdown.empty()) append(command.markdown, reports::to_markdown(verdict));
-  std::fputs(reports::to_terminal(verdict).c_str(), stdout);
-  if (command.update) std::printf("\nThe baseline %s is what was found now.\n", command.against.c_str());
+  if (!verdict.figures.empty() || !command.update) std::fputs(reports::to_terminal(verdict).c_str(), stdout);
+  if (command.update) std::printf("The baseline %s is what was found now.\n", command.against.c_str());
   return command.update || verdict.shadow ? done : exit_code_for(verdict.verdict);
 }
 
@@ -237,6 +237,7 @@ void add_gate_command(CLI::App& app, ExitCode& exit_code) {
           },
           "only these layers: exact, instructions, time")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember({"exact", "instructions", "time"}));
   verb->add_option("-o,--output", command->folder, "folder of verdict.json and of what is measured; created if needed");
   verb->add_option("--markdown", command->markdown, "append the verdict to this file, as $GITHUB_STEP_SUMMARY");

@@ -20,7 +20,7 @@ bool is_whole(double value) {
 /// Up to the last bits, where a figure is no whole number.
 bool are_equal(double a, double b, double relative) {
   if (a == b) return true;
-  if (is_whole(a) && is_whole(b)) return false;
+  if ((is_whole(a) && is_whole(b)) || !std::isfinite(a) || !std::isfinite(b)) return false;
   return std::abs(a - b) <= relative * std::max(std::abs(a), std::abs(b));
 }
 

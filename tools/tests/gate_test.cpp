@@ -1,0 +1,501 @@
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "baselines/json_schema.h"
+#include "tools/tests/program.h"
+
+namespace ccdt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Change = std::function<void(Json&)>;
+
+void change_nothing(Json&) {}
+
+/// A report of `ccdt mesh`, as far as a gate reads it.
+Json run_of(const std::string& input) {
+  return {{"schema", "ccdt.run/1"},
+          {"mesher", {{"name", "ccdt"}, {"version", "1"}, {"revision", "abc"}}},
+          {"input", {{"name", "parts/" + input}, {"sha256", ""}}},
+          {"options", {{"lattice", "fcc"}}},
+          {"command", {"ccdt", "mesh", input}},
+          {"environment", {{"cpu", "some"}, {"compiler", "GNU 12"}, {"flags", "-O3"}, {"revision", "abc"}}},
+          {"counts", {{"vertices", 100}, {"tetrahedra", 400}, {"steiner_vertices", 4}, {"splits_by_level", {2, 1}}}},
+          {"work", {{"delaunay", {{"walk_steps", 1000}, {"exact_evaluations", 0}}}}},
+          {"seconds", {{"mesh", 1.5}}},
+          {"quality",
+           {{"r", {{"max", 2.5}, {"histogram", {{"edges", {1, 2}}, {"counts", {3}}}}}},
+            {"dihedral_degrees", {{"min", 20.5}}}}},
+          {"volume", 1.25},
+          {"mesh_fingerprint", "0123"},
+          {"status", "ok"}};
+}
+
+class Gate : public Program {
+ protected:
+  void write_run(const std::string& folder, const std::string& input, const Change& change = change_nothing) const {
+    Json run = run_of(input);
+    change(run);
+    std::filesystem::create_directories(work() / folder);
+    write(folder + "/" + input + ".json", run.dump());
+  }
+
+  /// Two recordings of one case; the head's is changed.
+  void write_pair(const Change& change) const {
+    write_run("base", "a.off");
+    write_run("head", "a.off", change);
+  }
+
+  Json verdict(const std::string& folder = "out") const {
+    return Json::parse(text_of(work() / folder / "verdict.json"));
+  }
+
+  /// The entry of a figure; null if there is none.
+  static Json figure(const Json& verdict, const std::string& name) {
+    for (const Json& one : verdict.at("figures"))
+      if (one.at("name") == name) return one;
+    return {};
+  }
+
+  /// Judges the change of one figure.
+  Json judged(const std::string& name, const Change& change, const std::string& options = "") const {
+    write_pair(change);
+    run("gate head --against base -o out " + options);
+    return figure(verdict(), name);
+  }
+};
+
+/// Sets the number at a JSON pointer.
+Change set(const std::string& pointer, const Json& value) {
+  return [=](Json& run) { run[Json::json_pointer(pointer)] = value; };
+}
+
+TEST_F(Gate, EqualRecordingsPass) {
+  write_pair(change_nothing);
+  EXPECT_EQ(run("gate head --against base -o out").exit_code, 0);
+  EXPECT_EQ(verdict().at("verdict"), "passed");
+  EXPECT_GT(verdict().at("counts").at("passed"), 8);
+}
+
+TEST_F(Gate, OneReportIsARecording) {
+  write_pair(set("/work/delaunay/walk_steps", 1001));
+  EXPECT_EQ(run("gate base/a.off.json --against base").exit_code, 0);
+  EXPECT_EQ(run("gate head/a.off.json --against base/a.off.json").exit_code, 1);
+}
+
+TEST_F(Gate, TheVerdictIsWhatItsSchemaSays) {
+  write_pair(set("/counts/steiner_vertices", 5));
+  run("gate head --against base -o out");
+  const std::string schema = text_of(VERDICT_SCHEMA);
+  EXPECT_NO_THROW(baselines::read_user_file(work() / "out/verdict.json", {"a verdict", schema.c_str(), ""}));
+}
+
+TEST_F(Gate, MoreWorkFailsByItsSizeWithTheCommandThatRepeatsIt) {
+  const Json figure = judged("work.delaunay.walk_steps", set("/work/delaunay/walk_steps", 1100));
+  EXPECT_EQ(figure.at("verdict"), "worse");
+  EXPECT_EQ(figure.at("base"), 1000);
+  EXPECT_EQ(figure.at("head"), 1100);
+  EXPECT_DOUBLE_EQ(figure.at("ratio"), 1.1);
+  EXPECT_EQ(figure.at("layer"), "exact");
+  EXPECT_EQ(figure.at("case"), "a.off, ccdt");
+  EXPECT_NE(figure.at("command").get<std::string>().find("ccdt mesh a.off"), std::string::npos);
+}
+
+TEST_F(Gate, WorkWhereThereWasNoneFails) {
+  const Json figure = judged("work.delaunay.exact_evaluations", set("/work/delaunay/exact_evaluations", 1));
+  EXPECT_EQ(figure.at("verdict"), "worse");
+  EXPECT_TRUE(figure.at("ratio").is_null());
+}
+
+TEST_F(Gate, LessWorkPassesAndIsReported) {
+  write_pair(set("/work/delaunay/walk_steps", 900));
+  const Outcome outcome = run("gate head --against base -o out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(figure(verdict(), "work.delaunay.walk_steps").at("changed"));
+  EXPECT_NE(outcome.out.find("work.delaunay.walk_steps"), std::string::npos);
+  EXPECT_NE(outcome.out.find("-10"), std::string::npos);
+}
+
+TEST_F(Gate, SmallerAnglesFailAndLargerOnesPass) {
+  EXPECT_EQ(judged("quality.dihedral_degrees.min", set("/quality/dihedral_degrees/min", 20)).at("verdict"), "worse");
+  EXPECT_EQ(judged("quality.dihedral_degrees.min", set("/quality/dihedral_degrees/min", 21)).at("verdict"), "passed");
+}
+
+TEST_F(Gate, WorseRadiusRatiosFailAlsoIfTheyAreInfinite) {
+  EXPECT_EQ(judged("quality.r.max", set("/quality/r/max", 2.6)).at("verdict"), "worse");
+  EXPECT_EQ(judged("quality.r.max", set("/quality/r/max", 2.4)).at("verdict"), "passed");
+  EXPECT_EQ(judged("quality.r.max", set("/quality/r/max", nullptr)).at("verdict"), "worse");
+}
+
+TEST_F(Gate, LastBitsOfNumbersThatAreNotWholeDoNotMatter) {
+  EXPECT_FALSE(judged("volume", set("/volume", std::nextafter(1.25, 2))).at("changed"));
+  EXPECT_EQ(judged("volume", set("/volume", 1.2501)).at("verdict"), "worse");
+}
+
+TEST_F(Gate, AnotherMeshFailsEvenIfItIsSmaller) {
+  EXPECT_EQ(judged("mesh_fingerprint", set("/mesh_fingerprint", "4567")).at("verdict"), "worse");
+  EXPECT_EQ(judged("counts.tetrahedra", set("/counts/tetrahedra", 399)).at("verdict"), "worse");
+  EXPECT_EQ(judged("counts.splits_by_level", set("/counts/splits_by_level", {2})).at("verdict"), "worse");
+}
+
+TEST_F(Gate, AFailedRunIsWorseAndAMendedOneBetter) {
+  const Change fail = [](Json& run) {
+    run["status"] = "crashed";
+    run["kind"] = "crashed";
+    run["counts"]["vertices"] = 0;
+  };
+  EXPECT_EQ(judged("status", fail).at("verdict"), "worse");
+  EXPECT_EQ(verdict().at("counts").at("worse"), 1);  // what it did not produce is no other loss
+  EXPECT_EQ(run("gate base --against head -o out").exit_code, 0);
+  EXPECT_TRUE(figure(verdict(), "status").at("changed"));
+}
+
+TEST_F(Gate, ALostCaseFailsAndANewOnePasses) {
+  for (const char* name : {"a.off", "b.off"}) write_run("two", name);
+  write_run("one", "a.off");
+  EXPECT_EQ(run("gate one --against two -o out").exit_code, 1);
+  EXPECT_EQ(verdict().at("figures").at(0).at("case"), "b.off, ccdt");
+  EXPECT_EQ(run("gate two --against one -o out").exit_code, 0);
+}
+
+TEST_F(Gate, ALostFigureFails) {
+  write_pair([](Json& run) { run["work"]["delaunay"].erase("walk_steps"); });
+  EXPECT_EQ(run("gate head --against base").exit_code, 1);
+  EXPECT_EQ(run("gate base --against head").exit_code, 0);
+}
+
+TEST_F(Gate, CasesAreToldApartByTheirOptions) {
+  for (const char* folder : {"base", "head"}) {
+    write_run(folder, "a.off");
+    Json run = run_of("a.off");
+    run["options"]["lattice"] = "bcc";
+    if (std::string(folder) == "head") run["work"]["delaunay"]["walk_steps"] = 2000;
+    write(std::string(folder) + "/bcc.json", run.dump());
+  }
+  EXPECT_EQ(run("gate head --against base -o out").exit_code, 1);
+  EXPECT_EQ(verdict().at("counts").at("worse"), 1);
+  EXPECT_EQ(verdict().at("figures").at(0).at("case"), "a.off, ccdt, lattice bcc");
+}
+
+TEST_F(Gate, RunsOfOneProgramThatDifferFail) {
+  for (const char* folder : {"base", "head"})
+    for (const int number : {0, 1}) {
+      Json run = run_of("a.off");
+      if (std::string(folder) == "head") run["work"]["delaunay"]["walk_steps"] = 1000 - number;
+      write_run(folder, "a.off");
+      write(std::string(folder) + "/again" + std::to_string(number) + ".json", run.dump());
+    }
+  EXPECT_EQ(run("gate head --against base -o out").exit_code, 1);
+  EXPECT_EQ(run("gate base --against head -o out").exit_code, 0);
+  EXPECT_EQ(figure(verdict(), "work.delaunay.walk_steps").at("verdict"), "incomparable");
+}
+
+TEST_F(Gate, TheWorstIsFirst) {
+  write_pair([](Json& run) {
+    run["work"]["delaunay"]["walk_steps"] = 1010;
+    run["counts"]["steiner_vertices"] = 8;
+    run["quality"]["r"]["max"] = 3;
+  });
+  run("gate head --against base -o out");
+  std::vector<std::string> names;
+  for (int i = 0; i < 3; ++i) names.push_back(verdict().at("figures").at(i).at("name"));
+  EXPECT_EQ(names, (std::vector<std::string>{"counts.steiner_vertices", "quality.r.max", "work.delaunay.walk_steps"}));
+}
+
+TEST_F(Gate, TimesThatWereRecordedEarlierAreNeverJudged) {
+  EXPECT_EQ(judged("seconds.mesh", set("/seconds/mesh", 150)).at("verdict"), "incomparable");
+  EXPECT_EQ(verdict().at("verdict"), "passed");
+  EXPECT_EQ(run("gate head --against base --layers time").exit_code, 3);
+}
+
+TEST_F(Gate, RecordingsOfDifferentThingsAreNotComparable) {
+  write_run("base", "a.off");
+  write_run("head", "b.off");
+  EXPECT_EQ(run("gate head --against base -o out").exit_code, 3);
+  EXPECT_EQ(verdict().at("verdict"), "incomparable");
+  EXPECT_FALSE(verdict().at("notes").empty());
+}
+
+TEST_F(Gate, ShadowModePassesAndSaysWhatIsWorse) {
+  write_pair(set("/counts/steiner_vertices", 5));
+  EXPECT_EQ(run("gate head --against base -o out --shadow").exit_code, 0);
+  EXPECT_EQ(verdict().at("verdict"), "worse");
+  EXPECT_TRUE(verdict().at("shadow"));
+}
+
+TEST_F(Gate, MarkdownIsAppendedWithAllThatFailed) {
+  write("summary.md", "# Before\n");
+  for (int i = 0; i < 60; ++i) {
+    const std::string name = "p" + std::to_string(i) + ".off";
+    write_run("base", name);
+    write_run("head", name, set("/counts/steiner_vertices", 5 + i));
+  }
+  EXPECT_EQ(run("gate head --against base --markdown summary.md").exit_code, 1);
+  const std::string text = text_of(work() / "summary.md");
+  EXPECT_TRUE(text.starts_with("# Before\n"));
+  for (int i = 0; i < 60; ++i)
+    EXPECT_NE(text.find("p" + std::to_string(i) + ".off, ccdt"), std::string::npos) << "case " << i;
+}
+
+// Baselines.
+
+TEST_F(Gate, AnUpdateNeedsAReason) {
+  write_run("head", "a.off");
+  for (const char* reason : {"", "--reason ''", "--reason ' '"})
+    EXPECT_EQ(run("gate head --against baseline.json --update " + std::string(reason)).exit_code, 2) << reason;
+  EXPECT_FALSE(std::filesystem::exists(work() / "baseline.json"));
+}
+
+TEST_F(Gate, AfterAnUpdateTheSameRecordingPasses) {
+  write_pair(set("/counts/steiner_vertices", 5));
+  ASSERT_EQ(run("gate base --against baseline.json --update --reason first").exit_code, 0);
+  EXPECT_EQ(run("gate base --against baseline.json").exit_code, 0);
+  EXPECT_EQ(run("gate head --against baseline.json").exit_code, 1);
+  ASSERT_EQ(run("gate head --against baseline.json --update --reason 'a new rule'").exit_code, 0);
+  EXPECT_EQ(run("gate head --against baseline.json").exit_code, 0);
+  EXPECT_EQ(run("gate base --against baseline.json").exit_code, 0);  // better
+}
+
+TEST_F(Gate, ABaselineKeepsTheReasonsAndNoTimes) {
+  write_pair(set("/counts/steiner_vertices", 5));
+  run("gate base --against baseline.json --update --reason first");
+  run("gate head --against baseline.json --update --reason second");
+  const Json baseline = Json::parse(text_of(work() / "baseline.json"));
+  ASSERT_EQ(baseline.at("history").size(), 2u);
+  EXPECT_EQ(baseline.at("history").at(1).at("reason"), "second");
+  EXPECT_EQ(baseline.at("history").at(1).at("changed"), 1);
+  EXPECT_DOUBLE_EQ(baseline.at("history").at(1).at("ratios").at("exact"), 1.25);
+  EXPECT_FALSE(baseline.at("cases").at("a.off, ccdt").contains("seconds"));
+}
+
+TEST_F(Gate, ABaselineHoldsWhatTheRulesGate) {
+  write_run("head", "a.off");
+  write("rules.json", R"({"schema": "ccdt.rules/1", "exact": {"figures": ["work.*"], "ignore": ["*.walk_steps"]}})");
+  ASSERT_EQ(run("gate head --against baseline.json --rules rules.json --update --reason first").exit_code, 0);
+  const Json figures = Json::parse(text_of(work() / "baseline.json")).at("cases").at("a.off, ccdt");
+  EXPECT_EQ(figures, Json::parse(R"({"work.delaunay": {"exact_evaluations": 0}})"));
+}
+
+TEST_F(Gate, AHistoryThatOnlyGetsWorseIsPointedOut) {
+  for (int steps = 1000; steps < 1004; ++steps) {
+    write_run("head", "a.off", set("/work/delaunay/walk_steps", steps));
+    run("gate head --against baseline.json --update --reason 'step " + std::to_string(steps) + "'");
+  }
+  const Outcome outcome = run("gate head --against baseline.json -o out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  ASSERT_EQ(verdict().at("notes").size(), 1u);
+  EXPECT_NE(outcome.out.find("step 1003"), std::string::npos);
+  write_run("head", "a.off", set("/work/delaunay/walk_steps", 900));
+  run("gate head --against baseline.json --update --reason better");
+  run("gate head --against baseline.json -o out");
+  EXPECT_TRUE(verdict().at("notes").empty());
+}
+
+TEST_F(Gate, ABaselineThatIsBrokenIsNamedWithThePlace) {
+  write_run("head", "a.off");
+  write("baseline.json",
+        R"({"schema": "ccdt.baseline/1", "identity": {}, "history": [], "cases": {"a": {"work": 3}}})");
+  const Outcome outcome = run("gate head --against baseline.json");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("baseline.json"), std::string::npos);
+  EXPECT_NE(outcome.err.find("/cases/a/work"), std::string::npos);
+}
+
+// Instruction counts.
+
+/// A baseline with instruction counts.
+std::string with_instructions(const std::string& cpu, long count) {
+  const Json json = {{"schema", "ccdt.baseline/1"},
+                     {"identity", {{"instructions.cpu", cpu}}},
+                     {"cases", {{"a", {{"instructions", {{"mesh", count}}}}}}},
+                     {"history", Json::array()}};
+  return json.dump();
+}
+
+TEST_F(Gate, InstructionsOfTheSameCpuAreComparedBeyondBothThresholds) {
+  write("base.json", with_instructions("X", 100000000));
+  write("more.json", with_instructions("X", 102000000));
+  write("slightly_more.json", with_instructions("X", 100200000));
+  EXPECT_EQ(run("gate more.json --against base.json -o out").exit_code, 1);
+  EXPECT_EQ(figure(verdict(), "instructions.mesh").at("layer"), "instructions");
+  EXPECT_EQ(run("gate slightly_more.json --against base.json").exit_code, 0);
+  EXPECT_EQ(run("gate base.json --against more.json").exit_code, 0);
+}
+
+TEST_F(Gate, InstructionsOfAnotherCpuAreNotComparable) {
+  write("base.json", with_instructions("some CPU", 100000000));
+  write("other.json", with_instructions("another CPU", 200000000));
+  const Outcome outcome = run("gate other.json --against base.json");
+  EXPECT_EQ(outcome.exit_code, 3);
+  for (const char* words : {"instructions.cpu", "some CPU", "another CPU"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words;
+}
+
+// Rules.
+
+TEST_F(Gate, RulesTolerateIgnoreAndTurnFigures) {
+  const auto verdict_with = [&](const std::string& rules) {
+    write("rules.json", R"({"schema": "ccdt.rules/1", "exact": )" + rules + "}");
+    return judged("work.delaunay.walk_steps", set("/work/delaunay/walk_steps", 1100), "--rules rules.json");
+  };
+  EXPECT_EQ(verdict_with("{}").at("verdict"), "worse");
+  EXPECT_EQ(verdict_with(R"({"tolerances": {"work.*": 0.2}})").at("verdict"), "passed");
+  EXPECT_EQ(verdict_with(R"({"tolerances": {"work.*": 0.05}})").at("verdict"), "worse");
+  EXPECT_EQ(verdict_with(R"({"better": {"work.*": "more"}})").at("verdict"), "passed");
+  EXPECT_TRUE(verdict_with(R"({"ignore": ["*walk_steps"]})").is_null());
+}
+
+TEST_F(Gate, WrongRulesAreNamedByTheirPointer) {
+  write_pair(change_nothing);
+  write("rules.json", R"({"schema": "ccdt.rules/1", "time": {"relativ": 0.1}})");
+  const Outcome outcome = run("gate head --against base --rules rules.json");
+  EXPECT_EQ(outcome.exit_code, 3);
+  for (const char* words : {"rules.json", "/time/relativ", "'relative'"})
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << words;
+  write("rules.json", R"({"schema": "ccdt.rules/1", "special": [{"cases": "a*", "time": {"at_most": 10}}]})");
+  EXPECT_NE(run("gate head --against base --rules rules.json").err.find("/special/0/time/at_most"), std::string::npos);
+}
+
+// Recordings of other programs.
+
+Json google_benchmark(int cells, double rate) {
+  return {{"context", {{"executable", "./bench_x"}, {"num_cpus", 2}}},
+          {"benchmarks",
+           {{{"name", "BM_Insert/8"},
+             {"run_type", "iteration"},
+             {"iterations", 10},
+             {"real_time", 12.5},
+             {"cpu_time", 12.5},
+             {"time_unit", "ms"},
+             {"cells", cells},
+             {"speed", rate},
+             {"items_per_second", 3.0}},
+            {{"name", "BM_Insert/8_mean"},
+             {"run_type", "aggregate"},
+             {"iterations", 1},
+             {"real_time", 99.0},
+             {"cpu_time", 99.0},
+             {"time_unit", "ms"},
+             {"cells", cells + 7}}}}};
+}
+
+TEST_F(Gate, CountersOfGoogleBenchmarkAreExactAndTimesAreNotJudged) {
+  write("base.json", google_benchmark(100, 1.5).dump());
+  write("head.json", google_benchmark(101, 1.7).dump());
+  EXPECT_EQ(run("gate base.json --against base.json").exit_code, 0);
+  EXPECT_EQ(run("gate head.json --against base.json -o out").exit_code, 1);
+  EXPECT_EQ(verdict().at("counts").at("worse"), 1);
+  EXPECT_EQ(figure(verdict(), "counters.cells").at("verdict"), "worse");
+  EXPECT_EQ(figure(verdict(), "seconds.real_time").at("base"), 0.0125);
+  EXPECT_EQ(figure(verdict(), "seconds.real_time").at("verdict"), "incomparable");
+  EXPECT_TRUE(figure(verdict(), "counters.speed").is_null());
+}
+
+TEST_F(Gate, GoogleBenchmarksThatOnlyHaveTimesAreNotComparable) {
+  Json recording = google_benchmark(1, 1.5);
+  recording["benchmarks"][0].erase("cells");
+  write("base.json", recording.dump());
+  EXPECT_EQ(run("gate base.json --against base.json").exit_code, 3);
+}
+
+Json command(const std::string& name, double seconds, int exit_code = 0) {
+  Json one = {{"command", name}, {"times", Json::array()}, {"exit_codes", Json::array()}};
+  for (int i = 0; i < 10; ++i) {
+    one["times"].push_back(seconds * (1 + 0.0001 * (i % 3)));
+    one["exit_codes"].push_back(exit_code);
+  }
+  return one;
+}
+
+TEST_F(Gate, CommandsOfOneCallOfHyperfineAreComparedWithTheFirst) {
+  write("slower.json", Json{{"results", {command("old", 1), command("new", 1.1)}}}.dump());
+  EXPECT_EQ(run("gate slower.json -o out").exit_code, 1);
+  EXPECT_EQ(figure(verdict(), "seconds.elapsed").at("case"), "new");
+  EXPECT_NEAR(figure(verdict(), "seconds.elapsed").at("ratio"), 1.1, 0.001);
+  EXPECT_TRUE(figure(verdict(), "seconds.elapsed").at("interval").is_array());
+  write("faster.json", Json{{"results", {command("old", 1), command("new", 0.9)}}}.dump());
+  EXPECT_EQ(run("gate faster.json").exit_code, 0);
+  Json noisy = {{"results", {command("old", 1), command("new", 1)}}};
+  for (int i = 0; i < 10; ++i) noisy["results"][1]["times"][i] = 0.5 + 0.1 * i;
+  write("noisy.json", noisy.dump());
+  EXPECT_EQ(run("gate noisy.json").exit_code, 5);
+}
+
+TEST_F(Gate, TimesOfTwoCallsOfHyperfineAreNotCompared) {
+  write("old.json", Json{{"results", {command("old/run", 1)}}}.dump());
+  write("new.json", Json{{"results", {command("new/run", 2)}}}.dump());
+  write("failing.json", Json{{"results", {command("new/run", 2, 1)}}}.dump());
+  EXPECT_EQ(run("gate new.json --against old.json").exit_code, 3);
+  EXPECT_EQ(run("gate failing.json --against old.json").exit_code, 1);
+}
+
+TEST_F(Gate, ABrokenRecordingIsNamedWithThePlace) {
+  write_run("base", "a.off");
+  write("broken.json", "{\n\"schema\": \"ccdt.run/1\",\n\"counts\": {,}\n}");
+  const Outcome outcome = run("gate broken.json --against base");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("broken.json:3:"), std::string::npos);
+  for (const char* text : {"{}", "[1, 2]", "3", R"({"schema": "ccdt.run/1"})", R"({"benchmarks": [{}], "context": {}})",
+                           R"({"results": [{"command": 3}]})"}) {
+    write("other.json", text);
+    const Outcome other = run("gate other.json --against base");
+    EXPECT_EQ(other.exit_code, 3) << text;
+    EXPECT_NE(other.err.find("other.json"), std::string::npos) << text << other.err;
+  }
+  EXPECT_EQ(run("gate nothing.json --against base").exit_code, 3);
+  std::filesystem::create_directory(work() / "empty");
+  EXPECT_EQ(run("gate empty --against base").exit_code, 3);
+}
+
+TEST_F(Gate, OptionsThatDoNotFitTogetherAreUsageErrors) {
+  write_pair(change_nothing);
+  for (const char* options :
+       {"", "head", "head base --against base", "head --against base --calibrate", "head --against base --layers all",
+        "--head nothing --sweep s.json -o out", "head --against base --reason none"})
+    EXPECT_EQ(run("gate " + std::string(options)).exit_code, 2) << options;
+}
+
+// Measured programs.
+
+class MeasuringGate : public Gate {
+ protected:
+  MeasuringGate() {
+    write("cases.json", R"({"schema": "ccdt.sweep/1", "inputs": [{"model": "bracket", "edge_length": 10}],
+                            "options": {"lattice": ["none", "bcc"], "improve": ["none"]}})");
+    std::filesystem::create_symlink(CCDT_PROGRAM, work() / "ccdt");
+    // A program that meshes worse than was asked for.
+    write("worse",
+          "#!/bin/sh\nfor word; do shift; [ \"$word\" = bcc ] && word=sc; set -- \"$@\" \"$word\"; done\n"
+          "exec '" +
+              std::string(CCDT_PROGRAM) + "' \"$@\"\n");
+    std::filesystem::permissions(work() / "worse", std::filesystem::perms::owner_all);
+  }
+};
+
+TEST_F(MeasuringGate, AProgramPassesAgainstItself) {
+  EXPECT_EQ(run("gate --base ccdt --head ccdt --sweep cases.json --layers exact -o out").exit_code, 0);
+  EXPECT_GT(verdict().at("counts").at("passed"), 20);
+}
+
+TEST_F(MeasuringGate, AnotherProgramFailsWhereItDiffers) {
+  EXPECT_EQ(run("gate --base ccdt --head worse --sweep cases.json --layers exact -o out").exit_code, 1);
+  int others = 0;  // cases without the lattice are the same
+  const Json found = verdict();
+  for (const Json& one : found.at("figures")) {
+    const bool is_other = one.at("case").get<std::string>().find("bcc") == std::string::npos;
+    others += one.at("verdict") == "worse" && is_other ? 1 : 0;
+  }
+  EXPECT_EQ(others, 0);
+  EXPECT_EQ(run("gate --base ccdt --head ccdt --sweep cases.json --layers exact -o out").exit_code, 0);
+}
+
+TEST_F(MeasuringGate, ABaselineIsMadeOfAMeasuredProgramAndGatesOthers) {
+  const std::string options = " --sweep cases.json --layers exact -o out --against baseline.json";
+  ASSERT_EQ(run("gate --head ccdt --update --reason first" + options).exit_code, 0);
+  EXPECT_EQ(run("gate --head ccdt" + options).exit_code, 0);
+  EXPECT_EQ(run("gate --head worse" + options).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace ccdt
