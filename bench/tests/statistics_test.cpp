@@ -115,11 +115,11 @@ TEST(Statistics, IntervalOfTheTrimmedMeanCoversTheCenterOfHeavyTailsAboutAsOften
   for (const std::size_t count : {20, 60})
     for (const double confidence : {0.95, 0.98}) {
       int covered = 0;
-      constexpr int trials = 400;
-      for (int trial = 0; trial < trials; ++trial) {
+      constexpr int trials = 1000;
+      for (std::uint64_t trial = 0; trial < trials; ++trial) {
         std::vector<double> samples(count);
         for (double& sample : samples) sample = heavy_tailed(random);
-        const auto estimate = bench::trimmed_mean_estimate(samples, 0.2, {.confidence = confidence, .resamples = 500});
+        const auto estimate = bench::trimmed_mean_estimate(samples, 0.2, {confidence, 500, trial});
         covered += estimate.low <= 0 && 0 <= estimate.high;
       }
       EXPECT_GE(covered, trials * (confidence - 0.03)) << count << " samples";
