@@ -1,5 +1,6 @@
 #include "bench/gate/paired_samples.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/json_fields.h"
@@ -32,6 +33,8 @@ namespace {
 constexpr bench::DocumentKind samples_kind = {"ccdt.samples/1", "not the samples of a gate",
                                               "give the samples.json that `ccdt gate` wrote"};
 
+constexpr double resolution = 1e-9;  ///< seconds; of the clocks. A stage may be over sooner
+
 }  // namespace
 
 std::vector<double> seconds_of(std::span<const Pair> pairs, Side side) {
@@ -44,7 +47,8 @@ std::vector<double> seconds_of(std::span<const Pair> pairs, Side side) {
 std::vector<double> log_ratios(std::span<const Pair> pairs) {
   std::vector<double> ratios;
   ratios.reserve(pairs.size());
-  for (const Pair& pair : pairs) ratios.push_back(std::log(pair.head / pair.base));
+  for (const Pair& pair : pairs)
+    ratios.push_back(std::log(std::max(pair.head, resolution) / std::max(pair.base, resolution)));
   return ratios;
 }
 

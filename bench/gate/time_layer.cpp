@@ -90,8 +90,8 @@ PairedSamples samples_for(const TimedTarget& target, const std::string& case_nam
 /// Measures until the verdicts are there.
 class Measurement {
  public:
-  Measurement(const Rules& rules, const Calibration* calibration, std::uint64_t seed)
-      : rules_(rules), calibration_(calibration), taker_(seed) {
+  Measurement(const Rules& rules, const Calibration* calibration, std::uint64_t seed, const Progress& progress)
+      : rules_(rules), calibration_(calibration), taker_(seed), progress_(progress) {
     all_.seed = seed;
   }
 
@@ -109,12 +109,11 @@ class Measurement {
     targets_.push_back(std::move(cases));
   }
 
-  void screen_all(const Progress& progress) {
+  void screen_all() {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < all_.cases.size(); ++i)
       if (comparable(all_.cases[i])) open.push_back(i);
     while (!open.empty()) {
-      report(progress, "screening", all_.cases.size() - open.size(), all_.cases.size());
       take_more(open, &PairedSamples::screening);
       std::erase_if(open, [&](std::size_t i) {
         const PairedSamples& samples = all_.cases[i];
@@ -125,7 +124,7 @@ class Measurement {
     }
   }
 
-  void confirm_suspects(const Progress& progress) {
+  void confirm_suspects() {
     std::map<std::size_t, Look> suspects;
     for (std::size_t i = 0; i < all_.cases.size(); ++i) {
       if (!comparable(all_.cases[i])) continue;
@@ -135,7 +134,6 @@ class Measurement {
     std::vector<std::size_t> open;
     for (const auto& [i, look] : suspects) open.push_back(i);
     while (!open.empty()) {
-      report(progress, "confirming", suspects.size() - open.size(), suspects.size());
       take_more(open, &PairedSamples::confirmation);
       std::erase_if(open, [&](std::size_t i) {
         const TimeRules& rules = thresholds_of(all_.cases[i], rules_, calibration_).rules;
@@ -172,6 +170,7 @@ class Measurement {
     std::set<std::string> names;
     for (const auto& [name, i] : cases) names.insert(name);
     const PairTaker::Both both = taker_.take(target, names);
+    report(progress_, "pairs of runs", ++pairs_, 0);
     for (const auto& [name, i] : cases)
       (all_.cases[i].*pairs).push_back({both.base.at(name), both.head.at(name), both.head_first});
   }
@@ -179,6 +178,8 @@ class Measurement {
   const Rules& rules_;
   const Calibration* calibration_;
   PairTaker taker_;
+  const Progress& progress_;
+  std::uint64_t pairs_ = 0;
   std::vector<TargetCases> targets_;
   SampleSet all_;
 };
@@ -260,10 +261,10 @@ std::string correction_words() {
 
 SampleSet measure_times(std::span<const TimedTarget> targets, const Rules& rules, const Calibration* calibration,
                         std::uint64_t seed, const Progress& progress) {
-  Measurement measurement(rules, calibration, seed);
+  Measurement measurement(rules, calibration, seed, progress);
   for (const TimedTarget& target : targets) measurement.begin(target);
-  measurement.screen_all(progress);
-  measurement.confirm_suspects(progress);
+  measurement.screen_all();
+  measurement.confirm_suspects();
   return measurement.take();
 }
 
@@ -297,9 +298,9 @@ SampleSet measure_noise(std::span<const TimedTarget> targets, int pairs, std::ui
       request.side = Side::base;
       return run(request);
     };
-  Measurement measurement(rules, nullptr, seed);
+  Measurement measurement(rules, nullptr, seed, progress);
   for (const TimedTarget& target : unchanged) measurement.begin(target);
-  measurement.screen_all(progress);
+  measurement.screen_all();
   return measurement.take();
 }
 

@@ -25,7 +25,7 @@ std::string correction_words();
 /// afresh, since the first times were what made them suspects.
 ///
 /// \param calibration  may be null: no case's threshold is raised
-/// \param progress     counts the cases that are decided
+/// \param progress     counts pairs; nobody knows how many there will be
 /// \throw ProgramFailed
 /// \throw baselines::Stopped
 SampleSet measure_times(std::span<const TimedTarget> targets, const Rules& rules, const Calibration* calibration,
