@@ -12,6 +12,9 @@
 namespace ccdt::bench {
 namespace {
 
+/// Without `long double`, whose range Valgrind does not have: the tables that Boost fills at the start would overflow.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
 /// An index below `count`. `std::uniform_int_distribution` may differ between standard libraries; a product of the
 /// generator's 64 bits does not.
 std::size_t draw_index(std::size_t count, std::mt19937_64& random) {
@@ -166,7 +169,7 @@ Estimate trimmed_mean_estimate(std::span<const double> samples, double share, co
 
 Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence) {
   assert(hits >= 0 && hits <= trials && trials > 0);
-  using Binomial = boost::math::binomial_distribution<>;
+  using Binomial = boost::math::binomial_distribution<double, InDouble>;
   const auto all = static_cast<double>(trials), some = static_cast<double>(hits);
   const double tail = (1 - confidence) / 2;
   return {some / all, Binomial::find_lower_bound_on_p(all, some, tail),
@@ -187,7 +190,8 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y, double co
   double unexplained = 0;  // from the residuals: a difference of the sums would lose a good fit's digits
   for (std::size_t i = 0; i < x.size(); ++i) unexplained += std::pow(y[i] - intercept - slope * x[i], 2);
   const auto freedom = static_cast<double>(x.size() - 2);
-  const double t = boost::math::quantile(boost::math::students_t(freedom), (1 + confidence) / 2);
+  const double t =
+      boost::math::quantile(boost::math::students_t_distribution<double, InDouble>(freedom), (1 + confidence) / 2);
   const double half = t * std::sqrt(unexplained / freedom / xx);
   return {{slope, slope - half, slope + half}, intercept, yy > 0 ? 1 - unexplained / yy : 1};
 }

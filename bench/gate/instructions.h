@@ -20,10 +20,11 @@ namespace ccdt::gate {
 using StageInstructions = std::map<std::string, std::uint64_t>;
 
 /// The stages' instructions from what callgrind has written, with those of all functions that they call. A stage that
-/// did not run is 0.
+/// did not run is 0. What `mesh_plc` does between stages is "rest".
 ///
 /// \param profile  of one process (callgrind.out.PID)
-/// \throw InputError  it is none, or the function of a stage is not in it: inlined, or stripped from the program
+/// \throw InputError  it is none; or a stage cannot be found in it, because its function was inlined or the program is
+///                    stripped
 StageInstructions stage_instructions(std::string_view profile);
 
 /// What instruction counts depend on besides the program: "instructions.cpu", "instructions.valgrind",
@@ -37,10 +38,11 @@ cases::Identity instruction_identity(const std::filesystem::path& program);
 /// counts to the case of that name in the recording (to a new one if there is none), as figures "instructions.STAGE".
 /// The identity gains `instruction_identity`.
 ///
-/// \param folder  for the profiles, which are kept as CASE.callgrind; exists
+/// \param folder    exists; gets the profiles, as instructions/NUMBER.callgrind in the order of the cases
+/// \param progress  counts cases
 /// \throw InputError  there is no valgrind, or a stage cannot be found; says what to do
 /// \throw MeshError   the program failed on a case; says with what
-/// \throw baselines::Stopped  the user has stopped the program
+/// \throw baselines::Stopped  the user has stopped this program
 void add_instructions(const std::filesystem::path& program, std::span<const cases::Case> cases, const Rules& rules,
                       const std::filesystem::path& folder, Recording& recording, const Progress& progress = {});
 

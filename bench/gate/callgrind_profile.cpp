@@ -1,0 +1,129 @@
+#include "bench/gate/callgrind_profile.h"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+
+#include "engine/base/errors.h"
+
+namespace ccdt::gate {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, long long line) {
+  throw InputError("this is no profile of callgrind: " + what, {.line = line},
+                   "make one with valgrind --tool=callgrind, without --dump-instr, --cache-sim and --branch-sim");
+}
+
+std::optional<std::uint64_t> number_of(std::string_view word) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+/// Callgrind writes a name once, "(12) name", and later only "(12)".
+class Names {
+ public:
+  /// None if the name was not written before.
+  const std::string* of(std::string_view text) {
+    const auto close = text.find(')');
+    if (!text.starts_with('(') || close == std::string_view::npos) return remember(text, text);
+    const auto id = text.substr(0, close + 1);
+    if (text.size() > close + 2) return remember(id, text.substr(close + 2));
+    const auto found = names_.find(std::string(id));
+    return found == names_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  const std::string* remember(std::string_view id, std::string_view name) {
+    // "'2" marks a call within a call of the same function, " [clone .avx2]" one of several versions of it.
+    name = name.substr(0, name.find(" [clone "));
+    const auto mark = name.rfind('\'');
+    if (mark != std::string_view::npos && number_of(name.substr(mark + 1))) name = name.substr(0, mark);
+    return &names_.insert_or_assign(std::string(id), std::string(name)).first->second;
+  }
+
+  std::unordered_map<std::string, std::string> names_;
+};
+
+/// The lines of a profile that tell of calls, one by one.
+class Reader {
+ public:
+  CallGraph read(std::string_view profile) {
+    while (!profile.empty()) {
+      const auto end = std::min(profile.find('\n'), profile.size() - 1);
+      ++line_;
+      take(profile.substr(0, profile[end] == '\n' ? end : end + 1));
+      profile.remove_prefix(end + 1);
+    }
+    if (!counts_instructions_ || !is_by_line_) fail("it does not say that it counts instructions by line", line_);
+    return std::move(graph_);
+  }
+
+ private:
+  void take(std::string_view line) {
+    if (after_calls_) {
+      add_call(line);
+    } else if (line.starts_with("fn=")) {
+      caller_ = name_of(line.substr(3));
+    } else if (line.starts_with("cfn=")) {
+      callee_ = name_of(line.substr(4));
+    } else if (line.starts_with("calls=")) {
+      after_calls_ = true;
+    } else if (line.starts_with("events:")) {
+      counts_instructions_ = line == "events: Ir";
+    } else if (line.starts_with("positions:")) {
+      is_by_line_ = line == "positions: line";
+    }
+  }
+
+  std::string name_of(std::string_view text) {
+    const std::string* name = names_.of(text);
+    if (name == nullptr) fail("it uses a name that it has not defined", line_);
+    return *name;
+  }
+
+  /// The line after "calls=" has where the call is, and what it costs.
+  void add_call(std::string_view line) {
+    after_calls_ = false;
+    const auto space = line.find(' ');
+    const auto cost = number_of(space == std::string_view::npos ? "" : line.substr(space + 1));
+    if (!cost) fail("a call has no cost", line_);
+    if (const auto [begin, end] = graph_.calls.equal_range(caller_); begin != end) {
+      const auto known = std::find_if(begin, end, [&](const auto& call) { return call.second.name == callee_; });
+      if (known != end) {
+        known->second.instructions += *cost;
+        return;
+      }
+    }
+    graph_.calls.emplace(caller_, CallGraph::Callee{callee_, *cost});
+  }
+
+  CallGraph graph_;
+  Names names_;
+  std::string caller_, callee_;
+  long long line_ = 0;
+  bool after_calls_ = false, counts_instructions_ = false, is_by_line_ = false;
+};
+
+}  // namespace
+
+CallGraph read_callgrind(std::string_view profile) {
+  return Reader().read(profile);
+}
+
+std::string_view bare_name(std::string_view function) {
+  const auto open = function.find('(');
+  if (open == std::string_view::npos) return function;
+  int depth = 0;
+  for (std::size_t i = open; i < function.size(); ++i) {
+    if (function[i] == '(') ++depth;
+    if (function[i] == ')') --depth;
+    if (depth == 0) return i + 1 == function.size() ? function.substr(0, open) : function;
+  }
+  return function;
+}
+
+}  // namespace ccdt::gate
