@@ -89,20 +89,6 @@ constexpr auto fields_of_seconds =
                field("finish", stage(&StageSeconds::finish)), field("improve", stage(&StageSeconds::improve)),
                field("write", &RunRecord::write_seconds), field("mesh", stage(&StageSeconds::mesh)));
 
-constexpr auto stage(Work StageWork::*work) {
-  return [work](auto& record) -> auto& {
-    return record.work.*work;
-  };
-}
-
-constexpr auto stages_of_work =
-    std::tuple(field("remesh", &RunRecord::remesh_work), field("plc", stage(&StageWork::plc)),
-               field("protect", stage(&StageWork::protect)), field("facets", stage(&StageWork::facets)),
-               field("lattice", stage(&StageWork::lattice)), field("delaunay", stage(&StageWork::delaunay)),
-               field("face_check", stage(&StageWork::face_check)), field("front", stage(&StageWork::front)),
-               field("label", stage(&StageWork::label)), field("finish", stage(&StageWork::finish)),
-               field("improve", stage(&StageWork::improve)));
-
 constexpr auto fields_before_seconds =
     std::tuple(optional_field("command", &RunRecord::command), field("environment", &RunRecord::environment),
                field("counts", &RunRecord::counts));
@@ -140,25 +126,28 @@ void read_options(const Json& json, RunRecord& record) {
 }
 
 /// Only what is not zero: most counts are of one stage.
+void write_work(const char* stage, const Work& work, Json& json) {
+  for (const WorkCount& c : work_counts)
+    if (work.*c.count != 0) json[stage][c.name] = work.*c.count;
+}
+
+void read_work(const Json& json, const char* stage, Work& work) {
+  if (!json.contains(stage)) return;
+  const Json& counts = json.at(stage);
+  for (const WorkCount& c : work_counts)
+    if (counts.contains(c.name)) counts.at(c.name).get_to(work.*c.count);
+}
+
 Json work_json(const RunRecord& record) {
   Json json = Json::object();
-  const auto write = [&](const auto& stage) {
-    const Work& work = std::invoke(stage.access, record);
-    for (const WorkCount& c : work_counts)
-      if (work.*c.count != 0) json[stage.name][c.name] = work.*c.count;
-  };
-  std::apply([&](const auto&... stage) { (write(stage), ...); }, stages_of_work);
+  write_work("remesh", record.remesh_work, json);
+  for (const MeshStage& stage : mesh_stages) write_work(stage.name, record.work.*stage.work, json);
   return json;
 }
 
-void read_work(const Json& json, RunRecord& record) {
-  const auto read = [&](const auto& stage) {
-    if (!json.contains(stage.name)) return;
-    const Json& counts = json.at(stage.name);
-    for (const WorkCount& c : work_counts)
-      if (counts.contains(c.name)) counts.at(c.name).get_to(std::invoke(stage.access, record).*c.count);
-  };
-  std::apply([&](const auto&... stage) { (read(stage), ...); }, stages_of_work);
+void read_all_work(const Json& json, RunRecord& record) {
+  read_work(json, "remesh", record.remesh_work);
+  for (const MeshStage& stage : mesh_stages) read_work(json, stage.name, record.work.*stage.work);
 }
 
 Json json_of(const RunRecord& record) {
@@ -179,7 +168,7 @@ RunRecord record_from(const Json& json) {
   json.at("input").get_to(record.input);
   read_options(json.at("options"), record);
   read_fields(json, fields_before_seconds, record);
-  if (json.contains("work")) read_work(json.at("work"), record);
+  if (json.contains("work")) read_all_work(json.at("work"), record);
   read_fields(json.at("seconds"), fields_of_seconds, record);
   read_fields(json, fields_after_seconds, record);
   return record;

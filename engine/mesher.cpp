@@ -24,30 +24,11 @@ struct StageCosts {
   StageWork work;
 };
 
-/// A stage, by its time and its work.
-struct StageName {
-  double StageSeconds::*seconds;
-  Work StageWork::*work;
-};
-
-namespace stage {
-constexpr StageName plc = {&StageSeconds::plc, &StageWork::plc};
-constexpr StageName protect = {&StageSeconds::protect, &StageWork::protect};
-constexpr StageName facets = {&StageSeconds::facets, &StageWork::facets};
-constexpr StageName lattice = {&StageSeconds::lattice, &StageWork::lattice};
-constexpr StageName delaunay = {&StageSeconds::delaunay, &StageWork::delaunay};
-constexpr StageName face_check = {&StageSeconds::face_check, &StageWork::face_check};
-constexpr StageName front = {&StageSeconds::front, &StageWork::front};
-constexpr StageName label = {&StageSeconds::label, &StageWork::label};
-constexpr StageName finish = {&StageSeconds::finish, &StageWork::finish};
-constexpr StageName improve = {&StageSeconds::improve, &StageWork::improve};
-}  // namespace stage
-
 /// Runs a stage, whose wall-clock seconds and work are added to its costs.
 template <class Stage>
-auto measured(StageCosts& costs, const StageName& name, const Stage& run) {
-  const Stopwatch watch(costs.seconds.*name.seconds);
-  const WorkScope scope(costs.work.*name.work);
+auto measured(StageCosts& costs, const MeshStage& stage, const Stage& run) {
+  const Stopwatch watch(costs.seconds.*stage.seconds);
+  const WorkScope scope(costs.work.*stage.work);
   return run();
 }
 
@@ -107,7 +88,7 @@ struct Tetrahedralization {
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and the mesh of what they enclose.
 void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
-  std::vector<std::uint32_t> codes = measured(costs, stage::face_check, [&] {
+  std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
     std::vector<std::uint32_t> found = front::find_delaunay_faces(facets, delaunay);
     if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
       found = front::find_delaunay_faces(facets, delaunay);
@@ -117,7 +98,7 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
   t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, delaunay::no_neighbor));
   if (!options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
 
-  const front::FrontResult front = measured(costs, stage::front, [&] {
+  const front::FrontResult front = measured(costs, mesh_stage::front, [&] {
     return front::advance_front({t.plc, facets, codes, delaunay},
                                 {options.locator, options.grid_scale, options.face_protection}, progress);
   });
@@ -127,28 +108,28 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
   t.counts.front_faces = front.undelaunay_faces;
 
   const label::CellLabels labels =
-      measured(costs, stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
+      measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   t.stuck = labels.stuck;
   if (t.stuck) return;
-  t.mesh =
-      measured(costs, stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
-  t.stuck = measured(costs, stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
+  t.mesh = measured(costs, mesh_stage::label,
+                    [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
   if (t.stuck) return;
-  t.facet_of_face =
-      measured(costs, stage::finish, [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
+  t.facet_of_face = measured(costs, mesh_stage::finish,
+                             [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
 }
 
 /// All stages but improvement.
 Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness,
                                   const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
-  t.plc = measured(costs, stage::plc, [&] { return plc::build_plc(input, {flatness}, progress); });
+  t.plc = measured(costs, mesh_stage::plc, [&] { return plc::build_plc(input, {flatness}, progress); });
   // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
   // whatever the method is. With another method it is there for the sake of protection alone.
   const bool stays = options.delaunay == DelaunayMethod::insert;
-  delaunay::Delaunay delaunay = measured(costs, stays ? stage::delaunay : stage::protect,
+  delaunay::Delaunay delaunay = measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
                                          [&] { return delaunay::build_delaunay(t.plc.vertices, progress); });
-  protection::ProtectedDelaunay surface = measured(costs, stage::protect, [&] {
+  protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
     return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay)), options.protection,
                                      progress);
   });
@@ -157,13 +138,15 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size();
   t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
 
-  facets::FacetMesh facets = measured(
-      costs, stage::facets, [&] { return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
+  facets::FacetMesh facets = measured(costs, mesh_stage::facets, [&] {
+    return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
+  });
   std::vector<Point3> points;
   if (options.lattice != Lattice::none)
-    points = measured(costs, stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
+    points =
+        measured(costs, mesh_stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
   delaunay =
-      measured(costs, stage::delaunay, [&] { return add_points(points, std::move(surface), options, progress); });
+      measured(costs, mesh_stage::delaunay, [&] { return add_points(points, std::move(surface), options, progress); });
   t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
   t.counts.dropped_interior_vertices = points.size() - t.counts.interior_vertices;
 
@@ -190,13 +173,14 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
   if (improve.improvement != Improvement::none) {
-    t.counts.improve = measured(costs, stage::improve, [&] {
+    t.counts.improve = measured(costs, mesh_stage::improve, [&] {
       return improve::improve_mesh({t.plc, t.chains, std::move(t.facet_of_face), t.first_interior}, improve, t.points,
                                    t.mesh, progress);
     });
     t.counts.interior_vertices = t.points.size() - t.first_interior;
   }
-  t.mesh.vertices = measured(costs, stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
+  t.mesh.vertices =
+      measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   StageSeconds& s = costs.seconds;

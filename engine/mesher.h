@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "engine/base/progress.h"
@@ -60,6 +61,31 @@ struct StageSeconds {
 struct StageWork {
   Work plc, protect, facets, lattice, delaunay, face_check, front, label, finish, improve;
 };
+
+/// A stage of meshing, by its name, its time and its work.
+struct MeshStage {
+  const char* name;
+  double StageSeconds::*seconds;
+  Work StageWork::*work;
+};
+
+namespace mesh_stage {
+inline constexpr MeshStage plc = {"plc", &StageSeconds::plc, &StageWork::plc};
+inline constexpr MeshStage protect = {"protect", &StageSeconds::protect, &StageWork::protect};
+inline constexpr MeshStage facets = {"facets", &StageSeconds::facets, &StageWork::facets};
+inline constexpr MeshStage lattice = {"lattice", &StageSeconds::lattice, &StageWork::lattice};
+inline constexpr MeshStage delaunay = {"delaunay", &StageSeconds::delaunay, &StageWork::delaunay};
+inline constexpr MeshStage face_check = {"face_check", &StageSeconds::face_check, &StageWork::face_check};
+inline constexpr MeshStage front = {"front", &StageSeconds::front, &StageWork::front};
+inline constexpr MeshStage label = {"label", &StageSeconds::label, &StageWork::label};
+inline constexpr MeshStage finish = {"finish", &StageSeconds::finish, &StageWork::finish};
+inline constexpr MeshStage improve = {"improve", &StageSeconds::improve, &StageWork::improve};
+}  // namespace mesh_stage
+
+/// All stages, in their order.
+inline constexpr std::array mesh_stages = {
+    mesh_stage::plc,        mesh_stage::protect, mesh_stage::facets, mesh_stage::lattice, mesh_stage::delaunay,
+    mesh_stage::face_check, mesh_stage::front,   mesh_stage::label,  mesh_stage::finish,  mesh_stage::improve};
 
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh

@@ -4,6 +4,7 @@ set(public_headers
   base/enum_names.h
   base/errors.h
   base/point.h
+  base/portable_math.h
   base/progress.h
   base/work.h
   delaunay/options.h

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/box.h"
+#include "engine/base/count_work.h"
 
 namespace ccdt {
 
@@ -15,6 +16,8 @@ namespace ccdt {
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
+
+  std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_); }
 
   /// Calls visit(item) for all items whose box meets the given one.
   template <class Visit>
@@ -40,6 +43,7 @@ class BoxTree {
 
   template <class Visit>
   void descend(std::uint32_t node, const Box& box, Visit& visit) const {
+    ++work_done.box_tree_nodes;
     if (!is_leaf(node)) {
       for (const std::uint32_t child : {2 * node, 2 * node + 1})
         if (nodes_[child].meets(box)) descend(child, box, visit);
@@ -47,11 +51,15 @@ class BoxTree {
     }
     const auto [begin, end] = places_of(node);
     for (std::size_t i = begin; i < end; ++i)
-      if (boxes_[i].meets(box)) visit(items_[i]);
+      if (boxes_[i].meets(box)) {
+        ++work_done.box_pairs;
+        visit(items_[i]);
+      }
   }
 
   template <class Visit>
   void descend_self(std::uint32_t node, Visit& visit) const {
+    ++work_done.box_tree_nodes;
     if (!is_leaf(node)) {
       descend_self(2 * node, visit);
       descend_self(2 * node + 1, visit);
@@ -60,13 +68,20 @@ class BoxTree {
     }
     const auto [begin, end] = places_of(node);
     for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = i + 1; j < end; ++j)
-        if (boxes_[i].meets(boxes_[j])) visit(items_[i], items_[j]);
+      for (std::size_t j = i + 1; j < end; ++j) visit_if_meeting(i, j, visit);
+  }
+
+  template <class Visit>
+  void visit_if_meeting(std::size_t i, std::size_t j, Visit& visit) const {
+    if (!boxes_[i].meets(boxes_[j])) return;
+    ++work_done.box_pairs;
+    visit(items_[i], items_[j]);
   }
 
   /// The two meet.
   template <class Visit>
   void descend_both(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+    ++work_done.box_tree_nodes;
     if (!is_leaf(a)) {  // both are on the same level
       for (const std::uint32_t i : {2 * a, 2 * a + 1})
         for (const std::uint32_t j : {2 * b, 2 * b + 1})
@@ -77,8 +92,7 @@ class BoxTree {
     const auto [begin_b, end_b] = places_of(b);
     for (std::size_t i = begin_a; i < end_a; ++i) {
       if (!boxes_[i].meets(nodes_[b])) continue;
-      for (std::size_t j = begin_b; j < end_b; ++j)
-        if (boxes_[i].meets(boxes_[j])) visit(items_[i], items_[j]);
+      for (std::size_t j = begin_b; j < end_b; ++j) visit_if_meeting(i, j, visit);
     }
   }
 

@@ -60,6 +60,8 @@ class HashTable {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  /// Of all places, the empty ones included.
+  std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
   void clear() { *this = {}; }
 
   /// Room for so many entries without growing.

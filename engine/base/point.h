@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/portable_math.h"
+
 namespace ccdt {
 
 /// A point or a vector in space. In the engine the coordinates are integers in *grid units* (see grid.h), held in
@@ -58,11 +60,11 @@ inline Point3 area_vector(const std::array<Point3, 3>& p) {
 
 /// The angle at a between b and c, in radians.
 inline double angle_at(const Point3& a, const Point3& b, const Point3& c) {
-  return std::atan2(length(cross(b - a, c - a)), dot(b - a, c - a));
+  return portable::angle_of(dot(b - a, c - a), length(cross(b - a, c - a)));
 }
 
 inline double to_radians(double degrees) {
-  return degrees * (std::acos(-1.0) / 180);
+  return degrees * (portable::pi / 180);
 }
 
 }  // namespace ccdt

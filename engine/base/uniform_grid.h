@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "engine/base/box.h"
+#include "engine/base/portable_math.h"
 
 namespace ccdt {
 
@@ -61,7 +62,8 @@ inline UniformGrid make_uniform_grid(const Box& box, std::size_t items, double s
   UniformGrid grid;
   grid.low = box.low - Point3{tolerance, tolerance, tolerance};
   const Point3 size = extent + Point3{2 * tolerance, 2 * tolerance, 2 * tolerance};
-  grid.cell_size = scale * std::cbrt(size.x * size.y * size.z / static_cast<double>(std::max<std::size_t>(items, 1)));
+  grid.cell_size =
+      scale * portable::cube_root(size.x * size.y * size.z / static_cast<double>(std::max<std::size_t>(items, 1)));
   const auto count = [&](double s) { return std::max(1, static_cast<int>(std::ceil(s / grid.cell_size))); };
   grid.cells = {count(size.x), count(size.y), count(size.z)};
   return grid;

@@ -17,6 +17,8 @@ class UnionFind {
     return i;
   }
 
+  std::size_t bytes() const { return parent_.size() * sizeof(parent_[0]); }
+
   /// \return  the representative of both
   std::uint32_t join(std::uint32_t i, std::uint32_t j) {
     i = find(i);

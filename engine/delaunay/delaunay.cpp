@@ -105,6 +105,7 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
     last = insertion.fill_cavity();
     if ((v & 0xFFFF) == 0) report(progress, "delaunay", v, d.vertices.size());
   }
+  note_bytes(bytes_of(order, d.vertices, d.cells, d.free_cells) + insertion.bytes());
   renumber(d, order);
   return d;
 }
@@ -127,6 +128,7 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
       cells_.push_back(next);
     }
   }
+  work_done.cells_visited += cells_.size();
   return cells_;
 }
 
@@ -138,6 +140,7 @@ bool CellStar::has_edge(std::uint32_t a, std::uint32_t b) {
   if (d_.is_ghost(here)) here = cell_of(d_.cells[here].neighbors[3]);
   const Point3& p = d_.point(b);
   for (std::uint32_t from = no_neighbor;;) {
+    ++work_done.cells_visited;
     const Cell& cell = d_.cells[here];
     if (place_of(cell, b) < 4) return true;
     std::uint32_t exit = 4;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count_work.h"
+
 namespace ccdt::delaunay {
 namespace {
 
@@ -72,6 +74,15 @@ class ApexSearch {
   }
 
   std::uint32_t run(std::uint32_t candidate, Reach reach) {
+    const std::uint32_t apex = search(candidate, reach);
+    ++work_done.apex_searches;
+    work_done.grid_cells += cells_;
+    work_done.vertices_examined += vertices_;
+    return apex;
+  }
+
+ private:
+  std::uint32_t search(std::uint32_t candidate, Reach reach) {
     if (candidate != ghost_vertex) accept(candidate);
     const double size = 2 * pencil_.size() * per_cell_;
     const int near = size < 5 ? std::max(2, static_cast<int>(size) + 1) : 6;
@@ -90,7 +101,6 @@ class ApexSearch {
     }
   }
 
- private:
   void accept(std::uint32_t v) {
     pencil_.accept(v);
     cap_ = pencil_.cap();
@@ -132,6 +142,7 @@ class ApexSearch {
         const std::size_t row = g_.grid.number({0, y, z});
         const std::uint32_t end = g_.first[row + window.to[0] + 1];
         std::uint32_t v = g_.first[row + window.from[0]];
+        cells_ += static_cast<std::uint64_t>(window.to[0] - window.from[0] + 1);
         if (batch_.size + (end - v) > VertexBatch::capacity) return visit(window);
         for (; v < end; ++v) {
           const Point3 e = g_.vertices[v].point - origin;
@@ -141,6 +152,7 @@ class ApexSearch {
       }
     }
     pencil_.consider_first(batch_);
+    vertices_ += batch_.size;
     cap_ = pencil_.cap();
   }
 
@@ -170,8 +182,10 @@ class ApexSearch {
   void visit_row(int y, int z, int from, int to) {
     if (from > to) return;
     const std::size_t row = g_.grid.number({0, y, z});
-    const std::uint32_t apex = pencil_.apex(), end = g_.first[row + to + 1];
-    for (std::uint32_t v = g_.first[row + from]; v < end; ++v) pencil_.consider(v);
+    const std::uint32_t apex = pencil_.apex(), begin = g_.first[row + from], end = g_.first[row + to + 1];
+    for (std::uint32_t v = begin; v < end; ++v) pencil_.consider(v);
+    cells_ += static_cast<std::uint64_t>(to - from + 1);
+    vertices_ += end - begin;
     if (pencil_.apex() != apex) cap_ = pencil_.cap();
   }
 
@@ -253,6 +267,7 @@ class ApexSearch {
   double per_normal_x_;
   CellIndex middle_;
   CellBox seen_;
+  std::uint64_t cells_ = 0, vertices_ = 0;  ///< that the search came to
 };
 
 }  // namespace
@@ -293,6 +308,9 @@ double BlockTops::top(Direction& direction, std::size_t block) const {
   if (!std::isnan(top)) return top;
   const GridBlock& b = grid_.blocks[block];
   double highest = -std::numeric_limits<double>::infinity();
+  work_done.grid_cells += static_cast<std::uint64_t>(b.to[0] - b.from[0] + 1) *
+                          static_cast<std::uint64_t>(b.to[1] - b.from[1] + 1) *
+                          static_cast<std::uint64_t>(b.to[2] - b.from[2] + 1);
   grid_.for_each_vertex(b.from, b.to, [&](const Point3& p) { highest = std::max(highest, dot(direction.normal, p)); });
   top = highest + 1e-15 * (grid_.extent.x + grid_.extent.y + grid_.extent.z);
   return top;

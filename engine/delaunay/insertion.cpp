@@ -190,7 +190,7 @@ CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
 
 bool Insertion::conflicts_exactly(const Cell& cell) const {
   const auto& v = cell.vertices;
-  return numbers::insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_) > 0;
+  return numbers::insphere_exactly(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/count_work.h"
 #include "engine/delaunay/delaunay.h"
 
 namespace ccdt::delaunay {
@@ -36,6 +37,8 @@ class Insertion {
   std::span<const CavityFace> cavity_faces() const { return border_.items(); }
   std::uint32_t twin() const { return twin_; }
   bool in_cavity(std::uint32_t cell) const { return mark_[cell] == Mark::conflict; }
+  /// Of the marks of cells and vertices; the rest of the working memory is small.
+  std::size_t bytes() const { return bytes_of(mark_) + d_.vertices.size() * sizeof(local_[0]); }
 
   /// Forgets the cavity and leaves all as it was.
   void discard_cavity();

@@ -152,7 +152,8 @@ std::vector<Side> sides_by_edge(const std::vector<FaceCorners>& corners) {
   for (std::uint32_t f = 0; f < corners.size(); ++f)
     for (std::uint32_t k = 0; k < 3; ++k)
       sides.push_back({edge_key(corners[f][(k + 1) % 3], corners[f][(k + 2) % 3]), f, k});
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.face < b.face; });
   return sides;
 }
 
@@ -249,6 +250,7 @@ class Wrap {
     }
     add_ghosts(cells_, postponed_);
     work_done.cells_created += cells_.size();
+    note_bytes(bytes_of(grid_.vertices, grid_.first, grid_.blocks, cells_, postponed_) + open_.bytes());
     return std::move(cells_);
   }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/base/count_work.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/numbers/predicates.h"
@@ -88,9 +89,15 @@ FacetFrame frame_of(const plc::Facet& facet, const std::vector<delaunay::Delauna
   return {normal, plc::dominant_axis(normal), std::sqrt(scale)};
 }
 
+/// The least one that is not less than a positive number.
+double power_of_two_above(double x) {
+  int exponent = 0;
+  return std::ldexp(std::frexp(x, &exponent) == 0.5 ? 0.5 : 1, exponent);
+}
+
 FacetPlane exact_plane(const plc::Facet& facet, const std::vector<delaunay::DelaunayVertex>& vertices) {
   const FacetFrame frame = frame_of(facet, vertices);
-  const double up = std::exp2(std::ceil(std::log2(frame.scale)));
+  const double up = power_of_two_above(frame.scale);
   Point3 apex = vertices[facet.triangles[0][0]].point;
   double& height = frame.axis == 0 ? apex.x : frame.axis == 1 ? apex.y : apex.z;
   height += std::copysign(up, as_array(frame.normal)[frame.axis]);
@@ -154,7 +161,8 @@ class FacetMesher {
       }
     }
     // A segment within the facet is met from both sides.
-    std::sort(segments.begin(), segments.end(), [](const auto& l, const auto& r) { return l.segment < r.segment; });
+    std::stable_sort(segments.begin(), segments.end(),
+                     [](const auto& l, const auto& r) { return l.segment < r.segment; });
     const auto same = [](const auto& l, const auto& r) { return l.segment == r.segment; };
     segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
     return segments;
@@ -317,6 +325,7 @@ FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChain
     if ((f & 0xFFF) == 0) report(progress, "facets", f, plc.facets.size());
     mesher.triangulate(FacetId(f), result);
   }
+  note_bytes(bytes_of(result.triangles, result.facet));
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/simplex_map.h"
@@ -44,6 +45,7 @@ class WholeModelFinder {
   }
 
   std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
+  std::size_t bytes() const { return locator_.bytes(); }
 
   /// The triangles that the front can meet.
   std::vector<std::uint32_t> triangles() const { return all_indices(facets_.triangles.size()); }
@@ -76,6 +78,7 @@ class CavityFinder {
   }
 
   std::uint32_t cavity_of_triangle(std::uint32_t triangle) const { return locator_.cavity_of_triangle(triangle); }
+  std::size_t bytes() const { return locator_.bytes(); }
 
   std::vector<std::uint32_t> triangles() const {
     return all_faces_ ? all_indices(facets_.triangles.size()) : locator_.triangles();
@@ -120,6 +123,7 @@ class Front {
   template <class Finder>
   void advance(Finder&& finder, const Progress& progress) {
     add_plc_faces(finder);
+    finder_bytes_ = finder.bytes();
     std::uint64_t done = 0;
     while (!undelaunay_.empty() && !result_.stuck) {
       const OrientedFace face = undelaunay_.back();
@@ -138,6 +142,8 @@ class Front {
     result_.open.reserve(static_cast<std::size_t>(std::ranges::count(plc_open_, 1)) + faces_.size());
     for (std::size_t side = 0; side < plc_open_.size(); ++side)
       if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
+    note_bytes(bytes_of(plc_open_, undelaunay_, result_.tetrahedra, result_.regions, result_.open) + faces_.bytes() +
+               finder_bytes_);
     faces_.for_each([&](const OrientedFace&, const State& state) {
       if (state.side == no_side) result_.open.push_back(state.face);
     });
@@ -224,6 +230,7 @@ class Front {
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
   std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
   FrontResult result_;
+  std::size_t finder_bytes_ = 0;
 };
 
 /// The front that need not advance: all faces of the PLC.
@@ -243,6 +250,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, 
   std::uint32_t vertices = 0;  // ids from here on are of vertices that no face has
   for (const auto& t : facets.triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   const FaceMap faces(facets.triangles, vertices);
+  std::uint64_t faces_tested = 0;
   // One pass over the cells, most of which are inside and passed over at once. (The ghosts' faces are theirs too.)
   for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
     const delaunay::Cell& cell = delaunay.cells[c];
@@ -254,6 +262,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, 
       if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
       const auto [p, q, r] = delaunay::corners_of_face(v, f);
       const std::uint32_t face = faces.find(p, q, r);
+      ++faces_tested;
       if (face == FaceMap::none) continue;
       // The cell is above the face if it sees the corners in their order.
       const auto& t = facets.triangles[face];
@@ -261,6 +270,9 @@ std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, 
       codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
     }
   }
+  work_done.faces_tested += faces_tested;
+  work_done.cells_visited += delaunay.cells.size();
+  note_bytes(bytes_of(codes, facets.triangles));
   return codes;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/count_work.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
 #include "engine/numbers/filters.h"
@@ -96,6 +97,7 @@ class ApexSearch {
     locate::LocatedVertex best{{}, 0, delaunay::ghost_vertex};
     // What is above the face and in a later, smaller sphere is in the earlier one too: one search is enough.
     locator_.visit_nearest_first(approximate_centroid(a, b, c), cap, [&](const locate::LocatedVertex& v) {
+      ++work_done.front_candidates;
       if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2]) return;
       if (!is_above(v.point) || (best.id != delaunay::ghost_vertex && !is_in_sphere(best, v)) || !satisfies(v)) return;
       best = v;
@@ -106,7 +108,7 @@ class ApexSearch {
 
   bool is_above(const Point3& p) const {
     const numbers::Sign sign = numbers::orient3d_filter(a_.point, b_.point, c_.point, p);
-    return sign == numbers::Sign::unknown ? numbers::orient3d(a_.point, b_.point, c_.point, p) > 0
+    return sign == numbers::Sign::unknown ? numbers::orient3d_exactly(a_.point, b_.point, c_.point, p) > 0
                                           : sign == numbers::Sign::plus;
   }
 
@@ -131,6 +133,7 @@ class ApexSearch {
   bool is_hidden_by(std::uint32_t f, const locate::LocatedVertex& v) const {
     const auto& t = facets_.triangles[f];
     if (t[0] == v.id || t[1] == v.id || t[2] == v.id) return false;
+    ++work_done.visibility_tests;
     return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, v.point, a_.point, b_.point, c_.point);
   }
 

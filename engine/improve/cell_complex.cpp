@@ -5,12 +5,14 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/count_work.h"
+#include "engine/base/portable_math.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
 
 QualityGoal goal_of(const ImproveOptions& options) {
-  return {options.objective, 1 / options.target_r, std::sin(options.target_dihedral * std::numbers::pi / 180)};
+  return {options.objective, 1 / options.target_r, portable::sine(to_radians(options.target_dihedral))};
 }
 
 double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
@@ -35,6 +37,7 @@ double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point
 }
 
 double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  ++work_done.quality_evaluations;
   if (goal.objective == Objective::dihedral) return least_sine(a, b, c, d);
   const double shape = inverse_r(a, b, c, d);
   return shape < goal.inverse_r ? shape : 1 + least_sine(a, b, c, d);
@@ -165,6 +168,12 @@ bool CellComplex::all_positive(const Change& change) const {
   });
 }
 
+std::size_t CellComplex::bytes() const {
+  return bytes_of(points_, cell_at_, changed_at_, cells_, walls_, regions_, qualities_, generations_, free_, faces_,
+                  facet_of_face_) +
+         segments_.bytes() + face_table_.bytes();
+}
+
 void CellComplex::open_hull(const Change& change, CellMarks& marks) {
   open_.clear();
   marks.clear(cells_.size());
@@ -240,6 +249,8 @@ void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std:
     cell_at_.push_back(no_neighbor);
     changed_at_.push_back(0);
   }
+  work_done.cells_destroyed += change.old_cells.size();
+  work_done.cells_created += change.new_cells.size();
   open_hull(change, marks);
   free_cells(change.old_cells);
   made.clear();

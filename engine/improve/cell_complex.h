@@ -151,6 +151,9 @@ class CellComplex {
   /// Exactly: are all new cells positive? With the same hull as the old ones they then fill the same space, once.
   bool all_positive(const Change& change) const;
 
+  /// Of what it holds by vertex, by cell and by face.
+  std::size_t bytes() const;
+
   /// Makes a change that is all positive. Interior vertices that no new cell has are gone.
   /// \param marks  working memory
   /// \param made   the new cells

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "engine/base/count_work.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/topological_changes.h"
 
@@ -168,6 +169,7 @@ class Improver {
       if (effort == Effort::usual || freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
       freedom = freedom_[vertex];
     }
+    ++work_done.moves_tried;
     gather_star(x_, vertex, scratch_.marks, star_);
     const double worst = x_.worst_of(star_.cells);
     Point3 apex = x_.point(vertex);
@@ -176,6 +178,7 @@ class Improver {
     std::ranges::copy_if(star_.cells, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
     x_.move_vertex(vertex, apex, star_.cells);
     ++counts_.moved_vertices;
+    ++work_done.vertices_moved;
     for (const std::uint32_t c : good_cells_) add_bad(c);
     return true;
   }
@@ -271,6 +274,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   CellComplex complex(mesh, std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
+  note_bytes(complex.bytes());
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;
   points = std::move(complex).take_mesh(mesh);
   return counts;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/base/count_work.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
@@ -138,6 +139,7 @@ void load_star(std::span<const StarFace> faces, const Point3& apex, ScaledStar& 
 }
 
 double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star) {
+  work_done.quality_evaluations += star.size();
   if (goal.objective == Objective::r) {
     compute_inverse_r(x, star);
     if (const double worst = least(star.inverse_r); worst < goal.inverse_r) return worst;
@@ -391,6 +393,7 @@ Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, doubl
       next.step = shrink * next.step, promised *= shrink, length *= shrink;
     }
     const double there = least_quality(goal, x + next.step, star);
+    ++work_done.ascent_steps;
     const double gain = there - least;
     moved = gain > 0;
     if (moved) x = x + next.step, least = there;
@@ -428,6 +431,7 @@ void gather_star(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, V
 }
 
 double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
+  work_done.quality_evaluations += faces.size();
   double least = 1;
   if (goal.objective == Objective::r) {
     for (const StarFace& f : faces) least = std::min(least, inverse_r(f.a, f.b, f.c, apex));

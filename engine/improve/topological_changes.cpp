@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count_work.h"
+
 namespace ccdt::improve {
 namespace {
 
@@ -240,6 +242,7 @@ double worst_of(const std::vector<NewCell>& cells) {
 }
 
 bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t edge, double least, Change& change) {
+  ++work_done.changes_tried;
   change.clear();
   const auto& corner = edge_corners[edge];
   const auto& v = x.cell(cell).vertices;
@@ -250,6 +253,7 @@ bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t e
 }
 
 bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t face, double least, Change& change) {
+  ++work_done.changes_tried;
   change.clear();
   const std::uint32_t code = face_code(cell, face);
   if (x.is_wall(code)) return false;
@@ -349,6 +353,7 @@ bool join_star(const CellComplex& x, const std::vector<std::uint32_t>& star, std
 }  // namespace
 
 bool plan_insertion(const CellComplex& x, std::uint32_t cell, double least, PlanScratch& scratch, Change& change) {
+  ++work_done.changes_tried;
   auto& [marks, star, joined, cavity, move] = scratch;
   const QualityGoal& goal = x.goal();
   change.clear();
@@ -381,6 +386,7 @@ bool plan_insertion(const CellComplex& x, std::uint32_t cell, double least, Plan
 }
 
 bool plan_collapse(const CellComplex& x, std::uint32_t cell, double least, PlanScratch& scratch, Change& change) {
+  ++work_done.changes_tried;
   bool is_planned = false;
   change.clear();
   const auto corners = x.cell(cell).vertices;

@@ -1,5 +1,6 @@
 #include "engine/label/label_cells.h"
 
+#include "engine/base/count_work.h"
 #include "engine/base/union_find.h"
 
 namespace ccdt::label {
@@ -85,6 +86,8 @@ CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const s
     region[cell] = region[parts.find(cell)];
     if (!region[cell].is_none() && d.is_ghost(cell)) return stuck_at(plc, d, cell);
   }
+  work_done.cells_visited += 2 * d.cells.size();
+  note_bytes(bytes_of(bits, region) + parts.bytes());
   const std::uint32_t leak = find_leak(d, bits, wall_codes, region);
   if (leak != no_neighbor) return stuck_at(plc, d, leak);
   return {std::move(region)};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/count_work.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::lattice {
@@ -124,7 +125,9 @@ std::optional<bool> cast(const Ray& ray, const DomainSurface& surface, std::span
                          std::vector<Hit>& hits) {
   const Box around = bounding_box(std::array{ray.start, ray.end});
   hits.clear();
+  ++work_done.rays_cast;
   for (std::uint32_t t : nearby) {
+    ++work_done.ray_triangles;
     const TrianglePoints corners = surface.corners(t);
     if (boxes_apart(around, corners)) continue;
     Hit hit;

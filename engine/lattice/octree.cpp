@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/lattice/inside_test.h"
 
@@ -14,13 +15,15 @@ namespace ccdt::lattice {
 
 namespace {
 
+constexpr double two_to_a_sixth = 1.12246204830937298;
+
 /// side / edge_length, see the table in the header.
 double side_for_unit_edge(Lattice kind) {
   switch (kind) {
     case Lattice::bcc:
-      return std::exp2(1.0 / 6);
+      return two_to_a_sixth;
     case Lattice::sc:
-      return std::exp2(-1.0 / 6);
+      return 1 / two_to_a_sixth;
     case Lattice::fcc:
     case Lattice::none:
       break;
@@ -328,6 +331,8 @@ Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice
   Builder builder(tree, surface);
   builder.refine(size, kind);
   builder.balance();
+  work_done.octree_nodes_created += tree.nodes.size();
+  note_bytes(bytes_of(tree.nodes, tree.triangles));
   return tree;
 }
 

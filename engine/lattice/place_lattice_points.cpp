@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/index_lists.h"
 
@@ -189,6 +190,7 @@ class Clearing {
       largest_squared_ball_radius_ = std::max(largest_squared_ball_radius_, o.squared_ball_radius);
     reaching_ = all_indices(obstacles_.size());
     descend(0, 0, reaching_.size());
+    note_bytes(bytes_of(tree_.nodes, tree_.triangles, sites_, obstacles_, nodes_) + sites_.size() / 8);
     return std::move(stays_);
   }
 
@@ -226,6 +228,7 @@ class Clearing {
 
   /// \param first,last  the part of `reaching_` that holds the obstacles that reach node i
   void descend(std::uint32_t i, std::size_t first, std::size_t last) {
+    ++work_done.octree_nodes;
     const OctreeNode& node = tree_.nodes[i];
     const NodeSites& here = nodes_[i];
     if (first == last || here.begin == here.end) return;
@@ -278,15 +281,20 @@ class Clearing {
 
   void clear_leaf(const OctreeNode& leaf, const NodeSites& here, std::span<const std::uint32_t> reaching) {
     left_.clear();
+    std::uint64_t balls = 0;
     for (std::uint32_t s = here.begin; s < here.end; ++s) {
       const Point3 p = tree_.point(coordinates_of(sites_[s]));
-      if (std::ranges::any_of(reaching, [&](std::uint32_t o) {
-            return squared_length(p - obstacles_[o].ball_center) <= obstacles_[o].squared_ball_radius;
-          }))
+      const auto covering = std::ranges::find_if(reaching, [&](std::uint32_t o) {
+        return squared_length(p - obstacles_[o].ball_center) <= obstacles_[o].squared_ball_radius;
+      });
+      balls += static_cast<std::uint64_t>(covering - reaching.begin()) + (covering != reaching.end());
+      if (covering != reaching.end())
         stays_[s] = false;
       else
         left_.push_back({p, s});
     }
+    work_done.sites_tested += here.end - here.begin;
+    work_done.obstacles_tested += balls;
     for (std::size_t k = 0; k < reaching.size() && !left_.empty(); ++k) {
       const Obstacle& o = obstacles_[reaching[k]];
       if (o.needs_clearance && is_near(leaf, o)) clear_around(o, clearance_[leaf.level].squared_radius);
@@ -304,6 +312,7 @@ class Clearing {
   void clear_around(const Obstacle& o, double squared_radius) {
     const auto& [a, b, c] = o.vertices;
     const TriangleDistance distance({surface_.vertices[a], surface_.vertices[b], surface_.vertices[c]});
+    work_done.obstacles_tested += left_.size();
     std::erase_if(left_, [&](const PlacedSite& site) {
       const bool goes = distance.is_below(squared_radius, site.point);
       if (goes) stays_[site.number] = false;
@@ -363,7 +372,8 @@ double volume_inside(const DomainSurface& surface) {
 
 /// Before memory is asked for. The lattice is nowhere coarser than the greatest target.
 void check_number(const DomainSurface& surface, const SizeField& size) {
-  const double points = std::sqrt(2.0) * volume_inside(surface) / std::pow(size.largest(), 3);
+  const double largest = size.largest(),
+               points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
   if (points > most_vertices) throw_too_many_points();
 }
 

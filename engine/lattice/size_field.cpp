@@ -86,7 +86,7 @@ std::vector<Weighted> weigh_sizes(const BackgroundSizes& background, double larg
 }
 
 double median(std::vector<Weighted> sizes) {
-  std::ranges::sort(sizes, {}, &Weighted::size);
+  std::ranges::stable_sort(sizes, {}, &Weighted::size);
   double rest = 0;
   for (const Weighted& s : sizes) rest += s.weight / 2;
   for (const Weighted& s : sizes) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/box.h"
+#include "engine/base/count_work.h"
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
 
@@ -40,6 +41,7 @@ class SizeTree {
     stack[height++] = {0, 0, items_.size(), lower(groups_[0].box, groups_[0].size)};
     while (height > 0) {
       const Visit visit = stack[--height];
+      ++work_done.box_tree_nodes;
       if (visit.lower >= bound) continue;  // it may have been lowered
       if (visit.group >= first_leaf_) {
         for (std::size_t i = visit.begin; i < visit.end; ++i)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/count_work.h"
 #include "engine/base/union_find.h"
 #include "engine/numbers/predicates.h"
 
@@ -116,6 +117,7 @@ class PiercedCellSearch {
     Visit& visit = *visits_.insert(cell, {}).first;
     if (visit.last == i) return;
     visit.last = i;
+    ++work_done.piercing_tests;
     if (!TriangleCellTest(d_, t, d_.cells[cell].vertices).intersect()) return;
     if (visit.owner == none) {
       visit.owner = i;

@@ -42,6 +42,13 @@ class CavityLocator {
   const OctreeLocator& cavity(std::uint32_t number) const { return cavities_[number]; }
   std::size_t cavity_count() const { return cavities_.size(); }
 
+  std::size_t bytes() const {
+    std::size_t bytes = bytes_of(missing_, triangles_, pierced_.part_of_face) + pierced_.part_of.bytes();
+    for (const OctreeLocator& cavity : cavities_) bytes += cavity.bytes();
+    for (const auto& cells : pierced_.cells) bytes += bytes_of(cells);
+    return bytes;
+  }
+
   /// The cavity that a Delaunay cell is in, if any.
   std::uint32_t cavity_of_cell(std::uint32_t cell) const;
   /// The cavity that a missing face of the PLC is in; none for Delaunay faces.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/count_work.h"
 #include "engine/base/index.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/uniform_grid.h"
@@ -21,6 +22,8 @@ class GridLocator {
   /// \param scale  factor of the paper's cell size
   GridLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
               double scale = 1);
+
+  std::size_t bytes() const { return bytes_of(vertices_, first_vertex_, faces_.first, faces_.items); }
 
   /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, in growing distance from
   /// `start`, ring of cells by ring. The cap may shrink meanwhile.
@@ -77,6 +80,7 @@ void GridLocator::visit_ring(const UniformGrid::CellIndex& middle, int ring, con
 
 template <class Visit>
 void GridLocator::visit_cell(const UniformGrid::CellIndex& cell, const Cap& cap, const Visit& visit) const {
+  ++work_done.grid_cells;
   const std::size_t number = grid_.number(cell);
   const std::uint32_t first = first_vertex_[number], last = first_vertex_[number + 1];
   if (first == last) return;
@@ -100,9 +104,11 @@ bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& v
     last_from = from, last_to = to;
     for (int z = from[2]; z <= to[2]; ++z)
       for (int y = from[1]; y <= to[1]; ++y)
-        for (int x = from[0]; x <= to[0]; ++x)
+        for (int x = from[0]; x <= to[0]; ++x) {
+          ++work_done.grid_cells;
           for (const std::uint32_t f : faces_.of(grid_.number({x, y, z})))
             if (visit(f)) return true;
+        }
   }
   return false;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/morton.h"
 
@@ -60,6 +61,7 @@ BoxOctree::BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size) {
   std::vector<unsigned> levels = {0};
   for (std::uint32_t node = 0; node < nodes_.size(); ++node)
     if (nodes_[node].last - nodes_[node].first > leaf_size) split(node, keys, levels);
+  work_done.octree_nodes_created += nodes_.size();
   // Children come after their parents.
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& node = nodes_[i];

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/count_work.h"
 #include "engine/base/index.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/locate/cap.h"
@@ -52,6 +53,8 @@ class BoxOctree {
   /// \param leaf_size  most items of a leaf, unless more are in one place
   BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size);
 
+  std::size_t bytes() const { return bytes_of(order_, nodes_); }
+
   /// The items, in the order that nodes count in.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
@@ -80,6 +83,7 @@ void BoxOctree::visit_nearest_first(const Point3& start, const Misses& misses, c
   unsigned height = 0;
   if (!nodes_.empty()) stack[height++] = 0;
   while (height > 0) {
+    ++work_done.octree_nodes;
     const Node& node = nodes_[stack[--height]];
     if (misses(node.box)) continue;
     if (node.child_count == 0) {
@@ -108,6 +112,7 @@ bool BoxOctree::any_leaf_at(const EdgeProbe& probe, const Visit& visit) const {
   unsigned height = 0;
   if (!nodes_.empty()) stack[height++] = 0;
   while (height > 0) {
+    ++work_done.octree_nodes;
     const Node& node = nodes_[stack[--height]];
     if (probe.misses(node.box)) continue;
     if (node.child_count == 0) {
@@ -129,6 +134,10 @@ class OctreeLocator {
   /// Of some vertices and some faces, by their numbers.
   OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::uint32_t> some_vertices,
                 std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces);
+
+  std::size_t bytes() const {
+    return vertex_tree_.bytes() + face_tree_.bytes() + bytes_of(vertices_, faces_, face_boxes_);
+  }
 
   /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, roughly in growing distance
   /// from `start`. The cap may shrink meanwhile.

@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
+#include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 
@@ -203,6 +204,9 @@ using Tetrahedron = std::array<std::uint32_t, 4>;
 using Rational = boost::multiprecision::cpp_rational;
 
 bool is_positive_exactly(const std::array<const Point3*, 4>& p) {
+  ++work_done.orient3d_filter_failures;
+  ++work_done.wide_evaluations;
+  ++work_done.exact_evaluations;
   std::array<std::array<Rational, 3>, 3> m;
   for (int i = 0; i < 3; ++i) {
     m[i] = {Rational(p[i + 1]->x) - Rational(p[0]->x), Rational(p[i + 1]->y) - Rational(p[0]->y),
@@ -247,8 +251,10 @@ std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points
   std::vector<bool> on_grid(plc.world.size(), false);
   while (true) {
     std::vector<Tetrahedron> inverted;
+    work_done.cells_visited += tetrahedra.size();
     for (const Tetrahedron& t : tetrahedra)
       if (!is_positive(world, t)) inverted.push_back(t);
+    note_bytes(bytes_of(points, tetrahedra, world, inverted));
     if (inverted.empty()) return world;
     bool moved = false;
     for (const Tetrahedron& t : inverted) {

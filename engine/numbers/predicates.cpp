@@ -122,30 +122,6 @@ void count_tie() {
   ++work_done.exact_evaluations;
 }
 
-int exact_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  const Differences<3> m = shifted_differences<3>({&b, &c, &d}, a);
-  if (m.bits <= 41) {
-    count_narrow_evaluation();
-    return m.bits <= 20 ? sign_of(determinant3<std::int64_t, std::int64_t>(m.row))
-                        : sign_of(determinant3<Int128, Int128>(m.row));
-  }
-  count_wide_evaluation();
-  return sign_of(determinant3<WideInt<256>, WideInt<256>>(m.row));
-}
-
-int exact_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
-  const Differences<4> m = shifted_differences<4>({&a, &b, &c, &d}, e);
-  if (m.bits <= 40) {
-    count_narrow_evaluation();
-    if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
-    if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
-    return insphere_sign_in_digits(m.row);
-  }
-  count_wide_evaluation();
-  if (m.bits <= 49) return insphere_sign<Int128, WideInt<256>, WideInt<256>>(m.row);
-  return insphere_sign<Int128, WideInt<512>, WideInt<512>>(m.row);
-}
-
 WideInt<256> signed_volume(const Point3& p, const Point3& q, const Point3& r, const Point3& x) {
   const auto row = [&](const Point3& v) -> std::array<std::int64_t, 3> {
     return {static_cast<std::int64_t>(v.x - p.x), static_cast<std::int64_t>(v.y - p.y),
@@ -177,16 +153,40 @@ int first_nonzero(const std::array<std::uint32_t, n>& ranks, const Coefficient& 
 
 }  // namespace
 
+int orient3d_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  ++work_done.orient3d_filter_failures;
+  const Differences<3> m = shifted_differences<3>({&b, &c, &d}, a);
+  if (m.bits <= 41) {
+    count_narrow_evaluation();
+    return m.bits <= 20 ? sign_of(determinant3<std::int64_t, std::int64_t>(m.row))
+                        : sign_of(determinant3<Int128, Int128>(m.row));
+  }
+  count_wide_evaluation();
+  return sign_of(determinant3<WideInt<256>, WideInt<256>>(m.row));
+}
+
+int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
+  ++work_done.insphere_filter_failures;
+  const Differences<4> m = shifted_differences<4>({&a, &b, &c, &d}, e);
+  if (m.bits <= 40) {
+    count_narrow_evaluation();
+    if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
+    if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
+    return insphere_sign_in_digits(m.row);
+  }
+  count_wide_evaluation();
+  if (m.bits <= 49) return insphere_sign<Int128, WideInt<256>, WideInt<256>>(m.row);
+  return insphere_sign<Int128, WideInt<512>, WideInt<512>>(m.row);
+}
+
 int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   if (const Sign sign = orient3d_filter(a, b, c, d); sign != Sign::unknown) return static_cast<int>(sign);
-  ++work_done.orient3d_filter_failures;
-  return exact_orient3d(a, b, c, d);
+  return orient3d_exactly(a, b, c, d);
 }
 
 int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {
   if (const Sign sign = insphere_filter(a, b, c, d, e); sign != Sign::unknown) return static_cast<int>(sign);
-  ++work_done.insphere_filter_failures;
-  return exact_insphere(a, b, c, d, e);
+  return insphere_exactly(a, b, c, d, e);
 }
 
 // With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of a

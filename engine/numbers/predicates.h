@@ -24,9 +24,15 @@ int sign_of(const Number& x) {
 /// that is, sign of ((b-a) x (c-a)) . (d-a).
 int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
+/// The same, where `orient3d_filter` has failed already.
+int orient3d_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
 /// For a positively oriented abcd: +1 when e is strictly inside the circumsphere of abcd, -1 outside, 0 on it.
 /// (For a negatively oriented abcd the sign is reversed.)
 int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e);
+
+/// The same, where `insphere_filter` has failed already.
+int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e);
 
 /// `insphere` without ties: a zero is decided by symbolic perturbation of the lifted heights. The height of the vertex
 /// with rank i is raised by epsilon_i, where the epsilon of a greater rank is infinitely larger than that of a smaller

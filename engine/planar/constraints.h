@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/base/count_work.h"
 #include "engine/planar/topology.h"
 #include "engine/planar/triangulation.h"
 
@@ -16,6 +17,7 @@ std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, c
     const Side s = unpack(stack.back());
     stack.pop_back();
     if (is_constrained(t, s) || neighbor(t, s) == none) continue;
+    ++work_done.edges_tested;
     const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, other_side(t, s));
     if (predicates.incircle(a, b, c, d) <= 0) continue;
     // Exact predicates of one plane imply this; it keeps the triangles valid where the caller's plane is only nearly
@@ -24,6 +26,7 @@ std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, c
     for (Side outer : flip(t, s)) stack.push_back(pack(outer));
     ++flips;
   }
+  work_done.edges_flipped += flips;
   return flips;
 }
 
@@ -80,6 +83,7 @@ template <Predicates P>
 std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
   std::uint32_t triangle = 0;
   for (std::size_t steps = 0; triangle != none && steps < t.triangles.size(); ++steps) {
+    ++work_done.triangles_visited;
     const std::array<int, 3> signs = signs_at_edges(t, triangle, v, predicates);
     if (is_within(signs)) return triangle;
     // Another edge first at each step, so that the walk cannot go in circles in a constrained triangulation for long.

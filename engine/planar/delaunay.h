@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/count_work.h"
+#include "engine/base/merge_sort.h"
 #include "engine/planar/topology.h"
 #include "engine/planar/triangulation.h"
 
@@ -128,7 +130,7 @@ SweepOrder sweep_order(std::span<const VertexId> vertices, const P& predicates) 
     }
   }
   const SweptBefore<P> before{predicates, pole, off_ray};
-  std::sort(order.swept.begin(), order.swept.end(), before);
+  merge_sort(order.swept, before);
   for (std::size_t i = 1; i < order.swept.size(); ++i) {
     if (!before(order.swept[i - 1], order.swept[i])) order.duplicates.push_back({order.swept[i - 1], order.swept[i]});
   }
@@ -297,6 +299,7 @@ class DivideAndConquer {
     if (!is_right_of(rings_.target(candidate), base)) return candidate;
     for (;;) {
       const Edge next = around[candidate];
+      work_done.edges_tested += next != from;
       if (next == from || predicates_.incircle(rings_.target(base), rings_.origin(base), rings_.target(candidate),
                                                rings_.target(next)) <= 0) {
         return candidate;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index.h"
@@ -208,6 +209,7 @@ bool visit_fan(const Triangulation& t, VertexId v, Visit visit) {
   if (first == none) return false;
   std::uint32_t triangle = first;
   do {  // counterclockwise
+    ++work_done.triangles_visited;
     const std::uint32_t corner = corner_of(t, triangle, v);
     if (visit(triangle, corner)) return true;
     triangle = t.neighbors[triangle][next_corner(corner)];
@@ -215,6 +217,7 @@ bool visit_fan(const Triangulation& t, VertexId v, Visit visit) {
   if (triangle == first) return false;
   triangle = t.neighbors[first][previous_corner(corner_of(t, first, v))];
   while (triangle != none) {  // a border was met: clockwise from the start as well
+    ++work_done.triangles_visited;
     const std::uint32_t corner = corner_of(t, triangle, v);
     if (visit(triangle, corner)) return true;
     triangle = t.neighbors[triangle][previous_corner(corner)];
@@ -233,6 +236,7 @@ bool visit_star(const Triangulation& t, VertexId v, Visit visit) {
   if (visit_fan(t, v, noting_borders)) return true;
   if (!at_border) return false;
   for (std::uint32_t triangle = 0; triangle < t.triangles.size(); ++triangle) {
+    ++work_done.triangles_visited;
     const std::uint32_t corner = corner_of(t, triangle, v);
     if (corner < 3 && visit(triangle, corner)) return true;
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/box_tree.h"
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/union_find.h"
 #include "engine/plc/edge_table.h"
@@ -424,6 +425,9 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
 
   report(progress, "plc", 4, steps);
   RegionMap map = find_regions(input, plc, parts, tree);
+  note_bytes(bytes_of(plc.world, plc.vertices, triangles.corners, triangles.markers, triangles.numbers, segments.ends,
+                      edges.ends, patches.facet_of, map.of_side) +
+             tree.bytes());
   plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
   plc.regions = std::move(map.regions);

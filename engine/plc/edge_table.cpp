@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/merge_sort.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
@@ -100,7 +101,8 @@ std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const
     };
     if (around.size() > 2) {
       const Point3& zero = apex(around[0]);
-      std::sort(around.begin() + 1, around.end(), [&](std::uint32_t s, std::uint32_t t) {
+      std::vector<std::uint32_t> others(around.begin() + 1, around.end());
+      merge_sort(others, [&](std::uint32_t s, std::uint32_t t) {
         const Turn to_s = turn_about(a, b, zero, apex(s)), to_t = turn_about(a, b, zero, apex(t));
         if (to_s != to_t) return to_s < to_t;
         if (to_s == Turn::below_180 || to_s == Turn::above_180) {
@@ -109,6 +111,7 @@ std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const
         }
         return s < t;
       });
+      std::ranges::copy(others, around.begin() + 1);
     }
     for (std::size_t i = 0; i < around.size(); ++i) {
       if (i == 1 && around.size() == 2) break;  // the same pair once more

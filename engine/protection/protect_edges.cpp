@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
@@ -252,6 +253,7 @@ ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Pr
       changed = true;
     }
   }
+  note_bytes(bytes_of(start.delaunay.vertices, start.delaunay.cells, start.delaunay.free_cells));
   return start;
 }
 
@@ -285,6 +287,8 @@ delaunay::Delaunay insert_interior(std::span<const Point3> points, ProtectedDela
       delaunay.vertices.pop_back();
     }
   }
+  note_bytes(bytes_of(delaunay.vertices, delaunay.cells, delaunay.free_cells, edges.on_edge, points) +
+             insertion.bytes());
   return std::move(start.delaunay);
 }
 

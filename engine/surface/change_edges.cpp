@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count_work.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
@@ -42,6 +43,7 @@ bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3
 
 void split(WorkingMesh& m, EdgeHandle e, VertexHandle v) {
   m.mesh.split(e, v);
+  ++work_done.edges_split;
   m.face_is_frozen.resize(m.mesh.n_faces(), 0);
 }
 
@@ -167,6 +169,7 @@ bool may_collapse(WorkingMesh& m, HalfedgeHandle h, std::uint32_t along_link, co
 bool try_collapse(WorkingMesh& m, HalfedgeHandle h, const CollapseAim& aim) {
   if (m.at(m.mesh.from_vertex_handle(h)).knot != none || !may_collapse(m, h, none, aim)) return false;
   m.mesh.collapse(h);
+  ++work_done.edges_collapsed;
   return true;
 }
 
@@ -209,6 +212,7 @@ bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link, c
   for (const HalfedgeHandle h : halfedges)
     if (!may_collapse(m, h, previous, aim)) return false;
   for (const HalfedgeHandle h : halfedges) m.mesh.collapse(h);
+  work_done.edges_collapsed += halfedges.size();
   m.knots[knot].is_alive = false;
   m.knots[knot].copies.clear();
   m.links[link].is_alive = false;
@@ -275,6 +279,7 @@ bool may_flip(const WorkingMesh& m, EdgeHandle e, const Flip& f) {
 bool try_flip(WorkingMesh& m, EdgeHandle e, const Flip& f) {
   if (!may_replace(f.before.worst, f.after.worst, good_after_flip) || !may_flip(m, e, f)) return false;
   m.mesh.flip(e);
+  ++work_done.edges_flipped;
   return true;
 }
 
@@ -366,6 +371,7 @@ bool improve_by_flip(WorkingMesh& m, EdgeHandle e) {
   const Flip f = flip_at(m, e, TriangleMeasure::angle);
   if (!is_better(f.before.worst, f.after.worst) || !may_flip(m, e, f)) return false;
   m.mesh.flip(e);
+  ++work_done.edges_flipped;
   return true;
 }
 

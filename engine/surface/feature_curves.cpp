@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/point.h"
+#include "engine/base/portable_math.h"
 
 namespace ccdt::surface {
 namespace {
@@ -49,7 +50,7 @@ class Chainer {
     if (e.is_segment != f.is_segment || e.marker != f.marker || e.triangles.size() != f.triangles.size()) return false;
     const double angle = angle_at(surface_.points[p], surface_.points[other_end(features_at_[p][0], p)],
                                   surface_.points[other_end(features_at_[p][1], p)]);
-    return std::acos(-1.0) - angle <= sharp_angle_;
+    return portable::pi - angle <= sharp_angle_;
   }
 
   // Every wedge at a point that may move has to reach from one feature to the other.
@@ -119,7 +120,7 @@ double FeatureCurve::at_bend(double arc_length, double reach) const {
   for (auto i = static_cast<std::size_t>(std::lower_bound(arc.begin(), arc.end(), arc_length - reach) - arc.begin());
        i < arc.size() && arc[i] <= arc_length + reach; ++i) {
     if (i == 0 || i + 1 == arc.size()) continue;
-    if (std::acos(-1.0) - angle_at(points[i], points[i - 1], points[i + 1]) < least_turn) continue;
+    if (portable::pi - angle_at(points[i], points[i - 1], points[i + 1]) < least_turn) continue;
     if (best == arc_length || std::fabs(arc[i] - arc_length) < std::fabs(best - arc_length)) best = arc[i];
   }
   return best;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count_work.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
@@ -68,6 +69,7 @@ void move_knot(WorkingMesh& m, std::uint32_t knot, const KnotOnCurve& at, double
   for (std::size_t i = 0; i < 2; ++i) m.links[at.links[i]].arc[at.sides[i]] = arc;
   m.knots[knot].position = m.features.curves[at.curve].at(arc);
   for (std::size_t c = 0; c < spots.size(); ++c) move_vertex(m, m.knots[knot].copies[c], spots[c]);
+  ++work_done.vertices_moved;
 }
 
 // ---- Relaxation -----------------------------------------------------------------------------------------------------
@@ -95,6 +97,7 @@ Point3 center_around(const WorkingMesh& m, VertexHandle v) {
 }
 
 void relax_vertex(WorkingMesh& m, VertexHandle v) {
+  ++work_done.moves_tried;
   const Point3 p = m.point(v), normal = m.at(v).normal;
   const Point3 move = center_around(m, v) - p;
   const Point3 tangential = move - dot(move, normal) * normal;
@@ -105,12 +108,14 @@ void relax_vertex(WorkingMesh& m, VertexHandle v) {
     const Spot spot = spot_at(m, foot);
     if (!may_relax(m, v, spot) || !edges_would_stay_near(m, v, spot.point)) continue;
     move_vertex(m, v, spot);
+    ++work_done.vertices_moved;
     return;
   }
 }
 
 // Between its neighbors, so that both edges fit the wanted lengths alike.
 void relax_knot(WorkingMesh& m, std::uint32_t k) {
+  ++work_done.moves_tried;
   constexpr double bend_reach = 0.3;  // of the new edges' length
   const KnotOnCurve at = on_curve(m, k);
   const FeatureCurve& curve = m.features.curves[at.curve];
@@ -131,6 +136,7 @@ void relax_knot(WorkingMesh& m, std::uint32_t k) {
 
 constexpr double first_step = 0.25, last_step = 0.01;  // as fractions of the mean edge around the vertex
 constexpr int directions = 8;
+constexpr double diagonal = 0.70710678118654752;  // sine of 45 degrees
 
 // The smallest angle around a vertex if that was elsewhere; less than 0 if a triangle was turned over there.
 double angle_around(const WorkingMesh& m, VertexHandle v, const Point3& p) {
@@ -161,8 +167,8 @@ std::array<Point3, directions> tangential_directions(const Point3& normal) {
   const Point3 u = normalized(cross(normal, axis)), w = cross(normal, u);
   std::array<Point3, directions> result;
   for (int i = 0; i < directions; ++i) {
-    const double angle = to_radians(360.0 * i / directions);
-    result[i] = std::cos(angle) * u + std::sin(angle) * w;
+    constexpr std::array<double, directions> sines = {0, diagonal, 1, diagonal, 0, -diagonal, -1, -diagonal};
+    result[i] = sines[(i + 2) % directions] * u + sines[i] * w;
   }
   return result;
 }
@@ -192,11 +198,13 @@ Point3 best_place(const WorkingMesh& m, VertexHandle v) {
 }
 
 bool improve_vertex(WorkingMesh& m, VertexHandle v) {
+  ++work_done.moves_tried;
   const Spot spot = spot_at(m, foot_of(m, v, best_place(m, v)));
   FitChange fit;
   add_triangles_around(m, v, spot, TriangleMeasure::angle, fit);
   if (!is_better(fit.before.worst, fit.after.worst) || !edges_would_stay_near(m, v, spot.point)) return false;
   move_vertex(m, v, spot);
+  ++work_done.vertices_moved;
   return true;
 }
 
@@ -223,6 +231,7 @@ bool improve_knot(WorkingMesh& m, std::uint32_t k) {
   if (knot.is_fixed || knot.copies.empty()) return false;
   for (const VertexHandle v : knot.copies)
     if (m.at(v).is_frozen) return false;
+  ++work_done.moves_tried;
   const KnotOnCurve at = on_curve(m, k);
   const FeatureCurve& curve = m.features.curves[at.curve];
   const double now = m.links[at.links[0]].arc[at.sides[0]];

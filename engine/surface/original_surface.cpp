@@ -5,7 +5,9 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "engine/base/count_work.h"
 #include "engine/base/point.h"
+#include "engine/base/portable_math.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/union_find.h"
 #include "engine/plc/edge_table.h"
@@ -53,7 +55,7 @@ std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const p
 class SurfaceCutter {
  public:
   SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness)
-      : plc_(plc), cosine_(std::cos(to_radians(sharp_angle + 1e-6))) {
+      : plc_(plc), cosine_(portable::cosine(to_radians(sharp_angle + 1e-6))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
     segments_ = declared_segments(input, plc, plc::tolerance_of(plc, flatness));
@@ -316,7 +318,11 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   for (std::uint32_t i = begin; i < end; ++i) box = hull(box, bounding_box(corners(items_[i])));
   constexpr std::uint32_t leaf_size = 4;
   nodes_[node] = {box, begin, end - begin};
-  if (end - begin <= leaf_size) return;
+  if (end - begin <= leaf_size) {
+    // How the rest is ordered is up to the standard library.
+    std::sort(items_.begin() + begin, items_.begin() + end);
+    return;
+  }
   const int axis = plc::dominant_axis(box.high - box.low);
   const auto key = [&](std::uint32_t t) {
     const std::array<Point3, 3> c = corners(t);
@@ -355,6 +361,7 @@ Foot ClosestPoint::search(std::uint32_t patch, const Point3& p, std::uint32_t ne
   stack[size++] = patch;
   while (size > 0 && best.squared_distance > squared_enough) {
     const Node& node = nodes_[stack[--size]];
+    ++work_done.box_tree_nodes;
     if (squared_distance(node.box, p) >= best.squared_distance) continue;
     if (node.count == 0) {
       const bool first_is_nearer =

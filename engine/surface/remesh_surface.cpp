@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/edge_table.h"
@@ -94,6 +95,7 @@ void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
   for (int i = 0; i < iterations; ++i) {
     report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
     if (i > 0) find_wanted_lengths(m);
+    ++work_done.remesh_rounds;
     split_long_edges(m);
     collapse_short_edges(m);
     flip_edges_for_valence(m);
@@ -199,6 +201,7 @@ plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& op
   for (int attempt = 0;; ++attempt) {
     WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, frozen);
     remesh(mesh, options.iterations, progress);
+    note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
     plc::InputPlc result = to_plc(mesh, input);
     const Defects defects = find_defects(result, plc, options);
     if (defects.places.empty()) return result;

@@ -7,7 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/count_work.h"
 #include "engine/base/point.h"
+#include "engine/base/portable_math.h"
 #include "engine/surface/feature_curves.h"
 #include "engine/surface/original_surface.h"
 #include "engine/surface/wanted_lengths.h"
@@ -25,15 +27,19 @@ struct TriangleFit {
 
 /// In radians.
 inline double smallest_angle(const std::array<Point3, 3>& p) {
+  ++work_done.triangles_evaluated;
   std::array<double, 3> squares = {squared_length(p[1] - p[0]), squared_length(p[2] - p[1]),
                                    squared_length(p[0] - p[2])};
   std::sort(squares.begin(), squares.end());
   const double product = std::sqrt(squares[1] * squares[2]);
-  return product > 0 ? std::acos(std::clamp((squares[1] + squares[2] - squares[0]) / (2 * product), -1.0, 1.0)) : 0;
+  return product > 0
+             ? portable::arc_cosine(std::clamp((squares[1] + squares[2] - squares[0]) / (2 * product), -1.0, 1.0))
+             : 0;
 }
 
 inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point3, 3>& normals,
                           TriangleMeasure measure = TriangleMeasure::area) {
+  if (measure == TriangleMeasure::area) ++work_done.triangles_evaluated;
   constexpr double two_root_three = 3.4641016151377544;
   const Point3 area = area_vector(p);
   const double size = length(area);

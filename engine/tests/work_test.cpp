@@ -1,10 +1,27 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <stdexcept>
+#include <string>
+
 #include "engine/base/count_work.h"
+#include "engine/base/merge_sort.h"
+#include "engine/base/portable_math.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/mesher.h"
+#include "engine/surface/remesh_surface.h"
+#include "engine/tests/mesh_test_solids.h"
+
+// Work counts are exact, so what they are for small inputs is written down here. When an algorithm changes, so do they,
+// and the test says by how much: look whether that was meant, then write the new ones down.
 
 namespace ccdt {
 namespace {
+
+using namespace mesh_test;
 
 std::vector<Point3> random_points(std::size_t n) {
   std::vector<Point3> points;
@@ -20,32 +37,415 @@ std::vector<Point3> random_points(std::size_t n) {
   return points;
 }
 
-TEST(Work, CellsThatWereMadeAndNotDestroyedAreThere) {
+template <class Task>
+Work work_of(const Task& task) {
   Work work;
-  delaunay::Delaunay d;
-  {
-    const WorkScope scope(work);
-    d = delaunay::build_delaunay(random_points(3000));
-  }
-  EXPECT_EQ(work.cells_created - work.cells_destroyed, d.cells.size() - d.free_cells.size());
-  EXPECT_EQ(work.insertions, 2996);
+  const WorkScope scope(work);
+  task();
+  return work;
+}
+
+/// The counts that are not zero, one a line.
+std::string text_of(const char* stage, const Work& work) {
+  std::string text;
+  for (const WorkCount& c : work_counts)
+    if (work.*c.count != 0) text += std::string(stage) + "." + c.name + " " + std::to_string(work.*c.count) + "\n";
+  return text;
+}
+
+std::string text_of(const StageWork& work) {
+  std::string text;
+  for (const MeshStage& stage : mesh_stages) text += text_of(stage.name, work.*stage.work);
+  return text;
+}
+
+InputPlc remeshed(const InputPlc& input, double edge_length) {
+  surface::RemeshOptions options;
+  options.edge_length = edge_length;
+  return surface::remesh_surface(input, options);
+}
+
+void expect_work(const std::string& text, const std::string& expected) {
+  EXPECT_EQ("\n" + text, expected);
+}
+
+TEST(Work, HasAnotherNameForEachCount) {
+  std::set<std::string> names;
+  for (const WorkCount& c : work_counts) EXPECT_TRUE(names.insert(c.name).second) << c.name;
+}
+
+TEST(Work, IsAddedUpButTheLargestStaysTheLargest) {
+  Work work, more;
+  work.walk_steps = 3, work.largest_cavity = 7, work.peak_bytes = 10;
+  more.walk_steps = 5, more.largest_cavity = 6, more.peak_bytes = 20;
+  work += more;
+  EXPECT_EQ(work.walk_steps, 8u);
+  EXPECT_EQ(work.largest_cavity, 7u);
+  EXPECT_EQ(work.peak_bytes, 20u);
 }
 
 TEST(Work, OfAScopeIsTheSameInsideOthersAndIsTheirsToo) {
-  Work alone, inner, outer;
-  {
-    const WorkScope scope(alone);
-    delaunay::build_delaunay(random_points(500));
-  }
-  {
-    const WorkScope around(outer);
+  const Work alone = work_of([] { delaunay::build_delaunay(random_points(500)); });
+  Work inner;
+  const Work outer = work_of([&] {
     delaunay::build_delaunay(random_points(100));
-    const WorkScope scope(inner);
-    delaunay::build_delaunay(random_points(500));
-  }
+    inner = work_of([] { delaunay::build_delaunay(random_points(500)); });
+    delaunay::build_delaunay(random_points(100));
+  });
   EXPECT_EQ(inner, alone);
-  EXPECT_EQ(outer.insertions, 96u + 496u);
-  EXPECT_GE(outer.largest_cavity, inner.largest_cavity);
+  EXPECT_EQ(outer.insertions, 96u + 496u + 96u);
+  EXPECT_EQ(outer.largest_cavity, inner.largest_cavity);
+}
+
+TEST(Work, OfAScopeIsKeptWhereAnExceptionEndsIt) {
+  Work work;
+  try {
+    const WorkScope scope(work);
+    delaunay::build_delaunay(random_points(100));
+    throw std::runtime_error("an end");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_EQ(work.insertions, 96u);
+}
+
+TEST(Work, OfAMeshIsTheSameAgainAndInsideOtherWork) {
+  const InputPlc plc = rotated(oblique, gridded_cube(4));
+  const MeshResult first = mesh_plc(plc);
+  MeshResult second, third;
+  const Work around = work_of([&] {
+    second = mesh_plc(gridded_cube(3));
+    third = mesh_plc(plc);
+  });
+  EXPECT_EQ(text_of(third.work), text_of(first.work));
+  EXPECT_EQ(around.cells_created - second.work.delaunay.cells_created - second.work.protect.cells_created -
+                second.work.improve.cells_created,
+            first.work.delaunay.cells_created + first.work.protect.cells_created + first.work.improve.cells_created);
+}
+
+TEST(Work, CellsThatWereMadeAndNotDestroyedAreThere) {
+  delaunay::Delaunay d;
+  const Work inserted = work_of([&] { d = delaunay::build_delaunay(random_points(3000)); });
+  EXPECT_EQ(inserted.cells_created - inserted.cells_destroyed, d.cells.size() - d.free_cells.size());
+  EXPECT_EQ(inserted.insertions, 2996u);
+  EXPECT_GE(inserted.walk_steps, inserted.insertions);
+  EXPECT_GE(inserted.cells_tested + inserted.insertions, inserted.cells_destroyed);
+  delaunay::Delaunay wrapped;
+  const Work wrap = work_of([&] { wrapped = delaunay::wrap_delaunay(d.vertices); });
+  EXPECT_EQ(wrap.cells_created, wrapped.cells.size());
+  EXPECT_EQ(wrap.cells_created, inserted.cells_created - inserted.cells_destroyed);
+}
+
+TEST(Work, CellsThatImprovementMadeAndDidNotDestroyAreThere) {
+  MeshOptions options;
+  options.improve.improvement = Improvement::none;
+  const InputPlc plc = rotated(oblique, cube_with_cubic_hole());
+  const MeshResult before = mesh_plc(plc, options);
+  options.improve.improvement = Improvement::all;
+  options.improve.target_dihedral = 40;
+  const MeshResult after = mesh_plc(plc, options);
+  EXPECT_EQ(before.work.improve, Work());
+  EXPECT_GT(after.work.improve.cells_created, 0u);
+  EXPECT_EQ(after.work.improve.cells_created - after.work.improve.cells_destroyed,
+            after.counts.tetrahedra - before.counts.tetrahedra);
+  EXPECT_EQ(after.work.improve.vertices_moved, after.counts.improve.moved_vertices);
+}
+
+TEST(Work, ExactEvaluationsAreTheSumOfTheirKinds) {
+  for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::wrap}) {
+    MeshOptions options;
+    options.delaunay = method;
+    const MeshResult result = mesh_plc(gridded_cube(4), options);
+    for (const MeshStage& stage : mesh_stages) {
+      const Work& work = result.work.*stage.work;
+      EXPECT_EQ(work.exact_evaluations, work.narrow_evaluations + work.wide_evaluations + work.perturbed_ties)
+          << stage.name;
+    }
+  }
+}
+
+// ---- Exactly so much
+
+TEST(WorkOfSmallInputs, DelaunayOfRandomPoints) {
+  expect_work(text_of("random", work_of([] { delaunay::build_delaunay(random_points(1000)); })), R"(
+random.insertions 996
+random.walk_steps 5389
+random.cells_tested 44150
+random.cells_created 27499
+random.cells_destroyed 21062
+random.largest_cavity 67
+random.peak_bytes 249421
+)");
+}
+
+TEST(WorkOfSmallInputs, CubeFilledWithALattice) {
+  expect_work(text_of(mesh_plc(rotated(oblique, gridded_cube(3))).work), R"(
+plc.orient3d_filter_failures 87
+plc.narrow_evaluations 87
+plc.exact_evaluations 87
+plc.box_tree_nodes 1206
+plc.box_pairs 964
+plc.peak_bytes 16128
+protect.peak_bytes 11296
+facets.orient3d_filter_failures 58
+facets.narrow_evaluations 32
+facets.wide_evaluations 26
+facets.exact_evaluations 58
+facets.cells_visited 2568
+facets.edges_tested 197
+facets.edges_flipped 19
+facets.triangles_visited 652
+facets.peak_bytes 1728
+lattice.octree_nodes 137
+lattice.box_tree_nodes 104
+lattice.octree_nodes_created 137
+lattice.rays_cast 27
+lattice.ray_triangles 294
+lattice.sites_tested 87
+lattice.obstacles_tested 2870
+lattice.peak_bytes 23414
+delaunay.orient3d_filter_failures 79
+delaunay.insphere_filter_failures 54
+delaunay.narrow_evaluations 133
+delaunay.exact_evaluations 133
+delaunay.insertions 59
+delaunay.walk_steps 228
+delaunay.cells_tested 1674
+delaunay.cells_created 1137
+delaunay.cells_destroyed 790
+delaunay.largest_cavity 53
+delaunay.peak_bytes 13754
+face_check.orient3d_filter_failures 22
+face_check.narrow_evaluations 16
+face_check.wide_evaluations 6
+face_check.exact_evaluations 22
+face_check.cells_visited 1634
+face_check.edges_tested 65
+face_check.edges_flipped 5
+face_check.triangles_visited 266
+face_check.faces_tested 762
+face_check.peak_bytes 1728
+label.cells_visited 694
+label.peak_bytes 3123
+finish.cells_visited 156
+finish.peak_bytes 5520
+improve.cells_created 59
+improve.cells_destroyed 77
+improve.changes_tried 220
+improve.quality_evaluations 1140
+improve.peak_bytes 18738
+)");
+}
+
+TEST(WorkOfSmallInputs, CubeWrappedFaceByFace) {
+  MeshOptions options;
+  options.delaunay = DelaunayMethod::wrap;
+  options.lattice = Lattice::bcc;
+  expect_work(text_of("delaunay", mesh_plc(gridded_cube(3), options).work.delaunay), R"(
+delaunay.orient3d_filter_failures 1428
+delaunay.insphere_filter_failures 186
+delaunay.narrow_evaluations 1614
+delaunay.perturbed_ties 193
+delaunay.exact_evaluations 1807
+delaunay.grid_cells 6736
+delaunay.cells_created 288
+delaunay.apex_searches 288
+delaunay.vertices_examined 3646
+delaunay.peak_bytes 16400
+)");
+}
+
+TEST(WorkOfSmallInputs, SegmentsThatNeedProtection) {
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  expect_work(text_of("protect", mesh_plc(rotated(oblique, two_bars()), options).work.protect), R"(
+protect.orient3d_filter_failures 29
+protect.narrow_evaluations 7
+protect.wide_evaluations 22
+protect.exact_evaluations 29
+protect.insertions 18
+protect.walk_steps 93
+protect.cells_tested 625
+protect.cells_created 206
+protect.cells_destroyed 150
+protect.largest_cavity 23
+protect.cells_visited 284
+protect.peak_bytes 6272
+)");
+}
+
+/// The front of a solid with faces that are not Delaunay.
+std::string work_of_front(LocatorKind locator, bool face_protection) {
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  options.locator = locator;
+  options.face_protection = face_protection;
+  const StageWork work = mesh_plc(rotated(oblique, two_bars()), options).work;
+  return text_of("face_check", work.face_check) + text_of("front", work.front);
+}
+
+TEST(WorkOfSmallInputs, FrontWithEachLocator) {
+  expect_work(work_of_front(LocatorKind::cavity, true), R"(
+face_check.cells_visited 270
+face_check.faces_tested 456
+face_check.peak_bytes 864
+front.orient3d_filter_failures 265
+front.centroid_filter_failures 13
+front.narrow_evaluations 74
+front.wide_evaluations 191
+front.exact_evaluations 265
+front.octree_nodes 776
+front.cells_visited 1552
+front.octree_nodes_created 40
+front.front_candidates 800
+front.visibility_tests 393
+front.piercing_tests 581
+front.peak_bytes 9812
+)");
+  expect_work(work_of_front(LocatorKind::octree, true), R"(
+face_check.cells_visited 270
+face_check.faces_tested 456
+face_check.peak_bytes 864
+front.orient3d_filter_failures 44
+front.centroid_filter_failures 13
+front.narrow_evaluations 32
+front.wide_evaluations 12
+front.exact_evaluations 44
+front.octree_nodes 1773
+front.cells_visited 852
+front.octree_nodes_created 77
+front.front_candidates 1041
+front.visibility_tests 539
+front.peak_bytes 15100
+)");
+  expect_work(work_of_front(LocatorKind::grid, true), R"(
+face_check.cells_visited 270
+face_check.faces_tested 456
+face_check.peak_bytes 864
+front.orient3d_filter_failures 95
+front.centroid_filter_failures 30
+front.narrow_evaluations 80
+front.wide_evaluations 15
+front.exact_evaluations 95
+front.grid_cells 2759
+front.cells_visited 852
+front.front_candidates 783
+front.visibility_tests 1995
+front.peak_bytes 11428
+)");
+}
+
+TEST(WorkOfSmallInputs, FrontOverAllFaces) {
+  expect_work(work_of_front(LocatorKind::cavity, false), R"(
+face_check.cells_visited 270
+face_check.faces_tested 456
+face_check.peak_bytes 864
+front.orient3d_filter_failures 232
+front.centroid_filter_failures 2
+front.narrow_evaluations 51
+front.wide_evaluations 181
+front.exact_evaluations 232
+front.octree_nodes 499
+front.cells_visited 3178
+front.octree_nodes_created 40
+front.front_candidates 556
+front.visibility_tests 227
+front.piercing_tests 581
+front.peak_bytes 13852
+)");
+  expect_work(work_of_front(LocatorKind::octree, false), R"(
+face_check.cells_visited 270
+face_check.faces_tested 456
+face_check.peak_bytes 864
+front.orient3d_filter_failures 36
+front.centroid_filter_failures 7
+front.narrow_evaluations 23
+front.wide_evaluations 13
+front.exact_evaluations 36
+front.octree_nodes 3125
+front.octree_nodes_created 77
+front.front_candidates 1818
+front.visibility_tests 612
+front.peak_bytes 15556
+)");
+}
+
+TEST(WorkOfSmallInputs, Improvement) {
+  MeshOptions options;
+  options.improve.target_dihedral = 40;
+  options.improve.boundary = BoundaryRule::slide;
+  expect_work(text_of("improve", mesh_plc(gridded_cube(3), options).work.improve), R"(
+improve.orient3d_filter_failures 288
+improve.narrow_evaluations 288
+improve.exact_evaluations 288
+improve.cells_created 173
+improve.cells_destroyed 161
+improve.changes_tried 1228
+improve.moves_tried 185
+improve.vertices_moved 34
+improve.ascent_steps 214
+improve.quality_evaluations 25239
+improve.peak_bytes 21548
+)");
+}
+
+TEST(WorkOfSmallInputs, RemeshedSurface) {
+  expect_work(text_of("remesh", work_of([] { remeshed(unit_cube(), 0.3); })), R"(
+remesh.orient3d_filter_failures 2048
+remesh.narrow_evaluations 2048
+remesh.exact_evaluations 2048
+remesh.box_tree_nodes 2997
+remesh.box_pairs 3154
+remesh.edges_flipped 12
+remesh.moves_tried 810
+remesh.vertices_moved 810
+remesh.remesh_rounds 8
+remesh.edges_split 246
+remesh.edges_collapsed 120
+remesh.triangles_evaluated 15705
+remesh.peak_bytes 29280
+)");
+}
+
+// ---- What the same work on every machine rests on
+
+TEST(Work, OfSortingIsTheSameWithEveryStandardLibrary) {
+  std::vector<std::pair<int, int>> items;
+  for (int i = 0; i < 100; ++i) items.emplace_back(i * 37 % 10, i);
+  std::vector<std::pair<int, int>> expected = items;
+  std::ranges::stable_sort(expected, {}, &std::pair<int, int>::first);
+  std::size_t comparisons = 0;
+  merge_sort(items, [&](const auto& a, const auto& b) {
+    ++comparisons;
+    return a.first < b.first;
+  });
+  EXPECT_EQ(items, expected);
+  EXPECT_EQ(comparisons, 573u);
+  for (std::size_t n = 0; n < 20; ++n) {
+    std::vector<int> few;
+    for (std::size_t i = 0; i < n; ++i) few.push_back(static_cast<int>(i * 7 % 5));
+    std::vector<int> sorted = few;
+    std::ranges::sort(sorted);
+    merge_sort(few, std::less<>());
+    EXPECT_EQ(few, sorted);
+  }
+}
+
+TEST(Work, RestsOnFunctionsThatAreAsGoodAsTheLibrarys) {
+  for (int i = 1; i < 1000; ++i) {
+    const double x = 1e-3 * i, angle = x * portable::pi;
+    EXPECT_NEAR(portable::arc_cosine(2 * x - 1), std::acos(2 * x - 1), 1e-14);
+    EXPECT_NEAR(portable::angle_of(std::cos(angle), std::sin(angle)), angle, 1e-14);
+    EXPECT_NEAR(portable::sine(2 * angle), std::sin(2 * angle), 1e-14);
+    EXPECT_NEAR(portable::cosine(1.5 * angle), std::cos(1.5 * angle), 1e-14);
+    const double cube = std::ldexp(x, i % 90 - 45);
+    EXPECT_NEAR(portable::cube_root(cube) / std::cbrt(cube), 1, 1e-14);
+  }
+  EXPECT_EQ(portable::angle_of(1, 0), 0);
+  EXPECT_EQ(portable::angle_of(-1, 0), portable::pi);
+  EXPECT_EQ(portable::angle_of(0, 1), portable::pi / 2);
+  EXPECT_EQ(portable::arc_cosine(1), 0);
+  EXPECT_EQ(portable::arc_cosine(-1), portable::pi);
+  EXPECT_EQ(portable::cube_root(27), 3);
 }
 
 }  // namespace
