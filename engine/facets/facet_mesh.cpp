@@ -92,7 +92,8 @@ FacetFrame frame_of(const plc::Facet& facet, const std::vector<delaunay::Delauna
 /// The least one that is not less than a positive number.
 double power_of_two_above(double x) {
   int exponent = 0;
-  return std::ldexp(std::frexp(x, &exponent) == 0.5 ? 0.5 : 1, exponent);
+  const double fraction = std::frexp(x, &exponent);
+  return std::ldexp(fraction == 0.5 ? 0.5 : 1, exponent);
 }
 
 FacetPlane exact_plane(const plc::Facet& facet, const std::vector<delaunay::DelaunayVertex>& vertices) {

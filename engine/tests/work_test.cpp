@@ -257,19 +257,18 @@ delaunay.peak_bytes 16400
 TEST(WorkOfSmallInputs, SegmentsThatNeedProtection) {
   MeshOptions options;
   options.lattice = Lattice::none;
-  expect_work(text_of("protect", mesh_plc(rotated(oblique, two_bars()), options).work.protect), R"(
-protect.orient3d_filter_failures 29
-protect.narrow_evaluations 7
-protect.wide_evaluations 22
-protect.exact_evaluations 29
-protect.insertions 18
-protect.walk_steps 93
-protect.cells_tested 625
-protect.cells_created 206
-protect.cells_destroyed 150
-protect.largest_cavity 23
-protect.cells_visited 284
-protect.peak_bytes 6272
+  expect_work(text_of("protect", mesh_plc(plc_test::schoenhardt(), options).work.protect), R"(
+protect.orient3d_filter_failures 2
+protect.wide_evaluations 2
+protect.exact_evaluations 2
+protect.insertions 8
+protect.walk_steps 21
+protect.cells_tested 96
+protect.cells_created 36
+protect.cells_destroyed 18
+protect.largest_cavity 6
+protect.cells_visited 41
+protect.peak_bytes 1280
 )");
 }
 
@@ -285,87 +284,82 @@ std::string work_of_front(LocatorKind locator, bool face_protection) {
 
 TEST(WorkOfSmallInputs, FrontWithEachLocator) {
   expect_work(work_of_front(LocatorKind::cavity, true), R"(
-face_check.cells_visited 270
-face_check.faces_tested 456
-face_check.peak_bytes 864
-front.orient3d_filter_failures 265
-front.centroid_filter_failures 13
-front.narrow_evaluations 74
-front.wide_evaluations 191
-front.exact_evaluations 265
-front.octree_nodes 776
-front.cells_visited 1552
-front.octree_nodes_created 40
-front.front_candidates 800
-front.visibility_tests 393
-front.piercing_tests 581
-front.peak_bytes 9812
+face_check.cells_visited 107
+face_check.faces_tested 172
+face_check.peak_bytes 576
+front.orient3d_filter_failures 13
+front.centroid_filter_failures 4
+front.narrow_evaluations 13
+front.exact_evaluations 13
+front.octree_nodes 372
+front.cells_visited 308
+front.octree_nodes_created 14
+front.front_candidates 266
+front.visibility_tests 192
+front.piercing_tests 161
+front.peak_bytes 5728
 )");
   expect_work(work_of_front(LocatorKind::octree, true), R"(
-face_check.cells_visited 270
-face_check.faces_tested 456
-face_check.peak_bytes 864
-front.orient3d_filter_failures 44
-front.centroid_filter_failures 13
-front.narrow_evaluations 32
-front.wide_evaluations 12
-front.exact_evaluations 44
-front.octree_nodes 1773
-front.cells_visited 852
-front.octree_nodes_created 77
-front.front_candidates 1041
-front.visibility_tests 539
-front.peak_bytes 15100
+face_check.cells_visited 107
+face_check.faces_tested 172
+face_check.peak_bytes 576
+front.orient3d_filter_failures 18
+front.centroid_filter_failures 6
+front.narrow_evaluations 18
+front.exact_evaluations 18
+front.octree_nodes 590
+front.cells_visited 172
+front.octree_nodes_created 31
+front.front_candidates 336
+front.visibility_tests 245
+front.peak_bytes 12476
 )");
   expect_work(work_of_front(LocatorKind::grid, true), R"(
-face_check.cells_visited 270
-face_check.faces_tested 456
-face_check.peak_bytes 864
-front.orient3d_filter_failures 95
-front.centroid_filter_failures 30
-front.narrow_evaluations 80
-front.wide_evaluations 15
-front.exact_evaluations 95
-front.grid_cells 2759
-front.cells_visited 852
-front.front_candidates 783
-front.visibility_tests 1995
-front.peak_bytes 11428
+face_check.cells_visited 107
+face_check.faces_tested 172
+face_check.peak_bytes 576
+front.orient3d_filter_failures 48
+front.centroid_filter_failures 16
+front.narrow_evaluations 48
+front.exact_evaluations 48
+front.grid_cells 743
+front.cells_visited 172
+front.front_candidates 239
+front.visibility_tests 705
+front.peak_bytes 9780
 )");
 }
 
 TEST(WorkOfSmallInputs, FrontOverAllFaces) {
   expect_work(work_of_front(LocatorKind::cavity, false), R"(
-face_check.cells_visited 270
-face_check.faces_tested 456
-face_check.peak_bytes 864
-front.orient3d_filter_failures 232
-front.centroid_filter_failures 2
-front.narrow_evaluations 51
-front.wide_evaluations 181
-front.exact_evaluations 232
-front.octree_nodes 499
-front.cells_visited 3178
-front.octree_nodes_created 40
-front.front_candidates 556
-front.visibility_tests 227
-front.piercing_tests 581
-front.peak_bytes 13852
+face_check.cells_visited 107
+face_check.faces_tested 172
+face_check.peak_bytes 576
+front.orient3d_filter_failures 37
+front.centroid_filter_failures 12
+front.narrow_evaluations 37
+front.exact_evaluations 37
+front.octree_nodes 543
+front.cells_visited 1016
+front.octree_nodes_created 14
+front.front_candidates 295
+front.visibility_tests 305
+front.piercing_tests 161
+front.peak_bytes 11152
 )");
   expect_work(work_of_front(LocatorKind::octree, false), R"(
-face_check.cells_visited 270
-face_check.faces_tested 456
-face_check.peak_bytes 864
-front.orient3d_filter_failures 36
-front.centroid_filter_failures 7
-front.narrow_evaluations 23
-front.wide_evaluations 13
-front.exact_evaluations 36
-front.octree_nodes 3125
-front.octree_nodes_created 77
-front.front_candidates 1818
-front.visibility_tests 612
-front.peak_bytes 15556
+face_check.cells_visited 107
+face_check.faces_tested 172
+face_check.peak_bytes 576
+front.orient3d_filter_failures 51
+front.centroid_filter_failures 16
+front.narrow_evaluations 51
+front.exact_evaluations 51
+front.octree_nodes 1119
+front.octree_nodes_created 31
+front.front_candidates 660
+front.visibility_tests 447
+front.peak_bytes 12524
 )");
 }
 
