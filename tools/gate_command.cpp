@@ -138,6 +138,10 @@ ExitCode run_gate(const GateCommand& command) {
   const gate::Rules rules = rules_of(command);
   if (!command.markdown.empty()) check_can_be_written(command.markdown);
   if (!command.folder.empty()) std::filesystem::create_directories(command.folder);
+  if (command.calibrate) {
+    std::fputs(gate::to_text(measure_calibration(command, rules)).c_str(), stdout);
+    return done;
+  }
   GateResult result = judge(command, rules);
   Verdict& verdict = result.verdict;
   verdict.shadow = rules.shadow;
@@ -180,7 +184,6 @@ void check(const GateCommand& command) {
   }
   require(!command.folder.empty(), "-o,--output", "measurements need a folder");
   require(command.sweep.empty() || command.words.empty(), "--sweep", "excludes arguments of the programs");
-  require(!command.sweep.empty() || !command.words.empty(), "--sweep", "give a spec, or arguments after --");
   if (command.calibrate) return require(!command.base.empty(), "--base", "a calibration measures the base");
   require(!command.head.empty(), "--head", "the program to judge is missing");
   require(!command.base.empty() || !command.against.empty(), "--base", "give a base program, or --against a baseline");
@@ -219,7 +222,11 @@ void add_measuring_options(CLI::App& verb, GateCommand& command) {
   verb.add_option("--sweep", command.sweep, "cases that are measured: a spec of `ccdt sweep`");
   verb.add_option("--seed", command.seed, "of the order of the runs; another one in each call by default");
   verb.add_flag("--calibrate", command.calibrate, "measure how noisy the base is; writes DIR/calibration.json");
-  verb.add_option("--calibration", command.calibration, "what --calibrate wrote: raises thresholds of noisy cases");
+  verb.add_option("--pairs", command.pairs, "of each case in a calibration")
+      ->check(CLI::Range(5, 100000))
+      ->capture_default_str();
+  verb.add_option("--calibration", command.calibration, "what --calibrate wrote: raises thresholds of noisy cases")
+      ->check(CLI::ExistingFile);
 }
 
 }  // namespace

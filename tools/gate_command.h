@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/gate/calibration.h"
 #include "bench/gate/recording.h"
 #include "bench/gate/rules.h"
 #include "bench/gate/verdict.h"
@@ -19,6 +20,7 @@ struct GateCommand {
   std::string base, head, sweep, calibration;  ///< programs and files
   std::vector<gate::Layer> layers;             ///< instead of those of the rules; empty: no change
   std::optional<std::uint64_t> seed;
+  int pairs = 100;  ///< of each case in a calibration
   bool shadow = false, update = false, calibrate = false;
   std::string reason;
 
@@ -36,5 +38,11 @@ struct GateResult {
 /// \throw InputError          a program, the spec or the baseline cannot be read
 /// \throw baselines::Stopped  the user has stopped the program
 GateResult measure(const GateCommand& command, const gate::Rules& rules);
+
+/// Measures how noisy the base is on this host; writes DIR/calibration.json, and all times to DIR/samples.json.
+///
+/// \throw InputError          the program or the spec cannot be read, or there are too few pairs: says how many it
+/// needs \throw baselines::Stopped  the user has stopped the program
+gate::Calibration measure_calibration(const GateCommand& command, const gate::Rules& rules);
 
 }  // namespace ccdt::tools
