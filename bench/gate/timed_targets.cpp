@@ -31,13 +31,25 @@ Command command_of(const Programs& programs, Side side, const Command& arguments
 
 /// Runs a command whose environment is larger by so many bytes.
 /// \param folder  where it runs; empty: where this process runs
+baselines::ProcessResult try_run(const RunRequest& request, const Command& command, const baselines::Limits& limits,
+                                 const std::filesystem::path& folder = {}) {
+  return baselines::run_program(
+      command,
+      {.folder = folder, .environment = {{"CCDT_GATE_PADDING", std::string(request.padding, 'x')}}, .limits = limits});
+}
+
+/// \throw ProgramFailed
+void check_end(const baselines::ProcessResult& ended, Side side, const Command& command) {
+  if (ended.status == baselines::RunStatus::ok) return;
+  const std::string code = "exit code " + std::to_string(ended.exit_code);
+  fail(side, command, ended.exit_code == 0 || ended.reason == code ? ended.reason : code + ": " + ended.reason);
+}
+
 /// \throw ProgramFailed
 baselines::ProcessResult run(const RunRequest& request, const Command& command, const baselines::Limits& limits,
                              const std::filesystem::path& folder = {}) {
-  const baselines::ProgramOptions options = {
-      .folder = folder, .environment = {{"CCDT_GATE_PADDING", std::string(request.padding, 'x')}}, .limits = limits};
-  baselines::ProcessResult result = baselines::run_program(command, options);
-  if (result.status != baselines::RunStatus::ok) fail(request.side, command, result.reason);
+  baselines::ProcessResult result = try_run(request, command, limits, folder);
+  check_end(result, request.side, command);
   return result;
 }
 
@@ -57,26 +69,40 @@ double figure_of(const std::filesystem::path& report, const std::string& figure)
   return seconds;
 }
 
-/// The times of a benchmark's repetitions, by its name. \throw ProgramFailed
-std::map<std::string, std::vector<double>> times_of_benchmarks(const std::filesystem::path& file, Side side,
-                                                               const Command& command) {
+/// The times of each benchmark's repetitions.
+/// \throw ProgramFailed
+/// \throw nlohmann::json::exception  this is not what Google Benchmark writes
+std::map<std::string, std::vector<double>> times_in(const bench::Json& json, Side side, const Command& command) {
   static const std::map<std::string, double> units = {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}};
   std::map<std::string, std::vector<double>> times;
-  try {
-    const auto json = bench::Json::parse(io::read_whole_file(file).bytes);
-    for (const bench::Json& run : json.at("benchmarks")) {
-      if (run.value("error_occurred", false))
-        fail(side, command, run.at("name").get<std::string>() + ": " + run.value("error_message", ""));
-      if (run.value("run_type", "iteration") != "iteration") continue;
-      const double unit = units.at(run.value("time_unit", "ns"));
-      times[run.value("run_name", run.at("name").get<std::string>())].push_back(run.at("real_time").get<double>() *
-                                                                                unit);
-    }
-  } catch (const nlohmann::json::exception& e) {
-    fail(side, command,
-         "what it wrote with --benchmark_out is not what Google Benchmark writes: " + std::string(e.what()));
+  for (const bench::Json& run : json.at("benchmarks")) {
+    const auto name = run.at("name").get<std::string>();
+    if (run.value("error_occurred", false)) fail(side, command, name + ": " + run.value("error_message", ""));
+    if (run.value("run_type", "iteration") != "iteration") continue;
+    const auto unit = units.find(run.value("time_unit", "ns"));
+    if (unit == units.end()) fail(side, command, name + ": its time is in a unit that nobody knows");
+    times[run.value("run_name", name)].push_back(run.at("real_time").get<double>() * unit->second);
   }
-  if (times.empty()) fail(side, command, "no benchmark ran");
+  return times;
+}
+
+/// What a program on Google Benchmark has measured. Benchmarks that report an error are a better reason than the exit
+/// code that some programs have then.
+/// \throw ProgramFailed
+std::map<std::string, std::vector<double>> times_of_benchmarks(const std::filesystem::path& file,
+                                                               const baselines::ProcessResult& ended, Side side,
+                                                               const Command& command) {
+  std::map<std::string, std::vector<double>> times;
+  std::string fault = "no benchmark ran";
+  if (std::filesystem::exists(file)) {
+    try {
+      times = times_in(bench::Json::parse(io::read_whole_file(file).bytes), side, command);
+    } catch (const nlohmann::json::exception& error) {
+      fault = std::string("what --benchmark_out wrote cannot be read: ") + error.what();
+    }
+  }
+  check_end(ended, side, command);
+  if (times.empty()) fail(side, command, fault);
   return times;
 }
 
@@ -137,9 +163,9 @@ TimedTarget benchmark_target(const Programs& programs, const std::vector<std::st
     words.insert(words.end(), {"--benchmark_out=" + file.string(), "--benchmark_out_format=json"});
     const Command command = command_of(programs, request.side, words);
     std::filesystem::remove(file);
-    run(request, command, limits);
+    const baselines::ProcessResult ended = try_run(request, command, limits);
     std::map<std::string, double> seconds;
-    for (const auto& [name, times] : times_of_benchmarks(file, request.side, command))
+    for (const auto& [name, times] : times_of_benchmarks(file, ended, request.side, command))
       seconds[name] = bench::median(times);
     return seconds;
   };
