@@ -11,6 +11,7 @@
 #include "bench/gate/time_layer.h"
 #include "bench/gate/timed_targets.h"
 #include "bench/results/numbers.h"
+#include "bench/sweep/sweep_document.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 #include "tools/folder_lock.h"
@@ -50,6 +51,10 @@ MeasuredProgram prepare(const GateCommand& command, const std::string& program, 
   sweep.folder = (std::filesystem::path(command.folder) / side).string();
   sweep.program = absolute(program);
   sweep.refresh = true;  // another program may have filled the folder
+  // Records of an earlier gate are no evidence: what the program calls (a library, if it is a script another program)
+  // may have changed, and its own file not.
+  if (std::filesystem::exists(sweep::sweep_file(sweep.folder)))
+    std::filesystem::remove_all(std::filesystem::path(sweep.folder) / "runs");
   MeasuredProgram measured{prepare_sweep(sweep)};
   if (!runs) return measured;
   run_cases(sweep, measured.sweep, measured.sweep.cases);
@@ -177,7 +182,7 @@ std::vector<cases::Case> timed_cases(std::vector<cases::Case> all, const gate::R
 }
 
 std::filesystem::path times_folder(const GateCommand& command) {
-  const auto folder = std::filesystem::absolute(command.folder) / "times";
+  auto folder = std::filesystem::absolute(command.folder) / "times";
   std::filesystem::create_directories(folder);
   return folder;
 }
@@ -207,7 +212,9 @@ void measure_sweep(const GateCommand& command, const gate::Rules& rules, GateRes
         command, rules,
         gate::sweep_targets({absolute(command.base), absolute(command.head)}, timed, rules, times_folder(command)),
         verdict);
-  else if (rules.layers.contains(Layer::time) && command.base.empty())
+  else if (rules.layers.contains(Layer::time) && timed.empty())
+    verdict.notes.push_back("no case is timed: the rules name none that works");
+  else if (rules.layers.contains(Layer::time))
     verdict.notes.push_back("times are only judged against a base that is measured too: --base PROGRAM");
   result.head = std::move(head.recording);
 }

@@ -67,7 +67,8 @@ CaseFigures case_from(const std::string& name, const Json& groups) {
   for (const auto& [group, figures] : groups.items())
     for (const auto& [leaf, value] : figures.items()) {
       Figure figure;
-      figure.name = (group == ungrouped ? "" : group + ".") + leaf;
+      if (group != ungrouped) figure.name = group + ".";
+      figure.name += leaf;
       figure.layer = figure.name.starts_with("instructions.") ? Layer::instructions : Layer::exact;
       if (value.is_string())
         figure.text = value.get<std::string>();
@@ -85,7 +86,7 @@ std::string line_of(const Json& json) {
 /// Items of a list or an object, a line each, with commas between them.
 std::string in_lines(const std::vector<std::string>& items, const std::string& indent) {
   std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "\n" : ",\n") + indent + item;
+  for (const std::string& item : items) text.append(text.empty() ? "\n" : ",\n").append(indent).append(item);
   return text;
 }
 

@@ -243,7 +243,9 @@ std::string other_conditions(const Recording& base, const Recording& head) {
   };
   for (const std::string& field : fields) {
     const std::string then = value_in(base, field), now = value_in(head, field);
-    if (then != now) return field + " is " + then + " in the base and " + now + " in the head";
+    if (then == now) continue;
+    std::string words = field;
+    return words.append(" is ").append(then).append(" in the base and ").append(now).append(" in the head");
   }
   return {};
 }

@@ -50,7 +50,7 @@ void add_figures(const std::string& name, const Json& json, std::vector<Figure>&
   const Layer layer = name.starts_with("seconds") ? Layer::time : Layer::exact;
   if (json.is_object()) {
     for (const auto& [member, value] : json.items())
-      if (member != "histogram") add_figures(name + "." + member, value, figures);
+      if (member != "histogram") add_figures(std::string(name).append(".").append(member), value, figures);
   } else if (json.is_number() || json.is_null()) {
     figures.push_back({name, layer, {bench::number_from_json(json)}});
   } else {

@@ -490,6 +490,16 @@ TEST_F(MeasuringGate, AnotherProgramFailsWhereItDiffers) {
   EXPECT_EQ(run("gate --base ccdt --head ccdt --sweep cases.json --layers exact -o out").exit_code, 0);
 }
 
+TEST_F(MeasuringGate, AProgramIsMeasuredAnewEvenIfItsFileIsTheSame) {
+  const std::string call = "gate --base ccdt --head script --sweep cases.json --layers exact -o out";
+  write("script", "#!/bin/sh\nexec '" + (work() / "called").string() + "' \"$@\"\n");
+  std::filesystem::permissions(work() / "script", std::filesystem::perms::owner_all);
+  std::filesystem::create_symlink(CCDT_PROGRAM, work() / "called");
+  EXPECT_EQ(run(call).exit_code, 0);
+  std::filesystem::rename(work() / "worse", work() / "called");
+  EXPECT_EQ(run(call).exit_code, 1);
+}
+
 TEST_F(MeasuringGate, ABaselineIsMadeOfAMeasuredProgramAndGatesOthers) {
   const std::string options = " --sweep cases.json --layers exact -o out --against baseline.json";
   ASSERT_EQ(run("gate --head ccdt --update --reason first" + options).exit_code, 0);
