@@ -171,6 +171,7 @@ TimedTarget benchmark_target(const Programs& programs, const std::vector<std::st
   };
   target.command = [=](Side side, const std::string& name) {
     Command words = arguments;
+    std::erase_if(words, [](const std::string& word) { return word.starts_with("--benchmark_filter="); });
     words.push_back("--benchmark_filter=" + pattern_of({name}));
     return baselines::command_line(command_of(programs, side, words));
   };

@@ -220,8 +220,21 @@ def write_results(folder, gates):
     (folder / "study.json").write_text(json.dumps(
         {"schema": "ccdt.gate-study/1", "revision": revision, "host": host, "gates": gates}, indent=1))
     (folder / "study.md").write_text(
-        f"Shares have 95% intervals (Clopper and Pearson). Host: {host}; revision {revision[:12]}.\n\n" + table(verdicts) +
+        f"Shares have 95% intervals (Clopper and Pearson). Host: {host}; revision {revision[:12]}.\n\n" +
+        calibration_in_words(folder) + table(verdicts) +
         "\nOn the same times, a gate fires if one of its cases does:\n\n" + table(compared))
+
+
+def calibration_in_words(folder):
+    file = folder / "calibration" / "calibration.json"
+    if not file.exists():
+        return ""
+    calibration = json.loads(file.read_text())
+    rate = calibration["rates"]["false_alarms"]
+    smallest = ", ".join(f"{case['case']} {100 * case['smallest_found']:.1f}%" if "smallest_found" in case
+                         else f"{case['case']} none" for case in calibration["cases"])
+    return (f"The calibration said before: false alarms {100 * rate['value']:.1f}% [{100 * rate['low']:.1f}, "
+            f"{100 * rate['high']:.1f}]; smallest slowdown of one case alone that is found in 95% of gates: {smallest}.\n\n")
 
 
 def calibrate(folder, ccdt):
