@@ -127,6 +127,12 @@ std::optional<JudgedFigure> judge_status(const CaseFigures& base, const CaseFigu
   return judged;
 }
 
+/// A report leaves out the counts of work that are 0, but one of an older program has none at all.
+bool is_zero_work(const std::string& figure, const CaseFigures& one) {
+  const auto is_work = [](const std::string& name) { return name.starts_with("work."); };
+  return is_work(figure) && std::ranges::any_of(one.figures, is_work, &Figure::name);
+}
+
 void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const Rules& rules,
                         std::vector<JudgedFigure>& all) {
   if (auto status = judge_status(base, head)) {
@@ -139,10 +145,19 @@ void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const 
   for (const Figure& figure : base.figures) {
     if (!is_compared(figure)) continue;
     const Figure* now = find_figure(head, figure.name);
-    all.push_back(now == nullptr ? lost(figure, head) : judge_exact(figure, *now, head, rules.exact));
+    if (now != nullptr)
+      all.push_back(judge_exact(figure, *now, head, rules.exact));
+    else if (is_zero_work(figure.name, head))
+      all.push_back(judge_exact(figure, {figure.name, Layer::exact, {0}}, head, rules.exact));
+    else
+      all.push_back(lost(figure, head));
   }
-  for (const Figure& figure : head.figures)
-    if (is_compared(figure) && find_figure(base, figure.name) == nullptr) all.push_back(added(figure, head));
+  for (const Figure& figure : head.figures) {
+    if (!is_compared(figure) || find_figure(base, figure.name) != nullptr) continue;
+    const bool was_zero = is_zero_work(figure.name, base);
+    all.push_back(was_zero ? judge_exact({figure.name, Layer::exact, {0}}, figure, head, rules.exact)
+                           : added(figure, head));
+  }
 }
 
 bool is_gated_case(const Rules& rules, const CaseFigures& one) {

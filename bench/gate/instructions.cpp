@@ -66,7 +66,7 @@ void link_to(const fs::path& file, const fs::path& name) {
 
 /// The input by a name that is as long for all, with the file that a list of facets may take its vertices from.
 std::string link_input(const fs::path& input, const fs::path& folder) {
-  const std::string name = "input" + input.extension().string();
+  std::string name = "input" + input.extension().string();
   link_to(input, folder / name);
   fs::path nodes = input;
   nodes.replace_extension(".node");
