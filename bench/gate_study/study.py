@@ -36,7 +36,7 @@ KINDS = [
 ]
 SLOWDOWNS = {"slower-5": 0.05, "slower-3": 0.03}
 
-# Cases of about 20 ms, so that a gate takes some seconds.
+# Cases of about 15 ms, so that a gate takes some seconds.
 MODELS = [("bracket", 8), ("piston", 10)]
 LOAD_MODEL = ("stepping-pole", 2)
 
