@@ -40,7 +40,8 @@ std::string names_of_cases(const gate::Recording& recording) {
 /// Says what of two recordings is not compared, and why.
 void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict& verdict) {
   for (const gate::Recording* one : {&base, &head})
-    verdict.notes.insert(verdict.notes.end(), one->notes.begin(), one->notes.end());
+    for (const std::string& note : one->notes)
+      if (std::ranges::find(verdict.notes, note) == verdict.notes.end()) verdict.notes.push_back(note);
   if (verdict.figures.empty())
     verdict.notes.push_back("nothing can be compared: the cases of the base are " + names_of_cases(base) +
                             ", those of the head " + names_of_cases(head));

@@ -145,6 +145,7 @@ void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const 
   for (const Figure& figure : base.figures) {
     if (!is_compared(figure)) continue;
     const Figure* now = find_figure(head, figure.name);
+    if (now != nullptr && now->layer != Layer::exact) continue;  // a counter that looks like a rate in one of the two
     if (now != nullptr)
       all.push_back(judge_exact(figure, *now, head, rules.exact));
     else if (is_zero_work(figure.name, head))

@@ -28,12 +28,17 @@ bool is_counter(const std::string& name, const Json& value) {
   return value.is_number() && !own.contains(name) && !name.ends_with("_per_second");
 }
 
-void add_sample(const std::string& name, Layer layer, double value, CaseFigures& one) {
+Figure& add_sample(const std::string& name, Layer layer, double value, CaseFigures& one) {
   const auto known = std::ranges::find(one.figures, name, &Figure::name);
-  if (known == one.figures.end())
-    one.figures.push_back({name, layer, {value}});
-  else
-    known->samples.push_back(value);
+  if (known == one.figures.end()) return one.figures.emplace_back(Figure{name, layer, {value}});
+  known->samples.push_back(value);
+  return *known;
+}
+
+/// Rates are hardly ever whole numbers, unless they are so large that all are.
+bool is_count(double value) {
+  constexpr double most_exact = 9007199254740992.0;  // 2^53
+  return value == std::floor(value) && std::abs(value) < most_exact;
 }
 
 /// Programs older than 1.5 do not say which entries are aggregates.
@@ -82,10 +87,10 @@ void add_google_benchmark(const Json& json, Recording& recording) {
     for (const auto& [counter, value] : run.items()) {
       if (!is_counter(counter, value)) continue;
       const double number = value.get<double>();
-      if (number == std::floor(number))
-        add_sample("counters." + counter, Layer::exact, number, one);
-      else
-        rates.insert(counter);
+      const bool is_rate = !is_count(number) || counter.ends_with("/s");
+      Figure& figure = add_sample("counters." + counter, is_rate ? Layer::time : Layer::exact, number, one);
+      if (is_rate) figure.layer = Layer::time;
+      if (is_rate) rates.insert(counter);
     }
   }
   if (!rates.empty())

@@ -10,7 +10,8 @@ namespace ccdt::gate {
 bool is_google_benchmark(const bench::Json& json);
 
 /// Adds a case for each benchmark: repetitions are samples, aggregates are left out, times are in seconds. Counters
-/// that are whole numbers are exact figures; the others are taken for rates and left out, with a note.
+/// that are whole numbers are exact figures; the others are taken for rates, which are no better than times, with a
+/// note.
 ///
 /// \throw nlohmann::json::exception  a name is missing, or of another type
 void add_google_benchmark(const bench::Json& json, Recording& recording);
