@@ -131,6 +131,9 @@ void compare_instructions(const GateCommand& command, const gate::Rules& rules, 
     const gate::Recording counts = count_instructions(command.head, rules, cases, head.sweep.folder);
     const gate::Recording base = instruction_base(command, rules, recorded, counts, cases, verdict);
     append(gate::compare_instructions(base, counts, rules), verdict);
+    if (const std::string other = gate::other_conditions(base, counts); has_instructions(base) && !other.empty())
+      verdict.notes.push_back("instructions are not compared: " + other +
+                              "; --base PROGRAM counts those of a base here");
     merge(counts, head.recording);
   } catch (const InputError& error) {
     if (!command.layers.empty() || !command.rules.empty()) throw;
