@@ -241,7 +241,8 @@ def calibrate(folder, ccdt):
     """What this host's noise allows, said before the gates."""
     out = folder / "calibration"
     if not (out / "calibration.json").exists():
-        run(ccdt, "gate", "--base", program(folder, "base"), "--sweep", folder / "cases.json", "--calibrate", "-o", out)
+        run(ccdt, "gate", "--base", program(folder, "base"), "--sweep", folder / "cases.json", "--calibrate", "--pairs", "200", "-o",
+            out)
 
 
 def main():
