@@ -157,6 +157,7 @@ gate::JudgedFigure judged_failure(const gate::ProgramFailed& failure) {
   judged.verdict = is_base ? Judgment::incomparable : Judgment::worse;
   judged.changed = !is_base;
   judged.words = failure.what();
+  judged.command = failure.command();
   return judged;
 }
 
@@ -222,6 +223,15 @@ void measure_sweep(const GateCommand& command, const gate::Rules& rules, GateRes
   result.head = std::move(head.recording);
 }
 
+/// \throw InputError  too few samples; the remedy is one of this command line
+gate::Calibration calibration_of(const gate::SampleSet& samples, const gate::Rules& rules) {
+  try {
+    return gate::calibrate(samples, rules);
+  } catch (const gate::TooFewSamples& error) {
+    throw InputError(error.what(), error.place(), "call it with --pairs " + std::to_string(error.needed()));
+  }
+}
+
 }  // namespace
 
 GateResult measure(const GateCommand& command, const gate::Rules& rules) {
@@ -236,19 +246,6 @@ GateResult measure(const GateCommand& command, const gate::Rules& rules) {
                   result.verdict);
   return result;
 }
-
-namespace {
-
-/// \throw InputError  too few samples; the remedy is one of this command line
-gate::Calibration calibration_of(const gate::SampleSet& samples, const gate::Rules& rules) {
-  try {
-    return gate::calibrate(samples, rules);
-  } catch (const gate::TooFewSamples& error) {
-    throw InputError(error.what(), error.place(), "call it with --pairs " + std::to_string(error.needed()));
-  }
-}
-
-}  // namespace
 
 gate::Calibration measure_calibration(const GateCommand& command, const gate::Rules& rules) {
   const FolderLock lock(command.folder);

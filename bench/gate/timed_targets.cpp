@@ -26,7 +26,7 @@ Command command_of(const Programs& programs, Side side, const Command& arguments
 
 [[noreturn]] void fail(Side side, const Command& command, const std::string& what) {
   throw ProgramFailed(side, "the " + std::string(name_of(side)) + " program failed: " + what, {.file = command.front()},
-                      "run it alone: " + baselines::command_line(command));
+                      baselines::command_line(command));
 }
 
 /// Runs a command whose environment is larger by so many bytes.

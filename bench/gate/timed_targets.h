@@ -20,13 +20,15 @@ namespace ccdt::gate {
 /// A program failed where its time was to be taken.
 class ProgramFailed : public MeshError {
  public:
-  ProgramFailed(Side side, const std::string& what, Place place, std::string remedy)
-      : MeshError(what, std::move(place), std::move(remedy)), side_(side) {}
+  ProgramFailed(Side side, const std::string& what, Place place, std::string command)
+      : MeshError(what, std::move(place), "run it alone: " + command), side_(side), command_(std::move(command)) {}
 
   Side side() const { return side_; }
+  const std::string& command() const { return command_; }
 
  private:
   Side side_;
+  std::string command_;
 };
 
 /// One run of a target.
