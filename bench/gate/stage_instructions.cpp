@@ -63,11 +63,11 @@ std::vector<std::string> all_names_of(const CallGraph& graph, std::string_view f
 /// Adds the stages that are called by `mesh_plc` itself, or on the way to them, but not by another stage: a new surface
 /// needs a PLC as well, and the paper's Delaunay method begins with insertion.
 void add_stages(const CallGraph& graph, StageInstructions& stages, std::set<std::string_view>& found) {
-  std::vector<std::string> todo = all_names_of(graph, whole);
-  std::set<std::string> seen(todo.begin(), todo.end());
-  while (!todo.empty()) {
-    const std::string caller = std::move(todo.back());
-    todo.pop_back();
+  std::vector<std::string> pending = all_names_of(graph, whole);
+  std::set<std::string> seen(pending.begin(), pending.end());
+  while (!pending.empty()) {
+    const std::string caller = std::move(pending.back());
+    pending.pop_back();
     const auto [begin, end] = graph.calls.equal_range(caller);
     for (auto call = begin; call != end; ++call) {
       const CallGraph::Callee& callee = call->second;
@@ -75,7 +75,7 @@ void add_stages(const CallGraph& graph, StageInstructions& stages, std::set<std:
         stages[std::string(stage->stage)] += callee.instructions;
         found.insert(stage->function);
       } else if (seen.insert(callee.name).second) {
-        todo.push_back(callee.name);
+        pending.push_back(callee.name);
       }
     }
   }

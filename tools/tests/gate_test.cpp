@@ -1,75 +1,10 @@
 #include <cmath>
-#include <functional>
-#include <nlohmann/json.hpp>
 
 #include "baselines/json_schema.h"
-#include "tools/tests/program.h"
+#include "tools/tests/gate_recordings.h"
 
 namespace ccdt {
 namespace {
-
-using Json = nlohmann::ordered_json;
-using Change = std::function<void(Json&)>;
-
-void change_nothing(Json&) {}
-
-/// A report of `ccdt mesh`, as far as a gate reads it.
-Json run_of(const std::string& input) {
-  return {{"schema", "ccdt.run/1"},
-          {"mesher", {{"name", "ccdt"}, {"version", "1"}, {"revision", "abc"}}},
-          {"input", {{"name", "parts/" + input}, {"sha256", ""}}},
-          {"options", {{"lattice", "fcc"}}},
-          {"command", {"ccdt", "mesh", input}},
-          {"environment", {{"cpu", "some"}, {"compiler", "GNU 12"}, {"flags", "-O3"}, {"revision", "abc"}}},
-          {"counts", {{"vertices", 100}, {"tetrahedra", 400}, {"steiner_vertices", 4}, {"splits_by_level", {2, 1}}}},
-          {"work", {{"delaunay", {{"walk_steps", 1000}, {"exact_evaluations", 0}}}}},
-          {"seconds", {{"mesh", 1.5}}},
-          {"quality",
-           {{"r", {{"max", 2.5}, {"histogram", {{"edges", {1, 2}}, {"counts", {3}}}}}},
-            {"dihedral_degrees", {{"min", 20.5}}}}},
-          {"volume", 1.25},
-          {"mesh_fingerprint", "0123"},
-          {"status", "ok"}};
-}
-
-class Gate : public Program {
- protected:
-  void write_run(const std::string& folder, const std::string& input, const Change& change = change_nothing) const {
-    Json run = run_of(input);
-    change(run);
-    std::filesystem::create_directories(work() / folder);
-    write(folder + "/" + input + ".json", run.dump());
-  }
-
-  /// Two recordings of one case; the head's is changed.
-  void write_pair(const Change& change) const {
-    write_run("base", "a.off");
-    write_run("head", "a.off", change);
-  }
-
-  Json verdict(const std::string& folder = "out") const {
-    return Json::parse(text_of(work() / folder / "verdict.json"));
-  }
-
-  /// The entry of a figure; null if there is none.
-  static Json figure(const Json& verdict, const std::string& name) {
-    for (const Json& one : verdict.at("figures"))
-      if (one.at("name") == name) return one;
-    return {};
-  }
-
-  /// Judges the change of one figure.
-  Json judged(const std::string& name, const Change& change, const std::string& options = "") const {
-    write_pair(change);
-    run("gate head --against base -o out " + options);
-    return figure(verdict(), name);
-  }
-};
-
-/// Sets the number at a JSON pointer.
-Change set(const std::string& pointer, const Json& value) {
-  return [=](Json& run) { run[Json::json_pointer(pointer)] = value; };
-}
 
 TEST_F(Gate, EqualRecordingsPass) {
   write_pair(change_nothing);
@@ -79,20 +14,20 @@ TEST_F(Gate, EqualRecordingsPass) {
 }
 
 TEST_F(Gate, OneReportIsARecording) {
-  write_pair(set("/work/delaunay/walk_steps", 1001));
+  write_pair(set("work.delaunay.walk_steps", 1001));
   EXPECT_EQ(run("gate base/a.off.json --against base").exit_code, 0);
   EXPECT_EQ(run("gate head/a.off.json --against base/a.off.json").exit_code, 1);
 }
 
 TEST_F(Gate, TheVerdictIsWhatItsSchemaSays) {
-  write_pair(set("/counts/steiner_vertices", 5));
+  write_pair(set("counts.steiner_vertices", 5));
   run("gate head --against base -o out");
   const std::string schema = text_of(VERDICT_SCHEMA);
   EXPECT_NO_THROW(baselines::read_user_file(work() / "out/verdict.json", {"a verdict", schema.c_str(), ""}));
 }
 
 TEST_F(Gate, MoreWorkFailsByItsSizeWithTheCommandThatRepeatsIt) {
-  const Json figure = judged("work.delaunay.walk_steps", set("/work/delaunay/walk_steps", 1100));
+  const Json figure = judged("work.delaunay.walk_steps", set("work.delaunay.walk_steps", 1100));
   EXPECT_EQ(figure.at("verdict"), "worse");
   EXPECT_EQ(figure.at("base"), 1000);
   EXPECT_EQ(figure.at("head"), 1100);
@@ -103,13 +38,13 @@ TEST_F(Gate, MoreWorkFailsByItsSizeWithTheCommandThatRepeatsIt) {
 }
 
 TEST_F(Gate, WorkWhereThereWasNoneFails) {
-  const Json figure = judged("work.delaunay.exact_evaluations", set("/work/delaunay/exact_evaluations", 1));
+  const Json figure = judged("work.delaunay.exact_evaluations", set("work.delaunay.exact_evaluations", 1));
   EXPECT_EQ(figure.at("verdict"), "worse");
   EXPECT_TRUE(figure.at("ratio").is_null());
 }
 
 TEST_F(Gate, LessWorkPassesAndIsReported) {
-  write_pair(set("/work/delaunay/walk_steps", 900));
+  write_pair(set("work.delaunay.walk_steps", 900));
   const Outcome outcome = run("gate head --against base -o out");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(figure(verdict(), "work.delaunay.walk_steps").at("changed"));
@@ -118,25 +53,25 @@ TEST_F(Gate, LessWorkPassesAndIsReported) {
 }
 
 TEST_F(Gate, SmallerAnglesFailAndLargerOnesPass) {
-  EXPECT_EQ(judged("quality.dihedral_degrees.min", set("/quality/dihedral_degrees/min", 20)).at("verdict"), "worse");
-  EXPECT_EQ(judged("quality.dihedral_degrees.min", set("/quality/dihedral_degrees/min", 21)).at("verdict"), "passed");
+  EXPECT_EQ(judged("quality.dihedral_degrees.min", set("quality.dihedral_degrees.min", 20)).at("verdict"), "worse");
+  EXPECT_EQ(judged("quality.dihedral_degrees.min", set("quality.dihedral_degrees.min", 21)).at("verdict"), "passed");
 }
 
 TEST_F(Gate, WorseRadiusRatiosFailAlsoIfTheyAreInfinite) {
-  EXPECT_EQ(judged("quality.r.max", set("/quality/r/max", 2.6)).at("verdict"), "worse");
-  EXPECT_EQ(judged("quality.r.max", set("/quality/r/max", 2.4)).at("verdict"), "passed");
-  EXPECT_EQ(judged("quality.r.max", set("/quality/r/max", nullptr)).at("verdict"), "worse");
+  EXPECT_EQ(judged("quality.r.max", set("quality.r.max", 2.6)).at("verdict"), "worse");
+  EXPECT_EQ(judged("quality.r.max", set("quality.r.max", 2.4)).at("verdict"), "passed");
+  EXPECT_EQ(judged("quality.r.max", set("quality.r.max", nullptr)).at("verdict"), "worse");
 }
 
 TEST_F(Gate, LastBitsOfNumbersThatAreNotWholeDoNotMatter) {
-  EXPECT_FALSE(judged("volume", set("/volume", std::nextafter(1.25, 2))).at("changed"));
-  EXPECT_EQ(judged("volume", set("/volume", 1.2501)).at("verdict"), "worse");
+  EXPECT_FALSE(judged("volume", set("volume", std::nextafter(1.25, 2))).at("changed"));
+  EXPECT_EQ(judged("volume", set("volume", 1.2501)).at("verdict"), "worse");
 }
 
 TEST_F(Gate, AnotherMeshFailsEvenIfItIsSmaller) {
-  EXPECT_EQ(judged("mesh_fingerprint", set("/mesh_fingerprint", "4567")).at("verdict"), "worse");
-  EXPECT_EQ(judged("counts.tetrahedra", set("/counts/tetrahedra", 399)).at("verdict"), "worse");
-  EXPECT_EQ(judged("counts.splits_by_level", set("/counts/splits_by_level", {2})).at("verdict"), "worse");
+  EXPECT_EQ(judged("mesh_fingerprint", set("mesh_fingerprint", "4567")).at("verdict"), "worse");
+  EXPECT_EQ(judged("counts.tetrahedra", set("counts.tetrahedra", 399)).at("verdict"), "worse");
+  EXPECT_EQ(judged("counts.splits_by_level", set("counts.splits_by_level", {2})).at("verdict"), "worse");
 }
 
 TEST_F(Gate, AFailedRunIsWorseAndAMendedOneBetter) {
@@ -210,7 +145,7 @@ TEST_F(Gate, TheWorstIsFirst) {
 }
 
 TEST_F(Gate, TimesThatWereRecordedEarlierAreNeverJudged) {
-  EXPECT_EQ(judged("seconds.mesh", set("/seconds/mesh", 150)).at("verdict"), "incomparable");
+  EXPECT_EQ(judged("seconds.mesh", set("seconds.mesh", 150)).at("verdict"), "incomparable");
   EXPECT_EQ(verdict().at("verdict"), "passed");
   EXPECT_EQ(run("gate head --against base --layers time").exit_code, 3);
 }
@@ -224,7 +159,7 @@ TEST_F(Gate, RecordingsOfDifferentThingsAreNotComparable) {
 }
 
 TEST_F(Gate, ShadowModePassesAndSaysWhatIsWorse) {
-  write_pair(set("/counts/steiner_vertices", 5));
+  write_pair(set("counts.steiner_vertices", 5));
   EXPECT_EQ(run("gate head --against base -o out --shadow").exit_code, 0);
   EXPECT_EQ(verdict().at("verdict"), "worse");
   EXPECT_TRUE(verdict().at("shadow"));
@@ -235,7 +170,7 @@ TEST_F(Gate, MarkdownIsAppendedWithAllThatFailed) {
   for (int i = 0; i < 60; ++i) {
     const std::string name = "p" + std::to_string(i) + ".off";
     write_run("base", name);
-    write_run("head", name, set("/counts/steiner_vertices", 5 + i));
+    write_run("head", name, set("counts.steiner_vertices", 5 + i));
   }
   EXPECT_EQ(run("gate head --against base --markdown summary.md").exit_code, 1);
   const std::string text = text_of(work() / "summary.md");
@@ -254,7 +189,7 @@ TEST_F(Gate, AnUpdateNeedsAReason) {
 }
 
 TEST_F(Gate, AfterAnUpdateTheSameRecordingPasses) {
-  write_pair(set("/counts/steiner_vertices", 5));
+  write_pair(set("counts.steiner_vertices", 5));
   ASSERT_EQ(run("gate base --against baseline.json --update --reason first").exit_code, 0);
   EXPECT_EQ(run("gate base --against baseline.json").exit_code, 0);
   EXPECT_EQ(run("gate head --against baseline.json").exit_code, 1);
@@ -264,7 +199,7 @@ TEST_F(Gate, AfterAnUpdateTheSameRecordingPasses) {
 }
 
 TEST_F(Gate, ABaselineKeepsTheReasonsAndNoTimes) {
-  write_pair(set("/counts/steiner_vertices", 5));
+  write_pair(set("counts.steiner_vertices", 5));
   run("gate base --against baseline.json --update --reason first");
   run("gate head --against baseline.json --update --reason second");
   const Json baseline = Json::parse(text_of(work() / "baseline.json"));
@@ -285,14 +220,14 @@ TEST_F(Gate, ABaselineHoldsWhatTheRulesGate) {
 
 TEST_F(Gate, AHistoryThatOnlyGetsWorseIsPointedOut) {
   for (int steps = 1000; steps < 1004; ++steps) {
-    write_run("head", "a.off", set("/work/delaunay/walk_steps", steps));
+    write_run("head", "a.off", set("work.delaunay.walk_steps", steps));
     run("gate head --against baseline.json --update --reason 'step " + std::to_string(steps) + "'");
   }
   const Outcome outcome = run("gate head --against baseline.json -o out");
   EXPECT_EQ(outcome.exit_code, 0);
   ASSERT_EQ(verdict().at("notes").size(), 1u);
   EXPECT_NE(outcome.out.find("step 1003"), std::string::npos);
-  write_run("head", "a.off", set("/work/delaunay/walk_steps", 900));
+  write_run("head", "a.off", set("work.delaunay.walk_steps", 900));
   run("gate head --against baseline.json --update --reason better");
   run("gate head --against baseline.json -o out");
   EXPECT_TRUE(verdict().at("notes").empty());
@@ -343,7 +278,7 @@ TEST_F(Gate, InstructionsOfAnotherCpuAreNotComparable) {
 TEST_F(Gate, RulesTolerateIgnoreAndTurnFigures) {
   const auto verdict_with = [&](const std::string& rules) {
     write("rules.json", R"({"schema": "ccdt.rules/1", "exact": )" + rules + "}");
-    return judged("work.delaunay.walk_steps", set("/work/delaunay/walk_steps", 1100), "--rules rules.json");
+    return judged("work.delaunay.walk_steps", set("work.delaunay.walk_steps", 1100), "--rules rules.json");
   };
   EXPECT_EQ(verdict_with("{}").at("verdict"), "worse");
   EXPECT_EQ(verdict_with(R"({"tolerances": {"work.*": 0.2}})").at("verdict"), "passed");
@@ -466,119 +401,6 @@ TEST_F(Gate, OptionsThatDoNotFitTogetherAreUsageErrors) {
 }
 
 // Measured programs.
-
-class MeasuringGate : public Gate {
- protected:
-  MeasuringGate() {
-    write("cases.json", R"({"schema": "ccdt.sweep/1", "inputs": [{"model": "bracket", "edge_length": 10}],
-                            "options": {"lattice": ["none", "bcc"], "improve": ["none"]}})");
-    std::filesystem::create_symlink(CCDT_PROGRAM, work() / "ccdt");
-    // A program that meshes worse than was asked for.
-    write("worse",
-          "#!/bin/sh\nfor word; do shift; [ \"$word\" = bcc ] && word=sc; set -- \"$@\" \"$word\"; done\n"
-          "exec '" +
-              std::string(CCDT_PROGRAM) + "' \"$@\"\n");
-    std::filesystem::permissions(work() / "worse", std::filesystem::perms::owner_all);
-  }
-};
-
-TEST_F(MeasuringGate, AProgramPassesAgainstItself) {
-  EXPECT_EQ(run("gate --base ccdt --head ccdt --sweep cases.json --layers exact -o out").exit_code, 0);
-  EXPECT_GT(verdict().at("counts").at("passed"), 20);
-}
-
-TEST_F(MeasuringGate, AnotherProgramFailsWhereItDiffers) {
-  EXPECT_EQ(run("gate --base ccdt --head worse --sweep cases.json --layers exact -o out").exit_code, 1);
-  int others = 0;  // cases without the lattice are the same
-  const Json found = verdict();
-  for (const Json& one : found.at("figures")) {
-    const bool is_other = one.at("case").get<std::string>().find("bcc") == std::string::npos;
-    others += one.at("verdict") == "worse" && is_other ? 1 : 0;
-  }
-  EXPECT_EQ(others, 0);
-  EXPECT_EQ(run("gate --base ccdt --head ccdt --sweep cases.json --layers exact -o out").exit_code, 0);
-}
-
-TEST_F(MeasuringGate, AProgramIsMeasuredAnewEvenIfItsFileIsTheSame) {
-  const std::string call = "gate --base ccdt --head script --sweep cases.json --layers exact -o out";
-  write("script", "#!/bin/sh\nexec '" + (work() / "called").string() + "' \"$@\"\n");
-  std::filesystem::permissions(work() / "script", std::filesystem::perms::owner_all);
-  std::filesystem::create_symlink(CCDT_PROGRAM, work() / "called");
-  EXPECT_EQ(run(call).exit_code, 0);
-  std::filesystem::rename(work() / "worse", work() / "called");
-  EXPECT_EQ(run(call).exit_code, 1);
-}
-
-TEST_F(MeasuringGate, ABaselineIsMadeOfAMeasuredProgramAndGatesOthers) {
-  const std::string options = " --sweep cases.json --layers exact -o out --against baseline.json";
-  ASSERT_EQ(run("gate --head ccdt --update --reason first" + options).exit_code, 0);
-  EXPECT_EQ(run("gate --head ccdt" + options).exit_code, 0);
-  EXPECT_EQ(run("gate --head worse" + options).exit_code, 1);
-}
-
-/// Programs that stand for those on Google Benchmark, with made-up times.
-class TimedGate : public Gate {
- protected:
-  TimedGate() {
-    write_program("quick", benchmark_of("1000"));
-    write_program("slow", benchmark_of("1100"));
-    write_program("noisy", benchmark_of("$((500 + $(od -An -N2 -tu2 /dev/urandom) % 2000))"));
-    write_program("failing", "exit 4");
-    write("rules.json", R"({"schema": "ccdt.rules/1", "time": {"at_least": 8, "at_most": 16}})");
-  }
-
-  /// A shell script that reports a benchmark of so many milliseconds.
-  static std::string benchmark_of(const std::string& milliseconds) {
-    return "for a; do case $a in --benchmark_out=*) echo '{\"benchmarks\": [{\"name\": \"BM_x\", \"run_type\": "
-           "\"iteration\", \"cpu_time\": 1, \"time_unit\": \"ms\", \"real_time\": '" +
-           milliseconds + "'}]}' > \"${a#*=}\";; esac; done";
-  }
-
-  void write_program(const std::string& name, const std::string& what) const {
-    write(name, "#!/bin/sh\n" + what + "\n");
-    std::filesystem::permissions(work() / name, std::filesystem::perms::owner_all);
-  }
-
-  int gate(const std::string& base, const std::string& head) const {
-    const std::string programs = "--base " + base + " --head " + head;
-    return run("gate " + programs + " --rules rules.json -o out -- --benchmark_filter=.").exit_code;
-  }
-};
-
-TEST_F(TimedGate, ASlowerProgramFails) {
-  EXPECT_EQ(gate("quick", "slow"), 1);
-  const Json time = verdict().at("figures").at(0);
-  EXPECT_EQ(time.at("layer"), "time");
-  EXPECT_EQ(time.at("case"), "BM_x");
-  EXPECT_NEAR(time.at("interval").at(0), 1.1, 1e-6);
-  EXPECT_NE(time.at("command").get<std::string>().find("slow"), std::string::npos);
-  EXPECT_FALSE(verdict().at("correction").get<std::string>().empty());
-}
-
-TEST_F(TimedGate, ATooNoisyProgramIsUndecided) {
-  EXPECT_EQ(gate("noisy", "noisy"), 5);
-  EXPECT_EQ(verdict().at("figures").at(0).at("verdict"), "undecided");
-}
-
-TEST_F(TimedGate, AFasterProgramPassesAndIsReported) {
-  EXPECT_EQ(gate("slow", "quick"), 0);
-  EXPECT_TRUE(verdict().at("figures").at(0).at("changed"));
-}
-
-TEST_F(TimedGate, AProgramThatFailsIsWorseUnlessItIsTheBase) {
-  EXPECT_EQ(gate("quick", "failing"), 1);
-  EXPECT_EQ(gate("failing", "quick"), 3);
-}
-
-TEST_F(TimedGate, ACalibrationSaysHowManyPairsItNeeds) {
-  const std::string options = "gate --base slow --calibrate --rules rules.json -o out ";
-  const Outcome few = run(options + "--pairs 5 -- --benchmark_filter=.");
-  EXPECT_EQ(few.exit_code, 3);
-  EXPECT_NE(few.err.find("--pairs "), std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(work() / "out/calibration.json"));
-  EXPECT_EQ(run(options + "--pairs 20 -- --benchmark_filter=.").exit_code, 0);
-  EXPECT_EQ(Json::parse(text_of(work() / "out/calibration.json")).at("schema"), "ccdt.calibration/1");
-}
 
 }  // namespace
 }  // namespace ccdt
