@@ -15,6 +15,8 @@ constexpr std::string_view none = "none";
 
 /// Those of remeshing the surface, which is done before any mesher gets it.
 constexpr auto options_of_surface = std::to_array<std::string_view>({"edge-length", "flatness", "sharp-angle"});
+/// Those of refining the surface.
+constexpr auto options_of_refinement = std::to_array<std::string_view>({"edge-length", "grading"});
 /// Those of interior points.
 constexpr auto options_of_lattice =
     std::to_array<std::string_view>({"clearance", "edge-length", "grading", "sizes", "sphere-factor"});
@@ -110,7 +112,9 @@ std::vector<OptionUse> options_of_engine() {
 
 NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options) {
   const Asked asked(options);
-  const bool is_remeshed = asked.value("surface") == "remesh";
+  const std::string surface = asked.value("surface");
+  const bool is_remeshed = surface == "remesh";
+  const bool is_refined = surface == "refine" && mesher.name == "ccdt";  // others do not refine
   const auto use_of = [&](const std::string& name) {
     return std::ranges::find(mesher.options, name, &OptionUse::name);
   };
@@ -121,7 +125,9 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
   NamedOptions effective;
   for (const auto& [name, value] : asked.options()) {
     const auto use = use_of(name);
-    const bool is_of_surface = name == "surface" || (is_remeshed && is_among(options_of_surface, name));
+    const bool is_of_surface = (name == "surface" && (is_refined || surface != "refine")) ||
+                               (is_remeshed && is_among(options_of_surface, name)) ||
+                               (is_refined && is_among(options_of_refinement, name));
     const bool is_used = use != mesher.options.end() && matters(*use, asked);
     const bool is_known = usual_options().contains(name);
     if (is_known && !is_of_surface && !is_used) continue;

@@ -38,14 +38,17 @@ inline constexpr auto fields<ImproveCounts> = std::tuple(
     field("collapsed_edges", &ImproveCounts::collapsed_edges), field("stop", &ImproveCounts::stop));
 
 template <>
-inline constexpr auto fields<MeshCounts> = std::tuple(
-    field("vertices", &MeshCounts::vertices), field("steiner_vertices", &MeshCounts::steiner_vertices),
-    field("interior_vertices", &MeshCounts::interior_vertices), field("tetrahedra", &MeshCounts::tetrahedra),
-    field("faces", &MeshCounts::faces), field("undelaunay_faces", &MeshCounts::undelaunay_faces),
-    field("front_tetrahedra", &MeshCounts::front_tetrahedra),
-    optional_field("splits_by_level", &MeshCounts::splits_by_level),
-    optional_field("dropped_interior_vertices", &MeshCounts::dropped_interior_vertices),
-    optional_field("front_faces", &MeshCounts::front_faces), optional_field("improve", &MeshCounts::improve));
+inline constexpr auto fields<MeshCounts> =
+    std::tuple(field("vertices", &MeshCounts::vertices), field("steiner_vertices", &MeshCounts::steiner_vertices),
+               field("interior_vertices", &MeshCounts::interior_vertices), field("tetrahedra", &MeshCounts::tetrahedra),
+               field("faces", &MeshCounts::faces), field("undelaunay_faces", &MeshCounts::undelaunay_faces),
+               field("front_tetrahedra", &MeshCounts::front_tetrahedra),
+               optional_field("splits_by_level", &MeshCounts::splits_by_level),
+               optional_field("dropped_interior_vertices", &MeshCounts::dropped_interior_vertices),
+               optional_field("front_faces", &MeshCounts::front_faces),
+               optional_field("refined_on_segments", &MeshCounts::refined_on_segments),
+               optional_field("refined_in_facets", &MeshCounts::refined_in_facets),
+               optional_field("improve", &MeshCounts::improve));
 
 template <>
 inline constexpr auto fields<RunRecord::MesherName> = std::tuple(field("name", &RunRecord::MesherName::name),
@@ -53,11 +56,12 @@ inline constexpr auto fields<RunRecord::MesherName> = std::tuple(field("name", &
                                                                  field("revision", &RunRecord::MesherName::revision));
 
 template <>
-inline constexpr auto fields<RunRecord::Input> = std::tuple(field("name", &RunRecord::Input::name),
-                                                            field("sha256", &RunRecord::Input::sha256),
-                                                            field("vertices", &RunRecord::Input::vertices),
-                                                            field("facets", &RunRecord::Input::facets),
-                                                            field("segments", &RunRecord::Input::segments));
+inline constexpr auto fields<RunRecord::Input> =
+    std::tuple(field("name", &RunRecord::Input::name), field("sha256", &RunRecord::Input::sha256),
+               field("vertices", &RunRecord::Input::vertices), field("facets", &RunRecord::Input::facets),
+               field("segments", &RunRecord::Input::segments),
+               optional_field("nonplanar_facets", &RunRecord::Input::nonplanar_facets),
+               optional_field("largest_deviation", &RunRecord::Input::largest_deviation));
 
 template <>
 inline constexpr auto fields<VerifiedMesh::FailedCheck> =
@@ -82,12 +86,13 @@ constexpr auto stage(double StageSeconds::*seconds) {
 
 constexpr auto fields_of_seconds =
     std::tuple(field("read", &RunRecord::read_seconds), optional_field("remesh", &RunRecord::remesh_seconds),
-               field("plc", stage(&StageSeconds::plc)), field("protect", stage(&StageSeconds::protect)),
-               field("facets", stage(&StageSeconds::facets)), field("lattice", stage(&StageSeconds::lattice)),
-               field("delaunay", stage(&StageSeconds::delaunay)), field("face_check", stage(&StageSeconds::face_check)),
-               field("front", stage(&StageSeconds::front)), field("label", stage(&StageSeconds::label)),
-               field("finish", stage(&StageSeconds::finish)), field("improve", stage(&StageSeconds::improve)),
-               field("write", &RunRecord::write_seconds), field("mesh", stage(&StageSeconds::mesh)));
+               field("plc", stage(&StageSeconds::plc)), optional_field("refine", stage(&StageSeconds::refine)),
+               field("protect", stage(&StageSeconds::protect)), field("facets", stage(&StageSeconds::facets)),
+               field("lattice", stage(&StageSeconds::lattice)), field("delaunay", stage(&StageSeconds::delaunay)),
+               field("face_check", stage(&StageSeconds::face_check)), field("front", stage(&StageSeconds::front)),
+               field("label", stage(&StageSeconds::label)), field("finish", stage(&StageSeconds::finish)),
+               field("improve", stage(&StageSeconds::improve)), field("write", &RunRecord::write_seconds),
+               field("mesh", stage(&StageSeconds::mesh)));
 
 constexpr auto fields_before_seconds =
     std::tuple(optional_field("command", &RunRecord::command), field("environment", &RunRecord::environment),
@@ -200,6 +205,8 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
   record.input.vertices = input.vertices.size();
   record.input.facets = input.facet_count();
   record.input.segments = input.segments.size();
+  record.input.nonplanar_facets = input.bent.count;
+  record.input.largest_deviation = input.bent.largest_deviation;
   record.options = {{"face_protection", options.face_protection},
                     {"lattice", std::string(name_of(options.lattice))},
                     {"locator", std::string(name_of(options.locator))},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/base/box.h"
 #include "engine/base/count_work.h"
 #include "engine/base/stopwatch.h"
 #include "engine/delaunay/delaunay.h"
@@ -12,8 +13,10 @@
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
+#include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
+#include "engine/refine/refine_plc.h"
 
 namespace ccdt {
 namespace {
@@ -115,6 +118,8 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
                     [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
   t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
   if (t.stuck) return;
+  t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); });
+  if (t.stuck) return;
   t.facet_of_face = measured(costs, mesh_stage::finish,
                              [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
 }
@@ -124,24 +129,36 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
                                   const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
   t.plc = measured(costs, mesh_stage::plc, [&] { return plc::build_plc(input, {flatness}, progress); });
+  std::vector<Point3> points = t.plc.vertices;
+  if (options.refine_surface) {
+    refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
+      return refine::refine_plc(std::move(t.plc), {options.edge_length / t.plc.grid.unit, options.grading}, progress);
+    });
+    t.plc = std::move(refined.plc);
+    t.chains = std::move(refined.chains);
+    t.counts.refined_in_facets = t.plc.vertices.size() - points.size();
+    t.counts.refined_on_segments = refined.on_segments.size();
+    points = t.plc.vertices;
+    points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
+  }
   // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
   // whatever the method is. With another method it is there for the sake of protection alone.
   const bool stays = options.delaunay == DelaunayMethod::insert;
   delaunay::Delaunay delaunay = measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
-                                         [&] { return delaunay::build_delaunay(t.plc.vertices, progress); });
+                                         [&] { return delaunay::build_delaunay(points, progress); });
   protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
-    return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay)), options.protection,
-                                     progress);
+    return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay), std::move(t.chains)),
+                                     options.protection, progress);
   });
   t.chains = surface.chains;
   t.first_interior = surface.delaunay.vertices.size();
-  t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size();
+  t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size() - t.counts.refined_on_segments;
   t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
 
   facets::FacetMesh facets = measured(costs, mesh_stage::facets, [&] {
     return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
   });
-  std::vector<Point3> points;
+  points.clear();
   if (options.lattice != Lattice::none)
     points =
         measured(costs, mesh_stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
@@ -155,6 +172,15 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   return t;
 }
 
+/// A fortieth of the diagonal of the bounding box.
+double usual_edge_length(const std::vector<Point3>& vertices) {
+  const Box box = bounding_box(vertices);
+  return length(box.high - box.low) / 40;
+}
+
+/// Of the tolerances that are tried after another one; after it comes 0.
+constexpr double least_flatness = 2e-11;
+
 }  // namespace
 
 Improvement improvement_of(const MeshOptions& options) {
@@ -163,19 +189,27 @@ Improvement improvement_of(const MeshOptions& options) {
 
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   StageCosts costs;
-  Tetrahedralization t = tetrahedralize(input, options, options.flatness, progress, costs);
+  const auto triangulated = measured(costs, mesh_stage::plc, [&] { return plc::triangulate_bent_facets(input); });
+  const InputPlc& flat = triangulated ? *triangulated : input;
+  MeshOptions used = options;
+  if (used.refine_surface && used.edge_length == 0) used.edge_length = usual_edge_length(flat.vertices);
+  Tetrahedralization t = tetrahedralize(flat, used, used.flatness, progress, costs);
   // Only a facet that is flat within the tolerance, but not exactly, makes the front stick: the theorem on protected
-  // edges speaks of exact facets. Taken as it is, the surface costs more Steiner vertices, but then its
-  // tetrahedralization exists.
-  if (t.stuck && options.flatness != 0) t = tetrahedralize(input, options, 0, progress, costs);
+  // edges speaks of exact facets. The closer to exact the surface is taken, the more Steiner vertices it costs. Taken
+  // as it is, its tetrahedralization exists.
+  for (double flatness = used.flatness; t.stuck && flatness != 0;) {
+    flatness = flatness > least_flatness ? flatness / 10 : 0;
+    t = tetrahedralize(flat, used, flatness, progress, costs);
+  }
   if (t.stuck) throw MeshError(*t.stuck);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
   if (improve.improvement != Improvement::none) {
+    improve::ImproveInput mesh{t.plc, t.chains, std::move(t.facet_of_face), t.first_interior};
+    if (options.refine_surface) mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
     t.counts.improve = measured(costs, mesh_stage::improve, [&] {
-      return improve::improve_mesh({t.plc, t.chains, std::move(t.facet_of_face), t.first_interior}, improve, t.points,
-                                   t.mesh, progress);
+      return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress);
     });
     t.counts.interior_vertices = t.points.size() - t.first_interior;
   }
@@ -184,8 +218,8 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   StageSeconds& s = costs.seconds;
-  s.mesh =
-      s.plc + s.protect + s.facets + s.lattice + s.delaunay + s.face_check + s.front + s.label + s.finish + s.improve;
+  s.mesh = s.plc + s.refine + s.protect + s.facets + s.lattice + s.delaunay + s.face_check + s.front + s.label +
+           s.finish + s.improve;
   return {std::move(t.mesh), std::move(t.counts), s, costs.work, t.plc.largest_rounding};
 }
 

@@ -39,11 +39,13 @@ struct MeshOptions {
   Protection protection = Protection::shell;
   LocatorKind locator = LocatorKind::cavity;
   DelaunayMethod delaunay = DelaunayMethod::insert;
-  double grid_scale = 1;     ///< factor of the cell size that the paper gives its uniform grids (section 4)
-  double edge_length = 0;    ///< target edge length in the units of the input; 0: as the surface has it
-  double grading = 0.5;      ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  double flatness = 1e-8;    ///< see PlcOptions
-  double sphere_factor = 1;  ///< see LatticeOptions
+  double grid_scale = 1;        ///< factor of the cell size that the paper gives its uniform grids (section 4)
+  bool refine_surface = false;  ///< give facets and segments vertices for even triangles; see `refine::refine_plc`
+  double edge_length = 0;       ///< target edge length in the units of the input; 0: as the surface has it, or, if that
+                                ///< is refined, a fortieth of the diagonal of the bounding box
+  double grading = 0.5;         ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  double flatness = 1e-8;       ///< see PlcOptions
+  double sphere_factor = 1;     ///< see LatticeOptions
   double clearance = lattice::usual_clearance;  ///< see LatticeOptions
   ImproveOptions improve = {};                  ///< of the finished mesh; see `improvement_of`
   BackgroundSizes background = {};  ///< a size function, in the units of the input; with one, the lengths of the
@@ -52,14 +54,14 @@ struct MeshOptions {
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
 struct StageSeconds {
-  double plc = 0, protect = 0, facets = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0, label = 0, finish = 0,
-         improve = 0;
+  double plc = 0, refine = 0, protect = 0, facets = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0, label = 0,
+         finish = 0, improve = 0;
   double mesh = 0;  ///< meshing alone: all of the above
 };
 
 /// What each stage did; names as in the `ccdt.run/1` schema.
 struct StageWork {
-  Work plc, protect, facets, lattice, delaunay, face_check, front, label, finish, improve;
+  Work plc, refine, protect, facets, lattice, delaunay, face_check, front, label, finish, improve;
 };
 
 /// A stage of meshing, by its name, its time and its work.
@@ -71,6 +73,7 @@ struct MeshStage {
 
 namespace mesh_stage {
 inline constexpr MeshStage plc = {"plc", &StageSeconds::plc, &StageWork::plc};
+inline constexpr MeshStage refine = {"refine", &StageSeconds::refine, &StageWork::refine};
 inline constexpr MeshStage protect = {"protect", &StageSeconds::protect, &StageWork::protect};
 inline constexpr MeshStage facets = {"facets", &StageSeconds::facets, &StageWork::facets};
 inline constexpr MeshStage lattice = {"lattice", &StageSeconds::lattice, &StageWork::lattice};
@@ -83,9 +86,10 @@ inline constexpr MeshStage improve = {"improve", &StageSeconds::improve, &StageW
 }  // namespace mesh_stage
 
 /// All stages, in their order.
-inline constexpr std::array mesh_stages = {
-    mesh_stage::plc,        mesh_stage::protect, mesh_stage::facets, mesh_stage::lattice, mesh_stage::delaunay,
-    mesh_stage::face_check, mesh_stage::front,   mesh_stage::label,  mesh_stage::finish,  mesh_stage::improve};
+inline constexpr std::array mesh_stages = {mesh_stage::plc,        mesh_stage::refine,  mesh_stage::protect,
+                                           mesh_stage::facets,     mesh_stage::lattice, mesh_stage::delaunay,
+                                           mesh_stage::face_check, mesh_stage::front,   mesh_stage::label,
+                                           mesh_stage::finish,     mesh_stage::improve};
 
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh
@@ -99,6 +103,8 @@ struct MeshCounts {
   std::vector<std::uint64_t> splits_by_level = {};
   std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
+  std::uint64_t refined_on_segments = 0;  ///< vertices that refinement gave to segments
+  std::uint64_t refined_in_facets = 0;    ///< and to facets
   ImproveCounts improve = {};
 };
 
@@ -116,7 +122,8 @@ Improvement improvement_of(const MeshOptions& options);
 
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
-/// \param input     facets in any units, in which lengths are then meant and the mesh is given
+/// \param input     facets in any units, in which lengths are then meant and the mesh is given; polygons that are not
+///                  planar are triangulated so that they bend least
 /// \param options   strategies, sizes and what improvement is to reach
 /// \param progress  called again and again; to cancel the meshing, throw from it: the exception reaches the
 ///                  caller, and all memory is given back

@@ -137,7 +137,8 @@ std::string how_measured(const results::Circumstances& how) {
 }
 
 std::string stages(const StageSeconds& s) {
-  const std::array<std::pair<const char*, double>, 10> all = {{{"plc", s.plc},
+  const std::array<std::pair<const char*, double>, 11> all = {{{"plc", s.plc},
+                                                               {"refine", s.refine},
                                                                {"protect", s.protect},
                                                                {"facets", s.facets},
                                                                {"lattice", s.lattice},
@@ -151,6 +152,13 @@ std::string stages(const StageSeconds& s) {
   for (const auto& [name, seconds] : all)
     if (seconds > 0) text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds)));
   return text.empty() ? "" : " (" + text + ")";
+}
+
+/// Nothing if the surface was not refined.
+std::string refinement(const MeshCounts& c) {
+  if (c.refined_on_segments + c.refined_in_facets == 0) return "";
+  return "refinement  " + with_separators(c.refined_on_segments) + " vertices on segments, " +
+         with_separators(c.refined_in_facets) + " in facets\n";
 }
 
 /// Nothing if no edge was in danger.
@@ -304,7 +312,7 @@ std::string summarize(const bench::RunRecord& r) {
   const MeshCounts& c = r.counts;
   std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
-  text += protection(c);
+  text += refinement(c) + protection(c);
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
   text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
           results::mebibytes(r.peak_rss_bytes) + "\n";

@@ -6,12 +6,14 @@
 #include "bench/fingerprint.h"
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
+#include "bench/surface_limit.h"
 #include "engine/base/count_work.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/plc/bent_facets.h"
 #include "engine/surface/remesh_surface.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -22,21 +24,34 @@
 namespace ccdt::tools {
 namespace {
 
+/// Which triangles bound the mesh.
+enum class Surface { keep, remesh, refine };
+
+constexpr auto names_of(Surface) {
+  return std::to_array<NamedValue<Surface>>(
+      {{Surface::keep, "keep", "the surface's triangles as they are"},
+       {Surface::remesh, "remesh", "new ones of --edge-length"},
+       {Surface::refine, "refine", "new ones of --edge-length on the same flat facets and straight segments"}});
+}
+
 struct MeshCommand {
   std::string input, output, report;
   std::string surface_output;  ///< where a remeshed surface goes
   std::string mesher = "ccdt";
   MeshOptions options;
-  bool remesh = false;
+  Surface surface = Surface::keep;
   double sharp_angle = surface::RemeshOptions().sharp_angle;
   unsigned most_threads = 1;
 };
 
 void check_surface_options(const MeshCommand& command) {
-  if (command.remesh && command.options.edge_length == 0)
+  const bool remesh = command.surface == Surface::remesh;
+  if (remesh && command.options.edge_length == 0)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges by --edge-length");
-  if (!command.remesh && !command.surface_output.empty())
+  if (!remesh && !command.surface_output.empty())
     throw CLI::ValidationError("--surface-output", "a new surface is made only with --surface remesh");
+  if (command.surface == Surface::refine && command.mesher != "ccdt")
+    throw CLI::ValidationError("--surface refine", "only ccdt refines a surface; give other meshers a remeshed one");
 }
 
 void check_files(const MeshCommand& command) {
@@ -58,11 +73,19 @@ void check_files(const MeshCommand& command) {
   check_are_different(command.output, command.report);
 }
 
+std::string note_of(const InputPlc::Bent& bent) {
+  char deviation[32];
+  std::snprintf(deviation, sizeof deviation, "%.3g", bent.largest_deviation);
+  return std::to_string(bent.count) + (bent.count == 1 ? " facet is" : " facets are") + " not planar, by up to " +
+         deviation + ": triangulated so that they bend least";
+}
+
 bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
   bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), input, command.options);
   record.command = bench::command_line();
-  if (command.remesh) {
-    record.set_option("surface", "remesh");
+  if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
+  if (command.surface != Surface::keep) record.set_option("surface", std::string(name_of(command.surface)));
+  if (command.surface == Surface::remesh) {
     record.set_option("sharp_angle", command.sharp_angle);
   }
   return record;
@@ -84,6 +107,14 @@ InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progr
   return surface;
 }
 
+std::string words_of(const bench::SurfaceLimit& limit) {
+  return "the triangles of the surface limit quality: " + results::with_separators(limit.at_bad_triangles) +
+         " of the " + results::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
+         results::rounded(bench::SurfaceLimit::bad_r) + " are at triangles with an angle below " +
+         results::rounded(bench::SurfaceLimit::bad_angle) + " degrees, the least " +
+         results::rounded(limit.least_angle) + "; --surface refine gives flat facets even triangles";
+}
+
 /// What remains where the mesher ends its process, or a limit does: which mesher was asked for what.
 void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
   if (command.report.empty()) return;
@@ -102,12 +133,14 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   double read_seconds = 0;
   InputPlc input = [&] {
     const Stopwatch watch(read_seconds);
-    return io::read_plc(command.input);
+    InputPlc given = io::read_plc(command.input);
+    return plc::triangulate_bent_facets(given).value_or(given);
   }();
   record = begin_record(command, input);
   record.input.sha256 = bench::sha256_of_file(command.input);
-  if (command.remesh) input = remeshed(command, input, progress, record);
+  if (command.surface == Surface::remesh) input = remeshed(command, input, progress, record);
   MeshOptions options = command.options;
+  options.refine_surface = command.surface == Surface::refine;
   if (!options.background.name.empty()) {
     const Stopwatch watch(read_seconds);
     options.background = io::read_sizes(options.background.name);
@@ -129,6 +162,9 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   if (!options.background.empty() && chosen.name != "ccdt")
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(run.result.mesh);
+  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none)
+    if (const bench::SurfaceLimit limit = bench::find_surface_limit(run.result.mesh); limit.limits_quality())
+      record.notes.push_back(words_of(limit));
   record.mesh_fingerprint = bench::fingerprint(run.result.mesh);
 
   report(progress, "write", 0, 0);
@@ -172,6 +208,8 @@ std::string footer() {
          "  ccdt mesh part.stl -o part.vtu --sizes part.sol\n"
          "Example: the same with a new surface of such edges too, which is kept for `ccdt verify`\n"
          "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface remesh --surface-output even.off\n"
+         "Example: the same flat facets and straight segments, with new vertices and even triangles\n"
+         "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface refine\n"
          "Example: the constrained Delaunay tetrahedralization of the input alone\n"
          "  ccdt mesh part.stl -o part.mesh --lattice none\n";
 }
@@ -200,9 +238,7 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
              "what finds the vertices near a face and the faces near an edge");
   add_choice(verb, "--delaunay", command.options.delaunay,
              "how the Delaunay tetrahedralization is built; the result is the same");
-  constexpr auto surfaces = std::to_array<NamedValue<bool>>(
-      {{false, "keep", "the surface's triangles as they are"}, {true, "remesh", "new ones of --edge-length"}});
-  add_choice(verb, "--surface", command.remesh, surfaces, "which triangles bound the mesh");
+  add_choice(verb, "--surface", command.surface, "which triangles bound the mesh");
   verb.add_option("--sharp-angle", command.sharp_angle,
                   "remeshing keeps edges between facets whose normals differ by more degrees")
       ->check(CLI::Range(1.0, 179.0))
@@ -233,7 +269,8 @@ void add_improvement(CLI::App& verb, ImproveOptions& options) {
 
 void add_numbers(CLI::App& verb, MeshOptions& options) {
   verb.add_option("--edge-length", options.edge_length,
-                  "target edge length in units of the input; default: as the surface has it")
+                  "target edge length in units of the input; default: as the surface has it, with --surface refine a\n"
+                  "fortieth of the diagonal of the bounding box")
       ->check(positive_number());
   verb.add_option("--grading", options.grading,
                   "growth of the edge length per unit of distance from the surface; 0: uniform")

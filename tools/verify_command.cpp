@@ -5,6 +5,7 @@
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/plc/bent_facets.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/options.h"
@@ -27,7 +28,8 @@ bool run(const VerifyCommand& command) {
   verify::Verification verification;
   {
     ProgressBar bar;
-    const InputPlc input = io::read_plc(command.input);
+    const InputPlc given = io::read_plc(command.input);
+    const InputPlc input = plc::triangulate_bent_facets(given).value_or(given);
     const TetMesh mesh = io::read_tet_mesh(command.mesh);
     verification = verify::verify(input, mesh, command.options, bar.progress());
   }

@@ -34,6 +34,12 @@ Mesher remesher() {
   return mesher;
 }
 
+TEST(EffectiveOptions, OnlyCcdtRefinesSurfaces) {
+  const NamedOptions refined = {{"edge-length", "2"}, {"grading", "0.3"}, {"lattice", "none"}, {"surface", "refine"}};
+  EXPECT_EQ(effective_options(ccdt_mesher(), refined), refined);
+  EXPECT_FALSE(effective_options(remesher(), refined).contains("surface"));
+}
+
 TEST(EffectiveOptions, OfOurEngineAreAllButTheUsualOnes) {
   EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "fcc"}, {"face-protection", "off"}}),
             (NamedOptions{{"face-protection", "off"}}));

@@ -17,6 +17,7 @@ struct StageFunction {
 };
 
 constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::build_plc", "plc"},
+                                                               {"ccdt::refine::refine_plc", "refine"},
                                                                {"ccdt::protection::unprotected", "protect"},
                                                                {"ccdt::protection::protect_edges", "protect"},
                                                                {"ccdt::facets::triangulate_facets", "facets"},

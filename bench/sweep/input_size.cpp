@@ -73,8 +73,10 @@ double estimated_tetrahedra(const ShapeSize& size, const std::vector<std::pair<s
     return option == options.end() ? std::string() : option->second;
   };
   double triangles = size.triangles, edge_length = number_of(value("edge-length"));
-  if (edge_length > 0 && value("surface") == "remesh")
-    triangles = size.area / (triangle_area * std::pow(edge_length, 2));
+  if (edge_length > 0 && value("surface") != "keep" && !value("surface").empty()) {
+    const double even = size.area / (triangle_area * std::pow(edge_length, 2));
+    triangles = value("surface") == "refine" ? std::max(triangles, even) : even;
+  }
   if (edge_length <= 0 && triangles > 0) edge_length = std::sqrt(size.area / triangles / triangle_area);
   const double inside =
       edge_length > 0 && value("lattice") != "none" ? size.volume / (tetrahedron_volume * std::pow(edge_length, 3)) : 0;

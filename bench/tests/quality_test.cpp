@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "bench/surface_limit.h"
+
 namespace ccdt {
 namespace {
 
@@ -29,6 +31,31 @@ TEST(Quality, CornerOfACubeHasThePapersMeasure) {
   const auto angles = bench::dihedral_angles(corner);
   EXPECT_NEAR(angles[0], 90, 1e-12);
   EXPECT_NEAR(angles[5], std::acos(1 / std::sqrt(3.0)) * 57.295779513082323, 1e-12);
+}
+
+/// A tetrahedron with all its faces, which are triangles of the surface.
+mesh::TetMesh mesh_with_faces(const std::array<Point3, 4>& tetrahedron) {
+  mesh::TetMesh mesh = mesh_of(tetrahedron);
+  mesh.faces = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  return mesh;
+}
+
+TEST(SurfaceLimit, AGoodTetrahedronIsNotLimited) {
+  EXPECT_FALSE(bench::find_surface_limit(mesh_with_faces(regular)).limits_quality());
+}
+
+TEST(SurfaceLimit, ANeedleOnTheSurfaceLimits) {
+  const auto limit = bench::find_surface_limit(mesh_with_faces({{{0, 0, 0}, {10, 0, 0}, {0, 1, 0}, {0, 0, 1}}}));
+  EXPECT_TRUE(limit.limits_quality());
+  EXPECT_EQ(limit.bad_tetrahedra, 1u);
+  EXPECT_EQ(limit.at_bad_triangles, 1u);
+  EXPECT_NEAR(limit.least_angle, 5.711, 0.001);  // the arc tangent of a tenth
+}
+
+TEST(SurfaceLimit, ABadTetrahedronAmongGoodTrianglesIsNotTheSurfacesFault) {
+  const auto limit = bench::find_surface_limit(mesh_with_faces({{{0, 0, 0}, {1, 0, 0.01}, {1, 1, 0}, {0, 1, 0.01}}}));
+  EXPECT_EQ(limit.bad_tetrahedra, 1u);
+  EXPECT_FALSE(limit.limits_quality());
 }
 
 TEST(Quality, FlatTetrahedronIsInfinitelyBad) {

@@ -28,6 +28,18 @@ TEST(Verify, GridsAreRightWithEitherDiagonalAndRotated) {
     }
 }
 
+TEST(Verify, APolygonThatRunsRoundSeveralTimesIsOneFacet) {
+  MeshedInput m = cube_in_five();
+  for (const bool there_and_back : {false, true}) {
+    auto& polygon = m.input.polygon_facets[2].polygons[0];
+    auto once = polygon;
+    if (there_and_back) std::reverse(once.begin(), once.end());
+    polygon.insert(polygon.end(), once.begin(), once.end());
+    expect_ok(m);
+  }
+  EXPECT_DOUBLE_EQ(verify::verify(m.input, m.mesh).input_volume, 1);
+}
+
 TEST(Verify, APrismIsRight) {
   MeshedInput m;
   m.input.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
@@ -66,6 +78,15 @@ TEST(Verify, AVertexListedForEachTriangleIsOne) {
       v = static_cast<std::uint32_t>(soup.size() - 1);
     }
   m.input.vertices = soup;
+  expect_ok(m);
+}
+
+TEST(Verify, FacetsWithoutAreaAreNoPartOfTheSurface) {
+  MeshedInput m = cube();
+  const auto n = static_cast<std::uint32_t>(m.input.vertices.size());
+  m.input.vertices.insert(m.input.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+  m.input.triangles.insert(m.input.triangles.end(), {{n, n + 2, n + 1}, {n, n + 1, n + 1}});
+  m.input.polygon_facets.push_back({.polygons = {{n, n + 1, n + 2, n + 3}}, .holes = {}});
   expect_ok(m);
 }
 

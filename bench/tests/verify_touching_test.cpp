@@ -189,5 +189,62 @@ TEST(VerifyTouching, AVertexMayTouchAFacetOrAnEdge) {
     }
 }
 
+TEST(VerifyTouching, AWallMayStandInACornerWhereOneOfItsFeetIsDrawn) {
+  InputPlc input = big_cube(false);
+  add_quadrilateral(input, {{1, 2, 1}, {1, 3, 1}, {1, 3, 3}, {1, 2, 3}}, false);
+  for (const bool drawn : {false, true}) {
+    if (drawn) input.polygon_facets[3].polygons.push_back({9, 10});
+    expect_ok(mesh_with_engine(input));
+  }
+}
+
+TEST(VerifyTouching, RoundingMayMoveAVertexOffATurnedFacet) {
+  InputPlc input = big_cube(false);
+  for (Point3& p : input.vertices)
+    p = {(2 * p.x - 2 * p.y + p.z) / 9, (p.x + 2 * p.y + 2 * p.z) / 9, (2 * p.x + p.y - 2 * p.z) / 9};
+  const MeshedInput cube = mesh_with_engine(input);
+  for (const std::uint32_t corner : {1u, 2u, 4u}) {
+    input.vertices.resize(8);
+    input.vertices.push_back(0.8125 * input.vertices[corner]);
+    expect_ok({input, cube.mesh});
+    expect_ok(mesh_with_engine(input));
+  }
+}
+
+TEST(VerifyTouching, AVertexOutsideBesideAFacetMayBeMissing) {
+  MeshedInput m = cube_in_five();
+  m.input.vertices.push_back({1.5, 0.5, 1});
+  expect_ok(m);
+}
+
+TEST(VerifyTouching, ALineDividesAFacetFromBorderToBorder) {
+  for (const Foot& line : {Foot{{{3, 1, 0}, {0, 2, 0}}}, Foot{{{3, 0, 0}, {0, 2, 0}}}, Foot{{{3, 1, 0}, {1, 1, 0}}}}) {
+    InputPlc input = big_cube(false);
+    const InputPlc cube = input;
+    auto& drawn = input.polygon_facets[0].polygons.emplace_back();
+    for (const Point3& p : line) {
+      const auto found = std::ranges::find(input.vertices, p);
+      drawn.push_back(static_cast<std::uint32_t>(found - input.vertices.begin()));
+      if (found == input.vertices.end()) input.vertices.push_back(p);
+    }
+    expect_ok(mesh_with_engine(input));
+    expect_failure({input, mesh_with_engine(cube).mesh}, "input segments");
+  }
+}
+
+TEST(VerifyTouching, AVertexThatIsOnTheBoundaryOnlyWithinTheToleranceMayBeMissing) {
+  const MeshedInput cube = mesh_with_engine(big_cube(false));
+  InputPlc input = big_cube(false);
+  input.vertices.push_back({1, 1, 3});
+  for (const double off : {-1e-8, -1e-13, 1e-13}) {
+    input.vertices.back().z = 3 + off;
+    expect_ok({input, cube.mesh});
+  }
+  input.vertices.back() = {1, 1, 3};
+  expect_failure({input, cube.mesh}, "input vertices");
+  input.vertices.back() = {1, 1, 2.999};
+  expect_failure({input, cube.mesh}, "input vertices");
+}
+
 }  // namespace
 }  // namespace ccdt

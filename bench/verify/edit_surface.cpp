@@ -86,7 +86,7 @@ std::vector<std::uint32_t> sites_of(const Surface& surface, std::uint32_t piece)
 }
 
 /// Splits the lines at all sites that lie on them, and all edges at the ends of the lines. An edge is left whole at a
-/// vertex of its own pieces, as in a triangle of no height.
+/// vertex of its own triangles, which have no height then.
 void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& lines, Surface& surface) {
   std::vector<std::uint32_t> sites;
   std::map<std::uint32_t, std::vector<std::uint32_t>> candidates;  // of each edge
@@ -107,6 +107,7 @@ void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& l
     list = select_within(surface, surface.edges[e], list);
     for (const std::uint32_t use : surface.uses.of(e)) {
       if (list.empty()) break;
+      if (!surface.is_triangle(surface.piece_of[use])) continue;
       const auto own = sites_of(surface, surface.piece_of[use]);
       std::erase_if(list, [&](std::uint32_t s) { return std::find(own.begin(), own.end(), s) != own.end(); });
     }

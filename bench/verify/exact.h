@@ -12,6 +12,11 @@ inline CGAL::Exact_predicates_inexact_constructions_kernel::Point_3 to_cgal(cons
   return {p.x, p.y, p.z};
 }
 
+/// Are the three points on one line (or equal)?
+inline bool are_on_one_line(const Point3& a, const Point3& b, const Point3& c) {
+  return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
+}
+
 /// +1 when ((b-a) x (c-a)) . (d-a) > 0, 0 when the four points are coplanar, else -1.
 inline int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   return CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d));

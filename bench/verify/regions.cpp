@@ -245,6 +245,45 @@ std::optional<std::vector<Hit>> RayShooter::shoot(const Point3& start, int attem
   return hits;
 }
 
+std::vector<std::uint32_t> RayShooter::pieces_near(const Point3& point) const {
+  std::vector<std::uint32_t> near;
+  tree_.for_each_meeting(expanded(box_of(point), surface_.tolerances.flat), [&](std::uint32_t p) {
+    const Point3& n = surface_.area_vector[p];
+    if (std::fabs(dot(n, point - surface_.origin(p))) <= surface_.tolerances.flat * ccdt::length(n)) near.push_back(p);
+  });
+  return near;
+}
+
+bool RayShooter::is_on_piece_across_axis(const Point3& point) const {
+  const double tolerance = surface_.tolerances.place;
+  const auto shares = [&](std::uint32_t site, std::size_t axis) {
+    return as_array(surface_.at(site))[axis] == as_array(point)[axis];
+  };
+  const auto shares_line = [&](const Edge& e) {  // one along an axis
+    int shared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) shared += shares(e[0], axis) && shares(e[1], axis);
+    return shared >= 2;
+  };
+  const auto is_near = [&](const Edge& e) {
+    const Point3 &a = surface_.at(e[0]), &b = surface_.at(e[1]);
+    const double along = std::clamp(dot(point - a, b - a) / squared_length(b - a), 0.0, 1.0);
+    return squared_length(point - a - along * (b - a)) <= tolerance * tolerance;
+  };
+  const auto is_on = [&](std::uint32_t p) {
+    const auto edges = surface_.edges_of(p);
+    const auto across = [&](std::size_t axis) {
+      return std::ranges::all_of(edges, [&](const Edge& e) { return shares(e[0], axis); });
+    };
+    if (!across(0) && !across(1) && !across(2)) return false;
+    if (std::ranges::any_of(edges, is_near))
+      return std::ranges::any_of(edges, [&](const Edge& e) { return is_near(e) && shares_line(e); });
+    return encloses(surface_.area_vector[p], edges, surface_.sites.position, point);
+  };
+  bool found = false;
+  tree_.for_each_meeting(box_of(point), [&](std::uint32_t p) { found = found || is_on(p); });
+  return found;
+}
+
 Regions find_regions(const plc::InputPlc& input, const Surface& surface) {
   const RayShooter rays(surface);
   UnionFind sides = glue_sides(surface);

@@ -27,6 +27,12 @@ class RayShooter {
   /// Direction of a ray; its z is 1.
   static Point3 direction(int attempt);
 
+  /// Pieces near whose plane a point is, within the tolerance of flatness, and whose box is as near.
+  std::vector<std::uint32_t> pieces_near(const Point3& point) const;
+  /// Is a point exactly on a piece across an axis, and if near its border, on an edge along an axis? Then it stays on
+  /// the piece when coordinates are rounded.
+  bool is_on_piece_across_axis(const Point3& point) const;
+
  private:
   const Surface& surface_;
   double high_z_;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bench/verify/exact.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 
@@ -43,6 +44,22 @@ Point3 area_vector(std::span<const Edge> loop, std::span<const Point3> position)
   const Point3 origin = position[loop[0][0]];
   for (const auto& [a, b] : loop) sum = sum + cross(position[a] - origin, position[b] - origin);
   return sum;
+}
+
+/// The longest of the vectors whose sum is the area vector: along the normal also if a loop runs back over itself.
+Point3 normal_of(std::span<const Edge> loop, std::span<const Point3> position) {
+  Point3 longest;
+  for (const auto& [a, b] : loop) {
+    const Point3& origin = position[loop[0][0]];
+    const Point3 part = cross(position[a] - origin, position[b] - origin);
+    if (squared_length(part) > squared_length(longest)) longest = part;
+  }
+  return longest;
+}
+
+bool meets_a_site_twice(std::span<const Edge> loop) {
+  std::set<std::uint32_t> met;
+  return std::ranges::any_of(loop, [&](const Edge& e) { return !met.insert(e[0]).second; });
 }
 
 /// A drawing of the facet seen along the axis that its plane is most across.
@@ -133,23 +150,41 @@ struct PolygonCells {
   std::vector<Edge> segments;  ///< edges that the polygons draw within the facet
 };
 
-/// The cells into which the polygons of a facet divide their plane, without those that hold a hole's point.
-PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, std::span<const std::uint32_t> site_of_input,
-                                std::span<const Point3> position) {
+/// The edges of polygons, each once, split where other polygons have a site on them.
+std::set<Edge> find_lines(const Surface& surface, const std::vector<PolygonCell>& polygons) {
+  std::vector<std::uint32_t> sites;
+  for (const PolygonCell& polygon : polygons)
+    for (const Edge& e : polygon) sites.insert(sites.end(), e.begin(), e.end());
+  sort_and_unique(sites);
+  std::set<Edge> lines;
+  for (const PolygonCell& polygon : polygons)
+    for (const Edge& e : polygon) {
+      std::uint32_t from = e[0];
+      for (const std::uint32_t to : select_within(surface, e, sites))
+        lines.insert(ascending(Edge{std::exchange(from, to), to}));
+      lines.insert(ascending(Edge{from, e[1]}));
+    }
+  return lines;
+}
+
+/// The cells into which the polygons of a facet divide their plane, without those that hold a hole's point. An edge
+/// counts once, however often the polygons run along it.
+PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, const Surface& surface) {
+  const std::span<const std::uint32_t> site_of_input = surface.sites.of_input;
+  const std::span<const Point3> position = surface.sites.position;
   PolygonCells result;
   std::vector<PolygonCell> polygons;
   for (const auto& polygon : facet.polygons) polygons.push_back(edges_of(polygon, site_of_input));
-  if (polygons.size() == 1 && facet.holes.empty()) {
+  if (polygons.size() == 1 && facet.holes.empty() && !meets_a_site_twice(polygons[0])) {
     result.cells.push_back(polygons[0]);
     return result;
   }
   Point3 normal;
-  std::set<Edge> undirected;
   for (const auto& polygon : polygons) {
-    const Point3 n = area_vector(polygon, position);
+    const Point3 n = normal_of(polygon, position);
     if (squared_length(n) > squared_length(normal)) normal = n;
-    for (const Edge& e : polygon) undirected.insert(ascending(e));
   }
+  const std::set<Edge> undirected = find_lines(surface, polygons);
   const Drawing drawing = draw(normal, position);
   const auto [loops, areas, cells] = trace_drawing(normal, undirected, position);
   std::vector<bool> dropped(loops.size(), false);
@@ -197,19 +232,24 @@ void match_nearest(const plc::InputPlc& input, const Topology& topology, const T
   }
 }
 
-/// Do the edges enclose nothing, because each runs there and back?
-bool is_empty(const PolygonCell& cell) {
+/// Do the edges enclose nothing, because each runs there and back or because all are on one line?
+bool is_empty(const PolygonCell& cell, std::span<const Point3> position) {
+  if (cell.empty()) return true;
+  const auto& [a, b] = cell[0];
+  if (std::ranges::all_of(cell,
+                          [&](const Edge& e) { return are_on_one_line(position[a], position[b], position[e[0]]); }))
+    return true;
   std::vector<Edge> there = cell, back;
-  for (const auto& [a, b] : cell) back.push_back({b, a});
+  for (const auto& [from, to] : cell) back.push_back({to, from});
   std::sort(there.begin(), there.end());
   std::sort(back.begin(), back.end());
   return there == back;
 }
 
-/// Leaves out what vertices in one place have made of no extent.
-void add_piece(PolygonCell cell, int marker, std::uint32_t number, Pieces& pieces) {
+/// Leaves out what has no area, from the start or because vertices are in one place.
+void add_piece(PolygonCell cell, int marker, std::uint32_t number, std::span<const Point3> position, Pieces& pieces) {
   std::erase_if(cell, [](const Edge& e) { return e[0] == e[1]; });
-  if (!is_empty(cell)) pieces.add(cell, marker, number);
+  if (!is_empty(cell, position)) pieces.add(cell, marker, number);
 }
 
 Pieces find_pieces(const plc::InputPlc& input, Surface& surface) {
@@ -219,11 +259,13 @@ Pieces find_pieces(const plc::InputPlc& input, Surface& surface) {
     const auto& [a, b, c] = input.triangles[i];
     add_piece({{site[a], site[b]}, {site[b], site[c]}, {site[c], site[a]}},
               input.triangle_markers.empty() ? 0 : input.triangle_markers[i],
-              input.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : input.triangle_numbers[i], pieces);
+              input.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : input.triangle_numbers[i],
+              surface.sites.position, pieces);
   }
   for (const plc::PolygonFacet& facet : input.polygon_facets) {
-    PolygonCells cells = find_polygon_cells(facet, site, surface.sites.position);
-    for (PolygonCell& cell : cells.cells) add_piece(std::move(cell), facet.marker, facet.number, pieces);
+    PolygonCells cells = find_polygon_cells(facet, surface);
+    for (PolygonCell& cell : cells.cells)
+      add_piece(std::move(cell), facet.marker, facet.number, surface.sites.position, pieces);
     surface.segments.insert(surface.segments.end(), cells.segments.begin(), cells.segments.end());
   }
   for (const auto& [a, b] : input.segments)
@@ -398,7 +440,10 @@ DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected,
   cells = loops;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (areas[i] > 0) continue;
-    const std::size_t around = smallest_around(drawing, loops, areas, drawing.at(loops[i][0][0]),
+    // Its vertices may be on the border of the cell, as those of a line that crosses it are.
+    const auto& [a, b] = loops[i][0];
+    const auto within = drawing.at(position[a] + 0.5 * (position[b] - position[a]));
+    const std::size_t around = smallest_around(drawing, loops, areas, within,
                                                [&](std::size_t j) { return share_a_vertex(loops[i], loops[j]); });
     if (around < loops.size()) cells[around].insert(cells[around].end(), loops[i].begin(), loops[i].end());
   }

@@ -130,8 +130,17 @@ Check check_shared_faces(const Topology& topology) {
 
 // The facets of the input in the mesh.
 
-bool any_inside(const Regions& regions, const std::vector<std::uint32_t>& which) {
-  return std::any_of(which.begin(), which.end(), [&](std::uint32_t c) { return regions.inside[c] == Inside::yes; });
+/// Is a point in or on the domain? One that is on its boundary only within the tolerance need not be: a mesher that
+/// takes coordinates as they are, or rounds them, may find it outside.
+bool is_in_domain(const Surface& surface, const Regions& regions, const RayShooter& rays, const Point3& p) {
+  const auto is_inside = [&](std::uint32_t region) { return regions.inside[region] == Inside::yes; };
+  const std::vector<std::uint32_t> around = regions_at(surface, regions, rays, p);
+  if (std::ranges::none_of(around, is_inside)) return false;
+  const auto is_within = [&](std::uint32_t piece) {
+    return is_inside(regions.of_side[2 * piece]) && is_inside(regions.of_side[2 * piece + 1]);
+  };
+  if (std::ranges::all_of(around, is_inside) && std::ranges::all_of(rays.pieces_near(p), is_within)) return true;
+  return rays.is_on_piece_across_axis(p);
 }
 
 /// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
@@ -150,7 +159,7 @@ Check check_vertices(const plc::InputPlc& input, const Surface& surface, const R
     ++check.checked;
     if (surface.sites.in_mesh(site)) continue;
     const Point3& p = input.vertices[i];
-    if (on_surface[site] ? !touched[site] : !any_inside(regions, regions_at(surface, regions, rays, p))) continue;
+    if (on_surface[site] ? !touched[site] : !is_in_domain(surface, regions, rays, p)) continue;
     fail(check, [&] { return "the mesh has no vertex " + std::to_string(i) + " of the input, " + text(p); });
   }
   return check;
@@ -174,7 +183,7 @@ Check check_segments(const Surface& surface, const Chains& edges, const Chains& 
     if (!segments.missing(s)) continue;
     const Edge& segment = surface.segments[s];
     const Point3 middle = 0.5 * (surface.at(segment[0]) + surface.at(segment[1]));
-    if (!any_inside(regions, regions_at(surface, regions, rays, middle))) continue;
+    if (!is_in_domain(surface, regions, rays, middle)) continue;
     fail(check, [&] { return "no chain of mesh edges along the segment" + text(surface.sites.position, segment); });
   }
   return check;

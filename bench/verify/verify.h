@@ -68,6 +68,8 @@ struct Verification {
 
 /// An exact check of a mesh against its input, by CGAL's exact kernel; shares no predicate with the engine. Works on
 /// any mesher's output.
+///
+/// \param input  its polygons are taken for planar; `plc::triangulate_bent_facets` sees to that
 Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 

@@ -8,6 +8,11 @@
 
 namespace ccdt {
 
+/// From a point as far as a vector leads.
+struct LineSegment {
+  Point3 from, along;
+};
+
 /// An axis-parallel box with its boundary.
 struct Box {
   Point3 low, high;
@@ -17,6 +22,23 @@ struct Box {
   bool meets(const Box& o) const {
     return (int{low.x <= o.high.x} & int{o.low.x <= high.x} & int{low.y <= o.high.y} & int{o.low.y <= high.y} &
             int{low.z <= o.high.z} & int{o.low.z <= high.z}) != 0;
+  }
+  // The part of the segment between each two planes of the box, up to rounding.
+  bool meets(const LineSegment& s) const {
+    double from = 0, to = 1;
+    const auto clip = [&](double least, double most, double start, double along) {
+      if (along == 0) {
+        if (start < least || start > most) to = -1;
+        return;
+      }
+      const double a = (least - start) / along, b = (most - start) / along;
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    };
+    clip(low.x, high.x, s.from.x, s.along.x);
+    clip(low.y, high.y, s.from.y, s.along.y);
+    clip(low.z, high.z, s.from.z, s.along.z);
+    return from <= to;
   }
 };
 

@@ -19,10 +19,10 @@ class BoxTree {
 
   std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_); }
 
-  /// Calls visit(item) for all items whose box meets the given one.
-  template <class Visit>
-  void for_each_meeting(const Box& box, Visit&& visit) const {
-    if (!items_.empty() && nodes_[1].meets(box)) descend(1, box, visit);
+  /// Calls visit(item) for all items whose box meets the given box or line segment.
+  template <class Shape, class Visit>
+  void for_each_meeting(const Shape& shape, Visit&& visit) const {
+    if (!items_.empty() && nodes_[1].meets(shape)) descend(1, shape, visit);
   }
 
   /// Calls visit(i, j) once for every pair of different items whose boxes meet.
@@ -41,17 +41,17 @@ class BoxTree {
     return {begin, std::min<std::size_t>(begin + leaf_size, items_.size())};
   }
 
-  template <class Visit>
-  void descend(std::uint32_t node, const Box& box, Visit& visit) const {
+  template <class Shape, class Visit>
+  void descend(std::uint32_t node, const Shape& shape, Visit& visit) const {
     ++work_done.box_tree_nodes;
     if (!is_leaf(node)) {
       for (const std::uint32_t child : {2 * node, 2 * node + 1})
-        if (nodes_[child].meets(box)) descend(child, box, visit);
+        if (nodes_[child].meets(shape)) descend(child, shape, visit);
       return;
     }
     const auto [begin, end] = places_of(node);
     for (std::size_t i = begin; i < end; ++i)
-      if (boxes_[i].meets(box)) {
+      if (boxes_[i].meets(shape)) {
         ++work_done.box_pairs;
         visit(items_[i]);
       }

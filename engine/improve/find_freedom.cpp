@@ -1,55 +1,25 @@
 #include "engine/improve/find_freedom.h"
 
-#include <cmath>
 #include <cstdint>
-#include <numeric>
-#include <utility>
+#include <optional>
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
+#include "engine/plc/plane_steps.h"
 
 namespace ccdt::improve {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-/// The shortest vector of integer coordinates in the direction from one vertex of the PLC to another.
-Point3 shortest_step(const Point3& from, const Point3& to) {
-  const Point3 difference = to - from;
-  const auto magnitude = [](double x) { return static_cast<std::int64_t>(std::fabs(x)); };
-  const std::int64_t divisor =
-      std::gcd(std::gcd(magnitude(difference.x), magnitude(difference.y)), magnitude(difference.z));
-  const auto by = static_cast<double>(divisor);  // divides without remainder, so exactly
-  return {difference.x / by, difference.y / by, difference.z / by};
-}
-
-/// Makes the two steps, of the same multiples, short and nearly orthogonal (Lagrange).
-void shorten(Point3& u, Point3& v) {
-  constexpr int most_rounds = 100;
-  for (int round = 0; round < most_rounds; ++round) {
-    if (squared_length(v) < squared_length(u)) std::swap(u, v);
-    const double times = std::round(dot(u, v) / squared_length(u));
-    if (times == 0) return;
-    const Point3 shorter = v - times * u;
-    if (!(squared_length(shorter) < squared_length(v))) return;
-    v = shorter;
-  }
-}
-
 Freedom along_line(const Point3& a, const Point3& b) {
-  return {1, shortest_step(a, b), {}};
-}
-
-Freedom in_plane(const Point3& a, const Point3& b, const Point3& c) {
-  Freedom freedom{2, shortest_step(a, b), shortest_step(a, c)};
-  shorten(freedom.u, freedom.v);
-  return freedom;
+  return {1, plc::shortest_step(a, b), {}};
 }
 
 /// What is around a vertex of the PLC.
 struct VertexSurroundings {
-  std::uint32_t facet = none, triangle = none;  ///< the first
+  std::uint32_t facet = none;  ///< the first
   bool several_facets = false;
   bool flat = true;      ///< all facets are exactly so
   bool crossed = false;  ///< a facet does not contain all of the first two segments
@@ -60,7 +30,11 @@ struct VertexSurroundings {
 class FreedomFinder {
  public:
   FreedomFinder(const plc::Plc& plc, const protection::SegmentChains& chains)
-      : plc_(plc), chains_(chains), around_(plc.vertices.size()), flat_segment_(plc.segments.size(), true) {
+      : plc_(plc),
+        chains_(chains),
+        around_(plc.vertices.size()),
+        flat_segment_(plc.segments.size(), true),
+        steps_(plc.facets.size()) {
     look_at_segments();
     look_at_facets();
   }
@@ -117,7 +91,6 @@ class FreedomFinder {
     around.flat = around.flat && plc_.facets[facet].exactly_flat;
     if (around.facet == none) {
       around.facet = facet;
-      around.triangle = triangle;
     } else if (around.facet != facet) {
       around.several_facets = true;
     }
@@ -132,8 +105,12 @@ class FreedomFinder {
     if (!around.flat) return fixed;
     if (around.segment_count == 2) return of_junction(v, around);
     if (around.segment_count > 0 || around.facet == none || around.several_facets) return fixed;
-    const auto [a, b, c] = plc_.facets[around.facet].triangles[around.triangle];
-    return in_plane(point(a), point(b), point(c));
+    return in_plane(around.facet);
+  }
+
+  Freedom in_plane(std::uint32_t facet) const {
+    if (!steps_[facet]) steps_[facet] = plc::steps_of_facet(plc_.facets[facet], plc_.vertices);
+    return steps_[facet] ? Freedom{2, steps_[facet]->u, steps_[facet]->v} : fixed;
   }
 
   /// Two segments that meet in one line and do not overlap are the two sides of their vertex.
@@ -149,6 +126,7 @@ class FreedomFinder {
   std::vector<VertexSurroundings> around_;
   std::vector<char> flat_segment_;  // are all facets at the segment exactly flat?
   HashTable<std::uint64_t, std::uint32_t> segment_of_edge_;
+  mutable std::vector<std::optional<plc::PlaneSteps>> steps_;  // of each facet, as far as they were asked for
 };
 
 }  // namespace

@@ -269,7 +269,11 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, std::vector<Point3>& points,
                            mesh::TetMesh& mesh, const Progress& progress) {
   std::vector<Freedom> freedom;
-  if (options.boundary == BoundaryRule::slide) freedom = find_freedom(input.plc, input.chains, points.size());
+  const bool all_slide = options.boundary == BoundaryRule::slide;
+  if (all_slide || input.first_sliding < input.first_interior) {
+    freedom = find_freedom(input.plc, input.chains, points.size());
+    for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
+  }
   sort_cells(mesh);
   CellComplex complex(mesh, std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/base/progress.h"
@@ -26,10 +27,13 @@ struct ImproveInput {
   const protection::SegmentChains& chains;
   std::vector<std::uint32_t> facet_of_face;  ///< of each of the mesh's faces
   std::size_t first_interior;                ///< the least interior vertex
+  /// The least vertex that was put inside a segment or a facet and may slide there whatever the options say.
+  std::size_t first_sliding = std::numeric_limits<std::size_t>::max();
 };
 
 /// Improves a whole mesh (paper, section 5: edge-face swaps and smoothing). Its boundary, segments and facets stay what
-/// they are, with the vertices of the input where they are; `BoundaryRule::slide` says what may move on them.
+/// they are, with the vertices of the input where they are; `BoundaryRule::slide` and `first_sliding` say what may move
+/// on them.
 ///
 /// \param points  the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
 /// \param mesh    without coordinates

@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/numbers/predicates.h"
 
 namespace ccdt::mesh {
 namespace {
@@ -155,7 +156,49 @@ std::vector<std::uint32_t> add_faces_and_edges(const plc::Plc& plc, const protec
   return facet_of_face;
 }
 
+/// Is the vertex e outside of the sphere of a tetrahedron?
+bool is_outside_sphere(const delaunay::Delaunay& d, const std::array<std::uint32_t, 4>& t, std::uint32_t e) {
+  const std::array v = {d.vertices[t[0]], d.vertices[t[1]], d.vertices[t[2]], d.vertices[t[3]], d.vertices[e]};
+  return numbers::insphere_perturbed(v[0].point, v[1].point, v[2].point, v[3].point, v[4].point,
+                                     {v[0].rank, v[1].rank, v[2].rank, v[3].rank, v[4].rank}) < 0;
+}
+
 }  // namespace
+
+std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
+                                     const front::FrontResult& front) {
+  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return {};
+  HashSet<FaceKey> constrained;
+  for (const auto& t : facets.triangles) constrained.insert(key_of(t));
+  HashTable<FaceKey, std::uint32_t> waiting;  // 4 * tetrahedron + corner opposite to the face
+  const auto error = [&](std::uint32_t place) {
+    Place where{.file = plc.name};
+    for (const std::uint32_t v : front.tetrahedra[place / 4])
+      where.points.push_back(as_array(plc.grid.to_world(d.point(v))));
+    return MeshError("a tetrahedron of the front is not constrained Delaunay", where,
+                     "the facets near these points are almost but not quite flat: try another --flatness");
+  };
+  for (std::uint32_t i = 0; i < 4 * front.tetrahedra.size(); ++i) {
+    const auto [a, b, c] = delaunay::corners_of_face(front.tetrahedra[i / 4], i % 4);
+    const FaceKey key = face_key(a, b, c);
+    if (constrained.contains(key)) continue;
+    const auto [other, is_new] = waiting.insert(key, i);
+    if (is_new) continue;
+    if (!is_outside_sphere(d, front.tetrahedra[*other / 4], front.tetrahedra[i / 4][i % 4])) return error(i);
+    waiting.erase(other);
+  }
+  // The others are faces of Delaunay cells.
+  delaunay::CellStar star(d);
+  std::optional<MeshError> found;
+  waiting.for_each([&](const FaceKey&, std::uint32_t i) {
+    const auto [a, b, c] = delaunay::corners_of_face(front.tetrahedra[i / 4], i % 4);
+    const std::uint32_t code = star.find_face(a, c, b);
+    if (found || code == delaunay::no_neighbor || d.is_ghost(delaunay::cell_of(code))) return;
+    const std::uint32_t e = d.cells[delaunay::cell_of(code)].vertices[delaunay::face_of(code)];
+    if (!is_outside_sphere(d, front.tetrahedra[i / 4], e)) found.emplace(error(i));
+  });
+  return found;
+}
 
 std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
                                       const TetMesh& mesh) {

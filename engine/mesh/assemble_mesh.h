@@ -26,6 +26,11 @@ TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
 std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
                                       const delaunay::Delaunay& delaunay, const TetMesh& mesh);
 
+/// Why the tetrahedra of the front are not constrained Delaunay: a face between two, or between one and a labeled cell,
+/// is not locally Delaunay. This can only be if a facet is not exactly flat, so only then anything is looked at.
+std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                     const delaunay::Delaunay& delaunay, const front::FrontResult& front);
+
 /// Makes the mesh whole but for its coordinates: takes the flat tetrahedra on its boundary off, gives it the faces of
 /// the facets and the edges of the segments.
 ///

@@ -402,8 +402,10 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
   triangles = gather_triangles(input, plc);
   segments = gather_segments(input, plc);
   const double tolerance = tolerance_of(plc, options.flatness);
-  triangulate_polygons(input, plc, tolerance, triangles, segments);
-  check_degenerate_triangles(plc, triangles);
+  // A smaller tolerance asks for smaller facets; it does not make polygons wrong.
+  triangulate_polygons(input, plc, std::max(tolerance, tolerance_of(plc, PlcOptions{}.flatness)), triangles, segments);
+  if (drop_triangles_without_area(plc.vertices, triangles) > 0 && triangles.size() == 0)
+    throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
   check_duplicate_triangles(plc, triangles);
 
   report(progress, "plc", 1, steps);

@@ -11,9 +11,10 @@ struct PlcOptions {
 };
 
 /// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and regions, and checks that they
-/// form a piecewise linear complex.
+/// form a piecewise linear complex. Facets that have no area on the grid bound nothing and are left out; their vertices
+/// stay.
 ///
-/// \throw InputError  non-finite coordinates, degenerate or duplicate facets, facets that cross or cover each other, an
+/// \throw InputError  non-finite coordinates, duplicate facets, facets that cross or cover each other, an
 ///                    open surface, no facets, seeds outside; with the place in the units of the input and a remedy
 Plc build_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
 

@@ -13,6 +13,7 @@
 #include "engine/base/errors.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
+#include "engine/plc/bent_facets.h"
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/input_faults.h"
 #include "engine/plc/integer_points.h"
@@ -123,12 +124,8 @@ class FacetTriangulator {
     facet_ = &facet;
     gather();
     if (vertices_.empty()) fail("a facet has no vertices", {}, "remove it");
-    if (!find_plane()) {
-      const bool only_segments = std::all_of(facet.polygons.begin(), facet.polygons.end(),
-                                             [](const auto& polygon) { return polygon.size() <= 2; });
-      if (only_segments) return;  // dangling segments and vertices, written as a facet
-      fail("the corners of a facet are on one line", vertices_, "remove this facet");
-    }
+    // No area, as in `drop_triangles_without_area`; or dangling segments and vertices, written as a facet.
+    if (!take_plane()) return;
     const bool plain = facet.polygons.size() == 1 && facet.holes.empty();
     if (plain && vertices_.size() == 3 && edges_.size() == 3)
       return add_triangle(edges_[0][0], edges_[1][0], edges_[2][0]);
@@ -164,39 +161,19 @@ class FacetTriangulator {
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   }
 
-  template <class Measure>
-  VertexId farthest(Measure&& measure) const {
-    return *std::max_element(vertices_.begin(), vertices_.end(), [&](VertexId u, VertexId v) {
-      return measure(plc_.vertices[u]) < measure(plc_.vertices[v]);
-    });
-  }
-
-  // Takes the plane through three vertices that are far apart and fails if the facet leaves it. False if all are
-  // on one line.
-  bool find_plane() {
-    const auto& points = plc_.vertices;
-    const Point3 a = points[vertices_.front()];
-    const Point3 b = points[farthest([&](const Point3& p) { return squared_length(p - a); })];
-    const Point3 c = points[farthest([&](const Point3& p) { return squared_length(rounded_normal({a, b, p})); })];
-    const Point3 normal = rounded_normal({a, b, c});
-    if (normal == Point3{}) return false;
-    plane_.axis = dominant_axis(normal);
-
-    const double length = std::sqrt(squared_length(normal));
-    double low = 0, high = 0;
-    VertexId worst = vertices_.front();
-    for (const VertexId v : vertices_) {
-      const double distance = dot(normal, points[v] - a) / length;
-      if (std::max(-distance, distance) > std::max(-low, high)) worst = v;
-      low = std::min(low, distance);
-      high = std::max(high, distance);
-    }
-    const double deviation = 0.5 * (high - low);
-    if (deviation > tolerance_) {
+  // Takes the plane of the facet and fails if the facet leaves it. False if all vertices are on one line.
+  bool take_plane() {
+    std::vector<Point3> points;
+    for (const VertexId v : vertices_) points.push_back(plc_.vertices[v]);
+    const FacetPlane plane = find_plane(points);
+    if (plane.normal == Point3{}) return false;
+    plane_.axis = dominant_axis(plane.normal);
+    if (plane.deviation > tolerance_) {
       std::ostringstream what;
-      what << "a facet is not planar: its vertices are up to " << deviation * plc_.grid.unit
+      what << "a facet is not planar: its vertices are up to " << plane.deviation * plc_.grid.unit
            << " away from a plane, and " << tolerance_ * plc_.grid.unit << " is allowed";
-      fail(what.str(), {worst}, "split this facet into triangles, or give its vertices with more digits");
+      fail(what.str(), {vertices_[plane.farthest]},
+           "split this facet into triangles, or give its vertices with more digits");
     }
     return true;
   }
@@ -357,6 +334,18 @@ SegmentSet gather_segments(const InputPlc& input, const Plc& plc) {
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments) {
   if (!input.polygon_facets.empty()) FacetTriangulator(input, plc, tolerance, triangles, segments);
+}
+
+std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
+  TriangleSet kept;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles.corners[t];
+    if (a == b || b == c || c == a || has_no_area(points_of(vertices, triangles.corners[t]))) continue;
+    kept.add(triangles.corners[t], triangles.markers[t], triangles.numbers[t]);
+  }
+  const std::uint32_t dropped = triangles.size() - kept.size();
+  if (dropped > 0) triangles = std::move(kept);
+  return dropped;
 }
 
 bool split_triangles_at_vertices(std::span<const Point3> vertices, const BoxTree& tree, TriangleSet& triangles) {

@@ -25,15 +25,22 @@ TriangleSet gather_triangles(const InputPlc& input, const Plc& plc);
 SegmentSet gather_segments(const InputPlc& input, const Plc& plc);
 
 /// Triangulates the polygon facets of the input, exactly, with all their vertices and without their holes, and appends
-/// the triangles. Polygons of two vertices, and edges of polygons that have the facet on both sides, are appended to
-/// the segments. Segments that are there already and lie in a facet with both ends among its vertices become edges of
-/// its triangles.
+/// the triangles. A facet without area is left out. Polygons of two vertices, and edges of polygons that have the facet
+/// on both sides, are appended to the segments. Segments that are there already and lie in a facet with both ends among
+/// its vertices become edges of its triangles.
 ///
 /// \param tolerance  in grid units: how far from a plane the vertices of a facet may be
-/// \throw InputError  a facet that is not planar, that has no area, whose edges cross, or with a hole seed or vertex
+/// \throw InputError  a facet that is not planar, whose edges cross, or with a hole seed or vertex
 ///                    outside
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments);
+
+/// Drops the triangles that have no area, exactly: they bound nothing. CAD programs close the gap with them where a
+/// vertex of one facet is on the edge of another. The vertex stays, and splits that facet
+/// (`split_triangles_at_vertices`).
+///
+/// \return how many
+std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles);
 
 /// Splits the triangles that other vertices lie on, exactly, in an edge or within, so that those are corners. What was
 /// conforming in space is then conforming in its indices as well.

@@ -50,6 +50,13 @@ struct InputPlc {
   std::vector<Point3> holes;
   std::vector<RegionSeed> regions;
 
+  /// Facets that were replaced by triangles, because they are not planar.
+  struct Bent {
+    std::uint64_t count = 0;
+    double largest_deviation = 0;  ///< largest distance of a corner from the plane of its facet
+  };
+  Bent bent;
+
   std::size_t facet_count() const { return triangles.size() + polygon_facets.size(); }
 };
 

@@ -28,19 +28,6 @@ void throw_input_error(const Plc& plc, const std::string& what, const std::strin
   throw InputError(what, place, remedy);
 }
 
-void check_degenerate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = triangles.corners[t];
-    const bool equal = a == b || b == c || c == a;
-    if (!equal && !has_no_area(points_of(plc.vertices, triangles.corners[t]))) continue;
-    throw_input_error(
-        plc, equal ? "a facet has two corners at the same point" : "the corners of a facet are on one line",
-        "remove this facet (if its neighbours then leave a gap, merge its vertices in them too), or repair the "
-        "surface in the program that made it",
-        world_points(plc, triangles.corners[t]), {triangles.numbers[t]});
-  }
-}
-
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
   std::vector<std::pair<FaceKey, std::uint32_t>> sorted;
   sorted.reserve(triangles.size());

@@ -10,9 +10,6 @@
 
 namespace ccdt::plc {
 
-/// \throw InputError  a facet has no area; its vertices may be equal after rounding only
-void check_degenerate_triangles(const Plc& plc, const TriangleSet& triangles);
-
 /// \throw InputError  a facet is there twice
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
 

@@ -1,164 +1,68 @@
 #include "engine/protection/protect_edges.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/base/errors.h"
+#include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
+#include "engine/protection/split_edges.h"
 
 namespace ccdt::protection {
 namespace {
 
 constexpr std::uint32_t whole = whole_segment;
 
-/// A piece of a segment.
-struct Subsegment {
-  std::uint32_t segment;
-  ChainVertex from, to;
-};
-
-Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
-  const Point3& a = plc.vertices[plc.segments[segment].ends[0]];
-  const Point3& b = plc.vertices[plc.segments[segment].ends[1]];
-  // The ends are multiples of 2^20, so that this is exact.
-  return a + fraction * ((1.0 / whole) * (b - a));
-}
-
-/// More than any sound part needs; without a bound two facets that almost touch would keep a computer busy for hours.
-std::size_t most_steiner_vertices(const plc::Plc& plc) {
-  return 10000 + 100 * plc.vertices.size();
-}
-
-[[noreturn]] void refuse_further_splits(const plc::Plc& plc, const Subsegment& piece, const char* why) {
-  Place place;
-  place.file = plc.name;
-  for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
-  throw LimitError(
-      std::string("a segment cannot be protected: ") + why, place,
-      "look for features at its ends that are smaller than 1e-6 of it, and remove them or split the segment");
-}
-
-/// The current vertices and segments, and the working memory of the stage.
+/// Splits pieces of segments until all that have to be are Delaunay edges. A stack holds those that may not be: all at
+/// first, then those of cells that a split has destroyed. It takes fewer splits than a queue, as one place is finished
+/// before the next one.
 class Protector {
  public:
-  Protector(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay, const SegmentChains& chains)
-      : plc_(plc),
-        strategy_(strategy),
-        d_(delaunay),
-        insertion_(delaunay),
-        star_(delaunay),
-        segment_of_steiner_(delaunay.vertices.size() - plc.vertices.size()) {
-    for (std::uint32_t s = 0; s < chains.size(); ++s)
-      for (std::size_t i = 1; i + 1 < chains[s].size(); ++i)
-        segment_of_steiner_[chains[s][i].vertex - plc.vertices.size()] = s;
+  Protector(const plc::Plc& plc, Protection strategy, ProtectedDelaunay& state)
+      : state_(state), splitter_(plc, strategy, state.delaunay, state.chains), star_(state.delaunay) {
+    for (std::uint32_t s = 0; s < state.chains.size(); ++s)
+      for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i)
+        add({s, state.chains[s][i], state.chains[s][i + 1]});
   }
 
-  bool is_protected(const std::vector<ChainVertex>& chain) {
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      if (!star_.has_edge(chain[i].vertex, chain[i + 1].vertex)) return false;
-    return true;
-  }
-
-  /// Splits the pieces of one segment until, as things stand, all are Delaunay edges.
-  void protect(std::uint32_t segment, std::vector<ChainVertex>& chain) {
-    std::vector<ChainVertex> ahead(chain.rbegin(), chain.rend() - 1);
-    chain.resize(1);
-    while (!ahead.empty()) {
-      const Subsegment piece{segment, chain.back(), ahead.back()};
-      if (star_.has_edge(piece.from.vertex, piece.to.vertex)) {
-        chain.push_back(piece.to);
-        ahead.pop_back();
-      } else {
-        ahead.push_back(split(piece));
-      }
+  void protect(const Progress& progress) {
+    for (std::uint64_t done = 0; !stack_.empty(); ++done) {
+      if ((done & 0xFFF) == 0) report(progress, "protect", done, done + stack_.size());
+      const std::uint64_t edge = stack_.back();
+      stack_.pop_back();
+      const Subsegment* piece = pieces_.find(edge);
+      if (piece != nullptr && !star_.has_edge(piece->from.vertex, piece->to.vertex)) split(*piece);
     }
+    for (auto& chain : state_.chains) std::ranges::sort(chain, {}, &ChainVertex::fraction);
   }
 
  private:
-  ChainVertex split(const Subsegment& piece) {
-    if (piece.to.fraction - piece.from.fraction < 2)
-      refuse_further_splits(plc_, piece, "it would have to be split into more than 2^20 pieces");
-    if (segment_of_steiner_.size() > most_steiner_vertices(plc_))
-      refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
-    const std::uint32_t fraction = split_fraction(piece);
-    const auto id = static_cast<std::uint32_t>(d_.vertices.size());
-    d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
-    insertion_.find_cavity(id, d_.vertices[piece.from.vertex].cell);
-    insertion_.fill_cavity();
-    segment_of_steiner_.push_back(piece.segment);
-    return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
+  void add(const Subsegment& piece) {
+    const std::uint64_t edge = edge_key(piece.from.vertex, piece.to.vertex);
+    pieces_.set(edge, piece);
+    stack_.push_back(edge);
   }
 
-  /// A fraction strictly between the ends of the piece.
-  std::uint32_t split_fraction(const Subsegment& piece) {
-    const std::uint32_t middle = piece.from.fraction + (piece.to.fraction - piece.from.fraction) / 2;
-    if (strategy_ == Protection::midpoint) return middle;
-    const auto encroaching = encroaching_vertex(piece, middle);
-    if (!encroaching) return middle;
-    const auto& ends = plc_.segments[piece.segment].ends;
-    const double length = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0])));
-    const double fraction = std::nearbyint(split_length(piece, *encroaching) / length * whole);
-    return static_cast<std::uint32_t>(std::clamp(fraction, piece.from.fraction + 1.0, piece.to.fraction - 1.0));
+  void split(const Subsegment piece) {
+    const ChainVertex middle = splitter_.split(piece);
+    state_.chains[piece.segment].push_back(middle);
+    pieces_.erase(pieces_.find(edge_key(piece.from.vertex, piece.to.vertex)));
+    add({piece.segment, piece.from, middle});
+    add({piece.segment, middle, piece.to});
+    for (const auto& v : splitter_.destroyed())
+      for (int i = 1; i < 4; ++i)
+        for (int j = 0; j < i; ++j)
+          if (const std::uint64_t edge = edge_key(v[i], v[j]); pieces_.find(edge) != nullptr) stack_.push_back(edge);
   }
 
-  /// Of the vertices around a point of the piece the one that sees the piece under the largest obtuse angle: it is why
-  /// the piece is missing. Nothing if none is in the diametral sphere.
-  std::optional<std::uint32_t> encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
-    const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
-    d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
-    insertion_.find_cavity(probe, d_.vertices[piece.from.vertex].cell);
-    const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
-    std::optional<std::uint32_t> worst;
-    double least_cosine = 0;
-    for (const delaunay::CavityFace& face : insertion_.cavity_faces()) {
-      for (const std::uint32_t v : face.vertices) {
-        if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
-        const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
-        const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
-        // Of equals the first, whatever the order of the cells.
-        if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
-        least_cosine = cosine;
-        worst = v;
-      }
-    }
-    insertion_.discard_cavity();
-    d_.vertices.pop_back();
-    return worst;
-  }
-
-  /// Where the piece is split for the sake of an encroaching vertex, as a distance from the first end of its segment.
-  double split_length(const Subsegment& piece, std::uint32_t encroaching) const {
-    const auto& ends = plc_.segments[piece.segment].ends;
-    const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
-    const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
-    if (encroaching >= plc_.vertices.size()) {
-      // On a segment that meets this one: on its shell, so that the two do not split each other forever.
-      const auto& others = plc_.segments[segment_of_steiner_[encroaching - plc_.vertices.size()]].ends;
-      for (int i = 0; i < 2; ++i) {
-        if (ends[i] != others[0] && ends[i] != others[1]) continue;
-        const double radius = std::sqrt(squared_length(p - d_.point(ends[i])));
-        const double along = i == 0 ? radius : length - radius;
-        if (along * whole > length * (piece.from.fraction + 1) && along * whole < length * (piece.to.fraction - 1))
-          return along;
-      }
-    }
-    // Its foot: then it is in the diametral sphere of neither half.
-    return dot(p - first, d_.point(ends[1]) - first) / length;
-  }
-
-  const plc::Plc& plc_;
-  Protection strategy_;
-  delaunay::Delaunay& d_;
-  delaunay::Insertion insertion_;
+  ProtectedDelaunay& state_;
+  EdgeSplitter splitter_;
   delaunay::CellStar star_;
-  std::vector<std::uint32_t> segment_of_steiner_;  // by vertex less those of the PLC
+  HashTable<std::uint64_t, Subsegment> pieces_;  // by their edges
+  std::vector<std::uint64_t> stack_;             // of edges, some of which may be split or there meanwhile
 };
 
 /// The Delaunay edges that must stay.
@@ -230,10 +134,11 @@ std::vector<delaunay::DelaunayVertex> with_points(std::vector<delaunay::Delaunay
 
 }  // namespace
 
-ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay) {
-  ProtectedDelaunay result{std::move(delaunay), {}, {}};
+ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, SegmentChains chains) {
+  ProtectedDelaunay result{std::move(delaunay), std::move(chains), {}};
+  const bool is_split = !result.chains.empty();
   for (const plc::Segment& s : plc.segments) {
-    result.chains.push_back({{s.ends[0], 0}, {s.ends[1], whole}});
+    if (!is_split) result.chains.push_back({{s.ends[0], 0}, {s.ends[1], whole}});
     result.must_be_chain.push_back(s.grazeable);
   }
   return result;
@@ -241,18 +146,7 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay) 
 
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress) {
-  SegmentChains& chains = start.chains;
-  Protector protector(plc, strategy, start.delaunay, chains);
-  // A new vertex may destroy a segment that was done: repeat until nothing changes.
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
-      if ((s & 0xFFF) == 0) report(progress, "protect", s, plc.segments.size());
-      if (!start.must_be_chain[s] || protector.is_protected(chains[s])) continue;
-      protector.protect(s, chains[s]);
-      changed = true;
-    }
-  }
+  Protector(plc, strategy, start).protect(progress);
   note_bytes(bytes_of(start.delaunay.vertices, start.delaunay.cells, start.delaunay.free_cells));
   return start;
 }

@@ -20,10 +20,11 @@ struct ProtectedDelaunay {
   std::vector<bool> must_be_chain;  ///< by segment: must its pieces be Delaunay edges?
 };
 
-/// The state before protection: segments without splits, of which the grazeable ones must become chains.
+/// The state before protection, in which the grazeable segments must still become chains of Delaunay edges.
 ///
-/// \param delaunay  of the vertices of `plc`
-ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay);
+/// \param delaunay  of the vertices of `plc` and of those inside the chains
+/// \param chains    vertices that the segments have already, the first ones after those of `plc`; empty: none
+ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, SegmentChains chains = {});
 
 /// Splits every missing grazeable segment until each is a chain of Delaunay edges (paper, section 2), so that the
 /// constrained Delaunay tetrahedralization exists (Shewchuk 2002).
@@ -31,7 +32,8 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay);
 /// `midpoint` bisects. `shell` splits at the foot of the vertex that encroaches most, so that one split is enough for
 /// one vertex; but if that vertex is on a segment that meets this one, at the same distance from where they meet: the
 /// pieces of all segments there end on common spheres, and cannot split each other forever (Ruppert 1995; Si and
-/// Gaertner 2005). Split points are dyadic fractions of the segment, j / 2^20, and lie on it exactly.
+/// Gaertner 2005). Pieces of segments that have been split often are not split near to their ends. Split points are
+/// dyadic fractions of the segment, j / 2^20, and lie on it exactly.
 ///
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices
 /// \return          the same with the Steiner vertices, whose ids follow the existing ones

@@ -25,20 +25,36 @@ bool touches_frozen_face(const WorkingMesh& m, EdgeHandle e) {
 
 // ---- Splits ---------------------------------------------------------------------------------------------------------
 
+// Is no edge of a triangle much longer than its first one?
+bool starts_at_longest_edge(const std::array<Point3, 3>& p) {
+  constexpr double much_longer = 1.21;  // squared
+  const double most = much_longer * squared_length(p[1] - p[0]);
+  return squared_length(p[2] - p[1]) <= most && squared_length(p[0] - p[2]) <= most;
+}
+
 // May the triangles at an edge be split with the new vertex at a point where the surface has that normal?
 bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3& normal) {
-  constexpr double least_part = 0.5;
+  // Where longest edges are split, angles stay above half of the least (Rivara 1984), and flips then mend the needles.
+  // Splits of other edges would make needles of needles without end.
+  constexpr double least_part_at_longest = 0.5;
+  double least_part = least_part_at_longest;
   WorstFit before, after;
   for (unsigned side = 0; side < 2; ++side) {
     const HalfedgeHandle h = m.mesh.halfedge_handle(e, side);
     if (m.mesh.is_boundary(h)) continue;
     const auto [a, b, c] = m.corners(h);
+    if (!starts_at_longest_edge(m.points({a, b, c}))) least_part = 1;
     before.add(fit_of(m, {a, b, c}));
     after.add(fit_of({m.point(a), p, m.point(c)}, {m.at(a).normal, normal, m.at(c).normal}));
     after.add(fit_of({p, m.point(b), m.point(c)}, {normal, m.at(b).normal, m.at(c).normal}));
   }
-  // Longest edges are split, so that angles stay above half of the least (Rivara 1984); flips then mend the needles.
   return may_replace({least_part * before.worst.quality, before.worst.agreement}, after.worst, good_after_split);
+}
+
+// In the middle of an edge between places where such lengths are wanted. Long edges between short ones are no reason
+// for short ones all along them.
+double wanted_between(const WorkingMesh& m, const Point3& middle, double one, double other, double size) {
+  return std::min(m.lengths.at(middle), std::min(one, other) + length_growth * 0.5 * size);
 }
 
 void split(WorkingMesh& m, EdgeHandle e, VertexHandle v) {
@@ -60,7 +76,8 @@ void try_split(WorkingMesh& m, EdgeHandle e) {
     if (!may_split(m, e, middle, normal)) return;
     foot.point = middle;
   }
-  split(m, e, add_vertex(m, patch, foot, m.wanted_length(a, b)));
+  split(m, e,
+        add_vertex(m, patch, foot, wanted_between(m, middle, m.at(a).wanted, m.at(b).wanted, m.edge_length(a, b))));
 }
 
 void try_split_link(WorkingMesh& m, std::uint32_t l) {
@@ -75,7 +92,9 @@ void try_split_link(WorkingMesh& m, std::uint32_t l) {
   }
   const auto knot = static_cast<std::uint32_t>(m.knots.size());
   const auto new_link = static_cast<std::uint32_t>(m.links.size());
-  m.knots.push_back({p, false, {l, new_link}, {}, m.wanted_length(link.ends[0], link.ends[1])});
+  const auto [a, b] = link.ends;
+  const double wanted = wanted_between(m, p, m.knots[a].wanted, m.knots[b].wanted, m.link_length(link));
+  m.knots.push_back({p, false, {l, new_link}, {}, wanted});
   m.links.push_back({{knot, link.ends[1]}, link.curve, {arc, link.arc[1]}});
   m.links[l].ends[1] = knot;
   m.links[l].arc[1] = arc;
@@ -98,6 +117,27 @@ std::vector<std::pair<double, EdgeHandle>> long_edges(const WorkingMesh& m) {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+// New links come at the end of the list; halves that are still too long are found in the next sweep.
+void split_long_links(WorkingMesh& m) {
+  std::size_t count = 0;
+  while (count != m.links.size()) {
+    count = m.links.size();
+    for (std::uint32_t l = 0; l < count; ++l) {
+      const WorkingMesh::Link& link = m.links[l];
+      if (link.is_alive && m.link_length(link) > too_long * m.wanted_length(link.ends[0], link.ends[1]))
+        try_split_link(m, l);
+    }
+  }
+}
+
+void split_long_inner_edges(WorkingMesh& m) {
+  std::size_t count = 0;
+  while (count != m.mesh.n_edges()) {
+    count = m.mesh.n_edges();
+    for (const auto& [negative_length, e] : long_edges(m)) try_split(m, e);
+  }
 }
 
 // ---- Collapses ------------------------------------------------------------------------------------------------------
@@ -132,15 +172,22 @@ bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t alon
   return false;
 }
 
+// May there be an edge between n and `to` instead of the one between n and `from`? Bad triangles lose edges also where
+// those are no better.
+bool may_have_edge(const WorkingMesh& m, VertexHandle n, VertexHandle to, VertexHandle from, const CollapseAim& aim) {
+  const bool may_be_alike = aim.measure == TriangleMeasure::angle;
+  const double size = m.edge_length(n, to);
+  if (size > aim.longest * m.wanted_length(n, to) && (!may_be_alike || size > m.edge_length(n, from))) return false;
+  return runs_along_surface(m, n, to) || (may_be_alike && !runs_along_surface(m, n, from));
+}
+
 // Are the triangles and edges that the collapse would make good enough?
 bool has_good_result(const WorkingMesh& m, HalfedgeHandle h, const CollapseAim& aim) {
   const auto [from, to] = m.ends(h);
   WorstFit before, after;
   for (auto out = m.mesh.cvoh_iter(from); out.is_valid(); ++out) {
     const VertexHandle n = m.mesh.to_vertex_handle(*out);
-    if (n != to && !is_apex(m, h, n)) {
-      if (m.edge_length(n, to) > aim.longest * m.wanted_length(n, to) || !runs_along_surface(m, n, to)) return false;
-    }
+    if (n != to && !is_apex(m, h, n) && !may_have_edge(m, n, to, from, aim)) return false;
     if (m.mesh.is_boundary(*out)) continue;
     if (m.is_frozen(m.mesh.face_handle(*out))) return false;
     auto v = m.corners(*out);
@@ -155,8 +202,10 @@ bool has_good_result(const WorkingMesh& m, HalfedgeHandle h, const CollapseAim& 
 
 bool stays_near_surface(const WorkingMesh& m, HalfedgeHandle h, const CollapseAim& aim) {
   const auto [from, to] = m.ends(h);
-  for (auto n = m.mesh.cvv_iter(from); n.is_valid(); ++n)
-    if (*n != to && !is_apex(m, h, *n) && !is_near_surface(m, *n, m.point(to), aim.most_deviation)) return false;
+  for (auto n = m.mesh.cvv_iter(from); n.is_valid(); ++n) {
+    if (*n == to || is_apex(m, h, *n) || is_near_surface(m, *n, m.point(to), aim.most_deviation)) continue;
+    if (aim.measure == TriangleMeasure::area || is_near_surface(m, *n, from)) return false;
+  }
   return true;
 }
 
@@ -302,20 +351,13 @@ int square(int i) {
 }  // namespace
 
 void split_long_edges(WorkingMesh& m) {
-  // New links and edges come at the end of the lists; halves that are still too long are found in the next sweep.
-  std::size_t count = 0;
-  while (count != m.links.size()) {
-    count = m.links.size();
-    for (std::uint32_t l = 0; l < count; ++l) {
-      const WorkingMesh::Link& link = m.links[l];
-      if (link.is_alive && m.link_length(link) > too_long * m.wanted_length(link.ends[0], link.ends[1]))
-        try_split_link(m, l);
-    }
-  }
-  count = 0;
-  while (count != m.mesh.n_edges()) {
-    count = m.mesh.n_edges();
-    for (const auto& [negative_length, e] : long_edges(m)) try_split(m, e);
+  // A long link may have to wait for longer edges in its triangles, and these for links.
+  std::size_t links = 0, edges = 0;
+  while (links != m.links.size() || edges != m.mesh.n_edges()) {
+    links = m.links.size();
+    edges = m.mesh.n_edges();
+    split_long_links(m);
+    split_long_inner_edges(m);
   }
 }
 

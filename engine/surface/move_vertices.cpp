@@ -140,16 +140,16 @@ constexpr double diagonal = 0.70710678118654752;  // sine of 45 degrees
 
 // The smallest angle around a vertex if that was elsewhere; less than 0 if a triangle was turned over there.
 double angle_around(const WorkingMesh& m, VertexHandle v, const Point3& p) {
-  double angle = to_radians(180);
+  double cosine = -1;
   const Point3 normal = m.at(v).normal;
   for (auto h = m.mesh.cvoh_iter(v); h.is_valid(); ++h) {
     if (m.mesh.is_boundary(*h)) continue;
     std::array<Point3, 3> corners = m.points(m.corners(*h));
     corners[0] = p;
     if (dot(area_vector(corners), normal) <= 0) return -1;
-    angle = std::min(angle, smallest_angle(corners));
+    cosine = std::max(cosine, largest_cosine(corners));
   }
-  return angle;
+  return portable::arc_cosine(cosine);
 }
 
 double mean_edge_around(const WorkingMesh& m, VertexHandle v) {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "engine/base/closest_on_triangle.h"
 #include "engine/base/count_work.h"
 #include "engine/base/point.h"
 #include "engine/base/portable_math.h"
@@ -84,6 +85,7 @@ class SurfaceCutter {
         corners_.push_back(t);
         surface_.facet_of.push_back(f);
         surface_.triangle_normals.push_back(normalized(area));
+        is_turned_.push_back(0);
       }
     }
   }
@@ -91,6 +93,13 @@ class SurfaceCutter {
   void turn(std::uint32_t t) {
     std::swap(corners_[t][1], corners_[t][2]);
     surface_.triangle_normals[t] = -1 * surface_.triangle_normals[t];
+    is_turned_[t] ^= 1;
+  }
+
+  std::array<bool, 2> bounds_inside(std::uint32_t t) const {
+    const plc::Facet& facet = plc_.facets[surface_.facet_of[t]];
+    const bool above = plc_.regions[facet.above].inside, below = plc_.regions[facet.below].inside;
+    return is_turned_[t] ? std::array{below, above} : std::array{above, below};
   }
 
   bool oriented_alike(std::uint32_t e) const {
@@ -126,12 +135,14 @@ class SurfaceCutter {
     surface_.patch_of.assign(count, none);
     surface_.patch_markers.clear();
     surface_.patch_is_flat.clear();
+    surface_.patch_bounds_inside.clear();
     std::vector<std::uint32_t> stack;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
       if (surface_.patch_of[seed] != none) continue;
       const auto patch = static_cast<std::uint32_t>(surface_.patch_markers.size());
       surface_.patch_markers.push_back(marker_of(seed));
       surface_.patch_is_flat.push_back(1);
+      surface_.patch_bounds_inside.push_back(bounds_inside(seed));
       surface_.patch_of[seed] = patch;
       for (stack = {seed}; !stack.empty();) {
         const std::uint32_t t = stack.back();
@@ -212,6 +223,7 @@ class SurfaceCutter {
       corners_.push_back(half);
       surface_.facet_of.push_back(surface_.facet_of[t]);
       surface_.triangle_normals.push_back(surface_.triangle_normals[t]);
+      is_turned_.push_back(is_turned_[t]);
     }
     for (std::uint32_t s = 0; s < segments_.size(); ++s) {
       if (edge_key(segments_.ends[s][0], segments_.ends[s][1]) != edge_key(a, b)) continue;
@@ -259,40 +271,19 @@ class SurfaceCutter {
   std::vector<plc::VertexTriple> corners_;
   plc::EdgeTable edges_;
   std::vector<char> is_feature_;
+  std::vector<char> is_turned_;  // by triangle: it runs the other way round than its facet's
   OriginalSurface surface_;
 };
 
 // ---- The closest point of a patch -----------------------------------------------------------------------------------
 
 // a + v ab + w ac; where a coordinate is the same for all three, it stays so.
-Foot make_foot(const Point3& p, const std::array<Point3, 3>& t, double v, double w) {
+Foot closest_foot(const Point3& p, const std::array<Point3, 3>& t) {
   Foot foot;
-  foot.weights = {1 - v - w, v, w};
-  foot.point = t[0] + (v * (t[1] - t[0]) + w * (t[2] - t[0]));
+  foot.weights = closest_on_triangle(p, t);
+  foot.point = t[0] + (foot.weights[1] * (t[1] - t[0]) + foot.weights[2] * (t[2] - t[0]));
   foot.squared_distance = squared_length(p - foot.point);
   return foot;
-}
-
-// Ericson, "Real-Time Collision Detection", 5.1.5.
-Foot closest_on_triangle(const Point3& p, const std::array<Point3, 3>& t) {
-  const Point3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return make_foot(p, t, 0, 0);
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return make_foot(p, t, 1, 0);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return make_foot(p, t, d1 / (d1 - d3), 0);
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return make_foot(p, t, 0, 1);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return make_foot(p, t, 0, d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return make_foot(p, t, 1 - w, w);
-  }
-  const double sum = va + vb + vc;
-  return make_foot(p, t, vb / sum, vc / sum);
 }
 
 }  // namespace
@@ -348,7 +339,7 @@ std::array<Point3, 3> ClosestPoint::corners(std::uint32_t triangle) const {
 }
 
 Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
-  Foot foot = closest_on_triangle(p, corners(triangle));
+  Foot foot = closest_foot(p, corners(triangle));
   foot.triangle = triangle;
   return foot;
 }

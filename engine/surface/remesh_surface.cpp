@@ -19,8 +19,8 @@ namespace ccdt::surface {
 
 namespace {
 
-// Where triangles cross, the edge length is halved some times; then the old triangles stay, ever farther around.
-constexpr int halvings = 3;
+// Where triangles cross, the edges are halved once; then the old triangles stay, ever farther around.
+constexpr int halvings = 1;
 constexpr int most_attempts = 10;
 
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
@@ -78,15 +78,48 @@ bool improve_triangle(WorkingMesh& m, FaceHandle f) {
   return false;
 }
 
+// The triangles that a change around a triangle may concern: those at neighbors of neighbors of its corners, in all
+// patches.
+std::vector<FaceHandle> triangles_near(const WorkingMesh& m, FaceHandle f) {
+  std::vector<VertexHandle> near;
+  const auto add = [&](VertexHandle v) {
+    if (m.at(v).knot == WorkingMesh::none) {
+      near.push_back(v);
+    } else {
+      near.insert(near.end(), m.knots[m.at(v).knot].copies.begin(), m.knots[m.at(v).knot].copies.end());
+    }
+  };
+  for (const VertexHandle v : m.corners(m.mesh.halfedge_handle(f))) add(v);
+  for (int ring = 0; ring < 2; ++ring) {
+    const std::vector<VertexHandle> inner = near;
+    for (const VertexHandle v : inner)
+      for (auto n = m.mesh.cvv_iter(v); n.is_valid(); ++n) add(*n);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+  }
+  std::vector<FaceHandle> faces;
+  for (const VertexHandle v : near)
+    for (auto t = m.mesh.cvf_iter(v); t.is_valid(); ++t) faces.push_back(*t);
+  return faces;
+}
+
 /// Flips, collapses and moves around triangles with small angles, the worst first and whatever the wanted lengths,
-/// until nothing helps.
+/// until nothing helps. What could not be improved is tried again only when something near to it has changed.
 void improve_worst_triangles(WorkingMesh& m) {
   constexpr int most_sweeps = 30;
+  std::vector<char> is_settled(m.mesh.n_faces(), 0);
   bool any = true;
   for (int sweep = 0; any && sweep < most_sweeps; ++sweep) {
     any = false;
-    for (const auto& [angle, f] : bad_triangles(m))
-      if (!m.mesh.status(f).deleted() && !m.is_frozen(f)) any = improve_triangle(m, f) || any;
+    for (const auto& [angle, f] : bad_triangles(m)) {
+      char& settled = is_settled[static_cast<std::size_t>(f.idx())];
+      if (settled || m.mesh.status(f).deleted() || m.is_frozen(f)) continue;
+      const std::vector<FaceHandle> near = triangles_near(m, f);
+      settled = 1;
+      if (!improve_triangle(m, f)) continue;
+      for (const FaceHandle t : near) is_settled[static_cast<std::size_t>(t.idx())] = 0;
+      any = true;
+    }
   }
 }
 
@@ -94,7 +127,7 @@ void improve_worst_triangles(WorkingMesh& m) {
 void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
   for (int i = 0; i < iterations; ++i) {
     report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
-    if (i > 0) find_wanted_lengths(m);
+    find_wanted_lengths(m, i > 0);
     ++work_done.remesh_rounds;
     split_long_edges(m);
     collapse_short_edges(m);
@@ -159,19 +192,40 @@ Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const 
   return defects;
 }
 
-/// One place for many that are near to each other.
-std::vector<Point3> thinned(const std::vector<Point3>& places, double distance) {
-  std::vector<Point3> kept;
-  for (const Point3& p : places)
-    if (std::none_of(kept.begin(), kept.end(), [&](const Point3& q) { return length(p - q) < distance; }))
-      kept.push_back(p);
+/// A place, and how long the edges are there.
+struct SizedPlace {
+  Point3 point;
+  double edge;
+};
+
+/// One place for many that are near to each other, with the longest edge of the triangles there.
+std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface, double usual) {
+  const auto corners = [&](std::uint32_t t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    return std::array<Point3, 3>{surface.vertices[a], surface.vertices[b], surface.vertices[c]};
+  };
+  std::vector<Box> boxes;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
+    boxes.push_back(expanded(bounding_box(corners(t)), 1e-6 * usual));
+  const BoxTree tree(std::move(boxes));
+  std::vector<SizedPlace> kept;
+  for (const Point3& p : places) {
+    double edge = 0;
+    tree.for_each_meeting(box_of(p), [&](std::uint32_t t) {
+      const std::array<Point3, 3> c = corners(t);
+      for (int k = 0; k < 3; ++k) edge = std::max(edge, length(c[(k + 1) % 3] - c[k]));
+    });
+    edge = edge > 0 ? std::min(edge, usual) : usual;
+    if (std::none_of(kept.begin(), kept.end(), [&](const SizedPlace& q) { return length(p - q.point) < q.edge; }))
+      kept.push_back({p, edge});
+  }
   return kept;
 }
 
-void freeze(const OriginalSurface& original, const std::vector<Point3>& places, double radius,
+void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& places, double edges_around,
             std::vector<char>& frozen) {
   std::vector<Box> boxes;
-  for (const Point3& p : places) boxes.push_back(expanded(box_of(p), radius));
+  for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
   const BoxTree tree(std::move(boxes));
   for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
     const auto [a, b, c] = original.triangles[t];
@@ -196,22 +250,24 @@ plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& op
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
   const CurveLengths curve_lengths(features, options.edge_length);
+  const Thickness thickness(original, options.edge_length);
   EdgeLengths lengths(options.edge_length);
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
-    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, frozen);
+    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, thickness, frozen);
     remesh(mesh, options.iterations, progress);
     note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
     plc::InputPlc result = to_plc(mesh, input);
     const Defects defects = find_defects(result, plc, options);
     if (defects.places.empty()) return result;
     if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
+    const std::vector<SizedPlace> places = thinned(defects.places, result, options.edge_length);
     if (attempt < halvings) {
-      const EdgeLengths before = lengths;  // the balls overlap, and each place is to be halved once
-      for (const Point3& p : thinned(defects.places, options.edge_length))
-        lengths.limit(p, 2 * options.edge_length, 0.5 * before.at(p));
+      std::vector<EdgeLengths::Ball> balls;
+      for (const SizedPlace& p : places) balls.push_back({p.point, 2 * p.edge, 0.5 * p.edge});
+      lengths.limit(balls);
     } else {
-      freeze(original, defects.places, std::ldexp(options.edge_length, attempt - halvings), frozen);
+      freeze(original, places, std::ldexp(1, attempt - halvings), frozen);
     }
   }
 }

@@ -27,10 +27,11 @@ struct RemeshOptions {
 /// segments with their markers, holes and regions go through.
 ///
 /// No triangle is turned over or made worse than a limit. Edges are shorter where features are short or near to each
-/// other and where the surface is curved, and grow gently from there; so no needles are needed. At the end the worst
-/// triangles are improved one by one: angles below 30 degrees are left at sharp corners and where the surface is rough.
-/// Where triangles of the result would cross all the same, that place gets shorter edges, and, if that does not help,
-/// its old triangles. The result always builds (`build_plc`).
+/// other, where the surface is curved, and where another sheet is opposite of it, through the solid or through a gap;
+/// they grow gently from there, so no needles and no flat tetrahedra are needed. At the end the worst triangles are
+/// improved one by one: angles below 30 degrees are left at sharp corners and where the surface is rough. Where
+/// triangles of the result would cross all the same, that place gets shorter edges, and, if that does not help, its old
+/// triangles. The result always builds (`build_plc`).
 ///
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is no valid PLC, or an option is out of range

@@ -8,9 +8,6 @@
 namespace ccdt::surface {
 namespace {
 
-// How much longer edges may be wanted, per length of the way from a place where shorter ones are wanted.
-constexpr double length_growth = 0.3;
-
 constexpr double step = 0.9;  // from one length that is tried to the next
 
 // The pieces of the chain are no obstacle themselves: a vertex may be put on each bend.
@@ -28,10 +25,11 @@ double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
 }
 
 constexpr std::uint32_t none = WorkingMesh::none;
-constexpr double most_ratio = 2;      // of the wanted length to the shortest edge of a vertex
-constexpr double most_turn = 0.42;    // radians, of the normals along an edge
-constexpr double width_ratio = 1.15;  // of edges along a strip to its width: equilateral triangles fill it
-constexpr double narrow_wedge = 0.5;  // its width by the distance from its tip
+constexpr double most_ratio = 2;       // of the wanted length to the shortest edge of a vertex
+constexpr double most_turn = 0.42;     // radians, of the normals along an edge
+constexpr double width_ratio = 1.15;   // of edges along a strip to its width: equilateral triangles fill it
+constexpr double least_width = 0.002;  // of the usual length: the shortest edges would not fit less
+constexpr double narrow_wedge = 0.5;   // its width by the distance from its tip
 
 // None of these makes edges shorter than such a part of the usual length: slits may be as narrow as they like, and
 // noise turns, too.
@@ -98,6 +96,7 @@ void limit_by_width(WorkingMesh& m) {
     if (k[2] == none || share_a_corner(m, k[0], k[2]) || share_a_corner(m, k[1], k[2])) continue;
     if (link_between(m, k[0], k[2]) != none || link_between(m, k[1], k[2]) != none) continue;
     const double width = length(area_vector(m.points(v))) / m.edge_length(v[0], v[1]);
+    if (width < least_width * m.lengths.at(m.point(v[2]))) continue;
     const FeatureCurve& curve = m.features.curves[m.links[link_between(m, k[0], k[1])].curve];
     const auto& links = m.knots[k[2]].links;
     if (std::any_of(links.begin(), links.end(), [&](std::uint32_t l) {
@@ -109,13 +108,36 @@ void limit_by_width(WorkingMesh& m) {
   }
 }
 
+void limit_by_thickness(WorkingMesh& m) {
+  for (const FaceHandle f : m.mesh.faces()) {
+    const std::array<VertexHandle, 3> corners = m.corners(m.mesh.halfedge_handle(f));
+    const double now = std::max({wanted_at(m, corners[0]), wanted_at(m, corners[1]), wanted_at(m, corners[2])});
+    if (now <= m.thickness.least_wanted()) continue;
+    const WorkingMesh::Vertex& first = m.at(corners[0]);
+    const std::array<Point3, 3> p = m.points(corners);
+    const Foot foot = m.closest.on_patch(first.patch, (1.0 / 3) * (p[0] + p[1] + p[2]), first.near);
+    const double most = m.thickness.wanted_at(foot, now);
+    for (const VertexHandle v : corners) limit(wanted_at(m, v), most, 0);
+  }
+}
+
 }  // namespace
 
 double EdgeLengths::at(const Point3& p) const {
   double wanted = usual_;
-  for (const Ball& ball : balls_)
+  reaches_.for_each_meeting(box_of(p), [&](std::uint32_t i) {
+    const Ball& ball = balls_[i];
     wanted = std::min(wanted, ball.wanted + length_growth * std::max(0.0, length(p - ball.center) - ball.radius));
+  });
   return wanted;
+}
+
+void EdgeLengths::limit(const std::vector<Ball>& balls) {
+  balls_.insert(balls_.end(), balls.begin(), balls.end());
+  std::vector<Box> reaches;
+  for (const Ball& ball : balls_)
+    reaches.push_back(expanded(box_of(ball.center), ball.radius + std::max(0.0, usual_ - ball.wanted) / length_growth));
+  reaches_ = BoxTree(std::move(reaches));
 }
 
 CurveLengths::CurveLengths(const FeatureCurves& features, double usual) : features_(features) {
@@ -138,12 +160,15 @@ double CurveLengths::at(std::uint32_t curve, double arc) const {
 }
 
 // Dijkstra's algorithm from the smallest lengths on.
-void find_wanted_lengths(WorkingMesh& m) {
+void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
   for (WorkingMesh::Knot& k : m.knots) k.wanted = m.lengths.at(k.position);
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = m.lengths.at(m.point(v));
   limit_by_curves(m);
-  limit_by_edges(m);
-  limit_by_width(m);
+  if (is_remeshed) {
+    limit_by_edges(m);
+    limit_by_width(m);
+    limit_by_thickness(m);
+  }
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const VertexHandle v : m.mesh.vertices())

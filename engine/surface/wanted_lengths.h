@@ -3,10 +3,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/box_tree.h"
 #include "engine/base/point.h"
 #include "engine/surface/feature_curves.h"
 
 namespace ccdt::surface {
+
+/// How much longer edges may be wanted, per length of the way from a place where shorter ones are wanted.
+inline constexpr double length_growth = 0.3;
 
 /// How far an edge may be from the original surface or feature in its middle, as a fraction of its length: a circle
 /// keeps eighteen edges at least.
@@ -19,19 +23,21 @@ inline constexpr double most_deviation_of_improved = 0.055;
 /// them it grows gently.
 class EdgeLengths {
  public:
-  explicit EdgeLengths(double usual) : usual_(usual) {}
-
-  double at(const Point3& p) const;
-
-  void limit(const Point3& center, double radius, double wanted) { balls_.push_back({center, radius, wanted}); }
-
- private:
   struct Ball {
     Point3 center;
     double radius, wanted;
   };
+
+  explicit EdgeLengths(double usual) : usual_(usual), reaches_({}) {}
+
+  double at(const Point3& p) const;
+
+  void limit(const std::vector<Ball>& balls);
+
+ private:
   double usual_;
   std::vector<Ball> balls_;
+  BoxTree reaches_;  // of the balls: where they ask for less than the usual length
 };
 
 /// The longest edges that feature curves allow: short curves between corners stay single edges, and a bent curve needs

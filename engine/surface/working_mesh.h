@@ -12,6 +12,7 @@
 #include "engine/base/portable_math.h"
 #include "engine/surface/feature_curves.h"
 #include "engine/surface/original_surface.h"
+#include "engine/surface/thickness.h"
 #include "engine/surface/wanted_lengths.h"
 
 namespace ccdt::surface {
@@ -25,16 +26,19 @@ struct TriangleFit {
   double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners
 };
 
-/// In radians.
-inline double smallest_angle(const std::array<Point3, 3>& p) {
+/// The cosine of a triangle's smallest angle.
+inline double largest_cosine(const std::array<Point3, 3>& p) {
   ++work_done.triangles_evaluated;
   std::array<double, 3> squares = {squared_length(p[1] - p[0]), squared_length(p[2] - p[1]),
                                    squared_length(p[0] - p[2])};
   std::sort(squares.begin(), squares.end());
   const double product = std::sqrt(squares[1] * squares[2]);
-  return product > 0
-             ? portable::arc_cosine(std::clamp((squares[1] + squares[2] - squares[0]) / (2 * product), -1.0, 1.0))
-             : 0;
+  return product > 0 ? std::clamp((squares[1] + squares[2] - squares[0]) / (2 * product), -1.0, 1.0) : 1;
+}
+
+/// In radians.
+inline double smallest_angle(const std::array<Point3, 3>& p) {
+  return portable::arc_cosine(largest_cosine(p));
 }
 
 inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point3, 3>& normals,
@@ -137,6 +141,7 @@ struct WorkingMesh {
   const ClosestPoint& closest;
   const EdgeLengths& lengths;
   const CurveLengths& curve_lengths;
+  const Thickness& thickness;
 
   HalfedgeMesh mesh;
   std::vector<Vertex> vertices;      ///< by the index of the mesh's
@@ -179,7 +184,8 @@ struct WorkingMesh {
 /// \param frozen  by triangle of the original surface: must stay as it is
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
                               const ClosestPoint& closest, const EdgeLengths& lengths,
-                              const CurveLengths& curve_lengths, const std::vector<char>& frozen);
+                              const CurveLengths& curve_lengths, const Thickness& thickness,
+                              const std::vector<char>& frozen);
 
 /// A new vertex of the halfedge mesh in a patch, at the foot of the given point or, on a knot, at its position.
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);
@@ -231,7 +237,9 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
 /// Gives every vertex and knot the edge length that is wanted there (`EdgeLengths`), but less around edges that are
 /// much shorter and could not be collapsed, because the surface is too narrow or too strongly curved there: long edges
 /// beside them would make needles of the triangles.
-void find_wanted_lengths(WorkingMesh& m);
+///
+/// \param is_remeshed  false for the mesh as it was: its short edges, narrow strips and thin places do not count yet
+void find_wanted_lengths(WorkingMesh& m, bool is_remeshed);
 
 /// Splits edges longer than 4/3 of the wanted length, until there are none; new vertices are put on the original
 /// surface.

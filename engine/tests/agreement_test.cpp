@@ -133,6 +133,19 @@ TEST(Agreement, ThinPlates) {
   }
 }
 
+TEST(Agreement, ADiaphragmThatIsFlatOnlyWithinTheTolerance) {
+  InputPlc plc;
+  plc.inside = InputPlc::Inside::seeds;
+  plc.vertices = {
+      {12.999999993175, 7.99999995084375, 8.000000038025}, {8.00000000934375, 12.99999999293125, 8.000000067925},
+      {2.9999999462125, 7.9999999826125, 7.9999999891125}, {7.99999999699375, 3.00000000755625, 8.0000000060125},
+      {7.9999999584, 7.9999999211875, 8.4999999715625},    {7.99999991899375, 7.9999999325625, 7.9921874881375}};
+  for (std::uint32_t k = 0; k < 4; ++k)
+    for (const std::uint32_t apex : {4, 5}) plc.triangles.push_back({k, (k + 1) % 4, apex});
+  plc.polygon_facets.push_back({{{0, 1, 2, 3}}, {}, 3, 8});
+  expect_agreement(plc, Lattice::none);
+}
+
 TEST(Agreement, SmallRealParts) {
   if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const char* name : {"joint.off", "anchor.off", "rotor.off", "pinion.off", "handle.off", "cube-meshed.off"}) {

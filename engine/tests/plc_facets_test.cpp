@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "engine/numbers/predicates.h"
@@ -188,6 +189,25 @@ TEST(PlcFacets, AVertexExactlyOnAnEdgeSplitsTheTrianglesThere) {
   for (const plc::Facet& f : plc.facets)
     for (const auto& t : f.triangles) on_facets.insert(t.begin(), t.end());
   EXPECT_EQ(on_facets.size(), 10u);
+}
+
+TEST(PlcFacets, TrianglesWithoutAreaBoundNothingAndMayCloseTheGapAtAVertexOnAnEdge) {
+  plc::InputPlc input = unit_cube();
+  input.triangles.push_back({0, 1, 1});
+  EXPECT_EQ(plc::build_plc(input).facets.size(), 6u);
+
+  input = unit_cube();
+  input.vertices.push_back({0.5, 0, 0});
+  const auto along = std::ranges::find_if(
+      input.triangles, [](const Triangle& t) { return std::ranges::count(t, 0u) + std::ranges::count(t, 1u) == 2; });
+  const Triangle whole = *along;
+  for (std::uint32_t& v : *along) v = v == 0 ? 8 : v;
+  input.triangles.push_back(whole);
+  for (std::uint32_t& v : input.triangles.back()) v = v == 1 ? 8 : v;
+  input.triangles.push_back({0, 8, 1});
+  const plc::Plc built = plc::build_plc(input);
+  EXPECT_EQ(built.facets.size(), 6u);
+  EXPECT_EQ(built.segments.size(), 13u);
 }
 
 TEST(PlcFacets, AFacetMayHaveManyVerticesThatItsTrianglesDoNotName) {

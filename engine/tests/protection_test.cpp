@@ -79,6 +79,50 @@ TEST(Protection, SchoenhardtPolyhedronNeedsAtMostFourSteinerVerticesOnShells) {
   EXPECT_LE(result.counts.steiner_vertices, 4u);
 }
 
+/// A thin plate with a fan of long triangles inside, the corners of which are nearly on lines. Their edges are not
+/// quite parallel, so that the feet of the vertices of one on another one move on with each split.
+InputPlc plate_with_narrow_fan() {
+  InputPlc plate;
+  plate.name = "plate with a narrow fan";
+  plate.inside = InputPlc::Inside::seeds;
+  plate.vertices = {{0, 0, 0},
+                    {0, 0.125, 0},
+                    {0, 0.125, 16},
+                    {0, 0, 16},
+                    {0.25, 0, 0},
+                    {0.25, 0.125, 0},
+                    {0.25, 0.125, 16},
+                    {0.25, 0, 16},
+                    {0.015625, 0.125, 16},
+                    {0.01513671875, 0.046875, 11},
+                    {0, 0.046875, 0},
+                    {0.015625, 0.046875, 11},
+                    {0.25, 0.125, 11},
+                    {0, 0.046844482421875, 6},
+                    {0.01513671875, 0.046875, 16},
+                    {0.01513671875, 0.046844482421875, 11}};
+  const auto facet = [&](std::vector<std::vector<std::uint32_t>> polygons) {
+    plate.polygon_facets.push_back(
+        {std::move(polygons), {}, 0, static_cast<std::uint32_t>(plate.polygon_facets.size())});
+  };
+  facet({{0, 1, 2, 3}});
+  facet({{4, 5, 6, 7}, {7, 12}});
+  facet({{0, 3, 7, 4}});
+  facet({{1, 2, 6, 5}, {1, 8}, {12, 8}});
+  facet({{0, 4, 5, 1}});
+  facet({{3, 7, 6, 2}, {8, 7}, {14, 3}});
+  for (const std::uint32_t apex : {1u, 9u, 4u, 10u, 11u, 12u, 13u}) facet({{8, 7, apex}});
+  facet({{14, 3, 15}});
+  return plate;
+}
+
+TEST(Protection, OfSegmentsThatAreNotQuiteParallelEnds) {
+  const InputPlc plate = plate_with_narrow_fan();
+  const MeshResult result = bare_mesh(plate);
+  EXPECT_LT(result.counts.steiner_vertices, 100u);
+  expect_verified(plate, result.mesh);
+}
+
 TEST(Protection, CubeWithGridsNeedsNoSteinerVertexPlainAndRotated) {
   for (const InputPlc& cube : {gridded_cube(60), rotated(oblique, gridded_cube(60))}) {
     const MeshResult result = bare_mesh(cube);

@@ -5,26 +5,44 @@
 #include <filesystem>
 #include <vector>
 
+#include "engine/io/plc_files.h"
+
 namespace ccdt {
+
+/// The folder that an environment variable names, or one beside the checkout.
+inline std::filesystem::path shared_folder(const char* variable, const char* name) {
+  const char* told = std::getenv(variable);
+  return told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / name;
+}
 
 /// Where real surfaces are, if there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
 inline std::filesystem::path folder_of_parts() {
-  const char* told = std::getenv("CCDT_PARTS");
-  return told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / "parts";
+  return shared_folder("CCDT_PARTS", "parts");
+}
+
+/// Where surfaces are that have made the engine fail: the folder of the variable CCDT_HARD_PARTS, or one beside the
+/// checkout.
+inline std::filesystem::path folder_of_hard_parts() {
+  return shared_folder("CCDT_HARD_PARTS", "hard");
 }
 
 inline bool there_are_parts() {
   return std::filesystem::is_directory(folder_of_parts());
 }
 
-/// All of them, by name.
-inline std::vector<std::filesystem::path> real_parts() {
+/// The surfaces in a folder that may be missing, by name.
+inline std::vector<std::filesystem::path> surfaces_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  if (!there_are_parts()) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_of_parts()))
-    if (entry.path().extension() == ".off") files.push_back(entry.path());
+  if (!std::filesystem::is_directory(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (io::is_plc_file(entry.path())) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// All of them, by name.
+inline std::vector<std::filesystem::path> real_parts() {
+  return surfaces_in(folder_of_parts());
 }
 
 }  // namespace ccdt

@@ -22,6 +22,32 @@ InputPlc remeshed(const InputPlc& input, double edge_length) {
   return surface::remesh_surface(input, options);
 }
 
+/// A square plate with narrow slots that reach nearly through it, between which triangles are needles.
+InputPlc slotted_plate(int slots) {
+  std::vector<std::array<double, 2>> outline = {{0, 0}, {1, 0}, {1, 1}};
+  for (int i = slots - 1; i >= 0; --i) {
+    const double x = (i + 0.5) / slots;
+    outline.insert(outline.end(), {{x + 0.002, 1}, {x + 0.002, 0.03}, {x - 0.002, 0.03}, {x - 0.002, 1}});
+  }
+  outline.push_back({0, 1});
+  const auto n = static_cast<std::uint32_t>(outline.size());
+  InputPlc plate;
+  std::vector<std::uint32_t> bottom, top;
+  for (const double z : {0.0, 0.05})
+    for (const auto& [x, y] : outline) plate.vertices.push_back({x, y, z});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    bottom.push_back(n - 1 - i);
+    top.push_back(n + i);
+    plc_test::append_fan(plate, {i, (i + 1) % n, n + (i + 1) % n, n + i});
+  }
+  for (const auto& polygon : {bottom, top}) {
+    PolygonFacet facet;
+    facet.polygons = {polygon};
+    plate.polygon_facets.push_back(facet);
+  }
+  return plate;
+}
+
 /// Flat facets, so everything but the triangles is as before, to the last bits.
 void expect_same_shape(const InputPlc& before, const InputPlc& after) {
   expect_near(areas(before), areas(after), 1e-9);
@@ -162,12 +188,12 @@ TEST(Remeshing, ModelsReachTheirEdgeLength) {
 
 TEST(Remeshing, ShellsThinnerThanTheEdgesDoNotCross) {
   InputPlc shell = models::make_solid("sphere", 0.1);
-  const auto shrunk = [](const Point3& p) { return 0.99 * p; };
+  const auto shrunk = [](const Point3& p) { return 0.995 * p; };  // too thin to ask for shorter edges
   append(shell, rotated(oblique, mapped(shell, shrunk)));
   shell.triangle_markers.clear();
   int attempts = 0;
   surface::RemeshOptions options;
-  options.edge_length = 0.4;
+  options.edge_length = 0.6;
   const InputPlc result = surface::remesh_surface(
       shell, options,
       [&](std::string_view stage, std::uint64_t done, std::uint64_t) { attempts += stage == "remesh" && done == 0; });
@@ -201,6 +227,77 @@ TEST(Remeshing, EdgesAlongAStripFitItsWidth) {
   const InputPlc result = remeshed(plate, 0.5);
   expect_same_shape(plate, result);
   EXPECT_GE(smallest_angles(result).front(), 30);
+}
+
+/// The worst r (paper, section 6) of the tetrahedra that the mesher makes of a surface.
+double worst_r(const InputPlc& surface, double edge_length) {
+  MeshOptions options;
+  options.edge_length = edge_length;
+  const TetMesh mesh = mesh_plc(surface, options).mesh;
+  double worst = 0;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const std::array<Point3, 4> p = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]};
+    double squares = 0;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j) squares += squared_length(p[i] - p[j]);
+    const double volume = dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6;
+    worst = std::max(worst, std::pow(squares / 6, 1.5) / (8.48528 * volume));
+  }
+  return worst;
+}
+
+TEST(RemeshedThinParts, EdgesFitTheThicknessOfAPlate) {
+  for (const double thickness : {0.05, 0.02}) {
+    SCOPED_TRACE(thickness);
+    const InputPlc plate = box({0, 0, 0}, {1, 1, thickness});
+    for (const InputPlc& turned : {plate, rotated(oblique, plate)}) {
+      const InputPlc result = remeshed(turned, 0.1);
+      expect_same_shape(turned, result);
+      EXPECT_LE(mean_edge_length(result), 2.2 * thickness);
+      EXPECT_LE(worst_r(result, 0.1), 4);
+    }
+  }
+}
+
+TEST(RemeshedThinParts, PlatesAsThinAsYouLikeAreRemeshed) {
+  for (const double height : {4e-3, 4e-6, 4e-9}) {
+    SCOPED_TRACE(height);
+    for (const InputPlc& plate : {gridded_plate(4, height), rotated(oblique, gridded_plate(4, height))}) {
+      const InputPlc result = remeshed(plate, 0.3);
+      EXPECT_NEAR(inside_volume(plc::build_plc(result)), inside_volume(plc::build_plc(plate)), 1e-6 * 16 * height);
+      if (height > 1e-6) {
+        EXPECT_GT(mesh_plc(result).counts.tetrahedra, 0u);
+      }
+    }
+  }
+}
+
+TEST(RemeshedThinParts, PlatesTooThinForAnyEdgesGetTheUsualOnes) {
+  const InputPlc result = remeshed(box({0, 0, 0}, {1, 1, 1e-5}), 0.1);
+  EXPECT_LT(result.triangles.size(), 4000u);
+}
+
+TEST(RemeshedThinParts, FlatGapsAskForNothing) {
+  InputPlc plc = box({0, 0, 0}, {1, 1, 1});
+  append(plc, box({0, 0, 1.02}, {1, 1, 2}));
+  const InputPlc alone = remeshed(box({0, 0, 0}, {1, 1, 1}), 0.2), both = remeshed(plc, 0.2);
+  EXPECT_LT(both.triangles.size(), 2.2 * static_cast<double>(alone.triangles.size()));
+}
+
+TEST(RemeshedThinParts, NoiseIsNoThinFeature) {
+  InputPlc sphere = models::make_solid("sphere", 0.05);
+  const std::size_t smooth = remeshed(sphere, 0.15).triangles.size();
+  std::mt19937 random(3);
+  for (Point3& p : sphere.vertices) p = (1 + 0.004 * (static_cast<double>(random() % 1000) / 1000 - 0.5)) * p;
+  EXPECT_LT(static_cast<double>(remeshed(sphere, 0.15).triangles.size()), 1.1 * static_cast<double>(smooth));
+}
+
+// Needles between a long slot and the border: splits of edges that are not the longest would go on without end.
+TEST(RemeshedThinParts, SlottedPlatesStaySmall) {
+  const InputPlc plate = slotted_plate(12);
+  const InputPlc result = remeshed(plate, 0.1);
+  EXPECT_NEAR(inside_volume(plc::build_plc(result)), inside_volume(plc::build_plc(plate)), 1e-9);
+  EXPECT_LT(result.triangles.size(), 30000u);
 }
 
 TEST(Remeshing, IsDeterministic) {

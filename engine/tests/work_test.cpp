@@ -258,17 +258,17 @@ TEST(WorkOfSmallInputs, SegmentsThatNeedProtection) {
   MeshOptions options;
   options.lattice = Lattice::none;
   expect_work(text_of("protect", mesh_plc(plc_test::schoenhardt(), options).work.protect), R"(
-protect.orient3d_filter_failures 2
-protect.wide_evaluations 2
-protect.exact_evaluations 2
-protect.insertions 8
-protect.walk_steps 21
-protect.cells_tested 96
-protect.cells_created 36
-protect.cells_destroyed 18
-protect.largest_cavity 6
-protect.cells_visited 41
-protect.peak_bytes 1280
+protect.orient3d_filter_failures 3
+protect.wide_evaluations 3
+protect.exact_evaluations 3
+protect.insertions 6
+protect.walk_steps 19
+protect.cells_tested 68
+protect.cells_created 26
+protect.cells_destroyed 13
+protect.largest_cavity 5
+protect.cells_visited 37
+protect.peak_bytes 1088
 )");
 }
 
@@ -377,7 +377,7 @@ improve.changes_tried 1228
 improve.moves_tried 185
 improve.vertices_moved 34
 improve.ascent_steps 214
-improve.quality_evaluations 25239
+improve.quality_evaluations 25241
 improve.peak_bytes 21548
 )");
 }
@@ -387,8 +387,8 @@ TEST(WorkOfSmallInputs, RemeshedSurface) {
 remesh.orient3d_filter_failures 2048
 remesh.narrow_evaluations 2048
 remesh.exact_evaluations 2048
-remesh.box_tree_nodes 2997
-remesh.box_pairs 3154
+remesh.box_tree_nodes 11676
+remesh.box_pairs 5842
 remesh.edges_flipped 12
 remesh.moves_tried 810
 remesh.vertices_moved 810

@@ -68,6 +68,12 @@ TEST_F(Program, RemeshingNeedsAnEdgeLengthAndANewSurfaceNeedsRemeshing) {
   EXPECT_EQ(file_count(), 1u);
 }
 
+TEST_F(Program, OnlyCcdtRefinesASurface) {
+  write("cube.off", cube_off);
+  EXPECT_EQ(run("mesh cube.off -o a.vtu --surface refine --mesher tetgen").exit_code, 2);
+  EXPECT_EQ(file_count(), 1u);
+}
+
 TEST_F(Program, AnyNumberOfThreadsIsALimitThatCanBeKept) {
   write("cube.off", cube_off);
   EXPECT_EQ(run("mesh cube.off -o a.vtu --threads 8").exit_code, 0);

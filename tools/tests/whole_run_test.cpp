@@ -103,7 +103,8 @@ TEST_F(WholeRun, ModelsOfTheProgramItself) {
 }
 
 TEST_F(WholeRun, RemeshedSurfacesKeepWhatTheyBound) {
-  for (const plc::InputPlc& plc : {two_cubes(), cube_with_slit(), rotated(oblique, cube_with_dangling_facet())}) {
+  for (const plc::InputPlc& plc : {two_cubes(), cube_with_slit(), rotated(oblique, cube_with_dangling_facet()),
+                                   rotated(oblique, gridded_plate(4, 0.05))}) {
     io::write_plc(plc, work() / "plc.poly");
     const Outcome mesh =
         run("mesh plc.poly -o mesh.vtu --surface remesh --edge-length 0.4 --surface-output new.poly --report r.json");
@@ -112,6 +113,19 @@ TEST_F(WholeRun, RemeshedSurfacesKeepWhatTheyBound) {
     EXPECT_NE(text_of(work() / "r.json").find("\"surface\": \"remesh\""), std::string::npos);
     const Outcome verify = run("verify new.poly mesh.vtu");
     EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+  }
+}
+
+TEST_F(WholeRun, RefinedSurfacesAreThoseOfTheInput) {
+  for (const plc::InputPlc& plc : {two_cubes(), cube_with_slit(), rotated(oblique, cube_with_dangling_facet())}) {
+    io::write_plc(plc, work() / "plc.poly");
+    for (const std::string options : {"", " --edge-length 0.4", " --edge-length 0.5 --lattice none"}) {
+      const Outcome mesh = run("mesh plc.poly -o mesh.vtu --surface refine --report r.json" + options);
+      ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
+      EXPECT_NE(text_of(work() / "r.json").find("\"surface\": \"refine\""), std::string::npos);
+      const Outcome verify = run("verify plc.poly mesh.vtu");
+      EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+    }
   }
 }
 

@@ -1,0 +1,153 @@
+#include "bench/proving_ground/prove.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "bench/verify/verify.h"
+#include "engine/base/box.h"
+#include "engine/base/errors.h"
+#include "engine/plc/bent_facets.h"
+
+namespace ccdt::proving_ground {
+
+namespace {
+
+struct TooLong {};
+
+/// Throws when the time is over.
+Progress limited_to(double seconds) {
+  const auto start = std::chrono::steady_clock::now();
+  return [start, seconds](std::string_view, std::uint64_t, std::uint64_t) {
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds) throw TooLong();
+  };
+}
+
+std::string name(const MeshOptions& o) {
+  return "lattice " + std::string(name_of(o.lattice)) + ", protection " + std::string(name_of(o.protection)) +
+         ", locator " + std::string(name_of(o.locator)) + ", delaunay " + std::string(name_of(o.delaunay)) +
+         (o.face_protection ? "" : ", without face protection") + ", improve " +
+         std::string(name_of(improvement_of(o)));
+}
+
+/// The tetrahedra as sorted lists of sorted vertices.
+std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh) {
+  auto cells = mesh.tetrahedra;
+  for (auto& cell : cells) std::sort(cell.begin(), cell.end());
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+/// With the first, each pair of values of two strategies occurs.
+struct Strategy {
+  bool face_protection;
+  LocatorKind locator;
+  DelaunayMethod delaunay;
+};
+constexpr std::array others = {Strategy{true, LocatorKind::octree, DelaunayMethod::wrap},
+                               Strategy{true, LocatorKind::grid, DelaunayMethod::insert},
+                               Strategy{false, LocatorKind::cavity, DelaunayMethod::wrap},
+                               Strategy{false, LocatorKind::octree, DelaunayMethod::insert},
+                               Strategy{false, LocatorKind::grid, DelaunayMethod::wrap}};
+
+class Prover {
+ public:
+  Prover(const InputPlc& input, const ProofOptions& options) : input_(input), options_(options) {}
+
+  Proof prove() {
+    try {
+      prove_all();
+    } catch (const InputError&) {
+      fail(Proof::Outcome::invalid, "the input is not valid");
+    } catch (const TooLong&) {
+      fail(Proof::Outcome::endless, "too long: " + now_);
+    } catch (const LimitError& error) {
+      fail(Proof::Outcome::endless, now_ + ": " + error.what());
+    } catch (const std::exception& error) {
+      fail(Proof::Outcome::wrong, now_ + ": " + error.what());
+    }
+    return proof_;
+  }
+
+ private:
+  void prove_all() {
+    MeshOptions options;
+    options.edge_length = 0.25 * largest_extent();
+    options.lattice = Lattice::none;
+    options.improve.improvement = Improvement::none;
+    compare(options, mesh(options, options_.seconds).mesh);
+    for (const Lattice lattice : options_.lattices) {
+      options.lattice = lattice;
+      compare(options, mesh(options, options_.seconds).mesh);
+      options.improve.improvement = Improvement::all;
+      verify(mesh(options, options_.seconds).mesh);
+      options.improve.improvement = Improvement::none;
+    }
+    options.lattice = Lattice::none;
+    options.protection = Protection::midpoint;
+    if (const auto result = mesh_if_it_ends(options)) compare(options, result->mesh);
+  }
+
+  double largest_extent() const {
+    const auto [low, high] = bounding_box(input_.vertices);
+    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  }
+
+  MeshResult mesh(const MeshOptions& options, double seconds) {
+    now_ = name(options);
+    ++proof_.meshes;
+    return mesh_plc(input_, options, limited_to(seconds));
+  }
+
+  std::optional<MeshResult> mesh_if_it_ends(const MeshOptions& options) {
+    try {
+      return mesh(options, 0.02 * options_.seconds);  // the others take longer
+    } catch (const LimitError&) {
+    } catch (const TooLong&) {
+    }
+    return {};
+  }
+
+  void verify(const TetMesh& mesh) {
+    ++proof_.verified;
+    for (const verify::Check& check : verify::verify(input_, mesh).checks)
+      if (check.required && check.failed > 0)
+        fail(Proof::Outcome::wrong, now_ + ": " + check.name + ": " + std::to_string(check.failed) + " of " +
+                                        std::to_string(check.checked) + " fail, " +
+                                        (check.examples.empty() ? "" : check.examples.front()));
+  }
+
+  void compare(MeshOptions options, const TetMesh& first) {
+    verify(first);
+    const auto cells = sorted_cells(first);
+    for (const Strategy& other : others) {
+      options.face_protection = other.face_protection;
+      options.locator = other.locator;
+      options.delaunay = other.delaunay;
+      const TetMesh second = mesh(options, options_.seconds).mesh;
+      if (second.vertices != first.vertices || sorted_cells(second) != cells)
+        fail(Proof::Outcome::wrong, now_ + ": other tetrahedra");
+    }
+  }
+
+  /// Only the first thing is kept.
+  void fail(Proof::Outcome outcome, const std::string& what) {
+    if (proof_.outcome != Proof::Outcome::right) return;
+    proof_.outcome = outcome;
+    proof_.what = what;
+  }
+
+  const InputPlc& input_;
+  const ProofOptions& options_;
+  Proof proof_;
+  std::string now_;  // how the last mesh was made
+};
+
+}  // namespace
+
+Proof prove(const InputPlc& input, const ProofOptions& options) {
+  const auto triangulated = plc::triangulate_bent_facets(input);
+  return Prover(triangulated ? *triangulated : input, options).prove();
+}
+
+}  // namespace ccdt::proving_ground

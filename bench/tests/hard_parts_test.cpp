@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include <cctype>
+
+#include "bench/verify/verify.h"
+#include "engine/io/plc_files.h"
+#include "engine/mesher.h"
+#include "engine/plc/bent_facets.h"
+#include "engine/tests/real_parts.h"
+
+// Surfaces that have made the engine fail, meshed in every way and verified: `ctest -L hard`.
+
+namespace ccdt {
+namespace {
+
+using HardPart = testing::TestWithParam<std::filesystem::path>;
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(HardPart);
+
+TEST_P(HardPart, IsMeshedWithAllLatticesImprovedOrNot) {
+  const InputPlc given = io::read_plc(GetParam()), input = plc::triangulate_bent_facets(given).value_or(given);
+  for (const Lattice lattice : {Lattice::none, Lattice::fcc, Lattice::bcc, Lattice::sc})
+    for (const Improvement improvement : {Improvement::none, Improvement::all}) {
+      SCOPED_TRACE(std::string(name_of(lattice)) + ", improve " + std::string(name_of(improvement)));
+      MeshOptions options;
+      options.lattice = lattice;
+      options.improve.improvement = improvement;
+      const verify::Verification verification = verify::verify(input, mesh_plc(input, options).mesh);
+      for (const verify::Check& check : verification.checks)
+        EXPECT_FALSE(check.required && check.failed > 0) << check.name << ": " << check.failed << " fail";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, HardPart, testing::ValuesIn(surfaces_in(folder_of_hard_parts())), [](const auto& part) {
+  std::string name = part.param.filename().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace ccdt

@@ -1,0 +1,179 @@
+#include "engine/refine/facet_triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numbers/grid.h"
+#include "engine/numbers/predicates.h"
+#include "engine/plc/integer_points.h"
+
+namespace ccdt::refine {
+namespace {
+
+using planar::Side;
+
+std::array<Point3, 3> corners_of(const std::array<VertexId, 3>& t, const std::vector<Point3>& points) {
+  return {points[t[0]], points[t[1]], points[t[2]]};
+}
+
+Point3 mean_normal(const plc::Facet& facet, const std::vector<Point3>& points) {
+  Point3 sum;
+  for (const auto& t : facet.triangles) sum = sum + area_vector(corners_of(t, points));
+  return normalized(sum);
+}
+
+/// The axis last, the other two in the order that leaves the orientation as it is.
+Point3 turned(const Point3& p, int axis) {
+  if (axis == 0) return {p.y, p.z, p.x};
+  if (axis == 1) return {p.z, p.x, p.y};
+  return p;
+}
+
+/// The least of the barycentric coordinates of a point against a triangle, seen along its normal.
+double least_weight(const std::array<Point3, 3>& t, const Point3& p) {
+  const Point3 normal = area_vector(t);
+  double least = HUGE_VAL;
+  for (int i = 0; i < 3; ++i) least = std::min(least, dot(cross(t[(i + 1) % 3] - t[i], p - t[i]), normal));
+  return least / squared_length(normal);
+}
+
+/// base + i u + j v with the integers i and j for which that is nearest to p, up to one.
+Point3 nearest_in_plane(const plc::PlaneSteps& steps, const Point3& p) {
+  const auto& [base, u, v] = steps;
+  const Point3 offset = p - base;
+  const double uu = squared_length(u), uv = dot(u, v), vv = squared_length(v), pu = dot(offset, u), pv = dot(offset, v);
+  const double determinant = uu * vv - uv * uv;
+  // Exact in integers: the products may have more bits than a double.
+  const auto i = static_cast<std::int64_t>(std::nearbyint((pu * vv - pv * uv) / determinant));
+  const auto j = static_cast<std::int64_t>(std::nearbyint((pv * uu - pu * uv) / determinant));
+  const auto combine = [&](double o, double s, double t) {
+    return o + static_cast<double>(i * static_cast<std::int64_t>(s) + j * static_cast<std::int64_t>(t));
+  };
+  return {combine(base.x, u.x, v.x), combine(base.y, u.y, v.y), combine(base.z, u.z, v.z)};
+}
+
+}  // namespace
+
+FacetPlane::FacetPlane(const plc::Facet& facet, const std::vector<Point3>& points)
+    : points_(points),
+      exactly_flat_(facet.exactly_flat),
+      normal_(mean_normal(facet, points)),
+      axis_(plc::dominant_axis(normal_)) {
+  if (exactly_flat_) {
+    apex_ = points[facet.triangles[0][0]];
+    double extent = 1;
+    for (const auto& t : facet.triangles) extent = std::max(extent, length(points[t[1]] - apex_));
+    int exponent = 0;
+    std::frexp(extent, &exponent);
+    const double up = std::ldexp(1.0, std::min(exponent, 50));
+    (axis_ == 0   ? apex_.x
+     : axis_ == 1 ? apex_.y
+                  : apex_.z) += std::copysign(up, as_array(normal_)[static_cast<std::size_t>(axis_)]);
+  } else {
+    apex_ = {0, 0, 0x1p50};
+    const Point3 n = turned(normal_, axis_);
+    const double rise_s = -n.x / n.z, rise_t = -n.y / n.z;
+    first_ = std::sqrt(1 + rise_s * rise_s);
+    shear_ = rise_s * rise_t / first_;
+    second_ = std::copysign(std::sqrt(1 + rise_t * rise_t - shear_ * shear_), n.z);
+  }
+}
+
+/// With the other two coordinates (s, t) and the heights that the plane has there, the distances are those of a linear
+/// image of (s, t), which loses no orientation.
+Point3 FacetPlane::flattened(const Point3& p) const {
+  const Point3 s = turned(p, axis_);
+  return {numbers::round_to_unit(0.25 * (first_ * s.x + shear_ * s.y)), numbers::round_to_unit(0.25 * second_ * s.y),
+          0};
+}
+
+Point3 FacetPlane::at(VertexId v) const {
+  return exactly_flat_ ? points_[v] : flattened(points_[v]);
+}
+
+int FacetPlane::orient(VertexId a, VertexId b, VertexId c) const {
+  return numbers::orient3d(at(a), at(b), at(c), apex_);
+}
+
+int FacetPlane::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+  return numbers::incircle_perturbed(at(a), at(b), at(c), apex_, at(d), {a, b, c, d});
+}
+
+FacetTriangulation::FacetTriangulation(const plc::Facet& facet, const std::vector<planar::Edge>& segments,
+                                       const std::vector<Point3>& points)
+    : plane_(facet, points), t_(planar::from_triangles(facet.triangles, segments)) {
+  planar::legalize(t_, plane_);
+  if (facet.exactly_flat) {
+    if (const auto steps = plc::steps_of_facet(facet, points)) patches_.push_back({{}, *steps});
+    return;
+  }
+  for (const auto& t : facet.triangles) {
+    const auto corners = corners_of(t, points);
+    patches_.push_back({corners, plc::steps_in_plane(corners[0], corners[1], corners[2])});
+  }
+}
+
+std::optional<Point3> FacetTriangulation::snap(const Point3& p, double furthest) const {
+  if (patches_.empty()) return std::nullopt;
+  const Patch* patch = patches_.data();
+  if (patches_.size() > 1) {
+    double greatest = -HUGE_VAL;
+    for (const Patch& other : patches_) {
+      const double weight = least_weight(other.corners, p);
+      if (weight <= greatest) continue;
+      greatest = weight;
+      patch = &other;
+    }
+  }
+  const Point3 snapped = nearest_in_plane(patch->steps, p);
+  if (!(squared_length(snapped - p) <= furthest * furthest)) return std::nullopt;
+  return snapped;
+}
+
+WalkEnd FacetTriangulation::walk(std::uint32_t from, VertexId to) const {
+  constexpr int most_steps = 1000;
+  std::uint32_t triangle = from;
+  for (int steps = 0; steps < most_steps; ++steps) {
+    const std::array<int, 3> signs = planar::signs_at_edges(t_, triangle, to, plane_);
+    if (planar::is_within(signs)) return {triangle, {}};
+    // Another edge first at each step, so that the walk cannot go in circles for long; walls last.
+    std::optional<Side> exit;
+    for (int i = 0; i < 3; ++i) {
+      const Side side{triangle, static_cast<std::uint32_t>(i + steps) % 3};
+      if (signs[side.corner] >= 0) continue;
+      const bool is_wall = planar::is_constrained(t_, side) || planar::neighbor(t_, side) == planar::none;
+      if (is_wall) return {triangle, side};
+      if (!exit) exit = side;
+    }
+    triangle = planar::neighbor(t_, *exit);
+  }
+  return {};
+}
+
+bool FacetTriangulation::insert(VertexId v, std::uint32_t triangle) {
+  const std::array<int, 3> signs = planar::signs_at_edges(t_, triangle, v, plane_);
+  const auto zeros = std::ranges::count(signs, 0);
+  if (zeros > 1) return false;
+  if (zeros == 1) {
+    const Side side{triangle, static_cast<std::uint32_t>(std::ranges::find(signs, 0) - signs.begin())};
+    if (planar::is_constrained(t_, side) || planar::neighbor(t_, side) == planar::none) return false;
+    planar::split_side(t_, side, v, plane_);
+    return true;
+  }
+  const auto [a, b, c] = t_.triangles[triangle];
+  const planar::Adjacency bc = planar::adjacency_at(t_, {triangle, 0}), ca = planar::adjacency_at(t_, {triangle, 1}),
+                          ab = planar::adjacency_at(t_, {triangle, 2});
+  const std::uint32_t second = planar::append_triangle(t_, b, c, v), third = planar::append_triangle(t_, c, a, v);
+  planar::set_corners(t_, triangle, a, b, v);
+  planar::attach(t_, {triangle, 2}, ab);
+  planar::attach(t_, {second, 2}, bc);
+  planar::attach(t_, {third, 2}, ca);
+  planar::join(t_, {triangle, 0}, {second, 1}, false);
+  planar::join(t_, {second, 0}, {third, 1}, false);
+  planar::join(t_, {third, 0}, {triangle, 1}, false);
+  std::vector<std::uint32_t> stack = {planar::pack({triangle, 2}), planar::pack({second, 2}), planar::pack({third, 2})};
+  planar::legalize_from(t_, stack, plane_);
+  return true;
+}
+
+}  // namespace ccdt::refine

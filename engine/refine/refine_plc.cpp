@@ -1,0 +1,411 @@
+#include "engine/refine/refine_plc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "engine/base/simplex_map.h"
+#include "engine/delaunay/insertion.h"
+#include "engine/refine/facet_triangulation.h"
+#include "engine/refine/surface_sizes.h"
+
+namespace ccdt::refine {
+namespace {
+
+using planar::Side;
+using protection::ChainVertex;
+using protection::whole_segment;
+
+/// A triangle is too large if its circumradius is more than this times the wanted length; 0.58 times is the radius of
+/// the equilateral triangle of that length.
+constexpr double largest_radius = 0.75;
+
+/// A triangle is badly shaped if its circumradius is more than this times its shortest edge: an angle is below 30
+/// degrees.
+constexpr double worst_shape = 1;
+
+/// No vertex is nearer to another than this times the wanted length.
+constexpr double least_distance = 0.4;
+
+/// An edge of a segment is halved for the sake of the triangles if it is longer than this times the wanted length.
+constexpr double least_halved = 1.1;
+
+/// A vertex encroaches on an edge of a segment that it sees under an angle of more than 120 degrees.
+constexpr double encroaching_cosine = -0.5;
+
+/// A new vertex may be that far from where it is wanted, as a fraction of the wanted length.
+constexpr double most_shift = 0.2;
+
+struct Shape {
+  Point3 circumcenter;
+  double radius = 0, shortest = 0;
+  std::uint32_t corner = 0;  ///< opposite to the shortest edge
+};
+
+Shape shape_of(const std::array<Point3, 3>& t) {
+  Shape shape;
+  shape.shortest = HUGE_VAL;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const double edge = squared_length(t[(i + 2) % 3] - t[(i + 1) % 3]);
+    if (edge >= shape.shortest) continue;
+    shape.shortest = edge;
+    shape.corner = i;
+  }
+  shape.shortest = std::sqrt(shape.shortest);
+  const Point3 u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
+  const Point3 offset = (0.5 / squared_length(n)) * (squared_length(u) * cross(v, n) + squared_length(v) * cross(n, u));
+  shape.circumcenter = t[0] + offset;
+  shape.radius = length(offset);
+  return shape;
+}
+
+class Refiner {
+ public:
+  Refiner(plc::Plc plc, const RefineOptions& options, const Progress& progress)
+      : plc_(std::move(plc)),
+        sizes_(plc_, options.edge_length, options.grading),
+        progress_(progress),
+        points_(plc_.vertices),
+        facets_of_segment_(plc_.segments.size()) {
+    std::vector<std::array<VertexId, 2>> edges;
+    for (const plc::Segment& s : plc_.segments) edges.push_back(s.ends);
+    segment_of_edge_ = EdgeMap(edges, plc_.vertices.size());
+    place_.resize(plc_.vertices.size());
+    for (const Point3& p : points_) wanted_.push_back(sizes_.at(p));
+  }
+
+  RefinedPlc run() {
+    make_facets();
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) divide(s);
+    for (std::uint32_t f = 0; f < facets_.size(); ++f)
+      for (std::uint32_t t = 0; t < triangulation(f).triangles.size(); ++t) enter(f, t);
+    refine();
+    return take();
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+  /// Where a vertex was added.
+  struct PlaceOfVertex {
+    std::uint32_t segment = none, fraction = 0;
+    std::uint32_t facet = none;
+  };
+
+  const planar::Triangulation& triangulation(std::uint32_t facet) const { return facets_[facet].triangulation(); }
+
+  std::array<Point3, 3> corners(std::uint32_t facet, std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangulation(facet).triangles[triangle];
+    return {points_[a], points_[b], points_[c]};
+  }
+
+  void make_facets() {
+    facets_.reserve(plc_.facets.size());
+    for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
+      std::vector<planar::Edge> segments;
+      for (const auto& t : plc_.facets[f].triangles) {
+        for (int i = 0; i < 3; ++i) {
+          const std::uint32_t s = segment_of_edge_.find(t[i], t[(i + 1) % 3]);
+          if (s == EdgeMap::none) continue;
+          segments.push_back(plc_.segments[s].ends);
+          if (facets_of_segment_[s].empty() || facets_of_segment_[s].back() != f) facets_of_segment_[s].push_back(f);
+        }
+      }
+      facets_.emplace_back(plc_.facets[f], segments, points_);
+    }
+  }
+
+  // ---- Segments -----------------------------------------------------------------------------------------------------
+
+  Point3 at_fraction(std::uint32_t segment, std::uint32_t fraction) const {
+    const auto& [a, b] = plc_.segments[segment].ends;
+    // The ends are multiples of 2^20, so that this is exact.
+    return points_[a] + fraction * ((1.0 / whole_segment) * (points_[b] - points_[a]));
+  }
+
+  /// Puts vertices on a segment at nearly equal intervals, where they are measured by the wanted lengths.
+  void divide(std::uint32_t segment) {
+    const double whole = length(at_fraction(segment, whole_segment) - at_fraction(segment, 0));
+    std::vector<std::pair<double, double>> passed = {{0, 0}};  // fraction of the length, wanted edges up to there
+    for (double t = 0; t < 1;) {
+      const Point3 p = at_fraction(segment, static_cast<std::uint32_t>(t * whole_segment));
+      const double step = std::min(0.25 * sizes_.at(p) / whole, 1 - t);
+      const Point3 middle = at_fraction(segment, static_cast<std::uint32_t>((t + step / 2) * whole_segment));
+      t = 1 - t - step < 1e-9 ? 1 : t + step;
+      passed.emplace_back(t, passed.back().second + step * whole / sizes_.at(middle));
+    }
+    const auto pieces = static_cast<std::uint32_t>(std::max(1.0, std::nearbyint(passed.back().second)));
+    std::size_t i = 0;
+    std::uint32_t last = 0;
+    for (std::uint32_t piece = 1; piece < pieces; ++piece) {
+      const double wanted = passed.back().second * piece / pieces;
+      while (passed[i + 1].second < wanted) ++i;
+      const auto& [from, before] = passed[i];
+      const auto& [to, after] = passed[i + 1];
+      const double t = from + (to - from) * (wanted - before) / (after - before);
+      const auto fraction = static_cast<std::uint32_t>(std::nearbyint(t * whole_segment));
+      if (fraction <= last || fraction >= whole_segment) continue;
+      add_on_segment(segment, last_on(segment, last), VertexId(plc_.segments[segment].ends[1]), fraction);
+      last = fraction;
+    }
+  }
+
+  VertexId last_on(std::uint32_t segment, std::uint32_t fraction) const {
+    return fraction == 0 ? plc_.segments[segment].ends[0] : VertexId(points_.size() - 1);
+  }
+
+  /// Splits the edge ab of a segment.
+  VertexId add_on_segment(std::uint32_t segment, VertexId a, VertexId b, std::uint32_t fraction) {
+    const VertexId v(points_.size());
+    points_.push_back(at_fraction(segment, fraction));
+    place_.push_back({segment, fraction, none});
+    wanted_.push_back(sizes_.at(points_.back()));
+    for (const std::uint32_t f : facets_of_segment_[segment]) facets_[f].split(a, b, v);
+    return v;
+  }
+
+  std::uint32_t fraction_of(std::uint32_t segment, VertexId v) const {
+    if (v == plc_.segments[segment].ends[0]) return 0;
+    return v == plc_.segments[segment].ends[1] ? whole_segment : place_[v].fraction;
+  }
+
+  std::uint32_t segment_of(VertexId a, VertexId b) const {
+    for (const VertexId v : {a, b})
+      if (place_[v].segment != none) return place_[v].segment;
+    return segment_of_edge_.find(a, b);
+  }
+
+  /// Halves an edge of a segment if that is long enough.
+  bool halve(VertexId a, VertexId b) {
+    if (length(points_[b] - points_[a]) < least_halved * 0.5 * (wanted_[a] + wanted_[b])) return false;
+    const std::uint32_t segment = segment_of(a, b);
+    const std::uint32_t from = fraction_of(segment, a), to = fraction_of(segment, b);
+    const std::uint32_t half = std::min(from, to) + (std::max(from, to) - std::min(from, to)) / 2;
+    if (half == std::min(from, to)) return false;
+    const VertexId v = add_on_segment(segment, a, b, half);
+    for (const std::uint32_t f : facets_of_segment_[segment]) enter_around(f, v);
+    return true;
+  }
+
+  // ---- Facets -------------------------------------------------------------------------------------------------------
+
+  struct BadTriangle {
+    double badness;
+    std::uint32_t facet, triangle;
+    std::array<VertexId, 3> vertices;
+
+    bool operator<(const BadTriangle& o) const {
+      return std::tie(badness, facet, triangle) < std::tie(o.badness, o.facet, o.triangle);
+    }
+  };
+
+  /// Is the smallest angle one between segments? Then nothing helps.
+  bool has_input_angle(const planar::Triangulation& t, std::uint32_t triangle, std::uint32_t corner) const {
+    return t.constrained[triangle][planar::next_corner(corner)] &&
+           t.constrained[triangle][planar::previous_corner(corner)];
+  }
+
+  double wanted_in(std::uint32_t facet, std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangulation(facet).triangles[triangle];
+    return (wanted_[a] + wanted_[b] + wanted_[c]) / 3;
+  }
+
+  /// How bad a triangle is, from 1; too large ones come first. 0: good.
+  double badness_of(std::uint32_t facet, std::uint32_t triangle) const {
+    const std::array<Point3, 3> t = corners(facet, triangle);
+    const Shape shape = shape_of(t);
+    const double wanted = wanted_in(facet, triangle);
+    if (shape.radius > largest_radius * wanted) return 1e6 + shape.radius / wanted;
+    if (shape.radius <= worst_shape * shape.shortest) return 0;
+    return has_input_angle(triangulation(facet), triangle, shape.corner) ? 0 : shape.radius / shape.shortest;
+  }
+
+  void enter(std::uint32_t facet, std::uint32_t triangle) {
+    const double badness = badness_of(facet, triangle);
+    if (badness > 0) queue_.push({badness, facet, triangle, triangulation(facet).triangles[triangle]});
+  }
+
+  void enter_around(std::uint32_t facet, VertexId v) {
+    planar::visit_star(triangulation(facet), v, [&](std::uint32_t triangle, std::uint32_t) {
+      enter(facet, triangle);
+      return false;
+    });
+  }
+
+  void refine() {
+    std::uint64_t done = 0;
+    while (!queue_.empty()) {
+      if ((++done & 0xFFF) == 0) report(progress_, "refine", done, 0);
+      const BadTriangle bad = queue_.top();
+      queue_.pop();
+      if (triangulation(bad.facet).triangles[bad.triangle] != bad.vertices) continue;
+      // A vertex on a segment may leave the triangle as it is.
+      while (mend(bad.facet, bad.triangle) && triangulation(bad.facet).triangles[bad.triangle] == bad.vertices) {
+      }
+    }
+  }
+
+  /// Tries to put a vertex where it makes a bad triangle disappear. False if nothing has changed.
+  bool mend(std::uint32_t facet, std::uint32_t triangle) {
+    const std::array<Point3, 3> t = corners(facet, triangle);
+    const Shape shape = shape_of(t);
+    const Point3 middle = 0.5 * (t[(shape.corner + 1) % 3] + t[(shape.corner + 2) % 3]);
+    const Point3 up = shape.circumcenter - middle;
+    const double wanted = wanted_in(facet, triangle), height = length(up);
+    // With the shortest edge an even triangle of the wanted length (Rebay 1993), or of its own (Uengoer 2009).
+    const double even =
+        std::max(wanted * wanted - 0.25 * shape.shortest * shape.shortest, 0.75 * shape.shortest * shape.shortest);
+    if (height * height > even && put(facet, triangle, middle + (std::sqrt(even) / height) * up)) return true;
+    return put(facet, triangle, shape.circumcenter);
+  }
+
+  /// Puts a vertex at a place in a facet, or halves an edge of a segment that is in the way. False if neither can be.
+  bool put(std::uint32_t facet, std::uint32_t triangle, const Point3& place) {
+    FacetTriangulation& f = facets_[facet];
+    const double wanted = wanted_in(facet, triangle);
+    const std::optional<Point3> p = f.snap(place, most_shift * wanted);
+    if (!p) return false;
+    const VertexId v(points_.size());
+    points_.push_back(*p);
+    const WalkEnd end = f.walk(triangle, v);
+    const std::optional<Side> wall = end.wall ? end.wall : encroached(facet, end.triangle, v);
+    if (wall || end.triangle == planar::none || is_too_near(facet, end.triangle, v, wanted) ||
+        !f.insert(v, end.triangle)) {
+      points_.pop_back();
+      return wall && halve(planar::edge_start(f.triangulation(), *wall), planar::edge_end(f.triangulation(), *wall));
+    }
+    place_.push_back({none, 0, facet});
+    wanted_.push_back(sizes_.at(*p));
+    enter_around(facet, v);
+    return true;
+  }
+
+  /// Calls visit(triangle) for the triangles whose circumcircle has the vertex.
+  template <class Visit>
+  void visit_cavity(std::uint32_t facet, std::uint32_t triangle, VertexId v, const Visit& visit) {
+    const planar::Triangulation& t = triangulation(facet);
+    cavity_.assign(1, triangle);
+    for (std::size_t i = 0; i < cavity_.size(); ++i) {
+      visit(cavity_[i]);
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        const std::uint32_t next = t.neighbors[cavity_[i]][corner];
+        if (next == planar::none || t.constrained[cavity_[i]][corner] || std::ranges::count(cavity_, next) > 0)
+          continue;
+        const auto& [a, b, c] = t.triangles[next];
+        if (facets_[facet].plane().incircle(a, b, c, v) > 0) cavity_.push_back(next);
+      }
+    }
+  }
+
+  /// The edge of a segment that the vertex would encroach on most.
+  std::optional<Side> encroached(std::uint32_t facet, std::uint32_t triangle, VertexId v) {
+    std::optional<Side> worst;
+    if (triangle == planar::none) return worst;
+    double least = encroaching_cosine;
+    const planar::Triangulation& t = triangulation(facet);
+    visit_cavity(facet, triangle, v, [&](std::uint32_t in_cavity) {
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        const Side side{in_cavity, corner};
+        if (!planar::is_constrained(t, side)) continue;
+        const Point3 a = points_[planar::edge_start(t, side)] - points_[v],
+                     b = points_[planar::edge_end(t, side)] - points_[v];
+        const double cosine = dot(a, b) / std::sqrt(squared_length(a) * squared_length(b));
+        if (cosine >= least) continue;
+        least = cosine;
+        worst = side;
+      }
+    });
+    return worst;
+  }
+
+  bool is_too_near(std::uint32_t facet, std::uint32_t triangle, VertexId v, double wanted) {
+    double least = HUGE_VAL;
+    visit_cavity(facet, triangle, v, [&](std::uint32_t in_cavity) {
+      for (const VertexId u : triangulation(facet).triangles[in_cavity])
+        least = std::min(least, squared_length(points_[u] - points_[v]));
+    });
+    return least < least_distance * least_distance * wanted * wanted;
+  }
+
+  // ---- Result -------------------------------------------------------------------------------------------------------
+
+  /// Gives the vertices their ids: those in facets first.
+  RefinedPlc take() {
+    RefinedPlc result;
+    const auto of_input = static_cast<std::uint32_t>(plc_.vertices.size());
+    std::vector<std::uint32_t> in_facets;
+    std::vector<std::vector<ChainVertex>> inside(plc_.segments.size());
+    const std::span<const Point3> added = std::span(points_).subspan(of_input);
+    for (const std::uint32_t i : delaunay::hilbert_order(added)) {  // neighbors are near in it: searches are short
+      const std::uint32_t v = of_input + i;
+      if (place_[v].segment != none) continue;
+      plc_.vertices.push_back(points_[v]);
+      plc_.world.push_back(plc_.grid.to_world(points_[v]));
+      in_facets.push_back(v);
+    }
+    for (std::uint32_t v = of_input; v < points_.size(); ++v) {
+      if (place_[v].segment == none) continue;
+      const VertexId id(plc_.vertices.size() + result.on_segments.size());
+      inside[place_[v].segment].push_back({id, place_[v].fraction, 0});
+      result.on_segments.push_back(points_[v]);
+    }
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
+      auto& chain = inside[s];
+      chain.push_back({plc_.segments[s].ends[0], 0, 0});
+      chain.push_back({plc_.segments[s].ends[1], whole_segment, 0});
+      std::ranges::sort(chain, {}, &ChainVertex::fraction);
+    }
+    result.chains = std::move(inside);
+    retriangulate(in_facets, of_input);
+    result.plc = std::move(plc_);
+    return result;
+  }
+
+  /// Triangulates the facets with the vertices inside them, but without those on segments, as a PLC has it.
+  void retriangulate(const std::vector<std::uint32_t>& in_facets, std::uint32_t of_input) {
+    facets_.clear();
+    std::vector<std::vector<VertexId>> vertices_of(plc_.facets.size());
+    for (std::uint32_t i = 0; i < in_facets.size(); ++i)
+      vertices_of[place_[in_facets[i]].facet].push_back(VertexId(of_input + i));
+    for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
+      plc::Facet& facet = plc_.facets[f];
+      if (vertices_of[f].empty()) continue;
+      std::vector<planar::Edge> segments;
+      for (const auto& t : facet.triangles)
+        for (int i = 0; i < 3; ++i)
+          if (segment_of_edge_.find(t[i], t[(i + 1) % 3]) != EdgeMap::none) segments.push_back({t[i], t[(i + 1) % 3]});
+      FacetTriangulation triangulation(facet, segments, plc_.vertices);
+      std::uint32_t near = 0;
+      for (const VertexId v : vertices_of[f]) {
+        const WalkEnd end = triangulation.walk(near, v);
+        triangulation.insert(v, end.wall || end.triangle == planar::none ? triangulation.find(v) : end.triangle);
+        near = triangulation.triangulation().triangle_of_vertex.get(v, 0);
+      }
+      facet.triangles = triangulation.triangulation().triangles;
+    }
+  }
+
+  plc::Plc plc_;
+  SurfaceSizes sizes_;
+  const Progress& progress_;
+  std::vector<Point3> points_;        // with those that were added
+  std::vector<PlaceOfVertex> place_;  // of each
+  std::vector<double> wanted_;        // length of edges at each
+  EdgeMap segment_of_edge_;
+  std::vector<std::vector<std::uint32_t>> facets_of_segment_;
+  std::vector<FacetTriangulation> facets_;
+  std::priority_queue<BadTriangle> queue_;
+  std::vector<std::uint32_t> cavity_;  // working memory
+};
+
+}  // namespace
+
+RefinedPlc refine_plc(plc::Plc plc, const RefineOptions& options, const Progress& progress) {
+  return Refiner(std::move(plc), options, progress).run();
+}
+
+}  // namespace ccdt::refine

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/base/point.h"
+#include "engine/base/progress.h"
+#include "engine/plc/plc.h"
+#include "engine/protection/segment_chains.h"
+
+namespace ccdt::refine {
+
+struct RefineOptions {
+  double edge_length = 0;  ///< longest edges that are wanted, in grid units; has to be positive
+  double grading = 0.5;    ///< growth of the edge length per unit of distance from where it has to be short
+};
+
+/// A PLC with more vertices and the same geometry.
+struct RefinedPlc {
+  plc::Plc plc;                      ///< the vertices that were added inside facets follow those of the input
+  protection::SegmentChains chains;  ///< the vertices that were added inside segments
+  std::vector<Point3> on_segments;   ///< these, in the order of their ids, which follow those of `plc`
+};
+
+/// Gives facets and segments the vertices with which their triangles are well shaped and have edges of a wanted length
+/// (`SurfaceSizes`): segments are divided first, then each facet is refined by circumcenters of its worst triangles
+/// (Chew 1993, Ruppert 1995, Shewchuk 2002).
+///
+/// A vertex inside a segment is a dyadic fraction of it, and one inside a facet a corner of it plus integer multiples
+/// of two steps in its plane (`plc::PlaneSteps`), so all are exactly in place. In a facet that is flat only within the
+/// tolerance, they are exactly in one of its triangles' planes.
+///
+/// It ends at all angles: no edge is halved when it is shorter than the length that is wanted there, and no vertex is
+/// put nearer to another one than a part of that length.
+RefinedPlc refine_plc(plc::Plc plc, const RefineOptions& options, const Progress& progress = {});
+
+}  // namespace ccdt::refine

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/base/portable_math.h"
+#include "engine/numbers/predicates.h"
+#include "engine/refine/refine_plc.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "models/solids.h"
+
+namespace ccdt::refine {
+namespace {
+
+using namespace mesh_test;
+
+struct Refined {
+  plc::Plc before;
+  RefinedPlc after;
+};
+
+/// \param edge_length  in the units of the input
+Refined refined(const InputPlc& input, double edge_length) {
+  Refined r;
+  r.before = plc::build_plc(input);
+  r.after = refine_plc(r.before, {edge_length / r.before.grid.unit});
+  return r;
+}
+
+std::vector<Point3> all_points(const RefinedPlc& refined) {
+  std::vector<Point3> points = refined.plc.vertices;
+  points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
+  return points;
+}
+
+std::array<Point3, 3> corners(const std::array<VertexId, 3>& t, const std::vector<Point3>& points) {
+  return {points[t[0]], points[t[1]], points[t[2]]};
+}
+
+double area_of(const plc::Facet& facet, const std::vector<Point3>& points) {
+  double area = 0;
+  for (const auto& t : facet.triangles) area += length(area_vector(corners(t, points))) / 2;
+  return area;
+}
+
+void expect_exactly_in_place(const Refined& r) {
+  const plc::Plc &before = r.before, &after = r.after.plc;
+  const std::vector<Point3> points = all_points(r.after);
+  ASSERT_EQ(after.facets.size(), before.facets.size());
+  ASSERT_EQ(r.after.chains.size(), before.segments.size());
+  for (std::size_t f = 0; f < before.facets.size(); ++f) {
+    EXPECT_NEAR(area_of(after.facets[f], points) / area_of(before.facets[f], points), 1, 1e-12);
+    if (!before.facets[f].exactly_flat) continue;
+    const auto plane = corners(before.facets[f].triangles[0], points);
+    for (const auto& t : after.facets[f].triangles)
+      for (const VertexId v : t) EXPECT_EQ(numbers::orient3d(plane[0], plane[1], plane[2], points[v]), 0);
+  }
+  for (std::size_t s = 0; s < before.segments.size(); ++s) {
+    const auto& chain = r.after.chains[s];
+    EXPECT_EQ(chain.front().vertex, before.segments[s].ends[0]);
+    EXPECT_EQ(chain.back().vertex, before.segments[s].ends[1]);
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+      EXPECT_LT(chain[i - 1].fraction, chain[i].fraction);
+      EXPECT_GE(chain[i].vertex, after.vertices.size());
+      EXPECT_TRUE(
+          numbers::collinear(points[chain.front().vertex], points[chain[i].vertex], points[chain.back().vertex]));
+    }
+  }
+}
+
+double longest_piece(const RefinedPlc& refined) {
+  const std::vector<Point3> points = all_points(refined);
+  double longest = 0;
+  for (const auto& chain : refined.chains)
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      longest = std::max(longest, length(points[chain[i + 1].vertex] - points[chain[i].vertex]));
+  return longest * refined.plc.grid.unit;
+}
+
+/// A prism over a triangle with a small angle.
+InputPlc wedge(double width) {
+  return plc_test::prism({{0, 0}, {10, 0}, {10, width}});
+}
+
+/// In degrees, of the faces of a mesh.
+double least_angle_of_faces(const TetMesh& mesh) {
+  double least = 180;
+  for (const auto& f : mesh.faces)
+    for (int i = 0; i < 3; ++i)
+      least =
+          std::min(least, angle_at(mesh.vertices[f[i]], mesh.vertices[f[(i + 1) % 3]], mesh.vertices[f[(i + 2) % 3]]) *
+                              180 / portable::pi);
+  return least;
+}
+
+MeshOptions refining(double edge_length) {
+  MeshOptions options;
+  options.refine_surface = true;
+  options.edge_length = edge_length;
+  return options;
+}
+
+TEST(Refine, NewVerticesAreExactlyOnFacetsAndSegments) {
+  for (const auto& [name, plc] : small_inputs()) {
+    SCOPED_TRACE(name);
+    expect_exactly_in_place(refined(plc, 0.4));
+    expect_exactly_in_place(refined(rotated(oblique, plc), 0.4));
+  }
+}
+
+TEST(Refine, ACubeGetsEvenTriangles) {
+  MeshOptions options = refining(0.2);
+  options.lattice = Lattice::none;
+  const MeshResult r = mesh_plc(unit_cube(), options);
+  EXPECT_GT(r.counts.refined_in_facets, 60u);
+  EXPECT_EQ(r.counts.refined_on_segments, 48u);
+  EXPECT_GE(least_angle_of_faces(r.mesh), 29);
+}
+
+TEST(Refine, VerticesThatSplitSegmentsAreNoSteinerVertices) {
+  EXPECT_EQ(mesh_plc(unit_cube(), refining(0.2)).counts.steiner_vertices, 0u);
+}
+
+TEST(Refine, EdgesOfAThinPlateFitItsThickness) {
+  EXPECT_LE(longest_piece(refined(box({0, 0, 0}, {2, 2, 0.1}), 0.5).after), 0.2);
+}
+
+TEST(Refine, VerticesInsideFacetsGetEdgesThatFit) {
+  InputPlc plc = unit_cube();
+  plc.vertices.push_back({0.5, 0.02, 0});  // near an edge
+  std::erase(plc.triangles, std::array<std::uint32_t, 3>{0, 2, 3});
+  std::erase(plc.triangles, std::array<std::uint32_t, 3>{0, 3, 1});
+  for (const auto& [a, b] : {std::array{0u, 2u}, {2u, 3u}, {3u, 1u}, {1u, 0u}}) plc.triangles.push_back({a, b, 8});
+  MeshOptions options = refining(0.3);
+  options.lattice = Lattice::none;
+  EXPECT_GE(least_angle_of_faces(mesh_plc(plc, options).mesh), 25);
+}
+
+TEST(Refine, EndsAtSmallAngles) {
+  for (const double width : {1.0, 0.1, 0.001}) {
+    SCOPED_TRACE(width);
+    const Refined r = refined(wedge(width), 0.5);
+    expect_exactly_in_place(r);
+    EXPECT_LT(all_points(r.after).size(), 10000u);
+  }
+}
+
+TEST(Refine, MeshesAreVerifiedAgainstTheInputAsItWas) {
+  for (const auto& [name, plc] : small_inputs()) {
+    for (const InputPlc& input : {plc, rotated(oblique, plc)}) {
+      SCOPED_TRACE(name);
+      MeshOptions options = refining(0.5);
+      expect_right(input, mesh_plc(input, options).mesh);
+      options.lattice = Lattice::none;
+      expect_verified(input, mesh_plc(input, options).mesh);
+    }
+  }
+}
+
+TEST(Refine, StrategiesAgree) {
+  const InputPlc plc = rotated(oblique, models::make_solid("bracket", 11));
+  MeshOptions options = refining(5);
+  options.improve.improvement = Improvement::none;
+  const TetMesh usual = mesh_plc(plc, options).mesh;
+  expect_verified(plc, usual);
+  for (const LocatorKind locator : {LocatorKind::octree, LocatorKind::grid}) {
+    options.locator = locator;
+    options.face_protection = false;
+    options.delaunay = DelaunayMethod::wrap;
+    expect_same_cells(usual, mesh_plc(plc, options).mesh);
+  }
+}
+
+TEST(Refine, ImprovementKeepsTheVerticesOfTheInput) {
+  const InputPlc plc = models::make_solid("bracket", 11);
+  const MeshResult r = mesh_plc(plc, refining(5));
+  EXPECT_GT(r.counts.improve.moved_vertices, 0u);
+  expect_right(plc, r.mesh);
+}
+
+}  // namespace
+}  // namespace ccdt::refine
