@@ -126,7 +126,10 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   if (asked.verify && record.status == baselines::RunStatus::ok) verify_run(place, measured, files, record);
   if (record.status == baselines::RunStatus::ok && !asked.mesh_ending.empty()) keep_mesh(place, measured, scratch);
   std::filesystem::create_directories(folder / "runs");
-  bench::write_run_record(record, folder / file);
+  // Written in the scratch folder, so that a kill leaves nothing beside the records.
+  const auto written = scratch.file("run.json");
+  bench::write_run_record(record, written);
+  std::filesystem::rename(written, folder / file);
   add_run(measured, std::move(record));
 }
 
