@@ -13,6 +13,7 @@
 #include "engine/locate/cavity_locator.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
+#include "engine/numbers/predicates.h"
 
 namespace ccdt::front {
 namespace {
@@ -31,21 +32,26 @@ struct OrientedFaceTraits {
   }
 };
 
+/// Which vertices are tried for an apex: those near the face, or all.
+enum class Search { near, full };
+
 /// Finds the vertex that makes the tetrahedron above a face. Here with a locator of the whole model, so that there is
 /// only one cavity.
 template <class Locator>
 class WholeModelFinder {
  public:
-  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator)
-      : facets_(facets), d_(delaunay), locator_(locator) {}
+  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator,
+                   NearVertices& near)
+      : facets_(facets), d_(delaunay), locator_(locator), near_(near) {}
 
   /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
-  std::optional<std::uint32_t> find(const OrientedFace& face, std::uint32_t& /*cavity*/) const {
-    return find_apex(locator_, facets_, d_, face);
+  std::optional<std::uint32_t> find(const OrientedFace& face, Search search, std::uint32_t& /*cavity*/) const {
+    return search == Search::near ? find_near_apex(locator_, facets_, d_, face, near_)
+                                  : find_apex(locator_, facets_, d_, face);
   }
 
   std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
-  std::size_t bytes() const { return locator_.bytes(); }
+  std::size_t bytes() const { return locator_.bytes() + near_.bytes(); }
 
   /// The triangles that the front can meet.
   std::vector<std::uint32_t> triangles() const { return all_indices(facets_.triangles.size()); }
@@ -54,6 +60,7 @@ class WholeModelFinder {
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   Locator locator_;
+  NearVertices& near_;
 };
 
 /// The same, cavity by cavity.
@@ -61,10 +68,15 @@ class CavityFinder {
  public:
   /// \param all_faces  may the front hold Delaunay faces, outside of the cavities too?
   CavityFinder(const facets::FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool all_faces,
-               const delaunay::Delaunay& delaunay, delaunay::CellStar& star)
-      : facets_(facets), d_(delaunay), star_(star), all_faces_(all_faces), locator_(facets, codes, delaunay, star) {}
+               const delaunay::Delaunay& delaunay, delaunay::CellStar& star, NearVertices& near)
+      : facets_(facets),
+        d_(delaunay),
+        star_(star),
+        near_(near),
+        all_faces_(all_faces),
+        locator_(facets, codes, delaunay, star) {}
 
-  std::optional<std::uint32_t> find(const OrientedFace& face, std::uint32_t& cavity) {
+  std::optional<std::uint32_t> find(const OrientedFace& face, Search search, std::uint32_t& cavity) {
     if (all_faces_) {
       const auto& [a, b, c] = face.corners;
       if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
@@ -74,11 +86,12 @@ class CavityFinder {
       }
     }
     if (cavity == no_cavity) return std::nullopt;
-    return find_apex(locator_.cavity(cavity), facets_, d_, face);
+    return search == Search::near ? find_near_apex(locator_.cavity(cavity), facets_, d_, face, near_)
+                                  : find_apex(locator_.cavity(cavity), facets_, d_, face);
   }
 
   std::uint32_t cavity_of_triangle(std::uint32_t triangle) const { return locator_.cavity_of_triangle(triangle); }
-  std::size_t bytes() const { return locator_.bytes(); }
+  std::size_t bytes() const { return locator_.bytes() + near_.bytes(); }
 
   std::vector<std::uint32_t> triangles() const {
     return all_faces_ ? all_indices(facets_.triangles.size()) : locator_.triangles();
@@ -88,6 +101,7 @@ class CavityFinder {
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   delaunay::CellStar& star_;
+  NearVertices& near_;
   bool all_faces_;
   locate::CavityLocator locator_;
 };
@@ -115,13 +129,18 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 
 /// The front: sides of PLC faces as bits, because most of them are Delaunay and never looked at again; a table for
 /// those that the front may meet and for the faces that it makes.
+///
+/// The vertices near a face nearly always have its apex, but not surely. That the tetrahedra fit proves them right:
+/// they are positive, share their faces, end at the facets, and their inner faces are locally Delaunay, so they are the
+/// constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk 2008). Where one does not fit, its apex is
+/// searched for among all vertices, and those that it still contradicts are taken back and searched for likewise.
 class Front {
  public:
   Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
       : in_(input), face_protection_(face_protection), star_(star), plc_open_(sides_within(input)) {}
 
   template <class Finder>
-  void advance(Finder&& finder, const Progress& progress) {
+  void advance(Finder finder, const Progress& progress) {
     add_plc_faces(finder);
     finder_bytes_ = finder.bytes();
     std::uint64_t done = 0;
@@ -129,10 +148,7 @@ class Front {
       const OrientedFace face = undelaunay_.back();
       undelaunay_.pop_back();
       State state;
-      if (!close(faces_.find(face), state)) continue;
-      const auto apex = finder.find(face, state.cavity);
-      if (!apex) return fail(face, "the front found no vertex that is visible from a face");
-      add_tetrahedron(face, *apex, state);
+      if (close(faces_.find(face), state)) fill(finder, face, state);
       if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
     }
   }
@@ -143,15 +159,26 @@ class Front {
     for (std::size_t side = 0; side < plc_open_.size(); ++side)
       if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
     note_bytes(bytes_of(plc_open_, undelaunay_, result_.tetrahedra, result_.regions, result_.open) + faces_.bytes() +
-               finder_bytes_);
+               owners_.bytes() + doubts_.bytes() + bytes_of(cavities_) + finder_bytes_);
     faces_.for_each([&](const OrientedFace&, const State& state) {
       if (state.side == no_side) result_.open.push_back(state.face);
     });
+    std::size_t kept = 0;
+    for (std::uint32_t i = 0; i < result_.tetrahedra.size(); ++i) {
+      if (result_.tetrahedra[i] == no_tetrahedron) continue;
+      result_.tetrahedra[kept] = result_.tetrahedra[i];
+      result_.regions[kept++] = result_.regions[i];
+    }
+    result_.tetrahedra.resize(kept);
+    result_.regions.resize(kept);
     return std::move(result_);
   }
 
  private:
+  using Tetrahedron = std::array<std::uint32_t, 4>;
+
   static constexpr std::uint32_t no_side = 0xFFFFFFFFu;
+  static constexpr Tetrahedron no_tetrahedron = {ghost_vertex, ghost_vertex, ghost_vertex, ghost_vertex};
 
   struct State {
     FrontFace face;
@@ -159,9 +186,12 @@ class Front {
     std::uint32_t side = no_side;      // of the PLC, if any: such entries stay when they are closed
   };
 
-  /// Notes that the front is stuck at a face; the first time counts.
+  static OrientedFace base_of(const Tetrahedron& t) { return {t[0], t[1], t[2]}; }
+  static std::array<OrientedFace, 4> faces_of(const Tetrahedron& t) {
+    return {base_of(t), {t[0], t[2], t[3]}, {t[2], t[1], t[3]}, {t[1], t[0], t[3]}};
+  }
+
   void fail(const OrientedFace& face, const char* what) {
-    if (result_.stuck) return;
     Place place;
     place.file = in_.plc.name;
     for (const std::uint32_t v : face.corners)
@@ -187,40 +217,166 @@ class Front {
     result_.undelaunay_faces = undelaunay_.size();
   }
 
+  bool is_open(const State& state) const { return state.side == no_side || plc_open_[state.side]; }
+
   /// Takes a face from the front, if it is there.
   bool close(State* found, State& state) {
-    if (found == nullptr) return false;
+    if (found == nullptr || !is_open(*found)) return false;
     state = *found;
-    if (state.side == no_side) {
+    if (state.side == no_side)
       faces_.erase(found);
-      return true;
+    else
+      plc_open_[state.side] = false;
+    return true;
+  }
+
+  /// Puts a face into the front, for the first time or again.
+  void open(const OrientedFace& face, const State& state) {
+    if (state.side == no_side)
+      faces_.insert(face, state);
+    else
+      plc_open_[state.side] = true;
+    if (state.face.code == no_neighbor) undelaunay_.push_back(face);
+  }
+
+  /// Makes the tetrahedron above a face that was taken from the front, or takes back what is in its way.
+  template <class Finder>
+  void fill(Finder& finder, const OrientedFace& face, State state) {
+    const Search first = doubts_.contains(face) ? Search::full : Search::near;
+    auto apex = finder.find(face, first, state.cavity);
+    const char* problem = problem_of(face, apex, state);
+    if (problem != nullptr && first == Search::near) {
+      doubts_.insert(face);
+      apex = finder.find(face, Search::full, state.cavity);
+      problem = problem_of(face, apex, state);
     }
-    return std::exchange(plc_open_[state.side], false) != 0;
+    if (problem == nullptr) return add_tetrahedron(face, *apex, state);
+    // The face is right if all that it rests on is. Then so is its apex, and what that contradicts is wrong or rests on
+    // what is.
+    open(face, state);
+    if (state.side == no_side) contradict(face.reversed());
+    std::vector<OrientedFace> unsure;
+    for (const std::uint32_t tetrahedron : contradicted_)
+      if (const auto base = first_unsure_base(tetrahedron)) unsure.push_back(*base);
+    if (unsure.empty()) return fail(face, problem);
+    for (const OrientedFace& base : unsure) {
+      doubts_.insert(base);
+      take_back(base);
+    }
+  }
+
+  /// Notes the tetrahedron above a face, if there is one.
+  void contradict(const OrientedFace& face) {
+    if (const std::uint32_t* const owner = owners_.find(face); owner != nullptr) contradicted_.push_back(*owner);
+  }
+
+  bool is_of_plc(const OrientedFace& face) const {
+    const State* const state = faces_.find(face);
+    return state != nullptr && state->side != no_side;
+  }
+
+  /// The base of the tetrahedron, or of the next one among those that it rests on, above which not all vertices were
+  /// tried; none if it rests on the PLC by tetrahedra that are sure.
+  std::optional<OrientedFace> first_unsure_base(std::uint32_t tetrahedron) const {
+    for (;;) {
+      const OrientedFace base = base_of(result_.tetrahedra[tetrahedron]);
+      if (!doubts_.contains(base)) return base;
+      if (is_of_plc(base)) return std::nullopt;
+      tetrahedron = *owners_.find(base.reversed());
+    }
+  }
+
+  /// Why the face and the apex make no constrained Delaunay tetrahedron together with those around them; `nullptr` if
+  /// they do. Notes those that they contradict.
+  const char* problem_of(const OrientedFace& base, std::optional<std::uint32_t> apex, const State& state) {
+    contradicted_.clear();
+    if (!apex) return "the front found no vertex that is visible from a face";
+    const auto& [a, b, c] = base.corners;
+    const Tetrahedron t = {a, b, c, *apex};
+    const char* problem = nullptr;
+    for (const OrientedFace& face : faces_of(t)) {
+      const State* other = faces_.find(face);
+      const bool is_of_plc = face == base ? state.side != no_side : other != nullptr && other->side != no_side;
+      if (owners_.contains(face)) {
+        problem = "two tetrahedra of the front overlap";
+        contradict(face);
+      } else if (is_of_plc && face != base && !is_open(*other)) {
+        problem = "the front passed a facet";
+      } else if (!is_of_plc && is_neighbor_in_sphere(t, face)) {
+        problem = "a tetrahedron of the front is not constrained Delaunay";
+        contradict(face.reversed());
+      }
+    }
+    return problem;
+  }
+
+  /// Is the fourth vertex of the tetrahedron below a face of t in the sphere of t?
+  bool is_neighbor_in_sphere(const Tetrahedron& t, const OrientedFace& face) const {
+    const std::uint32_t* below = owners_.find(face.reversed());
+    if (below == nullptr) return false;
+    const Tetrahedron& its = result_.tetrahedra[*below];
+    const std::uint32_t fourth = *std::ranges::find_if(
+        its, [&](std::uint32_t v) { return std::ranges::find(face.corners, v) == face.corners.end(); });
+    const auto& vertices = in_.delaunay.vertices;
+    const std::array v = {vertices[t[0]], vertices[t[1]], vertices[t[2]], vertices[t[3]], vertices[fourth]};
+    return numbers::insphere_perturbed(v[0].point, v[1].point, v[2].point, v[3].point, v[4].point,
+                                       {v[0].rank, v[1].rank, v[2].rank, v[3].rank, v[4].rank}) >= 0;
   }
 
   void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state) {
     const auto& [a, b, c] = base.corners;
-    result_.tetrahedra.push_back({a, b, c, apex});
+    const Tetrahedron t = {a, b, c, apex};
+    const auto number = static_cast<std::uint32_t>(result_.tetrahedra.size());
+    result_.tetrahedra.push_back(t);
     result_.regions.push_back(state.face.region);
-    // The other faces, with the tetrahedron above them.
-    pass({a, c, apex}, state);
-    pass({c, b, apex}, state);
-    pass({b, a, apex}, state);
+    cavities_.push_back(state.cavity);
+    for (const OrientedFace& face : faces_of(t)) {
+      owners_.insert(face, number);
+      if (!(face == base)) pass(face, state);
+    }
   }
 
-  /// Closes a face that waited for this tetrahedron, or opens its other side (paper, section 5.3).
+  /// Closes a face that waited for a tetrahedron, or opens its other side (paper, section 5.3).
   void pass(const OrientedFace& inner, const State& state) {
-    State* waiting = faces_.find(inner);
-    if (State closed; close(waiting, closed)) return;
-    if (waiting != nullptr) return fail(inner, "the front passed a facet");
+    if (State closed; close(faces_.find(inner), closed)) return;
     const OrientedFace outer = inner.reversed();
-    const std::uint32_t code =
-        face_protection_ ? star_.find_face(outer.corners[0], outer.corners[1], outer.corners[2]) : no_neighbor;
-    if (!faces_.insert(outer, {{state.face.region, code}, state.cavity, no_side}).second)
-      return fail(outer, "two tetrahedra of the front overlap");
-    if (code != no_neighbor) return;
-    undelaunay_.push_back(outer);
-    ++result_.undelaunay_faces;
+    const FrontFace face = {state.face.region, code_of(outer)};
+    open(outer, {face, state.cavity, no_side});
+    if (face.code == no_neighbor) ++result_.undelaunay_faces;
+  }
+
+  std::uint32_t code_of(const OrientedFace& face) {
+    const auto& [a, b, c] = face.corners;
+    return face_protection_ ? star_.find_face(a, b, c) : no_neighbor;
+  }
+
+  /// Removes the tetrahedron above a base, if it is still there, with all that rest on it.
+  void take_back(const OrientedFace& base) {
+    std::vector<OrientedFace> bases = {base};
+    while (!bases.empty()) {
+      const std::uint32_t* const owner = owners_.find(bases.back());
+      bases.pop_back();
+      if (owner != nullptr) take_back_alone(*owner, bases);
+    }
+  }
+
+  /// \param bases  gains the bases of those that rest on it
+  void take_back_alone(std::uint32_t number, std::vector<OrientedFace>& bases) {
+    const Tetrahedron t = std::exchange(result_.tetrahedra[number], no_tetrahedron);
+    for (const OrientedFace& face : faces_of(t)) {
+      owners_.erase(owners_.find(face));
+      const OrientedFace outer = face.reversed();
+      if (State* const own = faces_.find(face); own != nullptr) {  // of the PLC
+        open(face, *own);
+      } else if (State* const waiting = faces_.find(outer); waiting != nullptr) {
+        if (waiting->face.code == no_neighbor) --result_.undelaunay_faces;
+        faces_.erase(waiting);
+      } else {
+        const std::uint32_t below = *owners_.find(outer);
+        open(face, {{result_.regions[number], code_of(face)}, cavities_[below], no_side});
+        if (base_of(result_.tetrahedra[below]) == outer) bases.push_back(outer);
+      }
+    }
   }
 
   const FrontInput& in_;
@@ -228,7 +384,11 @@ class Front {
   delaunay::CellStar& star_;
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
+  HashTable<OrientedFace, std::uint32_t, OrientedFaceTraits> owners_;  // the tetrahedra above faces
   std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
+  HashSet<OrientedFace, OrientedFaceTraits> doubts_;  // faces above which all vertices are tried
+  std::vector<std::uint32_t> cavities_;               // of the tetrahedra
+  std::vector<std::uint32_t> contradicted_;
   FrontResult result_;
   std::size_t finder_bytes_ = 0;
 };
@@ -280,19 +440,22 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
   const auto& [plc, facets, codes, delaunay] = in;
   if (std::ranges::find(codes, no_neighbor) == codes.end()) return standing_front(in);
   delaunay::CellStar star(delaunay);
+  NearVertices near(facets, codes, delaunay, star);
   Front front(in, options.face_protection, star);
   switch (options.locator) {
     case locate::LocatorKind::grid:
-      front.advance(WholeModelFinder(facets, delaunay,
-                                     locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale)),
-                    progress);
+      front.advance(
+          WholeModelFinder(facets, delaunay,
+                           locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale), near),
+          progress);
       break;
     case locate::LocatorKind::octree:
-      front.advance(WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles)),
-                    progress);
+      front.advance(
+          WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles), near),
+          progress);
       break;
     case locate::LocatorKind::cavity:
-      front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star), progress);
+      front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star, near), progress);
       break;
   }
   return front.finish();

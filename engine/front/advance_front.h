@@ -57,6 +57,9 @@ struct FrontOptions {
 /// whose sphere holds no visible vertex. Visibility is from one generic point of the face, which decides it for all: a
 /// vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the cell there is hidden
 /// from every point of the face (Shewchuk 2008).
+///
+/// Vertices near a face are tried first, since the sphere of a needle may hold thousands of hidden ones; that the
+/// tetrahedra fit together proves them right, and those that do not are made again with all vertices tried.
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::front

@@ -1,7 +1,11 @@
 #include "engine/front/find_apex.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "engine/base/count_work.h"
 #include "engine/locate/grid_locator.h"
@@ -88,7 +92,49 @@ class ApexSearch {
     return seen.id;
   }
 
+  std::optional<std::uint32_t> find_near(NearVertices& near) {
+    locate::LocatedVertex best{{}, 0, delaunay::ghost_vertex};
+    std::vector<Candidate> candidates;
+    for (auto vertices = near.of_face(face_);; vertices = near.more(best.id)) {
+      const std::uint32_t last = best.id;
+      find_better(vertices, best, candidates);
+      if (best.id == last) break;
+    }
+    if (best.id == delaunay::ghost_vertex) return std::nullopt;
+    return best.id;
+  }
+
  private:
+  struct Candidate {
+    double lift;  // grows with the part of the sphere that is above the face
+    std::uint32_t id;
+  };
+
+  /// Makes the best of the vertices that are better than the best so far, and visible, the best.
+  void find_better(std::span<const std::uint32_t> vertices, locate::LocatedVertex& best,
+                   std::vector<Candidate>& candidates) {
+    const Point3 u = b_.point - a_.point, v = c_.point - a_.point, normal = cross(u, v);
+    const Point3 to_center =
+        (1 / squared_length(normal)) * (squared_length(u) * cross(v, normal) + squared_length(v) * cross(normal, u));
+    candidates.clear();
+    for (const std::uint32_t id : vertices) {
+      ++work_done.front_candidates;
+      const locate::LocatedVertex vertex = located(id);
+      if (!is_above(vertex.point) || (best.id != delaunay::ghost_vertex && !is_in_sphere(best, vertex))) continue;
+      const Point3 e = vertex.point - a_.point;
+      const double lift = dot(e, e - to_center) / dot(normal, e);
+      candidates.push_back({std::isnan(lift) ? 0 : lift, id});
+    }
+    // The first that is visible is the best, but for roundings.
+    std::ranges::sort(candidates, {}, [](const Candidate& c) { return std::pair(c.lift, c.id); });
+    for (const Candidate& candidate : candidates) {
+      const locate::LocatedVertex vertex = located(candidate.id);
+      if ((best.id == delaunay::ghost_vertex || is_in_sphere(best, vertex)) && is_visible(vertex)) best = vertex;
+    }
+  }
+
+  locate::LocatedVertex located(std::uint32_t id) const { return {d_.point(id), d_.vertices[id].rank, id}; }
+
   /// The vertex above the face with the emptiest sphere among those that satisfy; `ghost_vertex` if there is none.
   template <class Satisfies>
   locate::LocatedVertex best(const Satisfies& satisfies) {
@@ -155,9 +201,20 @@ std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::Fac
   return ApexSearch<Locator>(locator, facets, delaunay, face).find();
 }
 
+template <class Locator>
+std::optional<std::uint32_t> find_near_apex(const Locator& locator, const facets::FacetMesh& facets,
+                                            const delaunay::Delaunay& delaunay, const OrientedFace& face,
+                                            NearVertices& near) {
+  return ApexSearch<Locator>(locator, facets, delaunay, face).find_near(near);
+}
+
 template std::optional<std::uint32_t> find_apex(const locate::GridLocator&, const facets::FacetMesh&,
                                                 const delaunay::Delaunay&, const OrientedFace&);
 template std::optional<std::uint32_t> find_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                 const delaunay::Delaunay&, const OrientedFace&);
+template std::optional<std::uint32_t> find_near_apex(const locate::GridLocator&, const facets::FacetMesh&,
+                                                     const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
+template std::optional<std::uint32_t> find_near_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
+                                                     const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
 
 }  // namespace ccdt::front

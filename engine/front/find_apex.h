@@ -6,6 +6,7 @@
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
+#include "engine/front/near_vertices.h"
 
 namespace ccdt::front {
 
@@ -36,5 +37,15 @@ struct OrientedFace {
 template <class Locator>
 std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
                                        const delaunay::Delaunay& delaunay, const OrientedFace& face);
+
+/// The same among the vertices near the face, and those near the best so far, until none of these is better. The sphere
+/// of a large face may hold thousands of hidden vertices, and this does not look at them; so the apex is nearly always
+/// the right one, but not surely.
+///
+/// \return  nothing if none of the vertices is above the face and visible from it
+template <class Locator>
+std::optional<std::uint32_t> find_near_apex(const Locator& locator, const facets::FacetMesh& facets,
+                                            const delaunay::Delaunay& delaunay, const OrientedFace& face,
+                                            NearVertices& near);
 
 }  // namespace ccdt::front

@@ -287,46 +287,46 @@ TEST(WorkOfSmallInputs, FrontWithEachLocator) {
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 13
-front.centroid_filter_failures 4
-front.narrow_evaluations 13
-front.exact_evaluations 13
-front.octree_nodes 372
-front.cells_visited 308
+front.orient3d_filter_failures 4
+front.centroid_filter_failures 1
+front.narrow_evaluations 4
+front.exact_evaluations 4
+front.octree_nodes 233
+front.cells_visited 852
 front.octree_nodes_created 14
-front.front_candidates 266
-front.visibility_tests 192
+front.front_candidates 142
+front.visibility_tests 142
 front.piercing_tests 161
-front.peak_bytes 5728
+front.peak_bytes 8104
 )");
   expect_work(work_of_front(LocatorKind::octree, true), R"(
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 18
-front.centroid_filter_failures 6
-front.narrow_evaluations 18
-front.exact_evaluations 18
-front.octree_nodes 590
-front.cells_visited 172
+front.orient3d_filter_failures 6
+front.centroid_filter_failures 2
+front.narrow_evaluations 6
+front.exact_evaluations 6
+front.octree_nodes 367
+front.cells_visited 716
 front.octree_nodes_created 31
-front.front_candidates 336
-front.visibility_tests 245
-front.peak_bytes 12476
+front.front_candidates 142
+front.visibility_tests 160
+front.peak_bytes 14852
 )");
   expect_work(work_of_front(LocatorKind::grid, true), R"(
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 48
-front.centroid_filter_failures 16
-front.narrow_evaluations 48
-front.exact_evaluations 48
-front.grid_cells 743
-front.cells_visited 172
-front.front_candidates 239
-front.visibility_tests 705
-front.peak_bytes 9780
+front.orient3d_filter_failures 24
+front.centroid_filter_failures 8
+front.narrow_evaluations 24
+front.exact_evaluations 24
+front.grid_cells 101
+front.cells_visited 716
+front.front_candidates 142
+front.visibility_tests 457
+front.peak_bytes 12156
 )");
 }
 
@@ -335,31 +335,32 @@ TEST(WorkOfSmallInputs, FrontOverAllFaces) {
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 37
-front.centroid_filter_failures 12
-front.narrow_evaluations 37
-front.exact_evaluations 37
-front.octree_nodes 543
-front.cells_visited 1016
+front.orient3d_filter_failures 25
+front.centroid_filter_failures 8
+front.narrow_evaluations 25
+front.exact_evaluations 25
+front.octree_nodes 373
+front.cells_visited 1560
 front.octree_nodes_created 14
-front.front_candidates 295
-front.visibility_tests 305
+front.front_candidates 142
+front.visibility_tests 233
 front.piercing_tests 161
-front.peak_bytes 11152
+front.peak_bytes 16392
 )");
   expect_work(work_of_front(LocatorKind::octree, false), R"(
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 51
-front.centroid_filter_failures 16
-front.narrow_evaluations 51
-front.exact_evaluations 51
-front.octree_nodes 1119
+front.orient3d_filter_failures 33
+front.centroid_filter_failures 10
+front.narrow_evaluations 33
+front.exact_evaluations 33
+front.octree_nodes 761
+front.cells_visited 1362
 front.octree_nodes_created 31
-front.front_candidates 660
-front.visibility_tests 447
-front.peak_bytes 12524
+front.front_candidates 316
+front.visibility_tests 300
+front.peak_bytes 17764
 )");
 }
 
