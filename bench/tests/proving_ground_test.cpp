@@ -30,6 +30,14 @@ TEST(ProvingGround, AllStrategiesAgreeOnStructuredPlcsAndTheirMeshesAreRight) {
   EXPECT_GT(right, 250) << "most are valid";
 }
 
+TEST(ProvingGround, SeedsThatHaveFailedAreRight) {
+  // Facets about as narrow as the tolerance.
+  for (const std::uint64_t seed : {1618, 1890, 2768, 2986, 3395}) {
+    const Proof proof = prove(structured_plc(seed), {.seconds = 600});
+    EXPECT_EQ(proof.outcome, Outcome::right) << "seed " << seed << ": " << proof.what;
+  }
+}
+
 TEST(ProvingGround, ASeedGivesOnePlc) {
   const InputPlc a = structured_plc(7), b = structured_plc(7), c = structured_plc(8);
   EXPECT_EQ(a.vertices, b.vertices);

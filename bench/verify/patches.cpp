@@ -48,12 +48,13 @@ bool folds_back(const Surface& surface, std::uint32_t edge) {
 /// Walks from one end of an edge to the other over mesh edges that lie along it.
 class EdgeWalk {
  public:
-  EdgeWalk(const Topology& topology, const Surface& surface, Edge ends)
+  /// \param tolerance  greatest distance of a vertex from the edge
+  EdgeWalk(const Topology& topology, const Surface& surface, Edge ends, double tolerance)
       : topology_(topology),
         ends_(ends),
         origin_(surface.at(ends[0])),
         axis_(surface.at(ends[1]) - surface.at(ends[0])),
-        tolerance_(surface.tolerances.place) {
+        tolerance_(tolerance) {
     length_ = length(axis_);
     axis_ = (1 / length_) * axis_;
   }
@@ -169,6 +170,14 @@ void find_planes(const Surface& surface, Patches& patches) {
   }
 }
 
+/// The vertices along an edge. Two edges of a needle may be within the tolerance of each other, so that chains which
+/// keep closer to the edge go first: a chain on the edge but for rounding is right.
+bool find_chain(const Topology& topology, const Surface& surface, const Edge& edge, std::vector<std::uint32_t>& chain) {
+  for (const double part : {1e-5, 1e-2, 1.0})
+    if (EdgeWalk(topology, surface, edge, part * surface.tolerances.place).run(chain)) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<bool> find_features(const Surface& surface) {
@@ -199,7 +208,7 @@ Chains find_chains(const Topology& topology, const Surface& surface, std::span<c
     if (surface.sites.in_mesh(a) && surface.sites.in_mesh(b)) {
       if (has_edge(topology, a, b))
         chains.items.insert(chains.items.end(), {a, b});
-      else if (EdgeWalk(topology, surface, {a, b}).run(chain))
+      else if (find_chain(topology, surface, {a, b}, chain))
         chains.items.insert(chains.items.end(), chain.begin(), chain.end());
     }
     chains.first.push_back(static_cast<std::uint32_t>(chains.items.size()));

@@ -299,6 +299,33 @@ void index_edges(Surface& surface) {
   first.push_back(static_cast<std::uint32_t>(n));
 }
 
+/// Finds those of a list of sites that are on an edge.
+class SiteFinder {
+ public:
+  SiteFinder(const Surface& surface, std::vector<std::uint32_t> sites)
+      : surface_(surface), sites_(std::move(sites)), tree_(boxes_of(surface, sites_), surface.tolerances) {}
+
+  /// In their order from the first end to the second, without both.
+  std::vector<std::uint32_t> within(const Edge& edge) const {
+    std::vector<std::uint32_t> near;
+    const Box box = hull(box_of(surface_.at(edge[0])), box_of(surface_.at(edge[1])));
+    tree_.for_each_meeting(expanded(box, surface_.tolerances.place),
+                           [&](std::uint32_t i) { near.push_back(sites_[i]); });
+    return select_within(surface_, edge, near);
+  }
+
+ private:
+  static std::vector<Box> boxes_of(const Surface& surface, std::span<const std::uint32_t> sites) {
+    std::vector<Box> places;
+    for (const std::uint32_t s : sites) places.push_back(box_of(surface.at(s)));
+    return places;
+  }
+
+  const Surface& surface_;
+  std::vector<std::uint32_t> sites_;
+  ScaledBoxTree tree_;
+};
+
 /// Splits edges that do not have two facets at the ends of others of that kind. (An edge between two facets is complete
 /// as it is.)
 void split_edges(Surface& surface) {
@@ -307,19 +334,27 @@ void split_edges(Surface& surface) {
     if (surface.use_count(e) != 2) sites.insert(sites.end(), surface.edges[e].begin(), surface.edges[e].end());
   if (sites.empty()) return;
   sort_and_unique(sites);
-  std::vector<Box> places;
-  for (const std::uint32_t s : sites) places.push_back(box_of(surface.at(s)));
-  const ScaledBoxTree tree(std::move(places), surface.tolerances);
+  const SiteFinder finder(surface, std::move(sites));
   split_directed(
       [&](std::uint32_t e) {
-        std::vector<std::uint32_t> near;
-        if (surface.use_count(e) == 2) return near;
-        const Box box = hull(box_of(surface.at(surface.edges[e][0])), box_of(surface.at(surface.edges[e][1])));
-        tree.for_each_meeting(expanded(box, surface.tolerances.place),
-                              [&](std::uint32_t i) { near.push_back(sites[i]); });
-        return select_within(surface, surface.edges[e], near);
+        return surface.use_count(e) == 2 ? std::vector<std::uint32_t>{} : finder.within(surface.edges[e]);
       },
       surface);
+}
+
+/// Splits segments at the vertices of the input on them, since only a part of one may be in the domain.
+void split_segments(Surface& surface) {
+  if (surface.segments.empty()) return;
+  std::vector<std::uint32_t> sites = surface.sites.of_input;
+  sort_and_unique(sites);
+  const SiteFinder finder(surface, std::move(sites));
+  std::vector<Edge> parts;
+  for (const Edge& segment : surface.segments) {
+    std::uint32_t from = segment[0];
+    for (const std::uint32_t to : finder.within(segment)) parts.push_back({std::exchange(from, to), to});
+    parts.push_back({from, segment[1]});
+  }
+  surface.segments = std::move(parts);
 }
 
 }  // namespace
@@ -424,6 +459,7 @@ Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& 
   surface.tolerances = tolerances;
   set_pieces(find_pieces(input, surface), surface);
   split_edges(surface);
+  split_segments(surface);
   return surface;
 }
 

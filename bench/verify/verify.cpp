@@ -165,10 +165,12 @@ Check check_vertices(const plc::InputPlc& input, const Surface& surface, const R
   return check;
 }
 
+constexpr const char* segments_check = "input segments";
+
 /// Every segment and every feature edge in or on the domain is a chain of mesh edges.
 Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
                      const std::vector<bool>& features, const Regions& regions, const RayShooter& rays) {
-  Check check{.name = "input segments"};
+  Check check{.name = segments_check};
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (!features[e]) continue;
     const auto touches_inside = [&](std::uint32_t use) { return regions.touches_inside(surface.piece_of[use]); };
@@ -359,6 +361,36 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
   checks.insert(checks.end(), delaunay.begin(), delaunay.end());
 }
 
+/// Do all checks hold up to that of the segments?
+bool has_vertices_and_segments(const Verification& result) {
+  for (const Check& check : result.checks) {
+    if (check.required && check.failed > 0) return false;
+    if (check.name == segments_check) return true;
+  }
+  return false;
+}
+
+/// Of the tolerances that are tried after the given one.
+constexpr double least_flatness = 1e-11;
+
+/// If only facets are not found: tries a tenth, a hundredth, ... of the flatness as well. Facets that are right at one
+/// tolerance are right at all greater ones. But where they are as narrow as the tolerance, there is more than one way
+/// to match them with the mesh.
+///
+/// \param result  gets the checks; if the mesh is never right, those at the given flatness
+void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, VerifyOptions options,
+                         const Progress& progress, Verification& result) {
+  const Verification before = result;
+  check_against_input(input, topology, options, progress, result);
+  if (!has_vertices_and_segments(result)) return;
+  while (!result.ok() && options.flatness > least_flatness) {
+    options.flatness /= 10;
+    Verification closer = before;
+    check_against_input(input, topology, options, progress, closer);
+    if (closer.ok()) result = std::move(closer);
+  }
+}
+
 /// The boundary of the mesh as an input of its own.
 plc::InputPlc boundary_of(const Topology& topology) {
   plc::InputPlc boundary;
@@ -450,7 +482,7 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
   if (options.surface == VerifyOptions::Surface::own)
     check_own_surface(input, topology, options, progress, result);
   else
-    check_against_input(input, topology, options, progress, result);
+    check_at_tolerances(input, topology, options, progress, result);
   return result;
 }
 

@@ -15,7 +15,8 @@ namespace ccdt::verify {
 struct VerifyOptions {
   /// What counts as flat, as a fraction of the input's bounding box: four times this, because a mesher may measure
   /// against another plane and the next power of two. A tenth of it counts as the same place: where exact coordinates
-  /// do not match.
+  /// do not match. Where facets do not match, smaller ones are
+  /// tried as well.
   double flatness = 1e-8;
   /// Must every unconstrained inner face be locally Delaunay? `claimed`: if the mesh says so of itself.
   enum class Delaunay { claimed, yes, no } delaunay = Delaunay::claimed;

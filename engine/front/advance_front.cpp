@@ -10,6 +10,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
+#include "engine/front/find_swallowed.h"
 #include "engine/locate/cavity_locator.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
@@ -131,9 +132,10 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 /// those that the front may meet and for the faces that it makes.
 ///
 /// The vertices near a face nearly always have its apex, but not surely. That the tetrahedra fit proves them right:
-/// they are positive, share their faces, end at the facets, and their inner faces are locally Delaunay, so they are the
-/// constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk 2008). Where one does not fit, its apex is
-/// searched for among all vertices, and those that it still contradicts are taken back and searched for likewise.
+/// they are positive, share their faces, end at the facets, hold no further vertices, and their inner faces are locally
+/// Delaunay, so they are the constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk 2008). Where one
+/// does not fit, its apex is searched for among all vertices, and those that it still contradicts are taken back and
+/// searched for likewise.
 class Front {
  public:
   Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
@@ -143,13 +145,9 @@ class Front {
   void advance(Finder finder, const Progress& progress) {
     add_plc_faces(finder);
     finder_bytes_ = finder.bytes();
-    std::uint64_t done = 0;
     while (!undelaunay_.empty() && !result_.stuck) {
-      const OrientedFace face = undelaunay_.back();
-      undelaunay_.pop_back();
-      State state;
-      if (close(faces_.find(face), state)) fill(finder, face, state);
-      if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
+      fill_all(finder, progress);
+      if (!result_.stuck) take_back_swallowing();
     }
   }
 
@@ -239,6 +237,26 @@ class Front {
     if (state.face.code == no_neighbor) undelaunay_.push_back(face);
   }
 
+  template <class Finder>
+  void fill_all(Finder& finder, const Progress& progress) {
+    std::uint64_t done = 0;
+    while (!undelaunay_.empty() && !result_.stuck) {
+      const OrientedFace face = undelaunay_.back();
+      undelaunay_.pop_back();
+      State state;
+      if (close(faces_.find(face), state)) fill(finder, face, state);
+      if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
+    }
+  }
+
+  /// Takes back the tetrahedra that hold a vertex which no search has named.
+  void take_back_swallowing() {
+    contradicted_ = find_swallowing(result_.tetrahedra, in_.facets, in_.delaunay);
+    if (contradicted_.empty()) return;
+    const OrientedFace first = base_of(result_.tetrahedra[contradicted_[0]]);
+    if (!take_back_contradicted()) fail(first, "a tetrahedron of the front has a vertex in it");
+  }
+
   /// Makes the tetrahedron above a face that was taken from the front, or takes back what is in its way.
   template <class Finder>
   void fill(Finder& finder, const OrientedFace& face, State state) {
@@ -255,14 +273,20 @@ class Front {
     // what is.
     open(face, state);
     if (state.side == no_side) contradict(face.reversed());
+    if (!take_back_contradicted()) fail(face, problem);
+  }
+
+  /// Takes back what the contradicted tetrahedra rest on and is not sure.
+  /// \return  false if all is sure
+  bool take_back_contradicted() {
     std::vector<OrientedFace> unsure;
     for (const std::uint32_t tetrahedron : contradicted_)
       if (const auto base = first_unsure_base(tetrahedron)) unsure.push_back(*base);
-    if (unsure.empty()) return fail(face, problem);
     for (const OrientedFace& base : unsure) {
       doubts_.insert(base);
       take_back(base);
     }
+    return !unsure.empty();
   }
 
   /// Notes the tetrahedron above a face, if there is one.

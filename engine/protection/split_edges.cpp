@@ -16,6 +16,20 @@ constexpr std::uint32_t no_segment = 0xFFFFFFFFu;
 /// splits.
 constexpr std::uint32_t most_splits_at_feet = 8;
 
+/// Parts of a piece that its splits leave at the least, if that does no harm.
+constexpr double least_part_at_foot = 0.001;
+
+/// Where a piece is split for the sake of an encroaching vertex: at the foot of the vertex, so that it is in the
+/// diametral sphere of neither half. Very near to an end of the piece it is somewhat farther from that end, but only so
+/// far that the vertex stays out of both spheres.
+///
+/// \param from, to  the ends of the piece; like the foot and the result in distances from the segment's first end
+double split_near_foot(double foot, double squared_height, double from, double to) {
+  const double margin = least_part_at_foot * (to - from), room = 0.9 * squared_height;
+  const double wanted = std::clamp(foot, from + margin, to - margin);
+  return std::clamp(wanted, foot - room / (to - foot), foot + room / (foot - from));
+}
+
 Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
   const Point3& a = plc.vertices[plc.segments[segment].ends[0]];
   const Point3& b = plc.vertices[plc.segments[segment].ends[1]];
@@ -123,12 +137,14 @@ double EdgeSplitter::split_length(const Subsegment& piece, std::uint32_t encroac
         return along;
     }
   }
-  // Its foot: then it is in the diametral sphere of neither half. But the feet of segments that are not quite parallel
-  // move towards each other without end. After some splits, they keep their distance from the ends of the piece.
+  // Feet of segments that are not quite parallel move towards each other without end. After some splits, they keep
+  // their distance from the ends of the piece.
   const double from = length * piece.from.fraction / whole, to = length * piece.to.fraction / whole;
   const bool is_deep = std::max(piece.from.level, piece.to.level) >= most_splits_at_feet;
   const double margin = is_deep ? 0.2 * (to - from) : 0;
-  return std::clamp(dot(p - first, d_.point(ends[1]) - first) / length, from + margin, to - margin);
+  const Point3 axis = (1 / length) * (d_.point(ends[1]) - first);
+  const double foot = dot(p - first, axis), height2 = squared_length(p - first - foot * axis);
+  return std::clamp(split_near_foot(foot, height2, from, to), from + margin, to - margin);
 }
 
 }  // namespace ccdt::protection

@@ -67,6 +67,21 @@ TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {
   }
 }
 
+TEST(Front, KeepsAVertexWhoseDelaunayEdgesAllGoThroughFacets) {
+  // In a thin plate between vertices outside of it.
+  plc::InputPlc plate = unit_cube();
+  for (Point3& p : plate.vertices) p = {16 * p.x, 4 * p.y, (2 + 14 * p.z) / 1024};
+  plate.vertices.insert(
+      plate.vertices.end(),
+      {{6.03125, 2.0078125, 0.0078125}, {6, 4.125, 0.375}, {2, 0.75, 0.25}, {9, 0.5, 0.25}, {16, 4, 0}});
+  const Stages stages(plate);
+  for (const locate::LocatorKind locator :
+       {locate::LocatorKind::cavity, locate::LocatorKind::octree, locate::LocatorKind::grid}) {
+    const Cells cells = sorted(stages.advance_all({locator}).tetrahedra);
+    EXPECT_TRUE(std::ranges::any_of(cells, [](const auto& t) { return std::ranges::find(t, 8u) != t.end(); }));
+  }
+}
+
 /// Section 5.3 of the paper: the faces of the PLC that are undelaunay, by their sides within the domain, and new ones.
 TEST(Front, CountsTheUndelaunayFacesThatItMeets) {
   const Stages bipyramid(divided_bipyramid());

@@ -4,6 +4,8 @@
 
 #include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/plc/bent_facets.h"
+#include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -121,6 +123,59 @@ TEST(Protection, OfSegmentsThatAreNotQuiteParallelEnds) {
   const MeshResult result = bare_mesh(plate);
   EXPECT_LT(result.counts.steiner_vertices, 100u);
   expect_verified(plate, result.mesh);
+}
+
+/// A stack of rotated plates with a thickness of 1e-5 of their length and coordinates that are rounded to 1e-7 of it.
+/// Vertices next to the ends of the long edges have their feet within 1e-6 of these.
+InputPlc stack_of_thin_plates() {
+  InputPlc stack;
+  stack.name = "stack of thin plates";
+  stack.vertices = {{-3.480911254882812e-08, 2.1338462829589843e-08, 2.372264862060547e-08},
+                    {0.3589743354305243, 0.8717948340651317, -0.33333329810698825},
+                    {0.31250000089406965, 0.874999990940094, -0.37500003224611284},
+                    {-0.04647441238012069, 0.003205156278915894, -0.04166665563980738},
+                    {-0.6105768980429723, 0.4903845797410378, 0.6250000494718552},
+                    {-0.5641025867523292, 0.4871794681656055, 0.6666666428844134},
+                    {-0.20512819237281113, 1.358974312840364, 0.33333328612645463},
+                    {-0.25160257000342395, 1.3621795255648785, 0.2916666755477587},
+                    {-1.174679482709139, 0.977564106855637, 1.2916666786472002},
+                    {-1.1282050924423412, 0.9743590049957618, 1.3333333412011463},
+                    {-0.7692307821649771, 1.846153823384872, 1.000000028014183},
+                    {-0.8157051813724714, 1.8493589462255822, 0.958333303173383},
+                    {-1.1746880462429463, 0.9775715847917091, 1.2916768936117489},
+                    {-1.128213781265112, 0.9743664109890278, 1.3333434717655182},
+                    {-0.7692393781237113, 1.846161224848185, 1.000010162929694},
+                    {-0.8157137387073958, 1.849366386789542, 0.9583434969782829},
+                    {-1.1746967294628803, 0.9775789619959318, 1.2916870124340054},
+                    {-1.1282223701308935, 0.974373829022432, 1.3333536968032518},
+                    {-0.7692479668702834, 1.846168695393281, 1.0000203627546627},
+                    {-0.8157223968337743, 1.8493738047037367, 0.9583537152806917},
+                    {-1.1747138653519826, 0.9775938834761961, 1.2917073174913722},
+                    {-1.1282395196098547, 0.9743887013288645, 1.3333740328550339},
+                    {-0.7692652585659271, 1.8461836046545934, 1.0000406980911891},
+                    {-0.8157395468491774, 1.8493887643905786, 0.9583739798069},
+                    {-1.1747310847471921, 0.9776086672697312, 1.2917276494304337},
+                    {-1.1282567303027862, 0.9744035935432483, 1.3333943652709324},
+                    {-0.7692824535828369, 1.8461984993127676, 1.0000610157847405},
+                    {-0.8157567521776907, 1.8494035348922777, 0.9583943401177724}};
+  const std::vector<std::vector<std::uint32_t>> quads = {
+      {0, 1, 2, 3},     {0, 3, 4, 5},     {0, 5, 6, 1},     {1, 2, 7, 6},     {3, 4, 7, 2},     {5, 6, 7, 4},
+      {5, 4, 8, 9},     {5, 9, 10, 6},    {6, 7, 11, 10},   {4, 8, 11, 7},    {9, 10, 11, 8},   {9, 8, 12, 13},
+      {9, 13, 14, 10},  {10, 11, 15, 14}, {8, 12, 15, 11},  {13, 14, 15, 12}, {13, 12, 16, 17}, {13, 17, 18, 14},
+      {14, 15, 19, 18}, {12, 16, 19, 15}, {17, 18, 19, 16}, {17, 16, 20, 21}, {17, 21, 22, 18}, {18, 19, 23, 22},
+      {16, 20, 23, 19}, {21, 22, 23, 20}, {21, 20, 24, 25}, {21, 25, 26, 22}, {22, 23, 27, 26}, {20, 24, 27, 23},
+      {25, 26, 27, 24}};
+  for (const std::vector<std::uint32_t>& quad : quads)
+    stack.polygon_facets.push_back({{quad}, {}, 0, static_cast<std::uint32_t>(stack.polygon_facets.size())});
+  return stack;
+}
+
+TEST(Protection, OfALongEdgeWithFeetNextToItsEndsEnds) {
+  const InputPlc stack = stack_of_thin_plates();
+  const plc::Plc plc = plc::build_plc(plc::triangulate_bent_facets(stack).value_or(stack));
+  const auto [delaunay, chains, grazeable] = protection::protect_edges(
+      plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), Protection::shell);
+  EXPECT_LT(delaunay.vertices.size() - plc.vertices.size(), 1000u);
 }
 
 TEST(Protection, CubeWithGridsNeedsNoSteinerVertexPlainAndRotated) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_mesh.h"
+
+namespace ccdt::front {
+
+/// Finds the tetrahedra that hold a vertex which is a corner of none of them and of no face of the PLC. Such a vertex
+/// has been overlooked: the tetrahedra fit each other, but are the constrained Delaunay ones of the other vertices
+/// only.
+///
+/// \param tetrahedra  positively oriented; those with `ghost_vertex` are passed over
+/// \return            their indices, ascending; touching counts as holding
+std::vector<std::uint32_t> find_swallowing(std::span<const std::array<std::uint32_t, 4>> tetrahedra,
+                                           const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay);
+
+}  // namespace ccdt::front
