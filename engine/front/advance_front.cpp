@@ -41,18 +41,20 @@ enum class Search { near, full };
 template <class Locator>
 class WholeModelFinder {
  public:
+  /// \param near  none: all vertices are tried at once, as in the paper
   WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator,
-                   NearVertices& near)
+                   NearVertices* near)
       : facets_(facets), d_(delaunay), locator_(locator), near_(near) {}
 
   /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
   std::optional<std::uint32_t> find(const OrientedFace& face, Search search, std::uint32_t& /*cavity*/) const {
-    return search == Search::near ? find_near_apex(locator_, facets_, d_, face, near_)
+    return search == Search::near ? find_near_apex(locator_, facets_, d_, face, *near_)
                                   : find_apex(locator_, facets_, d_, face);
   }
 
+  Search first_search() const { return near_ == nullptr ? Search::full : Search::near; }
   std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
-  std::size_t bytes() const { return locator_.bytes() + near_.bytes(); }
+  std::size_t bytes() const { return locator_.bytes() + (near_ == nullptr ? 0 : near_->bytes()); }
 
   /// The triangles that the front can meet.
   std::vector<std::uint32_t> triangles() const { return all_indices(facets_.triangles.size()); }
@@ -61,7 +63,7 @@ class WholeModelFinder {
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   Locator locator_;
-  NearVertices& near_;
+  NearVertices* near_;
 };
 
 /// The same, cavity by cavity.
@@ -91,6 +93,7 @@ class CavityFinder {
                                   : find_apex(locator_.cavity(cavity), facets_, d_, face);
   }
 
+  Search first_search() const { return Search::near; }
   std::uint32_t cavity_of_triangle(std::uint32_t triangle) const { return locator_.cavity_of_triangle(triangle); }
   std::size_t bytes() const { return locator_.bytes() + near_.bytes(); }
 
@@ -143,6 +146,7 @@ class Front {
 
   template <class Finder>
   void advance(Finder finder, const Progress& progress) {
+    first_search_ = finder.first_search();
     add_plc_faces(finder);
     finder_bytes_ = finder.bytes();
     while (!undelaunay_.empty() && !result_.stuck) {
@@ -260,7 +264,7 @@ class Front {
   /// Makes the tetrahedron above a face that was taken from the front, or takes back what is in its way.
   template <class Finder>
   void fill(Finder& finder, const OrientedFace& face, State state) {
-    const Search first = doubts_.contains(face) ? Search::full : Search::near;
+    const Search first = doubts_.contains(face) ? Search::full : first_search_;
     auto apex = finder.find(face, first, state.cavity);
     const char* problem = problem_of(face, apex, state);
     if (problem != nullptr && first == Search::near) {
@@ -304,7 +308,7 @@ class Front {
   std::optional<OrientedFace> first_unsure_base(std::uint32_t tetrahedron) const {
     for (;;) {
       const OrientedFace base = base_of(result_.tetrahedra[tetrahedron]);
-      if (!doubts_.contains(base)) return base;
+      if (first_search_ == Search::near && !doubts_.contains(base)) return base;
       if (is_of_plc(base)) return std::nullopt;
       tetrahedron = *owners_.find(base.reversed());
     }
@@ -405,6 +409,7 @@ class Front {
 
   const FrontInput& in_;
   const bool face_protection_;
+  Search first_search_ = Search::full;
   delaunay::CellStar& star_;
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
@@ -464,23 +469,26 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
   const auto& [plc, facets, codes, delaunay] = in;
   if (std::ranges::find(codes, no_neighbor) == codes.end()) return standing_front(in);
   delaunay::CellStar star(delaunay);
-  NearVertices near(facets, codes, delaunay, star);
   Front front(in, options.face_protection, star);
   switch (options.locator) {
     case locate::LocatorKind::grid:
       front.advance(
           WholeModelFinder(facets, delaunay,
-                           locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale), near),
+                           locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale), nullptr),
           progress);
       break;
-    case locate::LocatorKind::octree:
+    case locate::LocatorKind::octree: {
+      NearVertices near(facets, codes, delaunay, star);
       front.advance(
-          WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles), near),
+          WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles), &near),
           progress);
       break;
-    case locate::LocatorKind::cavity:
+    }
+    case locate::LocatorKind::cavity: {
+      NearVertices near(facets, codes, delaunay, star);
       front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star, near), progress);
       break;
+    }
   }
   return front.finish();
 }

@@ -318,15 +318,15 @@ front.peak_bytes 14852
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 24
-front.centroid_filter_failures 8
-front.narrow_evaluations 24
-front.exact_evaluations 24
-front.grid_cells 101
-front.cells_visited 716
-front.front_candidates 142
-front.visibility_tests 457
-front.peak_bytes 12156
+front.orient3d_filter_failures 48
+front.centroid_filter_failures 16
+front.narrow_evaluations 48
+front.exact_evaluations 48
+front.grid_cells 743
+front.cells_visited 172
+front.front_candidates 239
+front.visibility_tests 705
+front.peak_bytes 11864
 )");
 }
 
