@@ -49,9 +49,9 @@ std::vector<Point3> points_of(const delaunay::Delaunay& delaunay) {
 }
 
 /// The points of the lattice, which keeps away from faces and subsegments.
-std::vector<Point3> place_points(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
-                                 const facets::FacetMesh& facets, const MeshOptions& options,
-                                 const Progress& progress) {
+lattice::LatticePoints place_points(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
+                                    const facets::FacetMesh& facets, const MeshOptions& options,
+                                    const Progress& progress) {
   std::vector<lattice::SurfaceTriangle> triangles;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const plc::Facet& facet = plc.facets[facets.facet[i]];
@@ -69,11 +69,20 @@ std::vector<Point3> place_points(const plc::Plc& plc, const protection::Protecte
 }
 
 /// Adds those of the points that destroy no protected edge.
-delaunay::Delaunay add_points(const std::vector<Point3>& points, protection::ProtectedDelaunay surface,
-                              const MeshOptions& options, const Progress& progress) {
-  if (options.delaunay == DelaunayMethod::insert)
-    return protection::insert_interior(points, std::move(surface), progress);
-  return protection::wrap_interior(points, std::move(surface), options.grid_scale, progress);
+delaunay::Delaunay add_points(const lattice::LatticePoints& lattice, protection::ProtectedDelaunay surface,
+                              const MeshOptions& options, const Progress& progress, MeshCounts& counts) {
+  switch (options.delaunay) {
+    case DelaunayMethod::core: {
+      protection::CoreDelaunay result = protection::core_interior(lattice, std::move(surface), progress);
+      counts.core_tetrahedra = result.core_cells;
+      return std::move(result.delaunay);
+    }
+    case DelaunayMethod::wrap:
+      return protection::wrap_interior(lattice.points, std::move(surface), options.grid_scale, progress);
+    case DelaunayMethod::insert:
+      break;
+  }
+  return protection::insert_interior(lattice.points, std::move(surface), progress);
 }
 
 /// The constrained Delaunay tetrahedralization of an input as a mesh, or why there is none.
@@ -143,7 +152,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   }
   // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
   // whatever the method is. With another method it is there for the sake of protection alone.
-  const bool stays = options.delaunay == DelaunayMethod::insert;
+  const bool stays = options.delaunay != DelaunayMethod::wrap;
   delaunay::Delaunay delaunay = measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
                                          [&] { return delaunay::build_delaunay(points, progress); });
   protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
@@ -158,14 +167,15 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   facets::FacetMesh facets = measured(costs, mesh_stage::facets, [&] {
     return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
   });
-  points.clear();
+  lattice::LatticePoints lattice;
   if (options.lattice != Lattice::none)
-    points =
+    lattice =
         measured(costs, mesh_stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
-  delaunay =
-      measured(costs, mesh_stage::delaunay, [&] { return add_points(points, std::move(surface), options, progress); });
+  delaunay = measured(costs, mesh_stage::delaunay, [&] {
+    return add_points(lattice, std::move(surface), options, progress, t.counts);
+  });
   t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
-  t.counts.dropped_interior_vertices = points.size() - t.counts.interior_vertices;
+  t.counts.dropped_interior_vertices = lattice.points.size() - t.counts.interior_vertices;
 
   constrain(delaunay, std::move(facets), options, progress, costs, t);
   t.points = points_of(delaunay);

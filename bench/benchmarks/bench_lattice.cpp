@@ -24,7 +24,7 @@ namespace {
 std::vector<Point3> place(const LatticeInput& input, lattice::Lattice kind) {
   lattice::LatticeOptions options = input.options;
   options.kind = kind;
-  return lattice::place_lattice_points({input.vertices, input.triangles, input.subsegments}, options);
+  return lattice::place_lattice_points({input.vertices, input.triangles, input.subsegments}, options).points;
 }
 
 std::string find_fault(const Stages& s, lattice::Lattice kind) {

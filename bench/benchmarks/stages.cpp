@@ -72,7 +72,8 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   s.facets = facets::triangulate_facets(s.plc, s.chains, s.delaunay);
   s.lattice = lattice_input(s, density);
   const auto points = lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments},
-                                                    s.lattice.options);
+                                                    s.lattice.options)
+                          .points;
   s.delaunay = protection::insert_interior(points, std::move(surface));
   s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
   if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))

@@ -379,8 +379,8 @@ void check_number(const DomainSurface& surface, const SizeField& size) {
 
 }  // namespace
 
-std::vector<Point3> place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
-                                         const Progress& progress) {
+LatticePoints place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
+                                   const Progress& progress) {
   if (options.kind == Lattice::none || surface.triangles.empty()) return {};
   constexpr std::uint64_t steps = 4;
   report(progress, stage, 0, steps);
@@ -393,18 +393,20 @@ std::vector<Point3> place_lattice_points(const DomainSurface& surface, const Lat
   const std::vector<bool> stays = find_clear_sites(tree, surface, sites, options);
   report(progress, stage, 3, steps);
 
-  std::vector<Point3> points;
+  LatticePoints result{{}, {}, options.kind, tree.origin, tree.unit, tree.depth};
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (!stays[i]) continue;
     const auto coordinates = coordinates_of(sites[i]);
     const OctreeNode& leaf = tree.leaf_at(coordinates);
     if (leaf.place == NodePlace::outside) continue;
     const Point3 p = tree.point(coordinates);
-    if (leaf.place == NodePlace::inside || is_inside(tree, surface, p, leaf)) points.push_back(p);
+    if (leaf.place != NodePlace::inside && !is_inside(tree, surface, p, leaf)) continue;
+    result.points.push_back(p);
+    result.levels.push_back(leaf.level);
   }
-  if (static_cast<double>(surface.vertices.size() + points.size()) > most_vertices) throw_too_many_points();
+  if (static_cast<double>(surface.vertices.size() + result.points.size()) > most_vertices) throw_too_many_points();
   report(progress, stage, steps, steps);
-  return points;
+  return result;
 }
 
 }  // namespace ccdt::lattice

@@ -1,11 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/lattice/octree.h"
 
 namespace ccdt::lattice {
+
+/// Interior points, and where they lie on the lattices of an octree.
+struct LatticePoints {
+  std::vector<Point3> points;        ///< in grid units
+  std::vector<std::uint8_t> levels;  ///< of each point: the level of the leaf that holds it
+  Lattice kind = Lattice::none;
+  Point3 origin;       ///< of the octree; a point is this plus whole octree units
+  double unit = 1;     ///< one octree unit in grid units
+  unsigned depth = 0;  ///< the sides of the leaves of a level are 2^(depth - level + 1) octree units
+};
 
 /// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
 /// pairwise different, strictly inside the domain, outside the smallest sphere through any surface triangle and any
@@ -23,8 +34,8 @@ namespace ccdt::lattice {
 ///
 /// \param surface     in grid units; its subsegments protect the segments, also those that no triangle has
 /// \throw LimitError  more points than vertex ids
-std::vector<Point3> place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
-                                         const Progress& progress = {});
+LatticePoints place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
+                                   const Progress& progress = {});
 
 /// A ball that must hold no lattice point.
 struct Ball {

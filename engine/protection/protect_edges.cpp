@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/protection/split_edges.h"
@@ -15,6 +16,10 @@ namespace ccdt::protection {
 namespace {
 
 constexpr std::uint32_t whole = whole_segment;
+constexpr std::uint32_t no_cell = 0;  // of vertices that are to be inserted
+
+/// So often the core is tried before all points are inserted.
+constexpr int most_attempts = 3;
 
 /// Splits pieces of segments until all that have to be are Delaunay edges. A stack holds those that may not be: all at
 /// first, then those of cells that a split has destroyed. It takes fewer splits than a queue, as one place is finished
@@ -84,6 +89,7 @@ struct ProtectedEdges {
     for (const auto& [a, b] : list) on_edge[a] = on_edge[b] = 1;
     edges = EdgeMap(list, on_edge.size());
   }
+  bool is_empty() const { return edges.empty(); }
   bool may_have(std::uint32_t v) const { return v < on_edge.size() && on_edge[v] != 0; }
   bool has(std::uint32_t a, std::uint32_t b) const { return edges.find(a, b) != EdgeMap::none; }
 };
@@ -116,6 +122,68 @@ bool destroys_edge(const delaunay::Delaunay& d, const delaunay::Insertion& inser
     }
   }
   return on_faces < repeated.begin() - found.begin();
+}
+
+/// Adds the points in this order to the vertices, which take part in no cell yet.
+///
+/// \param more_cells  that are to come beside those of insertion
+void add_vertices(delaunay::Delaunay& d, std::span<const Point3> points, const std::vector<std::uint32_t>& order,
+                  std::size_t more_cells = 0) {
+  d.vertices.reserve(d.vertices.size() + points.size());
+  for (const std::uint32_t i : order)
+    d.vertices.push_back({points[i], static_cast<std::uint32_t>(d.vertices.size()), no_cell});
+  const std::size_t inserted = points.size() - std::min(points.size(), more_cells / 6);
+  d.cells.reserve(d.cells.size() + 7 * inserted + more_cells);
+}
+
+/// Inserts the vertices from the first interior one on, except those that are left out and those that would destroy a
+/// protected edge.
+///
+/// \param left_out  by vertex; empty: none
+/// \return          the vertices that would have destroyed an edge, or are where another one is
+std::vector<std::uint32_t> insert_vertices(delaunay::Delaunay& d, const ProtectedEdges& edges,
+                                           const std::vector<bool>& left_out, const Progress& progress) {
+  const auto first = static_cast<std::uint32_t>(edges.on_edge.size());
+  delaunay::Insertion insertion(d);
+  std::vector<std::uint64_t> found;
+  std::vector<std::uint32_t> dropped;
+  std::uint32_t last = d.vertices[0].cell;
+  for (std::uint32_t v = first; v < d.vertices.size(); ++v) {
+    if ((v & 0xFFFF) == 0) report(progress, "delaunay", v - first, d.vertices.size() - first);
+    if (!left_out.empty() && left_out[v]) continue;
+    if (insertion.find_cavity(v, last) && !destroys_edge(d, insertion, edges, found)) {
+      last = insertion.fill_cavity();
+    } else {
+      insertion.discard_cavity();
+      dropped.push_back(v);
+    }
+  }
+  note_bytes(bytes_of(d.vertices, d.cells, d.free_cells, edges.on_edge) + insertion.bytes());
+  return dropped;
+}
+
+/// Removes vertices that no cell has; those behind them move up.
+///
+/// \param dropped  interior ones, in increasing order
+void remove_vertices(delaunay::Delaunay& d, const std::vector<std::uint32_t>& dropped) {
+  if (dropped.empty()) return;
+  std::vector<std::uint32_t> number(d.vertices.size());
+  std::uint32_t kept = 0;
+  auto next = dropped.begin();
+  for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
+    if (next != dropped.end() && *next == v) {
+      ++next;
+      continue;
+    }
+    number[v] = kept;
+    d.vertices[kept] = d.vertices[v];
+    if (v >= dropped.front()) d.vertices[kept].rank = kept;
+    ++kept;
+  }
+  d.vertices.resize(kept);
+  for (delaunay::Cell& cell : d.cells)
+    for (std::uint32_t& v : cell.vertices)
+      if (v != delaunay::ghost_vertex) v = number[v];
 }
 
 /// The vertices with the points that are not among them, ranked as they would be inserted.
@@ -163,27 +231,37 @@ std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
 
 delaunay::Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress) {
   const ProtectedEdges edges(start);
-  delaunay::Delaunay& delaunay = start.delaunay;
-  delaunay.vertices.reserve(delaunay.vertices.size() + points.size());
-  delaunay.cells.reserve(delaunay.cells.size() + 7 * points.size());
-  delaunay::Insertion insertion(delaunay);
-  std::vector<std::uint64_t> found;
-  std::uint32_t last = delaunay.vertices[0].cell;
-  std::uint64_t done = 0;
-  for (const std::uint32_t i : delaunay::hilbert_order(points)) {
-    if ((++done & 0xFFFF) == 0) report(progress, "delaunay", done, points.size());
-    const auto id = static_cast<std::uint32_t>(delaunay.vertices.size());
-    delaunay.vertices.push_back({points[i], id, 0});
-    if (insertion.find_cavity(id, last) && !destroys_edge(delaunay, insertion, edges, found)) {
-      last = insertion.fill_cavity();
-    } else {
-      insertion.discard_cavity();
-      delaunay.vertices.pop_back();
+  delaunay::Delaunay d = std::move(start.delaunay);
+  add_vertices(d, points, delaunay::hilbert_order(points));
+  const std::vector<std::uint32_t> dropped = insert_vertices(d, edges, {}, progress);
+  remove_vertices(d, dropped);
+  return d;
+}
+
+CoreDelaunay core_interior(const lattice::LatticePoints& lattice, ProtectedDelaunay start, const Progress& progress) {
+  const ProtectedEdges edges(start);
+  const std::vector<std::uint32_t> order = delaunay::hilbert_order(lattice.points);
+  const auto first = static_cast<std::uint32_t>(start.delaunay.vertices.size());
+  std::vector<std::uint32_t> vertex(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) vertex[order[i]] = first + i;
+  std::vector<Point3> others;
+  for (const delaunay::DelaunayVertex& v : start.delaunay.vertices) others.push_back(v.point);
+
+  // A point that is dropped may have been taken for a vertex of the core. Then all is done again without it.
+  for (int attempt = 1;; ++attempt) {
+    cores::LatticeCore core;
+    if (attempt <= most_attempts) core = cores::find_lattice_core(lattice, vertex, others, first + order.size());
+    const bool is_last = core.cell_count == 0;
+    delaunay::Delaunay d = is_last || edges.is_empty() ? std::move(start.delaunay) : start.delaunay;
+    add_vertices(d, lattice.points, order, core.cell_count);
+    const std::vector<std::uint32_t> dropped = insert_vertices(d, edges, core.is_deep, progress);
+    if (!cores::insert_core(core, dropped, d)) {
+      for (const std::uint32_t v : dropped) vertex[order[v - first]] = cores::nothing;
+      continue;
     }
+    remove_vertices(d, dropped);
+    return {std::move(d), core.cell_count};
   }
-  note_bytes(bytes_of(delaunay.vertices, delaunay.cells, delaunay.free_cells, edges.on_edge, points) +
-             insertion.bytes());
-  return std::move(start.delaunay);
 }
 
 delaunay::Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,

@@ -7,6 +7,7 @@
 #include "engine/base/point.h"
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/lattice/place_lattice_points.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/options.h"
 #include "engine/protection/segment_chains.h"
@@ -51,6 +52,17 @@ std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains);
 /// \return  the tetrahedralization with the points, whose ids follow the existing ones
 delaunay::Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start,
                                    const Progress& progress = {});
+
+/// A Delaunay tetrahedralization that has cells of lattice cores.
+struct CoreDelaunay {
+  delaunay::Delaunay delaunay;
+  std::size_t core_cells = 0;  ///< how many
+};
+
+/// The same with the same result, but the cells deep within a lattice are written down, and only the other points are
+/// inserted (cores/lattice_core.h).
+CoreDelaunay core_interior(const lattice::LatticePoints& lattice, ProtectedDelaunay start,
+                           const Progress& progress = {});
 
 /// The same with the same result, but all vertices are tetrahedralized anew by `wrap_delaunay`. Only if edges are
 /// missing then, the points to drop are found by insertion.

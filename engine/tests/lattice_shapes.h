@@ -19,7 +19,7 @@ struct Shape {
   double unit = 1;
 
   std::vector<Point3> place(const lattice::LatticeOptions& options) const {
-    return lattice::place_lattice_points({vertices, triangles, subsegments}, options);
+    return lattice::place_lattice_points({vertices, triangles, subsegments}, options).points;
   }
 };
 

@@ -1,0 +1,180 @@
+#include <array>
+
+#include "engine/cores/lattice_core.h"
+#include "engine/cores/split_by_rank.h"
+
+namespace ccdt::cores {
+namespace {
+
+using delaunay::Cell;
+using delaunay::face_code;
+using delaunay::no_neighbor;
+
+using Numbers = Surrounded<std::uint32_t>;
+using Kinds = Surrounded<std::uint8_t>;
+
+constexpr auto stride = Numbers::stride;
+
+constexpr int corner_offset(unsigned corner) {
+  return static_cast<int>(corner & 1) * stride[0] + static_cast<int>(corner >> 1 & 1) * stride[1] +
+         static_cast<int>(corner >> 2 & 1) * stride[2];
+}
+
+/// The corners of even sum of a unit cube, and those of odd sum: positively oriented.
+constexpr std::array<std::array<std::uint8_t, 4>, 2> tetrahedron_corners = {{{0, 5, 3, 6}, {1, 2, 4, 7}}};
+
+/// Where each corner is in its tetrahedron.
+constexpr std::array<std::uint8_t, 8> place_of_corner = {0, 0, 1, 2, 2, 1, 3, 3};
+
+class CellMaker {
+ public:
+  CellMaker(const LatticeCore& core, std::span<Cell> cells, std::uint32_t first)
+      : sites_(core.sites), cells_(cells), first_(first) {}
+
+  std::vector<std::uint32_t> run() {
+    for (const SiteBlock& block : sites_.blocks) make_cells_of(block);
+    return std::move(border_);
+  }
+
+ private:
+  void make_cells_of(const SiteBlock& block) {
+    point_.gather(sites_, block, &SiteBlock::point, nothing);
+    cube_.gather(sites_, block, &SiteBlock::cube, nothing);
+    kind_.gather(sites_, block, &SiteBlock::kind, 0);
+    for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
+      const Place p = {x, y, z};
+      if (has_shape_at(sites_.kind, p) && block.point[i] != nothing) {
+        if (sites_.kind == Lattice::fcc)
+          make_octahedron(at, block.point[i], block.kind[i]);
+        else
+          make_tetrahedra_at_face(at, block.point[i], even_axis(p));
+      }
+      if (block.cube[i] == nothing) return;
+      if (sites_.kind == Lattice::fcc)
+        make_tetrahedron(at, block.cube[i], (x + y + z) & 1);
+      else
+        make_cube(at, block.cube[i], split_of_kind(block.kind[i]));
+    });
+  }
+
+  /// Joins face f of a cell to the face of another one of the core with this code; `nothing`: there is none.
+  void join(std::uint32_t cell, std::uint32_t f, std::uint32_t code) {
+    if (code == nothing) {
+      border_.push_back(face_code(first_ + cell, f));
+      cells_[cell].neighbors[f] = no_neighbor;
+    } else {
+      cells_[cell].neighbors[f] = 4 * first_ + code;
+    }
+  }
+  static std::uint32_t code_in(std::uint32_t base, std::uint32_t cell, std::uint32_t f) {
+    return base == nothing ? nothing : face_code(base + cell, f);
+  }
+
+  // ---- Face-centered: tetrahedra and octahedra, which meet each other only
+
+  /// An octahedron is split around the diagonal d into the cells q = 0 .. 3: bit 0, is it on the upper side of the next
+  /// axis? bit 1, and of the one after that? A cell has the lower end of the diagonal, its upper end, and the ends of
+  /// those two axes, in this order if both are on the same side, else in the other one.
+  void make_octahedron(int at, std::uint32_t base, unsigned d) {
+    const int axis[] = {stride[d], stride[(d + 1) % 3], stride[(d + 2) % 3]};
+    for (unsigned q = 0; q < 4; ++q) {
+      const bool plus1 = (q & 1) != 0, plus2 = (q & 2) != 0;
+      const unsigned place1 = place_of_next(q), place2 = 5 - place1;
+      Cell& cell = cells_[base + q];
+      cell.vertices[0] = point_[at - axis[0]];
+      cell.vertices[1] = point_[at + axis[0]];
+      cell.vertices[place1] = point_[plus1 ? at + axis[1] : at - axis[1]];
+      cell.vertices[place2] = point_[plus2 ? at + axis[2] : at - axis[2]];
+      join(base + q, place1, face_code(base + (q ^ 1), place_of_next(q ^ 1)));
+      join(base + q, place2, face_code(base + (q ^ 2), 5 - place_of_next(q ^ 2)));
+      for (unsigned f = 0; f < 2; ++f) {
+        // Opposite to the lower end is the face on the upper side.
+        const unsigned corner = (1 - f) << d | (q & 1) << (d + 1) % 3 | (q >> 1) << (d + 2) % 3;
+        join(base + q, f, code_in(cube_[at + corner_offset(corner) - corner_offset(7)], 0, place_of_corner[corner]));
+      }
+    }
+  }
+  /// Of the vertex on the axis next to the diagonal.
+  static unsigned place_of_next(unsigned q) { return q == 0 || q == 3 ? 2 : 3; }
+
+  /// The face opposite to a corner is that of the octahedron around the corner across.
+  void make_tetrahedron(int at, std::uint32_t number, unsigned odd) {
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const unsigned corner = tetrahedron_corners[odd][f];
+      cells_[number].vertices[f] = point_[at + corner_offset(corner)];
+      const int center = at + corner_offset(7 - corner);
+      const unsigned d = kind_[center], q = (corner >> (d + 1) % 3 & 1) | (corner >> (d + 2) % 3 & 1) << 1;
+      join(number, f, code_in(point_[center], q, 1 - (corner >> d & 1)));
+    }
+  }
+
+  // ---- Body-centered
+
+  /// The cells r = 0 .. 3 around a face are at its sides, counterclockwise around the axis k: those on the upper side
+  /// of the next axis, of the one after that, then the lower sides. A cell has the lower end of the axis, the upper end
+  /// and the ends of its side.
+  void make_tetrahedra_at_face(int at, std::uint32_t base, int k) {
+    const int up = stride[k];
+    for (unsigned r = 0; r < 4; ++r) {
+      Cell& cell = cells_[base + r];
+      cell.vertices = {point_[at - up], point_[at + up], point_[at + side(k, r) + side(k, (r + 3) % 4)],
+                       point_[at + side(k, r) + side(k, (r + 1) % 4)]};
+      join(base + r, 2, face_code(base + (r + 1) % 4, 3));
+      join(base + r, 3, face_code(base + (r + 3) % 4, 2));
+      // Around the same edge of the cube with the center at the end of the axis: the side's axis is that of the other
+      // face, and the edge is on the side of this one.
+      const int other_axis = (k + 1 + static_cast<int>(r & 1)) % 3;
+      const bool is_upper = r < 2;
+      for (unsigned f = 0; f < 2; ++f) {
+        const bool from_upper_end = f == 0;  // the face opposite to the lower end
+        const int other = at + side(k, r) + (from_upper_end ? up : -up);
+        const unsigned other_side = ((k - other_axis + 3) % 3 == 1 ? 0u : 1u) + (from_upper_end ? 2u : 0u);
+        join(base + r, f, code_in(point_[other], other_side, is_upper ? 1 : 0));
+      }
+    }
+  }
+  static int side(int k, unsigned r) {
+    const int s = stride[(k + 1 + static_cast<int>(r & 1)) % 3];
+    return r < 2 ? s : -s;
+  }
+
+  // ---- Simple cubic
+
+  void make_cube(int at, std::uint32_t base, const CubeSplit& split) {
+    for (std::uint32_t c = 0; c < split.count; ++c) {
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        cells_[base + c].vertices[f] = point_[at + corner_offset(split.cells[c][f])];
+        const std::uint8_t code = split.neighbors[4 * c + f];
+        join(base + c, f, code == CubeSplit::outer_face ? code_in_next_cube(at, split.cells[c], f) : 4 * base + code);
+      }
+    }
+  }
+
+  std::uint32_t code_in_next_cube(int at, const std::array<std::uint8_t, 4>& cell, std::uint32_t f) const {
+    const auto corners = delaunay::corners_of_face({cell[0], cell[1], cell[2], cell[3]}, f);
+    const unsigned all = corners[0] & corners[1] & corners[2], any = corners[0] | corners[1] | corners[2];
+    // All on the upper side of one axis, or all on the lower one.
+    const unsigned axis = all != 0 ? all : 7 & ~any;
+    const int next = all != 0 ? at + corner_offset(axis) : at - corner_offset(axis);
+    if (cube_[next] == nothing) return nothing;
+    unsigned mask = 0;
+    for (const std::uint32_t v : corners) mask |= 1u << (v ^ axis);
+    return 4 * cube_[next] + split_of_kind(kind_[next]).outer[mask];
+  }
+
+  const SiteBlocks& sites_;
+  std::span<Cell> cells_;
+  const std::uint32_t first_;
+  std::vector<std::uint32_t> border_;
+  Numbers point_, cube_;
+  Kinds kind_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, std::span<delaunay::Cell> cells,
+                                           std::uint32_t first) {
+  return CellMaker(core, cells, first).run();
+}
+
+}  // namespace ccdt::cores

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/base/count_work.h"
+#include "engine/base/simplex_map.h"
+#include "engine/cores/lattice_core.h"
+
+namespace ccdt::cores {
+namespace {
+
+using delaunay::Cell;
+using delaunay::cell_of;
+using delaunay::corners_of_face;
+using delaunay::Delaunay;
+using delaunay::face_code;
+using delaunay::face_of;
+using delaunay::no_neighbor;
+
+/// Do corners of one triangle come in the same direction?
+bool same_direction(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+  return a == b || (a[0] == b[1] && a[1] == b[2] && a[2] == b[0]) || (a[0] == b[2] && a[1] == b[0] && a[2] == b[1]);
+}
+
+class Joiner {
+ public:
+  Joiner(Delaunay& d, std::uint32_t outer_cells, const std::vector<std::uint32_t>& border)
+      : d_(d), outer_cells_(outer_cells), walls_(outer_cells, 0), on_border_(d.vertices.size(), false) {
+    faces_.reserve(border.size());
+    for (const std::uint32_t code : border) {
+      const auto [a, b, c] = corners(code);
+      faces_.insert(face_key(a, b, c), code);
+      on_border_[a] = on_border_[b] = on_border_[c] = true;
+    }
+  }
+
+  void run() {
+    for (std::uint32_t c = 0; c < outer_cells_; ++c)
+      if (!d_.is_dead(c)) find_border(c);
+    if (outside_ != faces_.size() || inside_.empty() != faces_.empty())
+      throw std::logic_error("the core of the lattice does not fit into the tetrahedralization around it");
+    for (std::size_t i = 0; i < inside_.size(); ++i) spread(inside_[i]);
+    for (const std::uint32_t c : inside_) {
+      d_.cells[c].neighbors[0] = no_neighbor;
+      d_.free_cells.push_back(c);
+    }
+    work_done.cells_destroyed += inside_.size();
+  }
+
+ private:
+  static constexpr std::uint8_t removed = 0x10;
+
+  std::array<std::uint32_t, 3> corners(std::uint32_t code) const {
+    return corners_of_face(d_.cells[cell_of(code)].vertices, face_of(code));
+  }
+  bool is_on_border(std::uint32_t v) const { return v != delaunay::ghost_vertex && on_border_[v]; }
+
+  /// Joins the faces of a cell that are on the border, or notes that the cell is within it.
+  void find_border(std::uint32_t c) {
+    const auto& v = d_.cells[c].vertices;
+    const int others = !is_on_border(v[0]) + !is_on_border(v[1]) + !is_on_border(v[2]) + !is_on_border(v[3]);
+    if (others > 1) return;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (others == 1 && is_on_border(v[f])) continue;
+      const auto face = corners_of_face(v, f);
+      const std::uint32_t* code = faces_.find(face_key(face[0], face[1], face[2]));
+      if (code == nullptr) continue;
+      walls_[c] |= static_cast<std::uint8_t>(1u << f);
+      if (same_direction(face, corners(*code))) {
+        remove(c);
+      } else {
+        delaunay::join_faces(d_.cells, face_code(c, f), *code);
+        ++outside_;
+      }
+    }
+  }
+
+  void remove(std::uint32_t c) {
+    if ((walls_[c] & removed) != 0) return;
+    walls_[c] |= removed;
+    inside_.push_back(c);
+  }
+
+  void spread(std::uint32_t c) {
+    for (std::uint32_t f = 0; f < 4; ++f)
+      if ((walls_[c] >> f & 1) == 0) remove(cell_of(d_.cells[c].neighbors[f]));
+  }
+
+  Delaunay& d_;
+  const std::uint32_t outer_cells_;
+  std::vector<std::uint8_t> walls_;  ///< by cell: faces on the border; is it to go?
+  std::vector<bool> on_border_;      ///< by vertex
+  HashTable<FaceKey, std::uint32_t> faces_;
+  std::vector<std::uint32_t> inside_;
+  std::size_t outside_ = 0;
+};
+
+/// Has any cell any of these vertices?
+bool has_any(std::span<const Cell> cells, std::span<const std::uint32_t> vertices, std::size_t vertex_count) {
+  if (vertices.empty()) return false;
+  std::vector<bool> is_one(vertex_count, false);
+  for (const std::uint32_t v : vertices) is_one[v] = true;
+  return std::ranges::any_of(cells, [&](const Cell& cell) {
+    return std::ranges::any_of(cell.vertices, [&](std::uint32_t v) { return is_one[v]; });
+  });
+}
+
+}  // namespace
+
+bool insert_core(const LatticeCore& core, std::span<const std::uint32_t> absent, Delaunay& d) {
+  if (core.cell_count == 0) return true;
+  const auto first = static_cast<std::uint32_t>(d.cells.size());
+  d.cells.resize(d.cells.size() + core.cell_count);
+  const std::span<Cell> cells = std::span(d.cells).subspan(first);
+  const std::vector<std::uint32_t> border = make_core_cells(core, cells, first);
+  if (has_any(cells, absent, d.vertices.size())) return false;
+  Joiner(d, first, border).run();
+  // The vertices of the cells that went are all the core's.
+  for (std::uint32_t c = first; c < d.cells.size(); ++c)
+    for (const std::uint32_t v : d.cells[c].vertices) d.vertices[v].cell = c;
+  work_done.cells_created += core.cell_count;
+  note_bytes(bytes_of(d.vertices, d.cells, d.free_cells, core.sites.blocks, border));
+  return true;
+}
+
+}  // namespace ccdt::cores

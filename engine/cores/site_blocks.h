@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/hash_table.h"
+#include "engine/base/morton.h"
+#include "engine/lattice/place_lattice_points.h"
+
+namespace ccdt::cores {
+
+using lattice::Lattice;
+
+inline constexpr std::uint32_t nothing = 0xFFFFFFFFu;
+
+/// What is known of a place of a block: of the point there, and of the unit cube whose least corner it is.
+enum PlaceFlag : std::uint8_t {
+  present = 0x01,        ///< a vertex of the lattice is there
+  deep = 0x02,           ///< that vertex is deep
+  blocked_point = 0x04,  ///< a vertex off the lattice is in a sphere of the shape around the point
+  blocked_cube = 0x08,   ///< the same for the shape in the cube
+  core_point = 0x10,     ///< the shape around the point is core
+  core_cube = 0x20,      ///< the shape in the cube is core
+};
+
+/// A cube of 8 x 8 x 8 places of one level, x first. A place is a point with whole coordinates in *steps*: half the
+/// side of a lattice cell of the level, or the whole side for the simple cubic lattice.
+struct SiteBlock {
+  static constexpr int side = 8;
+  static constexpr std::size_t size = 512;
+
+  std::array<std::uint32_t, 3> at;        ///< least place / side
+  std::uint32_t level;                    ///< index of its `SiteLevel`
+  std::uint64_t near_levels = 0;          ///< bits: levels that have a block which vertices of this one may be near
+  std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `nothing`: none
+  std::array<std::uint32_t, size> point;  ///< a site: its vertex; else the first cell of the shape there; or `nothing`
+  std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `nothing`
+  std::array<std::uint8_t, size> flags;
+  std::array<std::uint8_t, size> kind;  ///< how the ranks of its vertices split a shape
+
+  static std::size_t place(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + side * (y + side * z); }
+};
+
+/// The lattice of one level of the octree.
+struct SiteLevel {
+  unsigned octree_level = 0;
+  std::uint32_t step = 1;  ///< in octree units
+  HashTable<std::uint64_t, std::uint32_t> blocks;
+};
+
+using Place = std::array<std::uint32_t, 3>;
+
+/// Coordinates in steps are larger by this: so none is below zero around a site.
+inline constexpr std::uint32_t margin = SiteBlock::side;
+
+/// Is a place, in steps, a site of the lattice?
+constexpr bool is_site(Lattice kind, const Place& p) {
+  switch (kind) {
+    case Lattice::fcc:
+      return ((p[0] + p[1] + p[2]) & 1) == 0;
+    case Lattice::bcc:
+      return ((p[0] ^ p[1]) & 1) == 0 && ((p[0] ^ p[2]) & 1) == 0;
+    default:
+      return true;
+  }
+}
+
+/// The sites of all levels near which there are vertices, in blocks.
+struct SiteBlocks {
+  Lattice kind = Lattice::fcc;
+  std::vector<SiteLevel> levels;  ///< coarse ones first
+  std::vector<SiteBlock> blocks;
+
+  std::uint32_t find(std::uint32_t level, const Place& p) const {
+    return levels[level].blocks.get(morton_code({p[0] / SiteBlock::side, p[1] / SiteBlock::side, p[2] / SiteBlock::side}),
+                                    nothing);
+  }
+  static std::size_t place_in_block(const Place& p) {
+    return SiteBlock::place(p[0] % SiteBlock::side, p[1] % SiteBlock::side, p[2] % SiteBlock::side);
+  }
+};
+
+/// Puts the vertices of a lattice into blocks.
+///
+/// \param vertex  by point of the lattice: its vertex, or `nothing` if it is not to be there
+/// \param others  vertices that are no lattice points
+SiteBlocks make_site_blocks(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
+                            const std::vector<Point3>& others);
+
+/// A copy of one array of a block, and of the places around it.
+template <class T>
+class Surrounded {
+ public:
+  static constexpr int side = SiteBlock::side + 2;
+  static constexpr std::array<int, 3> stride = {1, side, side * side};
+
+  void gather(const SiteBlocks& all, const SiteBlock& block, const std::array<T, SiteBlock::size> SiteBlock::*array,
+              T otherwise) {
+    int i = 0;
+    for (int z = -1; z <= SiteBlock::side; ++z) {
+      const int bz = z < 0 ? 0 : z < SiteBlock::side ? 1 : 2;
+      for (int y = -1; y <= SiteBlock::side; ++y) {
+        const int by = y < 0 ? 0 : y < SiteBlock::side ? 1 : 2;
+        const int row = 3 * by + 9 * bz;
+        const std::size_t first = SiteBlock::place(0, static_cast<unsigned>(y) & 7u, static_cast<unsigned>(z) & 7u);
+        const auto from = [&](int bx, std::size_t x) {
+          const std::uint32_t b = block.around[static_cast<std::size_t>(row + bx)];
+          return b == nothing ? otherwise : (all.blocks[b].*array)[first + x];
+        };
+        values_[i++] = from(0, 7);
+        const std::uint32_t middle = block.around[static_cast<std::size_t>(row + 1)];
+        for (std::size_t x = 0; x < 8; ++x)
+          values_[i++] = middle == nothing ? otherwise : (all.blocks[middle].*array)[first + x];
+        values_[i++] = from(2, 0);
+      }
+    }
+  }
+
+  /// The index of a place of the block; neighbors are at it plus or minus the strides.
+  static int index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return static_cast<int>(x + 1 + side * (y + 1 + side * (z + 1)));
+  }
+  const T& operator[](int i) const { return values_[static_cast<std::size_t>(i)]; }
+
+ private:
+  std::array<T, side * side * side> values_;
+};
+
+/// Calls visit(x, y, z, place in the block, index in its surroundings) for the places of a block.
+template <class Visit>
+void for_each_place(const Visit& visit) {
+  for (std::uint32_t z = 0, i = 0; z < 8; ++z)
+    for (std::uint32_t y = 0; y < 8; ++y)
+      for (std::uint32_t x = 0; x < 8; ++x, ++i) visit(x, y, z, i, Surrounded<std::uint8_t>::index(x, y, z));
+}
+
+}  // namespace ccdt::cores
