@@ -45,6 +45,7 @@ inline constexpr auto fields<MeshCounts> =
                field("front_tetrahedra", &MeshCounts::front_tetrahedra),
                optional_field("splits_by_level", &MeshCounts::splits_by_level),
                optional_field("dropped_interior_vertices", &MeshCounts::dropped_interior_vertices),
+               optional_field("core_tetrahedra", &MeshCounts::core_tetrahedra),
                optional_field("front_faces", &MeshCounts::front_faces),
                optional_field("refined_on_segments", &MeshCounts::refined_on_segments),
                optional_field("refined_in_facets", &MeshCounts::refined_in_facets),

@@ -171,9 +171,8 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   if (options.lattice != Lattice::none)
     lattice =
         measured(costs, mesh_stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
-  delaunay = measured(costs, mesh_stage::delaunay, [&] {
-    return add_points(lattice, std::move(surface), options, progress, t.counts);
-  });
+  delaunay = measured(costs, mesh_stage::delaunay,
+                      [&] { return add_points(lattice, std::move(surface), options, progress, t.counts); });
   t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
   t.counts.dropped_interior_vertices = lattice.points.size() - t.counts.interior_vertices;
 

@@ -172,6 +172,12 @@ std::string protection(const MeshCounts& c) {
   return text.empty() ? "" : "protection  " + text + "\n";
 }
 
+/// Nothing if no lattice had a core.
+std::string lattice_cores(const MeshCounts& c) {
+  if (c.core_tetrahedra == 0) return "";
+  return "cores       " + with_separators(c.core_tetrahedra) + " tetrahedra deep within the lattice\n";
+}
+
 std::string measure_words(const bench::Quality::Measure& m) {
   return "mean " + rounded(m.mean) + ", 99% below " + rounded(m.p99) + ", worst " + rounded(m.max);
 }
@@ -312,7 +318,7 @@ std::string summarize(const bench::RunRecord& r) {
   const MeshCounts& c = r.counts;
   std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
-  text += refinement(c) + protection(c);
+  text += refinement(c) + protection(c) + lattice_cores(c);
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
   text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
           results::mebibytes(r.peak_rss_bytes) + "\n";

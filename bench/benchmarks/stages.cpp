@@ -71,9 +71,9 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   s.delaunay = surface.delaunay;
   s.facets = facets::triangulate_facets(s.plc, s.chains, s.delaunay);
   s.lattice = lattice_input(s, density);
-  const auto points = lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments},
-                                                    s.lattice.options)
-                          .points;
+  const auto points =
+      lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options)
+          .points;
   s.delaunay = protection::insert_interior(points, std::move(surface));
   s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
   if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))

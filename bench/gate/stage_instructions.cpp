@@ -24,6 +24,7 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::buil
                                                                {"ccdt::lattice::place_lattice_points", "lattice"},
                                                                {"ccdt::delaunay::build_delaunay", "delaunay"},
                                                                {"ccdt::protection::insert_interior", "delaunay"},
+                                                               {"ccdt::protection::core_interior", "delaunay"},
                                                                {"ccdt::protection::wrap_interior", "delaunay"},
                                                                {"ccdt::front::find_delaunay_faces", "face_check"},
                                                                {"ccdt::facets::follow_interior_vertices", "face_check"},

@@ -94,32 +94,20 @@ class Joiner {
   std::size_t outside_ = 0;
 };
 
-/// Has any cell any of these vertices?
-bool has_any(std::span<const Cell> cells, std::span<const std::uint32_t> vertices, std::size_t vertex_count) {
-  if (vertices.empty()) return false;
-  std::vector<bool> is_one(vertex_count, false);
-  for (const std::uint32_t v : vertices) is_one[v] = true;
-  return std::ranges::any_of(cells, [&](const Cell& cell) {
-    return std::ranges::any_of(cell.vertices, [&](std::uint32_t v) { return is_one[v]; });
-  });
-}
-
 }  // namespace
 
-bool insert_core(const LatticeCore& core, std::span<const std::uint32_t> absent, Delaunay& d) {
-  if (core.cell_count == 0) return true;
+void insert_core(const LatticeCore& core, Delaunay& d) {
+  if (core.cell_count == 0) return;
   const auto first = static_cast<std::uint32_t>(d.cells.size());
   d.cells.resize(d.cells.size() + core.cell_count);
   const std::span<Cell> cells = std::span(d.cells).subspan(first);
   const std::vector<std::uint32_t> border = make_core_cells(core, cells, first);
-  if (has_any(cells, absent, d.vertices.size())) return false;
   Joiner(d, first, border).run();
   // The vertices of the cells that went are all the core's.
   for (std::uint32_t c = first; c < d.cells.size(); ++c)
     for (const std::uint32_t v : d.cells[c].vertices) d.vertices[v].cell = c;
   work_done.cells_created += core.cell_count;
   note_bytes(bytes_of(d.vertices, d.cells, d.free_cells, core.sites.blocks, border));
-  return true;
 }
 
 }  // namespace ccdt::cores

@@ -47,24 +47,27 @@ class CoreFinder {
  public:
   CoreFinder(SiteBlocks& sites, std::vector<bool>& is_deep) : sites_(sites), kind_(sites.kind), is_deep_(is_deep) {}
 
-  std::uint32_t find() {
-    for (SiteBlock& block : sites_.blocks) find_core_shapes(block);
+  void find_whole_shapes() {
+    for (SiteBlock& block : sites_.blocks) find_whole_shapes(block);
+  }
+
+  std::uint32_t find_deep_vertices() {
     for (SiteBlock& block : sites_.blocks) find_deep_vertices(block);
     for (SiteBlock& block : sites_.blocks) number_cells(block);
     return cells_;
   }
 
  private:
-  void find_core_shapes(SiteBlock& block) {
+  /// Those that have all of their vertices.
+  void find_whole_shapes(SiteBlock& block) {
     around_.gather(sites_, block, &SiteBlock::flags, 0);
     const auto is_present = [&](int i) { return (around_[i] & present) != 0; };
     for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
       const Place p = {x, y, z};
       std::uint8_t& flags = block.flags[i];
-      if (has_shape_at(kind_, p) && (flags & blocked_point) == 0 && for_vertices_at(kind_, p, at, is_present))
-        flags |= core_point;
-      if (has_cubes(kind_) && (flags & blocked_cube) == 0 && for_vertices_of_cube(kind_, p, at, is_present))
-        flags |= core_cube;
+      if (has_shape_at(kind_, p) && for_vertices_at(kind_, p, at, is_present)) flags |= core_point;
+      if (has_cubes(kind_) && for_vertices_of_cube(kind_, p, at, is_present)) flags |= core_cube;
+      if ((flags & (core_point | core_cube)) != 0) block.has_core = true;
     });
   }
 
@@ -111,7 +114,8 @@ class CoreFinder {
         block.point[i] = cells_;
         cells_ += 4;
         if (kind_ == Lattice::fcc) {
-          for (int k = 0; k < 3; ++k) corners_[2 * k] = vertex_[at - stride[k]], corners_[2 * k + 1] = vertex_[at + stride[k]];
+          for (int k = 0; k < 3; ++k)
+            corners_[2 * k] = vertex_[at - stride[k]], corners_[2 * k + 1] = vertex_[at + stride[k]];
           block.kind[i] = static_cast<std::uint8_t>(diagonal_of_octahedron(corners_.data()));
         }
       }
@@ -140,11 +144,15 @@ class CoreFinder {
 }  // namespace
 
 LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
-                              const std::vector<Point3>& others, std::size_t vertices) {
+                              std::span<const Point3> others, std::size_t vertices) {
   LatticeCore core;
-  core.sites = make_site_blocks(lattice, vertex, others);
   core.is_deep.assign(vertices, false);
-  core.cell_count = CoreFinder(core.sites, core.is_deep).find();
+  SiteMap map(lattice, vertex);
+  CoreFinder finder(map.blocks(), core.is_deep);
+  finder.find_whole_shapes();
+  map.discard_shapes_with(others);
+  core.cell_count = finder.find_deep_vertices();
+  core.sites = std::move(map.blocks());
   return core;
 }
 

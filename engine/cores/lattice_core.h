@@ -11,18 +11,19 @@ namespace ccdt::cores {
 
 /// The part of a Delaunay tetrahedralization that follows from the lattices alone; docs/lattice-cores.md has the proof.
 ///
-/// The spheres of a perfect lattice hold the vertices of *shapes*:
+/// The spheres of a perfect lattice hold the vertices of *shapes*. They are placed in steps: half the side of a lattice
+/// cell, or the whole side for `sc`.
 ///
-///     fcc   octahedra around the points of odd sum, tetrahedra in the unit cubes between       (steps: half a cell)
-///     bcc   four tetrahedra around the face of two cells, that is, around the axis between their centers  (half a cell)
-///     sc    cubes                                                                              (steps: a cell)
+/// - `fcc`: octahedra around the points of odd sum, and tetrahedra in the unit cubes between
+/// - `bcc`: four tetrahedra around the face of two cells, that is, around the axis between their centers
+/// - `sc`: cubes
 ///
-/// A shape is *core* if all of its vertices are there and its closed spheres hold no other vertex. A vertex is *deep* if
-/// all its shapes are core. The core kept here is that of the shapes that have a deep vertex.
+/// A shape is *core* if all of its vertices are there and its closed spheres hold no other vertex. A vertex is *deep*
+/// if all its shapes are core. The core kept here is that of the shapes that have a deep vertex.
 struct LatticeCore {
   SiteBlocks sites;
-  std::vector<bool> is_deep;      ///< by vertex
-  std::uint32_t cell_count = 0;   ///< of all the shapes
+  std::vector<bool> is_deep;     ///< by vertex
+  std::uint32_t cell_count = 0;  ///< of all the shapes
 };
 
 /// \param lattice  the interior points
@@ -30,7 +31,7 @@ struct LatticeCore {
 /// \param others   all vertices that are no lattice points, and the only ones that are not
 /// \param vertices how many there are in all
 LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
-                              const std::vector<Point3>& others, std::size_t vertices);
+                              std::span<const Point3> others, std::size_t vertices);
 
 /// Makes the cells of the core and joins them to each other.
 ///
@@ -43,9 +44,7 @@ std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, std::span<de
 /// Puts the core into the tetrahedralization of the other vertices: cells of that within the core go, found by a flood
 /// from the core's border, and those outside become neighbors of the core's.
 ///
-/// \param absent  vertices that are not there in the end, in increasing order
-/// \param d       the Delaunay tetrahedralization of at least all vertices that are not deep
-/// \return        false if a cell of the core has an absent vertex; the tetrahedralization is of no use then
-bool insert_core(const LatticeCore& core, std::span<const std::uint32_t> absent, delaunay::Delaunay& d);
+/// \param d  the Delaunay tetrahedralization of at least all vertices that are not deep; its list of vertices has all
+void insert_core(const LatticeCore& core, delaunay::Delaunay& d);
 
 }  // namespace ccdt::cores

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/hash_table.h"
@@ -16,12 +17,10 @@ inline constexpr std::uint32_t nothing = 0xFFFFFFFFu;
 
 /// What is known of a place of a block: of the point there, and of the unit cube whose least corner it is.
 enum PlaceFlag : std::uint8_t {
-  present = 0x01,        ///< a vertex of the lattice is there
-  deep = 0x02,           ///< that vertex is deep
-  blocked_point = 0x04,  ///< a vertex off the lattice is in a sphere of the shape around the point
-  blocked_cube = 0x08,   ///< the same for the shape in the cube
-  core_point = 0x10,     ///< the shape around the point is core
-  core_cube = 0x20,      ///< the shape in the cube is core
+  present = 0x01,     ///< a vertex of the lattice is there
+  deep = 0x02,        ///< that vertex is deep
+  core_point = 0x04,  ///< the shape around the point is core
+  core_cube = 0x08,   ///< the shape in the cube is core
 };
 
 /// A cube of 8 x 8 x 8 places of one level, x first. A place is a point with whole coordinates in *steps*: half the
@@ -32,6 +31,7 @@ struct SiteBlock {
 
   std::array<std::uint32_t, 3> at;        ///< least place / side
   std::uint32_t level;                    ///< index of its `SiteLevel`
+  bool has_core = false;                  ///< is any of its shapes core?
   std::uint64_t near_levels = 0;          ///< bits: levels that have a block which vertices of this one may be near
   std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `nothing`: none
   std::array<std::uint32_t, size> point;  ///< a site: its vertex; else the first cell of the shape there; or `nothing`
@@ -44,7 +44,6 @@ struct SiteBlock {
 
 /// The lattice of one level of the octree.
 struct SiteLevel {
-  unsigned octree_level = 0;
   std::uint32_t step = 1;  ///< in octree units
   HashTable<std::uint64_t, std::uint32_t> blocks;
 };
@@ -73,27 +72,57 @@ struct SiteBlocks {
   std::vector<SiteBlock> blocks;
 
   std::uint32_t find(std::uint32_t level, const Place& p) const {
-    return levels[level].blocks.get(morton_code({p[0] / SiteBlock::side, p[1] / SiteBlock::side, p[2] / SiteBlock::side}),
-                                    nothing);
+    return levels[level].blocks.get(
+        morton_code({p[0] / SiteBlock::side, p[1] / SiteBlock::side, p[2] / SiteBlock::side}), nothing);
   }
   static std::size_t place_in_block(const Place& p) {
     return SiteBlock::place(p[0] % SiteBlock::side, p[1] % SiteBlock::side, p[2] % SiteBlock::side);
   }
 };
 
-/// Puts the vertices of a lattice into blocks.
-///
-/// \param vertex  by point of the lattice: its vertex, or `nothing` if it is not to be there
-/// \param others  vertices that are no lattice points
-SiteBlocks make_site_blocks(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
-                            const std::vector<Point3>& others);
+/// The vertices of a lattice in blocks.
+class SiteMap {
+ public:
+  /// \param lattice  must outlive this
+  /// \param vertex   by point of the lattice: its vertex, or `nothing` if it is not to be there
+  SiteMap(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex);
+
+  SiteBlocks& blocks() { return all_; }
+  /// Finds the core shapes in whose spheres there are lattice points of other levels, or any of the other vertices:
+  /// they are core no more.
+  void discard_shapes_with(std::span<const Point3> others);
+
+ private:
+  void make_levels();
+  Place coordinates(std::uint32_t point) const;
+  Place place(std::uint32_t level, const Place& c) const;
+  bool is_on(std::uint32_t level, const Place& c) const;
+  std::uint32_t level_of(std::uint32_t point, const Place& c) const;
+  std::uint32_t own_block(std::uint32_t level, const Place& p);
+  void put(std::uint32_t block, const Place& p, std::uint32_t vertex);
+  void put_on_other_levels(std::uint32_t point, std::uint32_t vertex);
+  void find_neighbors(std::uint32_t b);
+  void find_coarser(std::uint32_t b, std::uint32_t coarse);
+  template <class Visit>
+  void for_blocks_in(std::uint32_t level, const Place& low, const Place& high, const Visit& visit);
+  void discard_shapes(std::uint32_t level, const Point3& p);
+  void discard_shapes(SiteBlock& block, const Place& low, const Place& high, const std::array<double, 3>& x) const;
+
+  const lattice::LatticePoints& lattice_;
+  SiteBlocks all_;
+  std::vector<std::uint32_t> index_;     ///< of a level, by that of the octree
+  std::vector<std::uint32_t> block_of_;  ///< by point
+  // The block of the last point, which is often that of the next.
+  std::uint32_t last_ = 0, last_level_ = nothing;
+  std::uint64_t last_key_ = 0;
+};
 
 /// A copy of one array of a block, and of the places around it.
 template <class T>
 class Surrounded {
  public:
   static constexpr int side = SiteBlock::side + 2;
-  static constexpr std::array<int, 3> stride = {1, side, side * side};
+  static constexpr std::array<int, 3> stride = {1, side, side* side};
 
   void gather(const SiteBlocks& all, const SiteBlock& block, const std::array<T, SiteBlock::size> SiteBlock::*array,
               T otherwise) {

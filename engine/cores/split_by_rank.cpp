@@ -17,10 +17,12 @@ constexpr int bit(unsigned corner, unsigned axis) {
 
 /// The sign of `orient3d` for corners of the unit cube.
 constexpr int orientation(unsigned a, unsigned b, unsigned c, unsigned d) {
-  const auto row = [a](unsigned v) { return std::array{bit(v, 0) - bit(a, 0), bit(v, 1) - bit(a, 1), bit(v, 2) - bit(a, 2)}; };
+  const auto row = [a](unsigned v) {
+    return std::array{bit(v, 0) - bit(a, 0), bit(v, 1) - bit(a, 1), bit(v, 2) - bit(a, 2)};
+  };
   const auto p = row(b), q = row(c), r = row(d);
-  const int det = p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) +
-                  p[2] * (q[0] * r[1] - q[1] * r[0]);
+  const int det =
+      p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
   return (det > 0) - (det < 0);
 }
 

@@ -77,8 +77,9 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
 
-bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start) {
+bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   v_ = v;
+  ties_ = ties;
   p_ = d_.point(v);
   mark_.resize(d_.cells.size(), Mark::unknown);
   if (local_.size() < d_.vertices.size() + 1) local_.resize(d_.vertices.capacity() + 1, no_local);
@@ -179,18 +180,24 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   }
 }
 
-/// The new vertex has the greatest rank of all: where it is on a sphere, it is outside.
+/// A new vertex of the greatest rank of all is outside of a sphere that it is on.
 CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
   if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
   const auto& v = cell.vertices;
   const numbers::Sign sign =
       numbers::insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
-  return sign == numbers::Sign::unknown ? conflicts_exactly(cell) : sign == numbers::Sign::plus;
+  if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
+  if (sign == numbers::Sign::zero && ties_ == Ties::greatest_rank) return false;
+  return conflicts_exactly(cell);
 }
 
 bool Insertion::conflicts_exactly(const Cell& cell) const {
   const auto& v = cell.vertices;
-  return numbers::insphere_exactly(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_) > 0;
+  const Point3 &a = d_.point(v[0]), &b = d_.point(v[1]), &c = d_.point(v[2]), &d = d_.point(v[3]);
+  const int sign = numbers::insphere_exactly(a, b, c, d, p_);
+  if (sign != 0 || ties_ == Ties::greatest_rank) return sign > 0;
+  const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
+  return numbers::insphere_perturbed(a, b, c, d, p_, {rank(v[0]), rank(v[1]), rank(v[2]), rank(v[3]), rank(v_)}) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.
@@ -201,7 +208,12 @@ bool Insertion::ghost_conflicts(const Cell& ghost) const {
   const std::uint32_t inner = ghost.neighbors[3];
   const Point3& apex = d_.point(d_.cells[cell_of(inner)].vertices[face_of(inner)]);
   // The apex is below the ghost's triangle: seen from it the triangle is a, c, b.
-  return numbers::insphere(a, c, b, apex, p_) > 0;
+  const int sign = numbers::insphere(a, c, b, apex, p_);
+  if (sign != 0 || ties_ == Ties::greatest_rank) return sign > 0;
+  const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
+  return numbers::incircle_perturbed(
+             a, c, b, apex, p_, {rank(ghost.vertices[0]), rank(ghost.vertices[2]), rank(ghost.vertices[1]), rank(v_)}) >
+         0;
 }
 
 /// The cells of the cavity give their places to the new ones; more are taken from dead cells and from the end.

@@ -21,17 +21,23 @@ struct CavityFace {
   std::uint32_t outside;                  ///< code of the face in the cell that stays
 };
 
+/// How it is decided whether a new vertex that is on a sphere is in it.
+enum class Ties {
+  greatest_rank,  ///< it is not: no vertex in the tetrahedralization has a greater rank
+  any_rank        ///< by comparing all ranks
+};
+
 /// Inserts vertices into a tetrahedralization one by one, in three steps that may be taken apart: find the cavity, look
 /// at it, fill it. It owns the working memory, which is kept from one insertion to the next.
 class Insertion {
  public:
   explicit Insertion(Delaunay& delaunay);
 
-  /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices` and of the greatest
-  /// rank there, is in.
+  /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
   /// \param start  a cell to walk from; the nearer the quicker
+  /// \param ties   what the rank of the vertex is among those that are in the tetrahedralization
   /// \return false if a vertex with this very point is in the tetrahedralization (`twin()` tells which)
-  bool find_cavity(std::uint32_t v, std::uint32_t start);
+  bool find_cavity(std::uint32_t v, std::uint32_t start, Ties ties = Ties::greatest_rank);
 
   std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
   std::span<const CavityFace> cavity_faces() const { return border_.items(); }
@@ -75,6 +81,7 @@ class Insertion {
 
   Delaunay& d_;
   std::uint32_t v_ = 0, twin_ = 0;
+  Ties ties_ = Ties::greatest_rank;
   Point3 p_;
   unsigned turn_ = 0;
   std::vector<Mark> mark_;

@@ -18,9 +18,6 @@ namespace {
 constexpr std::uint32_t whole = whole_segment;
 constexpr std::uint32_t no_cell = 0;  // of vertices that are to be inserted
 
-/// So often the core is tried before all points are inserted.
-constexpr int most_attempts = 3;
-
 /// Splits pieces of segments until all that have to be are Delaunay edges. A stack holds those that may not be: all at
 /// first, then those of cells that a split has destroyed. It takes fewer splits than a queue, as one place is finished
 /// before the next one.
@@ -89,7 +86,6 @@ struct ProtectedEdges {
     for (const auto& [a, b] : list) on_edge[a] = on_edge[b] = 1;
     edges = EdgeMap(list, on_edge.size());
   }
-  bool is_empty() const { return edges.empty(); }
   bool may_have(std::uint32_t v) const { return v < on_edge.size() && on_edge[v] != 0; }
   bool has(std::uint32_t a, std::uint32_t b) const { return edges.find(a, b) != EdgeMap::none; }
 };
@@ -136,31 +132,49 @@ void add_vertices(delaunay::Delaunay& d, std::span<const Point3> points, const s
   d.cells.reserve(d.cells.size() + 7 * inserted + more_cells);
 }
 
-/// Inserts the vertices from the first interior one on, except those that are left out and those that would destroy a
-/// protected edge.
-///
-/// \param left_out  by vertex; empty: none
-/// \return          the vertices that would have destroyed an edge, or are where another one is
-std::vector<std::uint32_t> insert_vertices(delaunay::Delaunay& d, const ProtectedEdges& edges,
-                                           const std::vector<bool>& left_out, const Progress& progress) {
-  const auto first = static_cast<std::uint32_t>(edges.on_edge.size());
-  delaunay::Insertion insertion(d);
-  std::vector<std::uint64_t> found;
-  std::vector<std::uint32_t> dropped;
-  std::uint32_t last = d.vertices[0].cell;
-  for (std::uint32_t v = first; v < d.vertices.size(); ++v) {
-    if ((v & 0xFFFF) == 0) report(progress, "delaunay", v - first, d.vertices.size() - first);
-    if (!left_out.empty() && left_out[v]) continue;
-    if (insertion.find_cavity(v, last) && !destroys_edge(d, insertion, edges, found)) {
-      last = insertion.fill_cavity();
-    } else {
-      insertion.discard_cavity();
-      dropped.push_back(v);
+/// Inserts interior vertices, except those that would destroy a protected edge or are where another one is.
+class InteriorInsertion {
+ public:
+  /// \param points  where the vertices come from
+  InteriorInsertion(delaunay::Delaunay& d, std::span<const Point3> points, const ProtectedEdges& edges,
+                    const Progress& progress)
+      : d_(d), points_(points), edges_(edges), progress_(progress), insertion_(d), last_(d.vertices[0].cell) {}
+
+  const std::vector<std::uint32_t>& dropped() const { return dropped_; }
+
+  /// In the order of their ranks. \param is_wanted  which ones, by vertex
+  template <class Wanted>
+  void insert(const Wanted& is_wanted) {
+    const std::uint32_t first = first_interior();
+    for (std::uint32_t v = first; v < d_.vertices.size(); ++v) {
+      if ((v & 0xFFFF) == 0) report(progress_, "delaunay", v - first, d_.vertices.size() - first);
+      if (is_wanted(v) && !insert(v, delaunay::Ties::greatest_rank)) dropped_.push_back(v);
     }
+    note_bytes(bytes_of(d_.vertices, d_.cells, d_.free_cells, edges_.on_edge, points_) + insertion_.bytes());
   }
-  note_bytes(bytes_of(d.vertices, d.cells, d.free_cells, edges.on_edge) + insertion.bytes());
-  return dropped;
-}
+
+  /// \return false if the vertex was not inserted
+  bool insert(std::uint32_t v, delaunay::Ties ties) {
+    if (insertion_.find_cavity(v, last_, ties) && !destroys_edge(d_, insertion_, edges_, found_)) {
+      last_ = insertion_.fill_cavity();
+      return true;
+    }
+    insertion_.discard_cavity();
+    return false;
+  }
+
+ private:
+  std::uint32_t first_interior() const { return static_cast<std::uint32_t>(edges_.on_edge.size()); }
+
+  delaunay::Delaunay& d_;
+  std::span<const Point3> points_;
+  const ProtectedEdges& edges_;
+  const Progress& progress_;
+  delaunay::Insertion insertion_;
+  std::vector<std::uint64_t> found_;
+  std::vector<std::uint32_t> dropped_;
+  std::uint32_t last_;
+};
 
 /// Removes vertices that no cell has; those behind them move up.
 ///
@@ -229,39 +243,96 @@ std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
   return splits;
 }
 
+namespace {
+
+/// Inserts all points into a tetrahedralization that has none of them yet.
+delaunay::Delaunay insert_all(std::span<const Point3> points, const std::vector<std::uint32_t>& order,
+                              delaunay::Delaunay d, const ProtectedEdges& edges, const Progress& progress) {
+  add_vertices(d, points, order);
+  InteriorInsertion insertion(d, points, edges, progress);
+  insertion.insert([](std::uint32_t) { return true; });
+  remove_vertices(d, insertion.dropped());
+  return d;
+}
+
+/// Inserts the points that are not deep in a lattice, and puts the others in with the core.
+class CoreInsertion {
+ public:
+  CoreInsertion(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& order,
+                const delaunay::Delaunay& surface)
+      : lattice_(lattice),
+        order_(order),
+        first_(static_cast<std::uint32_t>(surface.vertices.size())),
+        vertex_(order.size()) {
+    for (std::uint32_t i = 0; i < order.size(); ++i) vertex_[order[i]] = first_ + i;
+    others_.reserve(first_);
+    for (const delaunay::DelaunayVertex& v : surface.vertices) others_.push_back(v.point);
+    core_ = find_core();
+  }
+
+  std::size_t core_cells() const { return core_.cell_count; }
+
+  /// \param d  has no interior vertex yet
+  /// \return   false if the core cannot be told; `d` is of no use then
+  bool run(delaunay::Delaunay& d, const ProtectedEdges& edges, const Progress& progress) {
+    add_vertices(d, lattice_.points, order_, core_.cell_count);
+    InteriorInsertion insertion(d, lattice_.points, edges, progress);
+    std::size_t tried = 0;
+    bool gives_up = false;
+    insertion.insert([&](std::uint32_t v) {
+      gives_up = gives_up || (++tried > least_tried && most_dropped * insertion.dropped().size() > tried);
+      return !core_.is_deep[v] && !gives_up;
+    });
+    if (gives_up || !withdraw_from(insertion.dropped(), insertion)) return false;
+    cores::insert_core(core_, d);
+    remove_vertices(d, insertion.dropped());
+    return true;
+  }
+
+ private:
+  /// Where more than one in so many points is dropped, some of those that are called deep would be dropped as well.
+  static constexpr std::size_t most_dropped = 12, least_tried = 1000;
+
+  cores::LatticeCore find_core() const {
+    return cores::find_lattice_core(lattice_, vertex_, others_, first_ + order_.size());
+  }
+
+  /// Makes the core one without the dropped vertices. What is no longer deep is inserted, later than its rank says.
+  /// \return  false if one of these would destroy an edge, which it might not have done in its turn
+  bool withdraw_from(const std::vector<std::uint32_t>& dropped, InteriorInsertion& insertion) {
+    if (dropped.empty()) return true;
+    for (const std::uint32_t v : dropped) vertex_[order_[v - first_]] = cores::nothing;
+    const std::vector<bool> was_deep = std::move(core_.is_deep);
+    core_ = find_core();
+    for (std::uint32_t v = first_; v < was_deep.size(); ++v)
+      if (was_deep[v] && !core_.is_deep[v] && !insertion.insert(v, delaunay::Ties::any_rank)) return false;
+    return true;
+  }
+
+  const lattice::LatticePoints& lattice_;
+  const std::vector<std::uint32_t>& order_;
+  const std::uint32_t first_;
+  std::vector<std::uint32_t> vertex_;  ///< by point
+  std::vector<Point3> others_;         ///< all other vertices
+  cores::LatticeCore core_;
+};
+
+}  // namespace
+
 delaunay::Delaunay insert_interior(std::span<const Point3> points, ProtectedDelaunay start, const Progress& progress) {
   const ProtectedEdges edges(start);
-  delaunay::Delaunay d = std::move(start.delaunay);
-  add_vertices(d, points, delaunay::hilbert_order(points));
-  const std::vector<std::uint32_t> dropped = insert_vertices(d, edges, {}, progress);
-  remove_vertices(d, dropped);
-  return d;
+  return insert_all(points, delaunay::hilbert_order(points), std::move(start.delaunay), edges, progress);
 }
 
 CoreDelaunay core_interior(const lattice::LatticePoints& lattice, ProtectedDelaunay start, const Progress& progress) {
   const ProtectedEdges edges(start);
   const std::vector<std::uint32_t> order = delaunay::hilbert_order(lattice.points);
-  const auto first = static_cast<std::uint32_t>(start.delaunay.vertices.size());
-  std::vector<std::uint32_t> vertex(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) vertex[order[i]] = first + i;
-  std::vector<Point3> others;
-  for (const delaunay::DelaunayVertex& v : start.delaunay.vertices) others.push_back(v.point);
-
-  // A point that is dropped may have been taken for a vertex of the core. Then all is done again without it.
-  for (int attempt = 1;; ++attempt) {
-    cores::LatticeCore core;
-    if (attempt <= most_attempts) core = cores::find_lattice_core(lattice, vertex, others, first + order.size());
-    const bool is_last = core.cell_count == 0;
-    delaunay::Delaunay d = is_last || edges.is_empty() ? std::move(start.delaunay) : start.delaunay;
-    add_vertices(d, lattice.points, order, core.cell_count);
-    const std::vector<std::uint32_t> dropped = insert_vertices(d, edges, core.is_deep, progress);
-    if (!cores::insert_core(core, dropped, d)) {
-      for (const std::uint32_t v : dropped) vertex[order[v - first]] = cores::nothing;
-      continue;
-    }
-    remove_vertices(d, dropped);
-    return {std::move(d), core.cell_count};
+  CoreInsertion core(lattice, order, start.delaunay);
+  if (core.core_cells() > 0) {
+    delaunay::Delaunay d = start.delaunay;
+    if (core.run(d, edges, progress)) return {std::move(d), core.core_cells()};
   }
+  return {insert_all(lattice.points, order, std::move(start.delaunay), edges, progress), 0};
 }
 
 delaunay::Delaunay wrap_interior(std::span<const Point3> points, ProtectedDelaunay start, double grid_scale,

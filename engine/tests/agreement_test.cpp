@@ -146,6 +146,74 @@ TEST(Agreement, ADiaphragmThatIsFlatOnlyWithinTheTolerance) {
   expect_agreement(plc, Lattice::none);
 }
 
+/// Meshes with `insert` and `core`.
+///
+/// \return  how many tetrahedra of lattice cores there were
+std::uint64_t expect_agreement_with_cores(const InputPlc& input, double edge_length,
+                                          std::initializer_list<double> gradings,
+                                          const std::vector<Improvement>& improvements = {Improvement::none},
+                                          double sphere_factor = 1) {
+  std::uint64_t core_tetrahedra = 0;
+  for (const Lattice kind : {Lattice::fcc, Lattice::bcc, Lattice::sc})
+    for (const double grading : gradings)
+      for (const Improvement improvement : improvements) {
+        SCOPED_TRACE("lattice " + std::to_string(static_cast<int>(kind)) + ", grading " + std::to_string(grading));
+        MeshOptions options;
+        options.lattice = kind, options.edge_length = edge_length, options.grading = grading;
+        options.sphere_factor = sphere_factor;
+        options.improve.improvement = improvement;
+        options.delaunay = DelaunayMethod::insert;
+        const MeshResult inserted = mesh_plc(input, options);
+        options.delaunay = DelaunayMethod::core;
+        const MeshResult with_core = mesh_plc(input, options);
+        expect_same_cells(inserted.mesh, with_core.mesh);
+        if (improvement == Improvement::all) {
+          EXPECT_TRUE(inserted.mesh.tetrahedra == with_core.mesh.tetrahedra);
+        }
+        EXPECT_EQ(inserted.counts.dropped_interior_vertices, with_core.counts.dropped_interior_vertices);
+        core_tetrahedra += with_core.counts.core_tetrahedra;
+      }
+  return core_tetrahedra;
+}
+
+TEST(Agreement, CoresOfLatticesInPrimitives) {
+  for (const auto& [name, edge_length] : {std::pair{"cube", 0.25}, {"sphere", 0.25}, {"torus", 0.3}}) {
+    SCOPED_TRACE(name);
+    const InputPlc plc = models::make_solid(name, edge_length);
+    EXPECT_GT(expect_agreement_with_cores(plc, 0.11, {0}), 0u);
+    EXPECT_GT(expect_agreement_with_cores(rotated(oblique, plc), 0.13, {0}, {Improvement::all}), 0u);
+    expect_agreement_with_cores(plc, 0, {0, 0.2, 0.5});
+  }
+}
+
+TEST(Agreement, CoresOfLatticesOfSeveralLevels) {
+  EXPECT_GT(expect_agreement_with_cores(models::make_solid("sphere", 0.13), 0, {0.1, 0.3, 1}), 0u);
+  EXPECT_GT(expect_agreement_with_cores(rotated(oblique, models::make_solid("graded-cube", 0.25)), 0, {0.3, 1}), 0u);
+}
+
+TEST(Agreement, CoresOfLatticesBesideInteriorFacetsAndProtectedEdges) {
+  std::uint64_t core_tetrahedra = 0;
+  for (const auto& [name, plc] : small_inputs()) {
+    SCOPED_TRACE(name);
+    core_tetrahedra += expect_agreement_with_cores(plc, 0.35, {0, 0.5}, {Improvement::none}, 0.2);
+    core_tetrahedra += expect_agreement_with_cores(rotated(oblique, plc), 0.3, {0}, {Improvement::none}, 0);
+  }
+  EXPECT_GT(core_tetrahedra, 0u);
+}
+
+TEST(Agreement, CoresOfLatticesInRandomBodies) {
+  std::mt19937 random(5);
+  std::uint64_t core_tetrahedra = 0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    SCOPED_TRACE(i);
+    const InputPlc voxels = random_voxels(2 + static_cast<int>(i) % 2, 2, random);
+    const InputPlc rough = roughened(models::make_solid("sphere", i % 2 == 0 ? 0.35 : 0.2), 0.3, random);
+    core_tetrahedra += expect_agreement_with_cores(rotated(random_rotation(random), voxels), 0.25 + 0.02 * i, {0});
+    core_tetrahedra += expect_agreement_with_cores(rough, 0.13 + 0.01 * i, {0, 0.3});
+  }
+  EXPECT_GT(core_tetrahedra, 0u);
+}
+
 TEST(Agreement, SmallRealParts) {
   if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
   for (const char* name : {"joint.off", "anchor.off", "rotor.off", "pinion.off", "handle.off", "cube-meshed.off"}) {

@@ -201,7 +201,7 @@ TEST(ImprovedMesh, IsTheSameWhateverTheStrategyAndInEveryRun) {
     options.edge_length = 0.8;
     const TetMesh first = mesh_plc(plc, options).mesh;
     expect_same_cells(first, mesh_plc(plc, options).mesh);
-    for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::wrap})
+    for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::core, DelaunayMethod::wrap})
       for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity})
         for (const bool check : {true, false}) {
           options.delaunay = method, options.locator = locator, options.face_protection = check;

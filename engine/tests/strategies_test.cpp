@@ -159,10 +159,10 @@ std::uint64_t hash_of(const TetMesh& mesh) {
 
 MeshResult expect_one_set_of_tetrahedra(const Case& c) {
   std::optional<MeshResult> first;
-  for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::wrap}) {
+  for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::core, DelaunayMethod::wrap}) {
     for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
       for (const bool check : {true, false}) {
-        SCOPED_TRACE("wrap " + std::to_string(method == DelaunayMethod::wrap) + ", locator " +
+        SCOPED_TRACE("delaunay " + std::to_string(static_cast<int>(method)) + ", locator " +
                      std::to_string(static_cast<int>(locator)) + ", check " + std::to_string(check));
         MeshOptions options;
         options.delaunay = method;

@@ -151,7 +151,7 @@ TEST(Work, CellsThatImprovementMadeAndDidNotDestroyAreThere) {
 }
 
 TEST(Work, ExactEvaluationsAreTheSumOfTheirKinds) {
-  for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::wrap}) {
+  for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::core, DelaunayMethod::wrap}) {
     MeshOptions options;
     options.delaunay = method;
     const MeshResult result = mesh_plc(gridded_cube(4), options);
