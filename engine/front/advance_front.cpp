@@ -41,20 +41,17 @@ enum class Search { near, full };
 template <class Locator>
 class WholeModelFinder {
  public:
-  /// \param near  none: all vertices are tried at once, as in the paper
-  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator,
-                   NearVertices* near)
-      : facets_(facets), d_(delaunay), locator_(locator), near_(near) {}
+  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator)
+      : facets_(facets), d_(delaunay), locator_(locator) {}
 
   /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
-  std::optional<std::uint32_t> find(const OrientedFace& face, Search search, std::uint32_t& /*cavity*/) const {
-    return search == Search::near ? find_near_apex(locator_, facets_, d_, face, *near_)
-                                  : find_apex(locator_, facets_, d_, face);
+  std::optional<std::uint32_t> find(const OrientedFace& face, Search /*all*/, std::uint32_t& /*cavity*/) const {
+    return find_apex(locator_, facets_, d_, face);
   }
 
-  Search first_search() const { return near_ == nullptr ? Search::full : Search::near; }
+  Search first_search() const { return Search::full; }
   std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
-  std::size_t bytes() const { return locator_.bytes() + (near_ == nullptr ? 0 : near_->bytes()); }
+  std::size_t bytes() const { return locator_.bytes(); }
 
   /// The triangles that the front can meet.
   std::vector<std::uint32_t> triangles() const { return all_indices(facets_.triangles.size()); }
@@ -63,7 +60,6 @@ class WholeModelFinder {
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   Locator locator_;
-  NearVertices* near_;
 };
 
 /// The same, cavity by cavity.
@@ -472,18 +468,14 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
   Front front(in, options.face_protection, star);
   switch (options.locator) {
     case locate::LocatorKind::grid:
-      front.advance(
-          WholeModelFinder(facets, delaunay,
-                           locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale), nullptr),
-          progress);
+      front.advance(WholeModelFinder(facets, delaunay,
+                                     locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale)),
+                    progress);
       break;
-    case locate::LocatorKind::octree: {
-      NearVertices near(facets, codes, delaunay, star);
-      front.advance(
-          WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles), &near),
-          progress);
+    case locate::LocatorKind::octree:
+      front.advance(WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles)),
+                    progress);
       break;
-    }
     case locate::LocatorKind::cavity: {
       NearVertices near(facets, codes, delaunay, star);
       front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star, near), progress);

@@ -58,9 +58,9 @@ struct FrontOptions {
 /// vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the cell there is hidden
 /// from every point of the face (Shewchuk 2008).
 ///
-/// The octree and the cavities try vertices near a face first, since the sphere of a needle may hold thousands of
-/// hidden ones; that the tetrahedra fit together proves them right, and those that do not are made again with all
-/// vertices tried. The grid is the paper's, and tries all.
+/// Cavity by cavity, vertices near a face are tried first, since the sphere of a needle may hold thousands of hidden
+/// ones; that the tetrahedra fit together proves them right, and those that do not are made again with all vertices
+/// tried. The locators of the whole model try all at once, as the paper does.
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::front

@@ -212,8 +212,6 @@ template std::optional<std::uint32_t> find_apex(const locate::GridLocator&, cons
                                                 const delaunay::Delaunay&, const OrientedFace&);
 template std::optional<std::uint32_t> find_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                 const delaunay::Delaunay&, const OrientedFace&);
-template std::optional<std::uint32_t> find_near_apex(const locate::GridLocator&, const facets::FacetMesh&,
-                                                     const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
 template std::optional<std::uint32_t> find_near_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                      const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
 

@@ -303,16 +303,16 @@ front.peak_bytes 8104
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 6
-front.centroid_filter_failures 2
-front.narrow_evaluations 6
-front.exact_evaluations 6
-front.octree_nodes 367
-front.cells_visited 716
+front.orient3d_filter_failures 18
+front.centroid_filter_failures 6
+front.narrow_evaluations 18
+front.exact_evaluations 18
+front.octree_nodes 590
+front.cells_visited 172
 front.octree_nodes_created 31
-front.front_candidates 142
-front.visibility_tests 160
-front.peak_bytes 14852
+front.front_candidates 336
+front.visibility_tests 245
+front.peak_bytes 14560
 )");
   expect_work(work_of_front(LocatorKind::grid, true), R"(
 face_check.cells_visited 107
@@ -351,16 +351,15 @@ front.peak_bytes 16392
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 33
-front.centroid_filter_failures 10
-front.narrow_evaluations 33
-front.exact_evaluations 33
-front.octree_nodes 761
-front.cells_visited 1362
+front.orient3d_filter_failures 51
+front.centroid_filter_failures 16
+front.narrow_evaluations 51
+front.exact_evaluations 51
+front.octree_nodes 1119
 front.octree_nodes_created 31
-front.front_candidates 316
-front.visibility_tests 300
-front.peak_bytes 17764
+front.front_candidates 660
+front.visibility_tests 447
+front.peak_bytes 16704
 )");
 }
 
