@@ -17,6 +17,8 @@ namespace ccdt::verify {
 /// explained by that if moving each coordinate by `rounding` can change the sign of the determinant (to first order).
 ///
 /// \param constrained  of each face: does it stand for a facet?
+/// \param rounding     in units of the input
+/// \param required     must the mesh be constrained Delaunay?
 /// \return             faces that are not locally Delaunay beyond what rounding explains, and those within (not
 /// required)
 std::array<Check, 2> check_delaunay(const Topology& topology, const std::vector<bool>& constrained, double rounding,

@@ -229,8 +229,6 @@ Check check_boundary(const Topology& topology, const FacetMatches& matches) {
   return check;
 }
 
-// The Delaunay property.
-
 /// The engine rounds to 2^-33 of the next power of two above the box; and the coordinates in the file are rounded to
 /// doubles.
 double largest_rounding(const plc::InputPlc& input, const Tolerances& tolerances) {
