@@ -38,7 +38,7 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions& options, c
   MesherRun run;
   run.result.seconds.delaunay = run.result.seconds.mesh = seconds;
   run.settings = settings_of_cgal_delaunay(input, options);
-  run.notes = {"the Delaunay tetrahedralization of the vertices fills their convex hull and knows no facets"};
+  run.notes = {"the Delaunay tetrahedralization of the vertices fills their convex hull and ignores facets"};
   TetMesh& mesh = run.result.mesh;
   mesh.vertices = merged.vertices;
   mesh.tetrahedra.reserve(triangulation.number_of_finite_cells());
@@ -47,7 +47,7 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions& options, c
         {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
   mesh.regions.assign(mesh.tetrahedra.size(), 0);
   if (mesh.tetrahedra.empty())
-    throw MeshError("the vertices are all in one plane and have no tetrahedra", io::place_in(input.name),
+    throw MeshError("all vertices are in one plane, so there are no tetrahedra", io::place_in(input.name),
                     "give a solid");
   run.result.counts = count_elements(merged, mesh);
   return run;

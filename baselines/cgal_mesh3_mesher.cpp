@@ -32,18 +32,18 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::C
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 namespace parameters = CGAL::parameters;
 
-/// What bounds the refinement. Sizes are radii of circumscribed spheres; a mesh whose largest radius is the edge length
-/// has edges of about that length on average.
+/// The bounds of the refinement. Sizes are circumradii; a mesh whose largest circumradius is the edge length has edges
+/// of about that length on average.
 struct Sizes {
-  double feature_angle = 60;  ///< degrees between normals from which an edge is sharp: the library's default
-  double edge, facet_angle = 25, facet, facet_distance, cell_radius_edge = 3, cell;  ///< angle and ratio: its manual's
+  double feature_angle = 60;  ///< least angle between normals at a sharp edge, in degrees: the default of the library
+  double edge, facet_angle = 25, facet, facet_distance, cell_radius_edge = 3,
+               cell;  ///< angle and ratio as in its manual
 
   explicit Sizes(double edge_length)
       : edge(edge_length), facet(edge_length), facet_distance(edge_length / 10), cell(edge_length) {}
 };
 
-/// The triangles between one pair of regions, all with the first below (where their normals come from) and the second
-/// above.
+/// The triangles between two regions. All have the first region below and the second above; normals point upward.
 struct Interface {
   std::vector<Kernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -163,7 +163,7 @@ Complex refine(const std::map<SubdomainPair, Interface>& interfaces, const Sizes
                           parameters::facet_size = sizes.facet, parameters::facet_distance = sizes.facet_distance,
                           parameters::cell_radius_edge_ratio = sizes.cell_radius_edge,
                           parameters::cell_size = sizes.cell);
-  // Perturbation and exudation improve the finished mesh: they are on or off as our engine's improvement is.
+  // Perturbation and exudation improve the finished mesh, so they are on if the improvement of our engine is.
   return CGAL::make_mesh_3<Complex>(domain, criteria, improve ? parameters::perturb() : parameters::no_perturb(),
                                     improve ? parameters::exude() : parameters::no_exude());
 }
@@ -174,9 +174,10 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
   const Sizes sizes(target_edge_length(input, options));
   MesherRun run;
   run.settings = settings_of_mesh3(input, options);
-  run.notes = {"the surface is remeshed: the input's triangles are approximated, not kept"};
+  run.notes = {"the surface is remeshed: it approximates the triangles of the input and does not keep them"};
   report(progress, "mesh_3", 0, 0);
-  CGAL::get_default_random() = CGAL::Random(random_seed);  // else its seed is the time, and each mesh another
+  CGAL::get_default_random() =
+      CGAL::Random(random_seed);  // otherwise its seed is the time, and every mesh is different
   const auto begin = std::chrono::steady_clock::now();
   const Complex complex = refine(interfaces, sizes, is_improved(options));
   run.result.seconds.mesh = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -184,7 +185,7 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
   run.result.mesh = read_back(complex, plc);
   if (run.result.mesh.tetrahedra.empty())
     throw MeshError("Mesh_3 made no tetrahedra at this edge length", io::place_in(input.name),
-                    "ask for a smaller --edge-length");
+                    "choose a smaller --edge-length");
   run.result.counts = count_elements(input, run.result.mesh);
   return run;
 }

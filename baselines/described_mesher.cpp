@@ -68,7 +68,7 @@ std::vector<std::string> fill_all(const std::vector<std::string>& words, const s
   return all;
 }
 
-/// The program of a command: with a slash, from the folder of the description; else on PATH.
+/// The program of a command: relative to the folder of the description if it has a slash, otherwise on PATH.
 std::optional<std::filesystem::path> program_of(const Description& description, const std::string& name) {
   if (name.find('/') == std::string::npos) return find_on_path(name);
   const auto file = std::filesystem::path(absolute_folder_of(description)) / name;
@@ -90,7 +90,7 @@ bool keeps_polygons(const Description& description) {
   return description.input_format == "poly" || description.input_format == "smesh";
 }
 
-/// Formats of surfaces want triangles, those of PLCs keep polygons.
+/// Surface formats need triangles; PLC formats keep polygons.
 InputPlc input_for_format(const Description& description, const InputPlc& input, const MeshOptions& options) {
   if (keeps_polygons(description) || input.polygon_facets.empty()) return merge_equal_vertices(input);
   return triangulate_facets(input, options);
@@ -101,7 +101,7 @@ void write_input(const Description& description, const InputPlc& input, const st
     io::write_plc(input, folder / input_name(description));
   } catch (const OutputError& error) {
     throw MeshError(description.name + " reads ." + description.input_format + ": " + error.what(),
-                    io::place_in(input.name), "leave that out, or choose a mesher that reads .poly");
+                    io::place_in(input.name), "remove it, or choose a mesher that reads .poly");
   }
 }
 
@@ -156,12 +156,12 @@ TetMesh read_output(const Description& description, const InputPlc& input, const
   }
 }
 
-/// Gives what a program wrote the form that meshers return.
+/// Converts the output of a program to the result of a mesher.
 void clean_up(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& notes) {
   orient_positively(mesh);
   if (const std::size_t restored = restore_coordinates(input.vertices, mesh); restored > 0)
     notes.push_back(std::to_string(restored) +
-                    " vertices of the input got their coordinates back, which had been rounded in files");
+                    " vertices of the input got back their coordinates, which files had rounded");
   if (mesh.faces.empty()) add_boundary_faces(mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
   mesh.constrained_delaunay = false;
@@ -183,8 +183,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   const double wall_seconds = call_program(description, input, values, folder, log);
   const auto said = description.seconds_pattern.empty() ? std::nullopt : sum_in_log(log, description.seconds_pattern);
   run.result.seconds.mesh = said.value_or(wall_seconds);
-  if (!said)
-    run.notes.emplace_back("the seconds are those of the whole call, including its start, reading and writing");
+  if (!said) run.notes.emplace_back("the seconds are those of the whole call, including start, reading and writing");
   run.result.mesh = read_output(description, input, fill_placeholders(description.output, values), folder, log);
   clean_up(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
@@ -204,7 +203,7 @@ std::string ask_version(const Description& description) {
   return version_of_program(command, description.version_pattern);
 }
 
-/// All texts of a description that the program gets to see.
+/// All texts of a description that reach the program.
 std::vector<std::string> texts_of(const Description& description) {
   std::vector<std::string> texts = description.command;
   texts.push_back(description.output);
@@ -213,7 +212,7 @@ std::vector<std::string> texts_of(const Description& description) {
   return texts;
 }
 
-/// Which options change the texts.
+/// The options that change the texts.
 ///
 /// \param bare  with `--lattice none`
 std::set<std::string> options_in_texts(const Description& description, bool bare) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_last_lines = 5;
 constexpr double most_seconds_for_version = 10;
-/// The library matches by recursion: a line of megabytes would overflow the stack.
+/// The library matches recursively, so a line of megabytes would overflow the stack.
 constexpr std::size_t longest_line = 1000;
 
 bool can_be_executed(const std::filesystem::path& file) {
@@ -36,7 +36,7 @@ void visit_lines(std::istream& lines, Visit visit) {
   }
 }
 
-/// The first group, or where there is none all of the match.
+/// The first group, or the whole match if there is no group.
 std::string matched(const std::smatch& match) {
   return match.size() > 1 ? match[1].str() : match[0].str();
 }
@@ -63,7 +63,7 @@ std::optional<std::filesystem::path> find_on_path(const std::string& name) {
 std::string version_of_program(const std::vector<std::string>& command, const std::string& pattern) {
   const TemporaryFolder folder;
   const auto log = folder.path() / "log";
-  // Some programs print their version and end with an error, others wait for something.
+  // Some programs print their version and end with an error; others wait for input.
   run_program(command, {.log = log, .limits = Limits{.seconds = most_seconds_for_version}});
   return first_in_log(log, pattern.empty() ? "^.*$" : pattern).value_or(unknown_version);
 }

@@ -21,36 +21,34 @@ constexpr auto names_of(RunStatus) {
                                                {RunStatus::crashed, "crashed"}});
 }
 
-/// Why a run did not end well. The status follows from it.
+/// Why a run failed. The status follows from it.
 enum class FailureKind { invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong };
 
 constexpr auto names_of(FailureKind) {
   using enum FailureKind;
   return std::to_array<NamedValue<FailureKind>>(
-      {{invalid_input, "invalid_input", "the input cannot be read, or is no valid piecewise linear complex"},
+      {{invalid_input, "invalid_input", "the input cannot be read, or is not a valid piecewise linear complex"},
        {limit, "limit", "a limit of subdivision, size or disk space was reached"},
        {refused, "refused", "the mesher gave up and said so"},
-       {crashed, "crashed", "a signal ended the mesher, or it met an error that nobody expected"},
-       {timeout, "timeout", "the limit of time was reached"},
-       {out_of_memory, "out_of_memory", "the limit of memory was reached, or the machine had no more"},
-       {wrong, "wrong", "the mesh cannot be read, is not whole, or failed its verification"}});
+       {crashed, "crashed", "a signal ended the mesher, or an unexpected error occurred"},
+       {timeout, "timeout", "the time limit was reached"},
+       {out_of_memory, "out_of_memory", "the memory limit was reached, or the machine ran out of memory"},
+       {wrong, "wrong", "the mesh cannot be read, is incomplete, or failed its verification"}});
 }
 
 /// The status of a run that failed.
 RunStatus status_of(FailureKind kind);
 
-/// What an error says about the run that it ended. Its type decides, never its words.
+/// The kind of failure for an error. The type of the error decides, never its message.
 FailureKind failure_kind_of(const std::exception& error);
 
-/// What a signal says about the process that it ended: without a limit of ours, the kernel sends SIGKILL where memory
-/// runs out.
+/// The kind of failure for a signal. Without a memory limit, SIGKILL means that the kernel ran out of memory.
 FailureKind failure_kind_of_signal(int signal);
 
-/// What the exit code of a program says that did not succeed. Shells report the signal that ended their program as 128
-/// and its number.
+/// The kind of failure for an exit code other than 0. Shells report a signal as 128 plus its number.
 FailureKind failure_kind_of_exit_code(int code);
 
-/// The program of a mesher crashed, or what it wrote is no mesh.
+/// The program of a mesher crashed, or its output is not a mesh.
 class MesherError : public MeshError {
  public:
   MesherError(FailureKind kind, const std::string& what, Place place, std::string remedy)

@@ -18,21 +18,21 @@ namespace {
 constexpr const char* program_name = "gmsh";
 constexpr const char* program_variable = "CCDT_GMSH";
 
-/// Gmsh's own value for a size that is not given.
+/// Gmsh's value for an unspecified size.
 constexpr double no_size = 1e22;
 
-/// Facets with the same regions at their sides and the same marker: one of Gmsh's discrete surfaces.
+/// The facets with the same regions on their sides and the same marker: a discrete surface of Gmsh.
 struct DiscreteSurface {
   RegionId below, above;
   int marker = 0;
   auto operator<=>(const DiscreteSurface&) const = default;
 };
 
-/// The domain as Gmsh takes it: triangles, each of a discrete surface, and volumes between such surfaces.
+/// The domain in the form that Gmsh reads: triangles on discrete surfaces, and volumes between these surfaces.
 struct DiscreteModel {
   TetMesh triangles;  ///< `face_markers`: numbers of surfaces, from 1 in the order of their first triangles
-  std::vector<DiscreteSurface> surfaces;  ///< by number less one
-  std::vector<RegionId> volumes;          ///< by number less one: the regions inside
+  std::vector<DiscreteSurface> surfaces;  ///< by number minus one
+  std::vector<RegionId> volumes;          ///< by number minus one: the regions inside
 };
 
 [[noreturn]] void fail(const std::string& what, const std::string& file, const std::string& remedy,
@@ -41,10 +41,10 @@ struct DiscreteModel {
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& file) {
-  fail("Gmsh's HXT cannot keep " + what + " inside a volume", file, "leave them out, or choose another mesher");
+  fail("Gmsh's HXT cannot keep " + what + " inside a volume", file, "remove them, or choose another mesher");
 }
 
-/// Every segment has to be an edge of a facet.
+/// Checks that every segment is an edge of a facet.
 void check_segments(const plc::Plc& plc, std::vector<std::array<VertexId, 2>> facet_edges) {
   std::ranges::sort(facet_edges);
   for (const plc::Segment& segment : plc.segments) {
@@ -119,7 +119,7 @@ void write_script(const DiscreteModel& model, const std::string& surface, const 
   script.commit();
 }
 
-/// Puts the attributes of regions and the markers of facets in the place of the numbers that Gmsh knows.
+/// Replaces Gmsh's numbers by the attributes of regions and the markers of facets.
 /// \throw std::out_of_range  there is no such number
 void restore_attributes(const DiscreteModel& model, const plc::Plc& plc, TetMesh& mesh) {
   for (int& region : mesh.regions)
@@ -133,11 +133,10 @@ TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model,
     mesh = io::read_tet_mesh(file);
     restore_attributes(model, plc, mesh);
   } catch (const InputError& error) {
-    fail(std::string("what Gmsh wrote cannot be read: ") + error.what(), plc.name, "try another mesher",
+    fail(std::string("the output of Gmsh cannot be read: ") + error.what(), plc.name, "try another mesher",
          FailureKind::wrong);
   } catch (const std::out_of_range&) {
-    fail("Gmsh wrote numbers of volumes or surfaces that it was not given", plc.name, "try another mesher",
-         FailureKind::wrong);
+    fail("Gmsh wrote unknown numbers of volumes or surfaces", plc.name, "try another mesher", FailureKind::wrong);
   }
   orient_positively(mesh);
   restore_coordinates(plc.world, mesh);
@@ -146,7 +145,7 @@ TetMesh read_back(const std::filesystem::path& file, const DiscreteModel& model,
 
 MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const auto program = find_program(program_name, program_variable);
-  if (!program) fail("the program gmsh is no longer there", input.name, "install it, or set CCDT_GMSH to its path");
+  if (!program) fail("the program gmsh has disappeared", input.name, "install it, or set CCDT_GMSH to its path");
   const plc::Plc plc = plc::build_plc(input, {.flatness = options.flatness});
   const DiscreteModel model = discrete_model(plc);
 
@@ -157,7 +156,7 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   io::write_tet_mesh(model.triangles, file("surface.msh"));
   write_script(model, "surface.msh", run.settings, file("model.geo"));
   report(progress, "gmsh", 0, 0);
-  // In the folder, by short names: other paths have made HXT choose other tetrahedra.
+  // Runs in the folder with short names: longer paths have changed the tetrahedra that HXT makes.
   const std::string gmsh = std::filesystem::absolute(*program).string();
   const int code = run_program({gmsh, "model.geo", "-3", "-nt", "1", "-v", "5", "-o", "volume.msh"},
                                {.folder = folder.path(), .log = file("log"), .limits = Limits()})
@@ -169,7 +168,7 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   if (!std::filesystem::exists(file("volume.msh")))
     fail("Gmsh wrote no mesh", input.name, "try another mesher", FailureKind::wrong);
 
-  // "tOptimize = 1.2" is a part of "Done meshing 3D (Wall 1.5s, ...", which is all of HXT and what Gmsh does around it.
+  // "tOptimize = 1.2" is a part of "Done meshing 3D (Wall 1.5s, ...", which covers HXT and the work of Gmsh around it.
   run.result.seconds.improve = sum_in_log(file("log"), "tOptimize[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
   run.result.seconds.mesh =
       sum_in_log(file("log"), "Done (?:meshing 3D|optimizing mesh) [(]Wall[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
@@ -180,7 +179,7 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
   return run;
 }
 
-/// `gmsh --version` prints it alone.
+/// `gmsh --version` prints nothing else.
 std::string version_of_gmsh() {
   const auto program = find_program(program_name, program_variable);
   return program ? version_of_program({program->string(), "--version"}, "^[0-9]+[.][^ ]*") : unknown_version;

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 using Pointer = Json::json_pointer;
 
-/// How many letters must be changed, added or left out to make one word of the other (Levenshtein 1966).
+/// The number of letters to change, add or remove to turn one word into the other (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -39,13 +39,13 @@ bool has_type(const Json& rule, const Json& value) {
          ((type == "number" || type == "integer") && value.is_number());
 }
 
-/// The rule that a reference leads to.
+/// The rule to which a reference points.
 const Json& referred(const Json& schema, const Json& rule) {
   if (!rule.contains("$ref")) return rule;
   return referred(schema, schema.at(Pointer(rule["$ref"].get<std::string>().substr(1))));
 }
 
-/// The rule for a value: what a reference leads to, and of several alternatives the one of the value's type.
+/// The rule for a value: resolves references, and chooses the alternative of the value's type.
 const Json& rule_for(const Json& schema, const Json& reference, const Json& value) {
   const Json& rule = referred(schema, reference);
   if (rule.contains("oneOf"))
@@ -72,7 +72,7 @@ std::vector<std::string> members_of(const Json& rule) {
   return names;
 }
 
-/// What to write at a place, by the description nearest to it.
+/// What to write at a place, from the description nearest to it.
 std::string description_at(const Json& schema, const Json& root, const Pointer& at) {
   std::string text;
   const Json* rule = &schema;
@@ -90,8 +90,7 @@ std::string description_at(const Json& schema, const Json& root, const Pointer& 
   return text.empty() ? "the members are " + listed(members_of(schema)) : text;
 }
 
-/// The rule for a value with the alternative of its type wherever there are several, so that faults are about what the
-/// user meant.
+/// The rule for a value with all alternatives resolved by type, so that messages concern what the user meant.
 Json rule_as_meant(const Json& schema, const Json& rule_of_value, const Json& value) {
   Json rule = rule_for(schema, rule_of_value, value);
   if (rule.contains("patternProperties")) return rule;
@@ -135,7 +134,7 @@ void check_schema(const Json& value, const std::string& file, const UserFile& ki
   valijson::SchemaParser().populateSchema(Adapter(meant), schema);
   valijson::ValidationResults faults;
   if (valijson::Validator().validate(schema, Adapter(value), &faults)) return;
-  // The first one of the deepest is the cause; the others follow from it.
+  // The first of the deepest errors is the cause; the others follow from it.
   const auto cause = std::ranges::max_element(faults, {}, [](const auto& fault) { return fault.context.size(); });
   Pointer at;
   for (std::size_t i = 1; i < cause->context.size(); ++i)  // "<root>", "[command]", "[0]"
@@ -151,8 +150,8 @@ nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const U
   try {
     json = nlohmann::ordered_json::parse(bytes.bytes);
   } catch (const nlohmann::ordered_json::parse_error& error) {
-    io::fail_at_byte(bytes, error.byte, std::string(kind.what) + " is JSON, and this is not",
-                     std::string("correct it there") + kind.examples);
+    io::fail_at_byte(bytes, error.byte, std::string(kind.what) + " must be JSON, but this is not",
+                     std::string("correct the file there") + kind.examples);
   }
   check_schema(json, file.string(), kind);
   return json;

@@ -11,12 +11,13 @@ namespace ccdt::baselines {
 /// A kind of JSON file that users write by hand.
 struct UserFile {
   const char* what;      ///< "the description of a mesher"
-  const char* schema;    ///< text of a JSON Schema, draft 7; its descriptions say what to write
+  const char* schema;    ///< JSON Schema, draft 7; its descriptions say what to write
   const char* examples;  ///< ends each remedy: "; FOLDER has examples"
 };
 
-/// Reads a file and checks it by its schema. Members keep their order.
-/// \throw InputError  it cannot be read or is wrong; names the byte or the JSON pointer, and says what to write there
+/// Reads a file and checks it against its schema. Members keep their order.
+/// \throw InputError  the file cannot be read or is invalid; names the byte or the JSON pointer, and says what to write
+/// there
 nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const UserFile& kind);
 
 /// \throw InputError  "POINTER: what" in this file
@@ -26,7 +27,7 @@ nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const U
 /// "a, b, c"
 std::string listed(const std::vector<std::string>& names);
 
-/// What to say of a name that is not known: "did you mean 'b'? Known are a, b, c".
+/// The remedy for an unknown name: "did you mean 'b'? Known are a, b, c".
 std::string suggestion(std::string_view unknown, const std::vector<std::string>& known);
 
 }  // namespace ccdt::baselines

@@ -22,7 +22,7 @@ double signed_volume(const TetMesh& mesh, const std::array<std::uint32_t, 4>& t)
 
 /// A face of a tetrahedron.
 struct Side {
-  Face sorted, face;  ///< its vertices in order, and as seen counterclockwise from outside of the tetrahedron
+  Face sorted, face;  ///< its vertices sorted, and counterclockwise as seen from outside the tetrahedron
   std::uint32_t tetrahedron, opposite_corner;
 };
 
@@ -47,13 +47,13 @@ std::vector<Side> sides_of(const TetMesh& mesh) {
   return sides;
 }
 
-/// What is behind a face of a tetrahedron.
+/// The other side of a face of a tetrahedron.
 struct Neighbor {
   std::uint32_t tetrahedron = none;
   bool is_across_facet = false;
 };
 
-/// The neighbor behind each face of each tetrahedron, by the opposite corner.
+/// The neighbors of each tetrahedron across its faces, by the opposite corner.
 std::vector<std::array<Neighbor, 4>> neighbors_of(const TetMesh& mesh) {
   std::vector<Face> facets;
   facets.reserve(mesh.faces.size());
@@ -72,7 +72,7 @@ std::vector<std::array<Neighbor, 4>> neighbors_of(const TetMesh& mesh) {
   return neighbors;
 }
 
-/// For each tetrahedron whether an odd number of facets is between it and infinity.
+/// For each tetrahedron: is an odd number of facets between it and infinity?
 std::vector<char> find_parities(const TetMesh& mesh) {
   const auto neighbors = neighbors_of(mesh);
   std::vector<char> parity(mesh.tetrahedra.size(), -1);
@@ -95,7 +95,7 @@ std::vector<char> find_parities(const TetMesh& mesh) {
   return parity;
 }
 
-/// Keeps the entries of an array, and of its attributes if it has them, for which `keep` holds.
+/// Keeps the entries of an array, and of its attributes if there are any, for which `keep` is true.
 template <class Element, class Attribute, class Keep>
 void filter(std::vector<Element>& elements, std::vector<Attribute>& attributes, Keep keep) {
   const bool with_attributes = attributes.size() == elements.size();
@@ -148,13 +148,13 @@ double in_single_precision(double value) {
   return static_cast<float>(value);
 }
 
-/// As for coordinates that are read from a binary STL and written as text.
+/// For coordinates that are read from a binary STL and written as text.
 template <int Digits>
 double in_digits_of_single_precision(double value) {
   return in_digits<Digits>(in_single_precision(value));
 }
 
-/// How programs and formats round, the finest first.
+/// The ways in which programs and formats round, the finest first.
 constexpr std::array<Rounding, 5> roundings = {in_digits<16>, in_digits<15>, in_single_precision,
                                                in_digits_of_single_precision<16>, in_digits_of_single_precision<9>};
 
@@ -167,13 +167,13 @@ Coordinates rounded(const Point3& p, Rounding rounding) {
   return key({rounding(p.x), rounding(p.y), rounding(p.z)});
 }
 
-/// A vertex of the mesh and the coordinates that it is to have instead.
+/// A vertex of the mesh and its new coordinates.
 struct Restored {
   std::size_t vertex = 0;
   Point3 before, after;
 };
 
-/// Vertices of the mesh whose coordinates the input does not have, by these, and the reverse.
+/// The vertices of the mesh whose coordinates are not in the input, by coordinates; and vice versa.
 struct UnmatchedVertices {
   std::map<Coordinates, std::size_t> of_mesh;
   std::vector<Point3> of_input;
@@ -191,8 +191,8 @@ UnmatchedVertices find_unmatched(const std::vector<Point3>& input, const std::ve
   return unmatched;
 }
 
-/// Matches what is equal after rounding, and takes it out of the unmatched ones. Of input vertices that rounding makes
-/// equal none is matched.
+/// Matches vertices that are equal after rounding, and removes them from the unmatched ones. Input vertices that
+/// rounding makes equal are not matched.
 void match(UnmatchedVertices& unmatched, Rounding rounding, std::vector<Restored>& restored) {
   std::map<Coordinates, int> count;
   for (const Point3& p : unmatched.of_input) ++count[rounded(p, rounding)];
@@ -206,7 +206,7 @@ void match(UnmatchedVertices& unmatched, Rounding rounding, std::vector<Restored
   });
 }
 
-/// Is the volume greater than all errors of rounding that its computation can have?
+/// Is the volume greater than the largest rounding error of its computation?
 bool is_surely_positive(const TetMesh& mesh, const std::array<std::uint32_t, 4>& t) {
   constexpr double relative_error = 16 * 0x1p-53;
   const Point3& a = mesh.vertices[t[0]];
@@ -217,8 +217,8 @@ bool is_surely_positive(const TetMesh& mesh, const std::array<std::uint32_t, 4>&
   return dot(cross(b, c), d) > relative_error * permanent;
 }
 
-/// Reverts changes of vertices around tetrahedra that are no longer surely positive, until there are none.
-/// \return  how many changes are left
+/// Reverts changes of vertices until all tetrahedra around them are certainly positive.
+/// \return  the number of remaining changes
 std::size_t revert_inversions(const std::vector<Restored>& restored, TetMesh& mesh) {
   std::map<std::uint32_t, const Restored*> changed;
   for (const Restored& r : restored) changed[static_cast<std::uint32_t>(r.vertex)] = &r;
@@ -241,7 +241,7 @@ std::size_t revert_inversions(const std::vector<Restored>& restored, TetMesh& me
 }  // namespace
 
 void orient_positively(TetMesh& mesh) {
-  double total = 0;  // of the sum, because rounding may turn the sign of a single sliver
+  double total = 0;  // sign of the sum, because rounding may flip the sign of a single sliver
   for (const auto& t : mesh.tetrahedra) total += signed_volume(mesh, t);
   if (total >= 0) return;
   for (auto& t : mesh.tetrahedra) std::swap(t[0], t[1]);

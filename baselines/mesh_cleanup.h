@@ -4,16 +4,16 @@
 
 namespace ccdt::baselines {
 
-/// Makes all tetrahedra positively oriented, given that they are all oriented alike.
+/// Makes all tetrahedra positively oriented. They must all have the same orientation.
 void orient_positively(TetMesh& mesh);
 
-/// Restores the input's coordinates in a mesh that was written and read: those of vertices that equal an input vertex
-/// in 16 or 15 digits, or in single precision, as programs read and write them, wherever all tetrahedra around surely
-/// stay positively oriented.
-/// \return  how many vertices have other coordinates now
+/// Restores the coordinates of the input in a mesh that went through files. A vertex gets the coordinates of an input
+/// vertex that equals it in 16 or 15 digits, or in single precision, if all tetrahedra around it certainly stay
+/// positively oriented.
+/// \return  the number of vertices that changed
 std::size_t restore_coordinates(const std::vector<Point3>& input, TetMesh& mesh);
 
-/// Fills `mesh.faces` for a program that writes none: with the faces of one tetrahedron, and of two that are in
+/// Fills `mesh.faces` for a program that writes none: with the faces that belong to one tetrahedron, or to two in
 /// different regions. Their markers are 0.
 void add_boundary_faces(TetMesh& mesh);
 
@@ -21,8 +21,8 @@ void add_boundary_faces(TetMesh& mesh);
 /// faces, edges and vertices that nothing uses any more. `mesh.faces` are the faces on facets.
 void keep_odd_regions(TetMesh& mesh);
 
-/// Counts the elements of a mesh. A vertex is the input's if its coordinates are; any other is a Steiner vertex if it
-/// is on a face or edge of `mesh.faces` or `mesh.edges`, else an interior vertex.
+/// Counts the elements of a mesh. A vertex with the coordinates of an input vertex is an input vertex. Any other is a
+/// Steiner vertex if it is on a face or edge of `mesh.faces` or `mesh.edges`, and an interior vertex otherwise.
 MeshCounts count_elements(const InputPlc& input, const TetMesh& mesh);
 
 }  // namespace ccdt::baselines

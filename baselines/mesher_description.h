@@ -11,14 +11,14 @@
 
 namespace ccdt::baselines {
 
-/// What the text of a choice depends on.
+/// The condition on which the text of a choice depends.
 enum class ChoiceCondition { interior_points, improvement, edge_length, regions };
 
 constexpr auto names_of(ChoiceCondition) {
   return std::to_array<NamedValue<ChoiceCondition>>(
-      {{ChoiceCondition::interior_points, "interior_points", "is the inside to be refined? (no: --lattice none)"},
-       {ChoiceCondition::improvement, "improvement", "is the mesh to be improved? (no: --improve none)"},
-       {ChoiceCondition::edge_length, "edge_length", "is an edge length given? (no: as the surface has it)"},
+      {{ChoiceCondition::interior_points, "interior_points", "are interior points wanted? (no: --lattice none)"},
+       {ChoiceCondition::improvement, "improvement", "is improvement wanted? (no: --improve none)"},
+       {ChoiceCondition::edge_length, "edge_length", "is an edge length given? (no: that of the surface)"},
        {ChoiceCondition::regions, "regions", "does the input name regions?"}});
 }
 
@@ -29,7 +29,7 @@ struct Choice {
   std::string text_if, text_else;  ///< may have placeholders that are no choices
 };
 
-/// How a mesher of the user's own is called, and which formats it reads and writes. Texts may have placeholders.
+/// How to call a user's mesher, and which formats it reads and writes. Texts may contain placeholders.
 struct MesherDescription {
   std::filesystem::path file;  ///< where it was read
   std::string name;            ///< in reports: small letters, digits and hyphens
@@ -44,9 +44,9 @@ struct MesherDescription {
   std::vector<std::pair<std::string, std::string>> files = {};  ///< written beside the input: name, text
   std::vector<Choice> choices = {};                             ///< placeholders of its own
   std::vector<std::string> version_command = {};                ///< prints the version; may be empty
-  std::string version_pattern = {};                             ///< first group, else all that matches in a line
-  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables besides those of the caller
-  std::string seconds_pattern = {};  ///< first group: seconds of meshing; of all lines of the log that match, the sum
+  std::string version_pattern = {};                             ///< first group, or the whole match
+  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables in addition to those of the caller
+  std::string seconds_pattern = {};      ///< first group: seconds of meshing, summed over all matching lines of the log
   std::vector<int> success_codes = {0};  ///< exit codes
   bool keeps_surface = true;             ///< see `Mesher`
 };
@@ -55,8 +55,8 @@ struct MesherDescription {
 /// \throw InputError  it cannot be read or is wrong; names the file and the JSON pointer
 MesherDescription read_mesher_description(const std::filesystem::path& file);
 
-/// What the texts of a description leave to the run, written in braces: "{input}". A name consists of small letters and
-/// underscores; anything else in braces stays as it is, so that scripts may have braces of their own.
+/// The placeholders in the texts of a description, written in braces: "{input}". A name consists of small letters and
+/// underscores. Anything else in braces stays as it is, so scripts may use braces.
 ///
 /// | name          | stands for                                                                                 |
 /// |---------------|--------------------------------------------------------------------------------------------|
@@ -68,15 +68,15 @@ MesherDescription read_mesher_description(const std::filesystem::path& file);
 /// | `max_volume`  | the largest tetrahedron of a mesh of such edges: twice the volume of the regular one,      |
 /// |               | which is about the average                                                                 |
 ///
-/// and the description's own `choices`.
+/// and the `choices` of the description.
 struct Placeholder {
   std::string name, value;
 };
 
-/// The names in a text, in its order.
+/// The names in a text, in order.
 std::vector<std::string> placeholders_in(std::string_view text);
 
-/// The text with the values; what is not among them stays.
+/// The text with placeholders replaced by values; unknown ones stay.
 std::string fill_placeholders(std::string_view text, const std::vector<Placeholder>& values);
 
 }  // namespace ccdt::baselines

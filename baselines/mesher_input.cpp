@@ -18,10 +18,10 @@ double distance(const Point3& a, const Point3& b) {
 InputPlc merge_equal_vertices(const InputPlc& input) {
   InputPlc merged = input;
   merged.vertices.clear();
-  io::VertexMerger merger(merged.vertices);
+  io::VertexMerger<double> merger(merged.vertices);
   std::vector<std::uint32_t> renumbered;
   renumbered.reserve(input.vertices.size());
-  for (const Point3& p : input.vertices) renumbered.push_back(merger.index_of(p));
+  for (const Point3& p : input.vertices) renumbered.push_back(merger.index_of(as_array(p)));
   for (auto& triangle : merged.triangles)
     for (auto& v : triangle) v = renumbered[v];
   for (auto& facet : merged.polygon_facets)

@@ -14,7 +14,7 @@ InputPlc triangulate_facets(const InputPlc& input, const MeshOptions& options);
 /// Median length of the edges of the input's triangles and polygons; 0 without any.
 double median_edge_length(const InputPlc& input);
 
-/// The target edge length of a mesh: that of the options, or where it is 0 that of the surface.
+/// The target edge length of a mesh: that of the options, or that of the surface if this is 0.
 double target_edge_length(const InputPlc& input, const MeshOptions& options);
 
 /// Volume of the regular tetrahedron of this edge length.

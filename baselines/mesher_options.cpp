@@ -13,17 +13,17 @@ namespace {
 
 constexpr std::string_view none = "none";
 
-/// Those of remeshing the surface, which is done before any mesher gets it.
+/// Options of surface remeshing, which happens before any mesher runs.
 constexpr auto options_of_surface = std::to_array<std::string_view>({"edge-length", "flatness", "sharp-angle"});
-/// Those of refining the surface.
+/// Options of surface refinement.
 constexpr auto options_of_refinement = std::to_array<std::string_view>({"edge-length", "grading"});
-/// Those of interior points.
+/// Options of interior points.
 constexpr auto options_of_lattice =
     std::to_array<std::string_view>({"clearance", "edge-length", "grading", "sizes", "sphere-factor"});
-/// Those of improvement.
+/// Options of improvement.
 constexpr auto options_of_improvement =
     std::to_array<std::string_view>({"boundary", "improve-time", "objective", "target-dihedral", "target-r"});
-/// Those whose values are as the user wrote them.
+/// Options whose values stay as the user wrote them.
 constexpr auto names_of_files = std::to_array<std::string_view>({"sizes"});
 
 template <class Names>
@@ -36,7 +36,7 @@ std::string text_of(Enum value) {
   return std::string(name_of(value));
 }
 
-/// Equal numbers alike, names in small letters.
+/// Normalizes values: equal numbers become equal texts, names get small letters.
 std::string canonical(const std::string& name, std::string value) {
   if (is_among(names_of_files, name)) return value;
   double number = 0;
@@ -47,12 +47,12 @@ std::string canonical(const std::string& name, std::string value) {
   return value;
 }
 
-/// What was asked for, whether it was said or is usual.
+/// The value of an option, given or default.
 class Asked {
  public:
   explicit Asked(const NamedOptions& options) {
     for (const auto& [name, value] : options) options_[name] = canonical(name, value);
-    // What improvement does, if that is not said, depends on the lattice, also for a mesher that has none.
+    // The default of improvement depends on the lattice, even for a mesher without one.
     if (!options_.contains("improve") && value("lattice") == none) options_["improve"] = none;
   }
 
@@ -132,7 +132,7 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
     const bool is_known = usual_options().contains(name);
     if (is_known && !is_of_surface && !is_used) continue;
     if (is_known && value == usual(name)) continue;
-    const bool is_any = is_used && use->only_none && value != none;  // all values but none do the same
+    const bool is_any = is_used && use->only_none && value != none;  // all values except none have the same effect
     if (is_any && usual(name) != none) continue;
     effective[name] = is_any ? usual_options().at(name) : value;
   }

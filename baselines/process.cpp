@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int watch_milliseconds = 10;
 constexpr int rounds_per_look_at_disk = 10;
 constexpr double most_seconds = 1e9;
-constexpr int cannot_execute = 127;  ///< as shells have it
+constexpr int cannot_execute = 127;  ///< as in shells
 constexpr std::size_t most_captured = 4000;
 
 [[noreturn]] void fail(const std::string& what) {
@@ -86,7 +86,7 @@ bool write_whole(int file, std::string_view bytes) {
   return true;
 }
 
-/// Strings as a system call takes them: pointers, the last of which is null.
+/// Strings in the form that system calls take: pointers, ending with null.
 class StringPointers {
  public:
   explicit StringPointers(std::vector<std::string> strings) : strings_(std::move(strings)) {
@@ -100,14 +100,14 @@ class StringPointers {
   std::vector<char*> pointers_;
 };
 
-/// Those of the options, and where temporary files go.
+/// The variables of the options, and TMPDIR.
 std::vector<std::pair<std::string, std::string>> variables_of(const ProgramOptions& options) {
   auto variables = options.environment;
   if (!options.scratch.empty()) variables.emplace_back("TMPDIR", options.scratch.string());
   return variables;
 }
 
-/// "NAME=value" of this process and of `more`, which overrides; of variables that are there twice, the last counts.
+/// "NAME=value" of this process and of `more`, which overrides it. If a variable occurs twice, the last one counts.
 std::vector<std::string> environment_with(const std::vector<std::pair<std::string, std::string>>& more) {
   std::map<std::string, std::string> variables;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -121,7 +121,7 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
   return all;
 }
 
-/// Why a program that is watched has to end.
+/// Why a supervised program must end.
 enum class Reached { nothing, seconds, memory, disk, stop };
 
 constexpr FailureKind kind_of(Reached limit) {
@@ -130,7 +130,7 @@ constexpr FailureKind kind_of(Reached limit) {
                                     : FailureKind::limit;
 }
 
-/// What a supervised program may use, and where that shows.
+/// The limits of a supervised program, and where its use is measured.
 struct Watched {
   pid_t supervisor;
   const Limits& limits;
@@ -145,7 +145,7 @@ bool exceeds_disk(const Watched& watched) {
   return !watched.scratch.empty() && size + bytes_in_folder(watched.scratch) > watched.limits.disk_bytes;
 }
 
-/// Waits for the end of the program, for a limit, or for the wish to stop.
+/// Waits until the program ends, a limit is reached, or this process is asked to stop.
 Reached watch(const Watched& watched, Clock::time_point begin) {
   const Limits& limits = watched.limits;
   const Descriptor process(static_cast<int>(syscall(SYS_pidfd_open, watched.supervisor, 0)), "cannot watch a process");
@@ -191,7 +191,7 @@ void explain_end(int wait_status, ProcessResult& result) {
     const char* name = sigabbrev_np(result.signal);
     result.reason =
         "ended by signal SIG" + std::string(name == nullptr ? "?" : name) + " (" + sigdescr_np(result.signal) + ")";
-    if (result.signal == SIGKILL) result.reason += "; the kernel does this when the machine's memory runs out";
+    if (result.signal == SIGKILL) result.reason += "; the kernel does this when the machine runs out of memory";
     if (!result.printed.empty()) result.reason += ": " + result.printed;
     return;
   }
@@ -201,13 +201,13 @@ void explain_end(int wait_status, ProcessResult& result) {
   result.reason = result.printed.empty() ? "exit code " + std::to_string(result.exit_code) : result.printed;
 }
 
-/// Where the output of a child goes.
+/// Where the output of a child process goes.
 struct OutputFiles {
   int out = -1, err = -1;
-  const Descriptor* captured = nullptr;  ///< the one of these that becomes the result's `printed`; may be null
+  const Descriptor* captured = nullptr;  ///< the one that becomes `printed` of the result; may be null
 };
 
-/// The kernel is to end this process before the one that has started it.
+/// Asks the kernel to end this process before its parent.
 void prefer_when_memory_runs_out() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
@@ -249,7 +249,7 @@ ProcessResult run_child(const OutputFiles& files, Body body) {
   const pid_t child = fork();
   if (child < 0) fail("cannot start a child process");
   if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // an interrupted run leaves no orphans
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // so that an interrupted run leaves no orphans
     if (getppid() != parent) _exit(cannot_execute);
     set_up_child(files, null);
     body();
@@ -260,15 +260,16 @@ ProcessResult run_child(const OutputFiles& files, Body body) {
   return result;
 }
 
-/// Batch systems and shutdowns end this process and the program alike, and the program perhaps a moment earlier. Then
-/// its end says nothing about it.
+/// Batch systems and shutdowns end both this process and the program, perhaps the program a moment earlier. Its end
+/// then says nothing about the program itself.
 bool is_to_stop_too() {
   constexpr auto a_moment = std::chrono::milliseconds(10);
   if (!stop_requested()) std::this_thread::sleep_for(a_moment);
   return stop_requested();
 }
 
-/// The same in a process group of its own, with a supervisor, limits, and an end when this process is to stop.
+/// Does the same in a new process group, with a supervisor and limits; the program ends when this process is asked to
+/// stop.
 template <class Body>
 ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, const std::filesystem::path& scratch,
                              Body body) {
@@ -280,7 +281,7 @@ ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, con
   const pid_t supervisor = fork();
   if (supervisor < 0) fail("cannot start a child process");
   if (supervisor == 0) {
-    setpgid(0, 0);  // what a terminal sends to this process is not for them
+    setpgid(0, 0);  // signals from the terminal to this process must not reach them
     const Supervisor self(parent);
     // A fork copies the page tables, which takes milliseconds per 100 MB.
     const pid_t child = vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
@@ -299,7 +300,7 @@ ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, con
   if (reached == Reached::stop) throw Stopped();
   ProcessResult result = result_of(files, begin);
   if (reached == Reached::nothing) {
-    int of_program = 0;  // is missing if the supervisor was killed
+    int of_program = 0;  // missing if the supervisor was killed
     if (pread(program_status.value, &of_program, sizeof of_program, 0) == sizeof of_program) status = of_program;
     explain_end(status, result);
     if (result.kind && is_to_stop_too()) throw Stopped();
@@ -338,14 +339,14 @@ ProcessResult run_program(const std::vector<std::string>& command, const Program
 }
 
 ProcessResult run_function(const std::function<std::string()>& function) {
-  // It follows the value: an exit code does not say that the function has returned, since it may call exit itself.
+  // It follows the value, because the exit code does not prove that the function returned: it may have called exit.
   constexpr char end_mark = '.';
   const Descriptor printed = memory_file(), value = memory_file();
-  std::fflush(nullptr);  // or the child would print what is still in the buffers once more
+  std::fflush(nullptr);  // otherwise the child would print the contents of the buffers again
   ProcessResult result = run_child({printed.value, printed.value, &printed}, [&] {
     std::setvbuf(stdout, nullptr, _IONBF, 0);  // a crash must not lose the explanation
     const bool is_whole = write_whole(value.value, function() + end_mark);
-    _exit(is_whole ? 0 : 1);  // without destructors and exit handlers: those belong to the parent
+    _exit(is_whole ? 0 : 1);  // without destructors and exit handlers, which belong to the parent
   });
   if (result.status != RunStatus::ok) return result;
   std::string bytes = read_end(value, static_cast<std::size_t>(-1));

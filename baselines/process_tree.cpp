@@ -20,8 +20,8 @@ std::string folder_of(pid_t process) {
   return "/proc/" + std::to_string(process);
 }
 
-/// The beginning of a file of the kernel's, read at once, as it is read a hundred times a second; empty if it cannot be
-/// read.
+/// The beginning of a file in /proc, read in one call because this happens a hundred times a second; empty if it cannot
+/// be read.
 class KernelText {
  public:
   explicit KernelText(const std::string& file) {
@@ -32,7 +32,7 @@ class KernelText {
     end_ = bytes_.data() + std::max<ssize_t>(0, size);
   }
 
-  /// The next number, after whatever is before it; none at the end.
+  /// The next number in the text; none at the end.
   std::optional<std::uint64_t> next_number() {
     while (at_ != end_ && (*at_ < '0' || *at_ > '9')) ++at_;
     std::uint64_t number = 0;
@@ -53,14 +53,14 @@ class KernelText {
   const char* end_ = bytes_.data();
 };
 
-/// Resident memory, a shared page in each process that has it.
+/// Resident memory; counts a shared page in each process.
 std::uint64_t resident_bytes(pid_t process) {
   KernelText statm(folder_of(process) + "/statm");
   statm.next_number();  // the size of its address space
   return statm.next_number().value_or(0) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Resident memory, of a page that n processes share the nth part. This takes the kernel milliseconds per GB.
+/// Resident memory; counts a page that n processes share as 1/n. This takes the kernel milliseconds per GB.
 std::uint64_t proportional_bytes(pid_t process) {
   KernelText rollup(folder_of(process) + "/smaps_rollup");
   rollup.skip_behind("\nPss:");
@@ -68,7 +68,7 @@ std::uint64_t proportional_bytes(pid_t process) {
   return kilobytes ? *kilobytes << 10 : resident_bytes(process);
 }
 
-/// The names in a folder of the kernel's that are numbers.
+/// The names in a folder of /proc that are numbers.
 std::vector<std::string> numbers_in(const std::string& folder) {
   std::vector<std::string> names;
   DIR* const entries = opendir(folder.c_str());
@@ -111,9 +111,9 @@ bool tree_exceeds(pid_t process, std::uint64_t bytes) {
 }
 
 std::uint64_t bytes_in_folder(const std::filesystem::path& folder) {
-  constexpr std::uint64_t block_bytes = 512;  // of stat, on every file system
+  constexpr std::uint64_t block_bytes = 512;  // block size of stat, on every file system
   std::uint64_t bytes = 0;
-  std::error_code error;  // files may go at any time
+  std::error_code error;  // files may disappear at any time
   for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     struct stat status {};

@@ -44,7 +44,7 @@ const Mesher& mesher_of_file(const std::string& file) {
   const auto all = meshers();
   if (std::ranges::find(all, described.name, &Mesher::name) != all.end())
     throw InputError("/name: '" + described.name + "' is a mesher of this build", io::place_in(file),
-                     "give the description another name, or reports could not tell them apart");
+                     "give the description another name, so that reports can tell them apart");
   return known.emplace(file, std::move(described)).first->second;
 }
 
@@ -65,7 +65,7 @@ const Mesher& mesher(std::string_view name_or_file) {
   const auto found = std::ranges::find(all, name_or_file, &Mesher::name);
   if (found != all.end()) return *found;
   throw Error("there is no mesher '" + std::string(name_or_file) + "' in this build", {},
-              "choose one of: " + names_of_all() + "; or name a file .json that describes another");
+              "choose one of: " + names_of_all() + "; or give a .json file that describes another");
 }
 
 std::string version_of(const Mesher& mesher) {

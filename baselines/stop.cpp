@@ -6,7 +6,7 @@ namespace ccdt::baselines {
 namespace {
 
 std::atomic<bool> is_requested = false;
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a signal handler must not touch it
+static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a signal handler must not use it
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 
 namespace ccdt::baselines {
 
-/// The user has stopped the program: there is nothing to report but what is finished.
+/// The user has stopped the program. Only finished work can be reported.
 class Stopped : public std::runtime_error {
  public:
   Stopped() : std::runtime_error("stopped") {}
@@ -14,7 +14,7 @@ class Stopped : public std::runtime_error {
 /// called from a signal handler.
 void request_stop();
 
-/// Has somebody asked?
+/// Has this process been asked to stop?
 bool stop_requested();
 
 }  // namespace ccdt::baselines

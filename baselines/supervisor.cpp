@@ -16,7 +16,7 @@ namespace {
 void kill_children() {
   const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
-  std::array<char, 4096> text;  // more of them come up the next time
+  std::array<char, 4096> text;  // further ones are found next time
   const ssize_t size = read(file, text.data(), text.size());
   close(file);
   pid_t child = 0;
@@ -24,7 +24,7 @@ void kill_children() {
     const char c = text[static_cast<std::size_t>(i)];
     if (c >= '0' && c <= '9') {
       child = 10 * child + (c - '0');
-    } else if (child > 0) {  // a number that the end of the buffer has cut is not followed by a blank
+    } else if (child > 0) {  // a number cut off by the end of the buffer is not followed by a blank
       kill(child, SIGKILL);
       child = 0;
     }
@@ -50,7 +50,7 @@ void Supervisor::release_child() const {
 }
 
 void Supervisor::watch(pid_t program, int report) const {
-  // Locks and pipes of the parent must not live on here.
+  // Locks and pipes of the parent must not stay open here.
   if (report > 3) close_range(3, static_cast<unsigned>(report) - 1, 0);
   close_range(static_cast<unsigned>(report) + 1, ~0U, 0);
   int status = 0;
@@ -73,9 +73,9 @@ void Supervisor::watch(pid_t program, int report) const {
   do {
     if (!has_ended) kill(program, SIGKILL);
     kill_children();
-    last = reap(0);  // whatever its children leave behind becomes a child of this process
+    last = reap(0);  // orphans of its children become children of this process
   } while (last > 0 || errno == EINTR);
-  if (why == SIGTERM) {  // this is how it ended, and not by what has just been sent to it
+  if (why == SIGTERM) {  // keeps the status with which it ended, not that of the signal just sent
     signal(SIGTERM, SIG_DFL);
     sigprocmask(SIG_SETMASK, &usual_, nullptr);
     raise(SIGTERM);

@@ -5,23 +5,24 @@
 
 namespace ccdt::baselines {
 
-/// A process between a program and the one that started it, so that the program never leaves anything behind:
+/// A process between a program and its parent, so that the program never leaves processes behind:
 ///
 ///     parent ── supervisor ── program ── its children ...
 ///
-/// The supervisor adopts what its descendants leave behind, and kills all of them when the program ends, when the
-/// parent ends in whatever way, or on SIGTERM. It is a fork of a process that may have several threads, so it calls
-/// nothing but the system.
+/// The supervisor adopts orphans of its descendants. It kills all descendants when the program ends, when the parent
+/// ends in any way, or on SIGTERM. It is a fork of a process that may have several threads, so it makes only system
+/// calls.
 class Supervisor {
  public:
   /// Makes this process, a fork of `parent`, a supervisor. Ends it if the parent has gone.
   explicit Supervisor(pid_t parent);
 
-  /// In the supervisor's own fork, before the program starts: it dies with the supervisor, and gets signals as usual.
+  /// Prepares the supervisor's fork before the program starts: it dies with the supervisor and gets default signal
+  /// handling.
   void release_child() const;
 
-  /// Waits for the end of the program and kills what is left of its descendants. On SIGTERM it ends by that.
-  /// \param report  descriptor of a file that gets the program's status, as `waitpid` has it
+  /// Waits for the end of the program and kills its remaining descendants. On SIGTERM it ends by this signal.
+  /// \param report  descriptor of a file that gets the status of the program, in the form of `waitpid`
   [[noreturn]] void watch(pid_t program, int report) const;
 
  private:

@@ -18,8 +18,8 @@
 namespace ccdt::baselines {
 namespace {
 
-/// Radius-edge ratio of the examples in TetGen's manual for meshes of good quality, and smallest dihedral angle in
-/// degrees: ten keeps slivers out, and of larger angles the manual says that they need not be reached.
+/// The radius-edge ratio of the examples in TetGen's manual for meshes of good quality, and the smallest dihedral angle
+/// in degrees. Ten degrees avoid slivers; the manual says that larger angles may not be reached.
 constexpr const char* quality_switch = "q1.414/10";
 
 /// `p`: the constrained Delaunay tetrahedralization of a piecewise linear complex; `Y`, `q`, `a`: refined inside, with
@@ -140,7 +140,7 @@ TetMesh read_back(const tetgenio& io) {
   return mesh;
 }
 
-/// Arrays one after the other as bytes, each behind its length: how a mesh comes back from the process that made it.
+/// Arrays as bytes, each preceded by its length. A mesh comes back in this form from the process that made it.
 class PackedArrays {
  public:
   PackedArrays() = default;
@@ -169,9 +169,9 @@ class PackedArrays {
   std::size_t at_ = 0;
 };
 
-/// What comes back from the process that TetGen runs in.
+/// The result of the process that runs TetGen.
 struct TetgenOutput {
-  std::vector<int> code;        ///< of an error; else empty
+  std::vector<int> code;        ///< error message; otherwise empty
   std::vector<double> seconds;  ///< one
   TetMesh mesh;
 
@@ -182,7 +182,7 @@ struct TetgenOutput {
   }
 };
 
-constexpr int out_of_memory_code = 1;  ///< as TetGen throws it
+constexpr int out_of_memory_code = 1;  ///< the value that TetGen throws
 
 std::string tetrahedralize_to_bytes(const InputPlc& input, std::string switches) {
   tetgenio in, out;
@@ -207,7 +207,7 @@ std::string tetrahedralize_to_bytes(const InputPlc& input, std::string switches)
   return packed.release();
 }
 
-/// What TetGen's exit codes mean, from its manual.
+/// The meanings of TetGen's exit codes, from its manual.
 std::string meaning_of(int code) {
   switch (code) {
     case 2:
@@ -232,8 +232,7 @@ std::string meaning_of(int code) {
   throw MesherError(kind, what, io::place_in(input.name), "try another mesher, or check the surface there");
 }
 
-/// Calls TetGen in a process of its own: when it gives up, release 1.5 frees its memory twice and crashes, more often
-/// than not.
+/// Calls TetGen in a separate process: when it gives up, release 1.5 often frees its memory twice and crashes.
 TetgenOutput call_tetgen(const InputPlc& input, const std::string& switches) {
   const ProcessResult call = run_function([&] { return tetrahedralize_to_bytes(input, switches); });
   if (!call.value)
@@ -264,7 +263,7 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
   TetMesh& mesh = run.result.mesh;
   mesh = std::move(output.mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
-  if (mesh.tetrahedra.empty()) fail("no tetrahedra are inside: the surface is open", input);
+  if (mesh.tetrahedra.empty()) fail("there are no tetrahedra inside: the surface is open", input);
   run.result.counts = count_elements(merged, mesh);
   return run;
 }

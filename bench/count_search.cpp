@@ -7,21 +7,21 @@ namespace ccdt::bench {
 namespace {
 
 constexpr double usual_exponent = 3;  ///< of the edge length in the number of tetrahedra, which it divides
-constexpr double most_stretch = 2;    ///< of an edge length from one try to the next, where the secant misleads
+constexpr double most_stretch = 2;    ///< of an edge length between tries if the secant fails
 constexpr double least_exponent = 0.7, largest_exponent = 6;
 
 struct Try {
   double edge_length, count;
 };
 
-/// The exponent between two tries, if it can be trusted.
+/// The exponent between two tries, if it is reliable.
 double exponent_between(const Try& a, const Try& b) {
   const double lengths = std::log(a.edge_length / b.edge_length), counts = std::log(b.count / a.count);
   if (std::abs(lengths) < 1e-9) return usual_exponent;
   return std::clamp(counts / lengths, least_exponent, largest_exponent);
 }
 
-/// The edge lengths between which the wanted one is, as far as tries have told.
+/// The known bounds of the wanted edge length.
 struct Bracket {
   double shorter, longer;
   bool is_shorter_tried = false, is_longer_tried = false;
@@ -36,7 +36,7 @@ struct Bracket {
     }
   }
 
-  /// A guess that leads out gives way to an end that has not been tried yet, or else to something between the ends.
+  /// Replaces a guess outside the bounds by an end that has not been tried yet, otherwise by a value between the ends.
   double hold(double guess) const {
     if (guess > shorter && guess < longer) return guess;
     if (guess <= shorter && !is_shorter_tried) return shorter;
@@ -47,8 +47,8 @@ struct Bracket {
   }
 };
 
-/// Have much longer edges made hardly fewer tetrahedra? Then small features of the surface decide, and no edge length
-/// would.
+/// Did much longer edges make hardly fewer tetrahedra? Then small features of the surface determine the number, and no
+/// edge length helps.
 bool is_stuck(const Try& before, const Try& made, double wanted) {
   constexpr double much = 1.2, hardly = 1.03;
   return made.count > wanted && made.edge_length > much * before.edge_length && before.count < hardly * made.count;
@@ -74,7 +74,7 @@ std::optional<CountFound> search_edge_length(const CountSearch& search,
     bracket.take(made, search.wanted);
     const double exponent = before ? exponent_between(*before, made) : usual_exponent;
     const double next = bracket.hold(edge_length * std::pow(made.count / search.wanted, 1 / exponent));
-    if (std::abs(next / edge_length - 1) < 1e-6) return best;  // at an end of what may be tried
+    if (std::abs(next / edge_length - 1) < 1e-6) return best;  // at an end of the allowed range
     before = made;
     edge_length = next;
   }

@@ -60,7 +60,7 @@ std::string first_word_of(const std::filesystem::path& file) {
   return word;
 }
 
-/// The files that the kernel names by a word and a number: thermal_zone0, thermal_zone1, ...
+/// The files of the kernel with names of a word and a number: thermal_zone0, thermal_zone1, ...
 std::vector<std::filesystem::path> entries_named(const std::filesystem::path& folder, const std::string& begin,
                                                  const std::string& end = "") {
   std::vector<std::filesystem::path> found;

@@ -9,14 +9,14 @@
 namespace ccdt::bench {
 namespace {
 
-/// The bijection that ends SplitMix64 (Steele, Lea and Flood 2014): each bit of the result depends on all.
+/// The final bijection of SplitMix64 (Steele, Lea and Flood 2014): each bit of the result depends on all bits.
 constexpr std::uint64_t mix(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
   return x ^ (x >> 31);
 }
 
-/// Two hashes of 64 bits of a sequence of words, which differ in how they take a word in.
+/// Two 64-bit hashes of a sequence of words, which combine words differently.
 struct Hash {
   std::uint64_t a = 0x9e3779b97f4a7c15U, b = 0xd1b54a32d192ed03U;
 

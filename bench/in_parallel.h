@@ -12,7 +12,7 @@ namespace ccdt::bench {
 
 /// Calls `work(i)` for each i below `count`, in any order.
 ///
-/// \param most_threads  that work at the same time
+/// \param most_threads  largest number of threads
 /// \throw ...           the first exception of `work`; the rest of the calls may be left out then
 template <class Work>
 void in_parallel(std::size_t count, const Work& work, std::size_t most_threads = std::thread::hardware_concurrency()) {

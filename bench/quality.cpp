@@ -15,11 +15,11 @@ namespace {
 constexpr double regular_factor = 8.485281374238570;  ///< 6 sqrt(2): makes the regular tetrahedron's r equal to 1
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Steps of r and of the aspect ratio that grow, as nearly all tetrahedra are near 1 and the bad ones are spread over
+/// Growing steps for r and the aspect ratio: nearly all tetrahedra are near 1, and the bad ones are spread over
 /// decades.
 const std::vector<double> r_edges = {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2, 2.5, 3, 4, 5, 10, 100, 1000};
 
-/// From the regular tetrahedron's, below which there is none; with TetGen's usual bounds 1.2, 1.414 and 2.
+/// From the value of the regular tetrahedron, which is the minimum; with TetGen's usual bounds 1.2, 1.414 and 2.
 const std::vector<double> radius_edge_edges = {0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1, 1.2, 1.414, 2, 3, 5, 10, 100, 1000};
 
 constexpr double dihedral_step = 5;

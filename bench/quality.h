@@ -8,14 +8,14 @@
 
 namespace ccdt::bench {
 
-/// How often a measure falls between `edges[i]` and `edges[i + 1]`; what is outside is counted at the nearer end.
+/// The number of values between `edges[i]` and `edges[i + 1]`; values outside count at the nearer end.
 struct Histogram {
   std::vector<double> edges;
   std::vector<std::uint64_t> counts;
 };
 
 struct Quality {
-  /// A measure of every tetrahedron, the better the smaller, without bound as a tetrahedron degrades.
+  /// A measure of all tetrahedra: smaller is better, and it grows without bound as a tetrahedron degenerates.
   struct Measure {
     double min = 0, mean = 0, median = 0, p99 = 0, max = 0;
     Histogram histogram = {};

@@ -38,6 +38,14 @@ inline constexpr auto fields<ImproveCounts> = std::tuple(
     field("collapsed_edges", &ImproveCounts::collapsed_edges), field("stop", &ImproveCounts::stop));
 
 template <>
+inline constexpr auto fields<SegmentCounts> = std::tuple(field("all", &SegmentCounts::all),
+                                                         field("grazeable", &SegmentCounts::grazeable),
+                                                         field("delaunay", &SegmentCounts::delaunay),
+                                                         field("split", &SegmentCounts::split),
+                                                         field("pieces", &SegmentCounts::pieces),
+                                                         field("front", &SegmentCounts::front));
+
+template <>
 inline constexpr auto fields<MeshCounts> =
     std::tuple(field("vertices", &MeshCounts::vertices), field("steiner_vertices", &MeshCounts::steiner_vertices),
                field("interior_vertices", &MeshCounts::interior_vertices), field("tetrahedra", &MeshCounts::tetrahedra),
@@ -49,7 +57,7 @@ inline constexpr auto fields<MeshCounts> =
                optional_field("front_faces", &MeshCounts::front_faces),
                optional_field("refined_on_segments", &MeshCounts::refined_on_segments),
                optional_field("refined_in_facets", &MeshCounts::refined_in_facets),
-               optional_field("improve", &MeshCounts::improve));
+               field_if_any("segments", &MeshCounts::segments), optional_field("improve", &MeshCounts::improve));
 
 template <>
 inline constexpr auto fields<RunRecord::MesherName> = std::tuple(field("name", &RunRecord::MesherName::name),
@@ -131,7 +139,7 @@ void read_options(const Json& json, RunRecord& record) {
   }
 }
 
-/// Only what is not zero: most counts are of one stage.
+/// Only counts that are not zero: most counts belong to one stage.
 void write_work(const char* stage, const Work& work, Json& json) {
   for (const WorkCount& c : work_counts)
     if (work.*c.count != 0) json[stage][c.name] = work.*c.count;
@@ -156,6 +164,23 @@ void read_all_work(const Json& json, RunRecord& record) {
   for (const MeshStage& stage : mesh_stages) read_work(json, stage.name, record.work.*stage.work);
 }
 
+/// Figures of stages that were not left out.
+template <class Figures, class Figure>
+Json stages_json(const Figures& figures, Figure MeshStage::*figure) {
+  Json json = Json::object();
+  for (const MeshStage& stage : mesh_stages)
+    if (figures.*(stage.*figure) != 0) json[stage.name] = figures.*(stage.*figure);
+  return json;
+}
+
+template <class Figures, class Figure>
+void read_stages(const Json& json, const char* name, Figure MeshStage::*figure, std::optional<Figures>& figures) {
+  if (!json.contains(name)) return;
+  figures.emplace();
+  for (const MeshStage& stage : mesh_stages)
+    if (json.at(name).contains(stage.name)) json.at(name).at(stage.name).get_to(*figures.*(stage.*figure));
+}
+
 Json json_of(const RunRecord& record) {
   Json json = {{"schema", run_document.schema},
                {"mesher", record.mesher},
@@ -164,6 +189,8 @@ Json json_of(const RunRecord& record) {
   write_fields(record, fields_before_seconds, json);
   if (Json work = work_json(record); !work.empty()) json["work"] = std::move(work);
   write_fields(record, fields_of_seconds, json["seconds"]);
+  if (record.cpu_seconds) json["cpu_seconds"] = stages_json(*record.cpu_seconds, &MeshStage::seconds);
+  if (record.threads) json["threads"] = stages_json(*record.threads, &MeshStage::threads);
   write_fields(record, fields_after_seconds, json);
   return json;
 }
@@ -176,6 +203,8 @@ RunRecord record_from(const Json& json) {
   read_fields(json, fields_before_seconds, record);
   if (json.contains("work")) read_all_work(json.at("work"), record);
   read_fields(json.at("seconds"), fields_of_seconds, record);
+  read_stages(json, "cpu_seconds", &MeshStage::seconds, record.cpu_seconds);
+  read_stages(json, "threads", &MeshStage::threads, record.threads);
   read_fields(json, fields_after_seconds, record);
   return record;
 }
@@ -227,12 +256,12 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
                     {"sizes", options.background.name},
                     {"sphere_factor", options.sphere_factor},
                     {"clearance", options.clearance},
-                    {"threads", 1.0}};
+                    {"threads", static_cast<double>(number_of_threads(options))}};
   return record;
 }
 
 void note_end(const baselines::ProcessResult& ended, RunRecord& record) {
-  // One that ended by itself may tell of a program of its own that crashed.
+  // A process that ended by itself may report that its own child process crashed.
   const bool says_it_itself = ended.signal == 0 && record.kind;
   if (ended.kind && !says_it_itself) record.set_failure(*ended.kind, ended.reason);
 }

@@ -15,18 +15,18 @@
 
 namespace ccdt::bench {
 
-/// What the exact verifier found of the mesh of a run.
+/// The result of the exact verifier for the mesh of a run.
 struct VerifiedMesh {
   struct FailedCheck {
     std::string name;
     std::uint64_t checked = 0, failed = 0;
   };
   bool right = false;
-  std::vector<FailedCheck> checks = {};  ///< those that failed and make the mesh wrong
+  std::vector<FailedCheck> checks = {};  ///< failed checks that make the mesh wrong
   double seconds = 0;
 };
 
-/// One run of one mesher on one input: what is written as JSON of schema `ccdt.run/1`.
+/// One run of one mesher on one input, written as JSON of schema `ccdt.run/1`.
 struct RunRecord {
   using Option = std::variant<bool, double, std::string>;
 
@@ -36,17 +36,19 @@ struct RunRecord {
   struct Input {
     std::string name, sha256;
     std::uint64_t vertices = 0, facets = 0, segments = 0;
-    std::uint64_t nonplanar_facets = 0;  ///< polygons that were triangulated for that
+    std::uint64_t nonplanar_facets = 0;  ///< polygons that were triangulated because they are bent
     double largest_deviation = 0;        ///< of their corners from a plane, in the units of the input
   } input;
   std::vector<std::pair<std::string, Option>> options;
-  std::vector<std::pair<std::string, std::string>> mesher_settings;  ///< in the mesher's own words
-  std::vector<std::string> command;  ///< that made it, in the folder where it ran; empty if nobody knows
+  std::vector<std::pair<std::string, std::string>> mesher_settings;  ///< in the terms of the mesher
+  std::vector<std::string> command;  ///< the command, in the folder where it ran; empty if unknown
   Environment environment;
   MeshCounts counts;
   StageSeconds seconds;
-  StageWork work;    ///< of ccdt; nothing but zeros of other meshers and of older programs
-  Work remesh_work;  ///< of the surface; see `remesh_seconds`
+  std::optional<StageSeconds> cpu_seconds;  ///< of ccdt
+  std::optional<StageThreads> threads;      ///< of ccdt
+  StageWork work;                           ///< of ccdt; all zero for other meshers and older programs
+  Work remesh_work;                         ///< of the surface; see `remesh_seconds`
   double read_seconds = 0, write_seconds = 0;
   double remesh_seconds = 0;  ///< of the surface, before the mesher got it; not in `seconds.mesh`
   std::uint64_t peak_rss_bytes = 0;
@@ -56,25 +58,24 @@ struct RunRecord {
   baselines::RunStatus status = baselines::RunStatus::ok;
   std::optional<baselines::FailureKind> kind;  ///< of a failure; older programs did not write it
   std::string reason;                          ///< why the status is not ok
-  std::string case_id;                         ///< the case that this is a run of; empty outside a sweep
+  std::string case_id;                         ///< the case of this run; empty outside a sweep
   std::optional<int> number;                   ///< of the run among those of its case, from 0
   std::optional<VerifiedMesh> verification;
-  std::vector<std::string> notes;  ///< what a reader has to know
-  std::map<std::string, std::vector<double>>
-      samples;  ///< raw seconds by name, where one record stands for several runs
+  std::vector<std::string> notes;                      ///< what a reader must know
+  std::map<std::string, std::vector<double>> samples;  ///< raw seconds by name, if one record stands for several runs
 
   /// Replaces the option of this name, or adds it.
   void set_option(std::string_view name, const Option& value);
 
-  /// The run failed: sets the status too.
+  /// Records a failure; also sets the status.
   void set_failure(baselines::FailureKind why, std::string words);
 };
 
-/// A record that says who was asked to mesh what and how, before anything has been done.
+/// A record of the mesher, the input and the options, before anything is done.
 RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options);
 
-/// Adds to the record of a run how its process ended. A process that failed by itself says more in its record than its
-/// exit code does; one that was killed could not.
+/// Adds the end of its process to the record of a run. A process that failed by itself wrote more into its record than
+/// its exit code says; a killed one could not.
 void note_end(const baselines::ProcessResult& ended, RunRecord& record);
 
 /// As JSON of schema `ccdt.run/1`, indented.
@@ -86,7 +87,7 @@ RunRecord run_record_from_json(const std::string& text);
 void write_run_record(const RunRecord& record, const std::filesystem::path& file);
 /// \throw InputError  cannot be read, or no JSON of that schema
 RunRecord read_run_record(const std::filesystem::path& file);
-/// The same; none if there is no such file, or what is there is no record.
+/// The same; none if there is no such file, or it is not a record.
 std::optional<RunRecord> find_run_record(const std::filesystem::path& file);
 
 }  // namespace ccdt::bench

@@ -12,7 +12,7 @@
 namespace ccdt::bench {
 namespace {
 
-/// Without `long double`, whose range Valgrind does not have: the tables that Boost fills at the start would overflow.
+/// Without `long double`: Valgrind does not support its range, and tables that Boost fills at the start would overflow.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 /// An index below `count`. `std::uniform_int_distribution` may differ between standard libraries; a product of the
@@ -49,7 +49,7 @@ std::vector<double> sorted(std::span<const double> samples) {
   return result;
 }
 
-/// How many of so many samples are dropped at each end.
+/// The number of samples dropped at each end.
 std::size_t trimmed_at_each_end(std::size_t samples, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(samples));
 }
@@ -187,7 +187,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y, double co
   }
   assert(xx > 0);
   const double slope = xy / xx, intercept = mean_y - slope * mean_x;
-  double unexplained = 0;  // from the residuals: a difference of the sums would lose a good fit's digits
+  double unexplained = 0;  // from the residuals: a difference of sums would lose digits for a good fit
   for (std::size_t i = 0; i < x.size(); ++i) unexplained += std::pow(y[i] - intercept - slope * x[i], 2);
   const auto freedom = static_cast<double>(x.size() - 2);
   const double t =

@@ -39,11 +39,11 @@ double median(std::span<const double> samples);
 /// \pre there is a sample, 0 <= fraction <= 1
 double quantile(std::span<const double> samples, double fraction);
 
-/// The mean of what is left when this share of the samples is dropped at each end.
+/// The mean of the samples that remain when this share is dropped at each end.
 /// \pre there is a sample, 0 <= share < 0.5
 double trimmed_mean(std::span<const double> samples, double share);
 
-/// The standard deviation that a sample estimates; 0 with fewer than two.
+/// The estimated standard deviation; 0 with fewer than two samples.
 double standard_deviation(std::span<const double> samples);
 
 /// The standard deviation of a normal distribution with the same median absolute deviation. Outliers do not count.

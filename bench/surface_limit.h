@@ -6,7 +6,7 @@
 
 namespace ccdt::bench {
 
-/// How far bad tetrahedra come from bad triangles of the surface: no improvement of the inside can mend these.
+/// The share of bad tetrahedra that bad triangles of the surface cause. Improving the inside cannot repair these.
 struct SurfaceLimit {
   static constexpr double bad_r = 3;       ///< a tetrahedron is bad if it is worse (`shape_measure`)
   static constexpr double bad_angle = 18;  ///< a triangle is bad if it has a smaller angle, in degrees

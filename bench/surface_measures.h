@@ -15,7 +15,7 @@ struct SurfaceAngle {
   Point3 at = {};
 };
 
-/// The smallest angles of a surface: what its own geometry forbids the tetrahedra.
+/// The smallest angles of a surface, which limit those of the tetrahedra.
 struct SurfaceAngles {
   SurfaceAngle planar;    ///< of its triangles
   SurfaceAngle dihedral;  ///< between two triangles at an edge, where the inside of the domain is between them

@@ -5,16 +5,20 @@
 
 #include "engine/base/box.h"
 #include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
+#include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
+#include "engine/front/count_segments.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
+#include "engine/protection/harmless_points.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
 
@@ -23,14 +27,17 @@ namespace {
 
 /// What the stages cost.
 struct StageCosts {
-  StageSeconds seconds;
+  StageSeconds seconds, cpu_seconds;
+  StageThreads threads;
   StageWork work;
 };
 
-/// Runs a stage, whose wall-clock seconds and work are added to its costs.
+/// Runs a stage, whose seconds and work are added to its costs.
 template <class Stage>
 auto measured(StageCosts& costs, const MeshStage& stage, const Stage& run) {
   const Stopwatch watch(costs.seconds.*stage.seconds);
+  const CpuStopwatch cpu_watch(costs.cpu_seconds.*stage.seconds);
+  const ThreadScope thread_scope(costs.threads.*stage.threads);
   const WorkScope scope(costs.work.*stage.work);
   return run();
 }
@@ -68,21 +75,29 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   return lattice::place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
 }
 
-/// Adds those of the points that destroy no protected edge.
-delaunay::Delaunay add_points(const lattice::LatticePoints& lattice, protection::ProtectedDelaunay surface,
-                              const MeshOptions& options, const Progress& progress, MeshCounts& counts) {
-  switch (options.delaunay) {
-    case DelaunayMethod::core: {
-      protection::CoreDelaunay result = protection::core_interior(lattice, std::move(surface), progress);
-      counts.core_tetrahedra = result.core_cells;
-      return std::move(result.delaunay);
-    }
-    case DelaunayMethod::wrap:
-      return protection::wrap_interior(lattice.points, std::move(surface), options.grid_scale, progress);
-    case DelaunayMethod::insert:
-      break;
+/// Leaves out the points that might destroy a protected edge.
+void keep_harmless(const protection::ProtectedDelaunay& surface, lattice::LatticePoints& lattice) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : protection::harmless_points(lattice.points, surface)) {
+    lattice.points[kept] = lattice.points[i];
+    lattice.levels[kept++] = lattice.levels[i];
   }
-  return protection::insert_interior(lattice.points, std::move(surface), progress);
+  lattice.points.resize(kept);
+  lattice.levels.resize(kept);
+}
+
+/// The Delaunay tetrahedralization of the surface's vertices and the points.
+delaunay::Delaunay add_points(const lattice::LatticePoints& lattice, delaunay::Delaunay d, const MeshOptions& options,
+                              const Progress& progress, MeshCounts& counts) {
+  if (options.delaunay == DelaunayMethod::wrap) {
+    append_vertices(d, lattice.points);
+    return delaunay::wrap_delaunay(std::move(d.vertices), options.grid_scale, progress);
+  }
+  if (options.delaunay == DelaunayMethod::core && lattice.share_in_one_level >= options.least_core)
+    counts.core_tetrahedra = cores::insert_points(lattice, d, progress);
+  else
+    insert_points(d, lattice.points, progress);
+  return d;
 }
 
 /// The constrained Delaunay tetrahedralization of an input as a mesh, or why there is none.
@@ -97,7 +112,8 @@ struct Tetrahedralization {
   std::optional<MeshError> stuck;
 };
 
-/// Makes the faces of the facets part of the tetrahedralization of all vertices, and the mesh of what they enclose.
+/// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
+/// enclose.
 void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
@@ -107,6 +123,8 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
     return found;
   });
   t.counts.faces = facets.triangles.size();
+  // Only for the report, so it is not the work of a stage.
+  t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, delaunay);
   t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, delaunay::no_neighbor));
   if (!options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
 
@@ -151,7 +169,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
   }
   // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
-  // whatever the method is. With another method it is there for the sake of protection alone.
+  // whatever the method is. With another method, it serves only protection.
   const bool stays = options.delaunay != DelaunayMethod::wrap;
   delaunay::Delaunay delaunay = measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
                                          [&] { return delaunay::build_delaunay(points, progress); });
@@ -168,13 +186,17 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
   });
   lattice::LatticePoints lattice;
-  if (options.lattice != Lattice::none)
-    lattice =
-        measured(costs, mesh_stage::lattice, [&] { return place_points(t.plc, surface, facets, options, progress); });
+  if (options.lattice != Lattice::none) {
+    measured(costs, mesh_stage::lattice, [&] {
+      lattice = place_points(t.plc, surface, facets, options, progress);
+      t.counts.dropped_interior_vertices = lattice.points.size();
+      keep_harmless(surface, lattice);
+      t.counts.dropped_interior_vertices -= lattice.points.size();
+    });
+  }
   delaunay = measured(costs, mesh_stage::delaunay,
-                      [&] { return add_points(lattice, std::move(surface), options, progress, t.counts); });
+                      [&] { return add_points(lattice, std::move(surface.delaunay), options, progress, t.counts); });
   t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
-  t.counts.dropped_interior_vertices = lattice.points.size() - t.counts.interior_vertices;
 
   constrain(delaunay, std::move(facets), options, progress, costs, t);
   t.points = points_of(delaunay);
@@ -187,7 +209,7 @@ double usual_edge_length(const std::vector<Point3>& vertices) {
   return length(box.high - box.low) / 40;
 }
 
-/// Of the tolerances that are tried after another one; after it comes 0.
+/// The smallest tolerance that is tried before 0.
 constexpr double least_flatness = 2e-11;
 
 }  // namespace
@@ -196,16 +218,18 @@ Improvement improvement_of(const MeshOptions& options) {
   return options.improve.improvement.value_or(options.lattice == Lattice::none ? Improvement::none : Improvement::all);
 }
 
-MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
+namespace {
+
+MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   StageCosts costs;
   const auto triangulated = measured(costs, mesh_stage::plc, [&] { return plc::triangulate_bent_facets(input); });
   const InputPlc& flat = triangulated ? *triangulated : input;
   MeshOptions used = options;
   if (used.refine_surface && used.edge_length == 0) used.edge_length = usual_edge_length(flat.vertices);
   Tetrahedralization t = tetrahedralize(flat, used, used.flatness, progress, costs);
-  // Only a facet that is flat within the tolerance, but not exactly, makes the front stick: the theorem on protected
-  // edges speaks of exact facets. The closer to exact the surface is taken, the more Steiner vertices it costs. Taken
-  // as it is, its tetrahedralization exists.
+  // The front gets stuck only at a facet that is flat within the tolerance but not exactly: the theorem on protected
+  // edges holds for exact facets. A smaller tolerance costs more Steiner vertices. With tolerance 0, the
+  // tetrahedralization exists.
   for (double flatness = used.flatness; t.stuck && flatness != 0;) {
     flatness = flatness > least_flatness ? flatness / 10 : 0;
     t = tetrahedralize(flat, used, flatness, progress, costs);
@@ -226,10 +250,20 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
-  StageSeconds& s = costs.seconds;
-  s.mesh = s.plc + s.refine + s.protect + s.facets + s.lattice + s.delaunay + s.face_check + s.front + s.label +
-           s.finish + s.improve;
-  return {std::move(t.mesh), std::move(t.counts), s, costs.work, t.plc.largest_rounding};
+  for (StageSeconds* seconds : {&costs.seconds, &costs.cpu_seconds})
+    for (const MeshStage& stage : mesh_stages) seconds->mesh += seconds->*stage.seconds;
+  return {std::move(t.mesh), std::move(t.counts), costs.seconds,         costs.cpu_seconds,
+          costs.threads,     costs.work,          t.plc.largest_rounding};
+}
+
+}  // namespace
+
+unsigned number_of_threads(const MeshOptions& options) {
+  return options.threads == 0 ? thread_backend::core_count() : options.threads;
+}
+
+MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
+  return with_threads(options.threads, [&] { return mesh_on_threads(input, options, progress); });
 }
 
 }  // namespace ccdt

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "engine/base/progress.h"
 #include "engine/base/work.h"
 #include "engine/delaunay/options.h"
+#include "engine/front/segment_counts.h"
 #include "engine/improve/counts.h"
 #include "engine/improve/options.h"
 #include "engine/lattice/options.h"
@@ -16,8 +18,9 @@
 
 namespace ccdt {
 
-// The names that a user of the engine needs, each from the stage that it belongs to.
+// The names that a user of the engine needs, each from its stage.
 using delaunay::DelaunayMethod;
+using front::SegmentCounts;
 using improve::BoundaryRule;
 using improve::ImproveCounts;
 using improve::Improvement;
@@ -38,8 +41,10 @@ struct MeshOptions {
   Lattice lattice = Lattice::fcc;
   Protection protection = Protection::shell;
   LocatorKind locator = LocatorKind::cavity;
-  DelaunayMethod delaunay = DelaunayMethod::insert;
-  double grid_scale = 1;        ///< factor of the cell size that the paper gives its uniform grids (section 4)
+  DelaunayMethod delaunay = DelaunayMethod::core;
+  double least_core = 0.35;  ///< `core` inserts all points if a smaller share of the lattice than this is deep within
+                             ///< one level, because searching for cores would then take longer; 0: always search
+  double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
   bool refine_surface = false;  ///< give facets and segments vertices for even triangles; see `refine::refine_plc`
   double edge_length = 0;       ///< target edge length in the units of the input; 0: as the surface has it, or, if that
                                 ///< is refined, a fortieth of the diagonal of the bounding box
@@ -47,9 +52,10 @@ struct MeshOptions {
   double flatness = 1e-8;       ///< see PlcOptions
   double sphere_factor = 1;     ///< see LatticeOptions
   double clearance = lattice::usual_clearance;  ///< see LatticeOptions
-  ImproveOptions improve = {};                  ///< of the finished mesh; see `improvement_of`
-  BackgroundSizes background = {};  ///< a size function, in the units of the input; with one, the lengths of the
-                                    ///< surface's own edges do not matter
+  unsigned threads = 0;                         ///< that work at the same time; 0: one for each core. Same mesh.
+  ImproveOptions improve = {};                  ///< improvement improvement of the finished mesh; see `improvement_of`
+  BackgroundSizes background =
+      {};  ///< a size function, in the units of the input; it replaces the edge lengths of the surface
 };
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
@@ -59,30 +65,39 @@ struct StageSeconds {
   double mesh = 0;  ///< meshing alone: all of the above
 };
 
-/// What each stage did; names as in the `ccdt.run/1` schema.
+/// The most threads that worked at the same time in each stage; 0: the stage was left out.
+struct StageThreads {
+  unsigned plc = 0, refine = 0, protect = 0, facets = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0,
+           label = 0, finish = 0, improve = 0;
+};
+
+/// The work of each stage; names as in the `ccdt.run/1` schema.
 struct StageWork {
   Work plc, refine, protect, facets, lattice, delaunay, face_check, front, label, finish, improve;
 };
 
-/// A stage of meshing, by its name, its time and its work.
+/// A stage of meshing, by its name, its time, its threads and its work.
 struct MeshStage {
   const char* name;
   double StageSeconds::*seconds;
+  unsigned StageThreads::*threads;
   Work StageWork::*work;
 };
 
 namespace mesh_stage {
-inline constexpr MeshStage plc = {"plc", &StageSeconds::plc, &StageWork::plc};
-inline constexpr MeshStage refine = {"refine", &StageSeconds::refine, &StageWork::refine};
-inline constexpr MeshStage protect = {"protect", &StageSeconds::protect, &StageWork::protect};
-inline constexpr MeshStage facets = {"facets", &StageSeconds::facets, &StageWork::facets};
-inline constexpr MeshStage lattice = {"lattice", &StageSeconds::lattice, &StageWork::lattice};
-inline constexpr MeshStage delaunay = {"delaunay", &StageSeconds::delaunay, &StageWork::delaunay};
-inline constexpr MeshStage face_check = {"face_check", &StageSeconds::face_check, &StageWork::face_check};
-inline constexpr MeshStage front = {"front", &StageSeconds::front, &StageWork::front};
-inline constexpr MeshStage label = {"label", &StageSeconds::label, &StageWork::label};
-inline constexpr MeshStage finish = {"finish", &StageSeconds::finish, &StageWork::finish};
-inline constexpr MeshStage improve = {"improve", &StageSeconds::improve, &StageWork::improve};
+inline constexpr MeshStage plc = {"plc", &StageSeconds::plc, &StageThreads::plc, &StageWork::plc};
+inline constexpr MeshStage refine = {"refine", &StageSeconds::refine, &StageThreads::refine, &StageWork::refine};
+inline constexpr MeshStage protect = {"protect", &StageSeconds::protect, &StageThreads::protect, &StageWork::protect};
+inline constexpr MeshStage facets = {"facets", &StageSeconds::facets, &StageThreads::facets, &StageWork::facets};
+inline constexpr MeshStage lattice = {"lattice", &StageSeconds::lattice, &StageThreads::lattice, &StageWork::lattice};
+inline constexpr MeshStage delaunay = {"delaunay", &StageSeconds::delaunay, &StageThreads::delaunay,
+                                       &StageWork::delaunay};
+inline constexpr MeshStage face_check = {"face_check", &StageSeconds::face_check, &StageThreads::face_check,
+                                         &StageWork::face_check};
+inline constexpr MeshStage front = {"front", &StageSeconds::front, &StageThreads::front, &StageWork::front};
+inline constexpr MeshStage label = {"label", &StageSeconds::label, &StageThreads::label, &StageWork::label};
+inline constexpr MeshStage finish = {"finish", &StageSeconds::finish, &StageThreads::finish, &StageWork::finish};
+inline constexpr MeshStage improve = {"improve", &StageSeconds::improve, &StageThreads::improve, &StageWork::improve};
 }  // namespace mesh_stage
 
 /// All stages, in their order.
@@ -94,7 +109,7 @@ inline constexpr std::array mesh_stages = {mesh_stage::plc,        mesh_stage::r
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh
   std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
-  std::uint64_t interior_vertices = 0;  ///< lattice points, and what improvement made of them
+  std::uint64_t interior_vertices = 0;  ///< lattice points, after improvement
   std::uint64_t tetrahedra = 0;
   std::uint64_t faces = 0;             ///< triangles on facets
   std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
@@ -104,34 +119,37 @@ struct MeshCounts {
   std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
   std::uint64_t core_tetrahedra = 0;            ///< of the Delaunay tetrahedra, those of lattice cores (`core` only)
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
-  std::uint64_t refined_on_segments = 0;  ///< vertices that refinement gave to segments
-  std::uint64_t refined_in_facets = 0;    ///< and to facets
+  std::uint64_t refined_on_segments = 0;       ///< vertices that refinement gave to segments
+  std::uint64_t refined_in_facets = 0;         ///< and to facets
+  std::optional<SegmentCounts> segments = {};  ///< only for our mesher
   ImproveCounts improve = {};
 };
 
 struct MeshResult {
   TetMesh mesh;
   MeshCounts counts;
-  StageSeconds seconds;
+  StageSeconds seconds;      ///< wall-clock
+  StageSeconds cpu_seconds;  ///< of all threads of the process together
+  StageThreads threads;
   StageWork work;
   double largest_rounding = 0;  ///< largest change of an input coordinate, in the units of the input
 };
 
-/// What improvement does with these options: what was asked for; else everything, but nothing where the lattice is
-/// `none`, as the mesh is to be the constrained Delaunay tetrahedralization of the input then.
+/// The improvement with these options: the given one; by default everything, but nothing if the lattice is `none`,
+/// because the result is then the constrained Delaunay tetrahedralization of the input.
 Improvement improvement_of(const MeshOptions& options);
+
+/// On how many threads `mesh_plc` works with these options.
+unsigned number_of_threads(const MeshOptions& options);
 
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
-/// \param input     facets in any units, in which lengths are then meant and the mesh is given; polygons that are not
-///                  planar are triangulated so that they bend least
-/// \param options   strategies, sizes and what improvement is to reach
-/// \param progress  called again and again; to cancel the meshing, throw from it: the exception reaches the
-///                  caller, and all memory is given back
-/// \throw InputError  the input is no valid PLC
-/// \throw LimitError  a segment would need a split finer than the grid allows
+/// \param input     facets in any units, which also apply to lengths and to the mesh; polygons that are not planar are
+/// triangulated so that they bend least \param options   strategies, sizes and targets of improvement \param progress
+/// called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is released \throw
+/// InputError  the input is not a valid PLC \throw LimitError  a segment would need a split finer than the grid allows
 /// \throw MeshError   no valid mesh was found
-/// \throw ...         what `progress` throws
+/// \throw ...         any exception of `progress`
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt

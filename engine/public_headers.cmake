@@ -1,5 +1,5 @@
-# The engine as a library for others: its public headers, and what is installed of it. Public headers include only each
-# other; everything else in this folder may change at any time.
+# The engine as a library: its public headers, and what is installed. Public headers include only each other; everything
+# else in this folder may change at any time.
 set(public_headers
   base/enum_names.h
   base/errors.h
@@ -8,6 +8,7 @@ set(public_headers
   base/progress.h
   base/work.h
   delaunay/options.h
+  front/segment_counts.h
   improve/counts.h
   improve/options.h
   io/plc_files.h
@@ -22,7 +23,7 @@ set(public_headers
   surface/remesh_surface.h
 )
 
-# In the project and installed alike: #include <ccdt/ccdt.h> for all of it, or "engine/mesher.h" for a part.
+# Both in the project and installed: #include <ccdt/ccdt.h> for everything, or "engine/mesher.h" for a part.
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
 configure_file(version.h.in ${generated}/engine/version.h @ONLY)
 target_sources(ccdt_engine PUBLIC

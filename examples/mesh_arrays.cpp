@@ -1,4 +1,4 @@
-// Meshes a box that lies in arrays: two rooms with a wall between them, each a region with an attribute of its own.
+// Meshes a box given by arrays: two rooms with a wall between them. Each room is a region with its own attribute.
 #include <cstdio>
 #include <map>
 

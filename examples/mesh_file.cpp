@@ -8,14 +8,14 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "usage: mesh_file INPUT OUTPUT\n");
     return 2;
   }
-  // The formats follow from the endings. Lengths are in the units of the file.
+  // The file endings determine the formats. Lengths are in the units of the file.
   const double edge_length = 0.25;
   const ccdt::InputPlc input = ccdt::read_plc(argv[1]);
   const ccdt::InputPlc surface = ccdt::remesh_surface(input, {.edge_length = edge_length});
 
   ccdt::MeshOptions options;
   options.edge_length = edge_length;
-  options.improve.target_dihedral = 25;  // degrees; what is worse is improved
+  options.improve.target_dihedral = 25;  // degrees; worse tetrahedra are improved
   const ccdt::MeshResult result = ccdt::mesh_plc(surface, options);
 
   ccdt::write_tet_mesh(result.mesh, argv[2]);

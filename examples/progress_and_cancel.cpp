@@ -1,4 +1,4 @@
-// Shows progress, and cancels: an exception that the callback throws ends the meshing and reaches the caller.
+// Shows progress and cancels: an exception from the callback ends the meshing and reaches the caller.
 //
 //   progress_and_cancel INPUT [STAGE]      cancels in this stage, such as "delaunay"
 #include <ccdt/ccdt.h>

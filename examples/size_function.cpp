@@ -1,5 +1,4 @@
-// Uses a function of one's own for the lengths of edges: it is sampled at the points of a grid, which the engine
-// interpolates.
+// Uses a user-defined function for edge lengths: it is sampled at the points of a grid, and the engine interpolates.
 #include <ccdt/ccdt.h>
 
 #include <cmath>

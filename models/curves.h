@@ -6,8 +6,8 @@
 
 namespace ccdt::models {
 
-/// A direction of the coordinate system that something turns around. The local axes keep the handedness:
-/// around z they are (x, y, z), around x (y, z, x), around y (z, x, y).
+/// An axis of rotation. The local axes keep the handedness: around z they are (x, y, z), around x (y, z, x), around y
+/// (z, x, y).
 enum class Axis { x, y, z };
 
 /// From local coordinates of an axis to those of the model. It only permutes, so it is exact.
@@ -26,8 +26,8 @@ Point3 on_circle(Axis axis, const Point3& center, double radius, double degrees)
 /// A circle is never cut into fewer edges than this.
 inline constexpr int least_edges_of_circle = 12;
 
-/// The edge length with which a curve is cut that borders a patch of that width: at most 1.75 times the width, so that
-/// a strip of one row of triangles has no angle below 29 degrees.
+/// The edge length for a curve at the border of a patch of this width: at most 1.75 times the width, so that a strip of
+/// one row of triangles has no angle below 29 degrees.
 double spacing_beside(double edge_length, double width);
 
 /// Cuts the straight line between two corners into equal parts of about `spacing`.

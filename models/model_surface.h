@@ -11,7 +11,7 @@
 
 namespace ccdt::models {
 
-/// A triangulated surface while it is put together from patches.
+/// A triangulated surface while it is assembled from patches.
 ///
 /// Patches that meet share the vertices of their common curve by index, because each curve is cut into edges once.
 struct ModelSurface {
@@ -24,7 +24,7 @@ struct ModelSurface {
 /// Vertices along a curve, in order. An open chain holds both ends; a closed one does not repeat its first vertex.
 using Chain = std::vector<std::uint32_t>;
 
-/// Adds a vertex without asking whether there is one.
+/// Adds a vertex without checking whether it exists already.
 std::uint32_t add_vertex(ModelSurface& surface, const Point3& point);
 
 /// The corner at exactly these coordinates; added when it is new.

@@ -4,7 +4,8 @@
 
 namespace ccdt::models {
 
-// The solids behind `make_solid`, one source file each. The edge length has been checked against the part's limits.
+// The solids behind `make_solid`, one source file each. The caller has checked the edge length against the limits of
+// the solid.
 
 /// A piston of 80 mm: crown with a bowl, three ring grooves, hollow skirt, bosses and a bore for the pin.
 /// Markers: 1 crown, 2 bowl, 3 lands, 4 grooves, 5 skirt, 6 rim, 7 cavity, 8 pin bore, 9 bosses.
@@ -29,7 +30,7 @@ plc::InputPlc make_sphere(double edge_length);
 /// The logarithms of the rough sphere's radii cover a range of this times the edge length. It makes one face in ten not
 /// Delaunay; with 1 there is none yet.
 inline constexpr double rough_sphere_range = 3;
-/// The sphere with radii as good as at random, but the same each time.
+/// The sphere with pseudorandom radii, the same each time.
 plc::InputPlc make_rough_sphere(double edge_length);
 /// Radii 1 and 0.4 about the z axis.
 plc::InputPlc make_torus(double edge_length);

@@ -31,7 +31,7 @@ planar::Point2 middle(const planar::Point2& a, const planar::Point2& b) {
 
 using PatchEdge = std::array<std::uint32_t, 2>;
 
-/// The edges that a patch is to have, over the vertices that they join, in the plane.
+/// The edges of a patch and their vertices, in the plane.
 struct PatchOutline {
   std::vector<planar::Point2> vertices;
   std::vector<PatchEdge> border;  ///< closed loops that do not cross; inside is what an odd number of them encloses
@@ -93,7 +93,7 @@ PlanarBox bounds_of(std::span<const planar::Point2> points) {
   return box;
 }
 
-/// Points in square buckets, to ask whether one is near a place.
+/// Points in square buckets, to find whether one is near a position.
 class PointBuckets {
  public:
   PointBuckets(const PlanarBox& box, double size) : low_(box.low), size_(size) {
@@ -235,8 +235,8 @@ class PointFront {
   std::vector<Placed> placed_;
 };
 
-/// Places points inside the outline layer by layer, from its edges inwards, each where it makes an equilateral triangle
-/// with what is there, and none that is too near to another.
+/// Places points inside the outline layer by layer, from its edges inward. Each makes an equilateral triangle with
+/// existing points, and none is too near to another.
 std::vector<planar::Point2> place_patch_points(const PatchOutline& outline, const PatchSpacing& spacing) {
   PointFront front(outline, spacing);
   for (const auto* edges : {&outline.border, &outline.cuts}) {

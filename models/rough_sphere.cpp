@@ -6,7 +6,7 @@
 namespace ccdt::models {
 namespace {
 
-/// A number from 0 to 1 for each index, as good as random (SplitMix64; Steele, Lea and Flood 2014).
+/// A pseudorandom number from 0 to 1 for each index (SplitMix64; Steele, Lea and Flood 2014).
 double scattered(std::uint64_t index) {
   std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;

@@ -21,7 +21,7 @@ constexpr std::array<Solid, 9> all_solids{{
     {"graded-cube", "unit cube, squares that shrink 128-fold towards a corner; the largest have the edge length",
      0.0625, 0.005, 0.5, make_graded_cube},
     {"sphere", "unit sphere", 0.1, 0.001, 1.2, make_sphere},
-    {"rough-sphere", "unit sphere, radii shifted at random by up to 1.5 edge lengths", 0.1, 0.001, 1.2,
+    {"rough-sphere", "unit sphere with radii changed at random by up to 1.5 edge lengths", 0.1, 0.001, 1.2,
      make_rough_sphere},
     {"torus", "torus of radii 1 and 0.4", 0.1, 0.001, 0.5, make_torus},
     {"schoenhardt", "Schoenhardt's polyhedron, which needs a Steiner vertex; the same at every edge length", 1.0,
@@ -43,7 +43,7 @@ void check_edge_length(const Solid& solid, double edge_length) {
   std::ostringstream what, remedy;
   what << "the edge length " << edge_length << " is too " << (edge_length < solid.finest ? "fine" : "coarse")
        << " for the solid " << solid.name;
-  remedy << "give one from " << solid.finest << " to " << solid.coarsest << " (default " << solid.default_edge_length
+  remedy << "choose one from " << solid.finest << " to " << solid.coarsest << " (default " << solid.default_edge_length
          << ")";
   throw InputError(what.str(), {}, remedy.str());
 }

@@ -21,7 +21,7 @@ using results::ExperimentResult;
 using results::ResultRow;
 using results::ResultTable;
 
-/// What all charts have in common; whoever draws them has it.
+/// The configuration shared by all charts; the page and the program that draws figures have it.
 constexpr const char* shared_file = "config.json";
 
 ReportChart chart_from(const bench::Json& json) {
@@ -39,18 +39,18 @@ ReportChart read_chart(const std::filesystem::path& file) {
   } catch (const bench::Json::exception& error) {
     Place place;
     place.file = file.string();
-    throw InputError(std::string("no chart: ") + error.what(), place, "build ccdt anew: its charts are broken");
+    throw InputError(std::string("no chart: ") + error.what(), place, "build ccdt again: its charts are broken");
   }
 }
 
-/// Empty where nothing is.
+/// Empty if there is nothing.
 std::string value_text(const Cell& cell) {
   const bench::Json json = results::cell_json(cell);
   const bool is_nothing = json.is_null() || (json.is_string() && json.get_ref<const std::string&>().empty());
   return is_nothing ? "" : json.dump();
 }
 
-/// How many different values a column has; one that has none is not there.
+/// The number of different values of a column; a missing column has none.
 std::size_t distinct_values(const ResultTable& table, std::size_t column) {
   std::set<std::string> values;
   for (const ResultRow& row : table.rows)
@@ -66,14 +66,14 @@ bool is_met(const ExperimentResult& result, const ChartNeed& need) {
          distinct_values(*table, static_cast<std::size_t>(column - table->columns.begin())) >= need.values;
 }
 
-/// \name The axes of a table: columns that say what a row is of, with several values, but not too many to be seen.
+/// \name The axes of a table: label columns with several values, but not too many to be seen.
 /// @{
 constexpr std::size_t most_values = 16;
 constexpr std::size_t most_pairs = 2;
 
 struct Axis {
   const Column* column = nullptr;
-  int rank = 0;  ///< what it tells: most of all what can be chosen
+  int rank = 0;  ///< importance: options that can be chosen come first
 };
 
 struct AxisPair {
@@ -86,7 +86,7 @@ int rank_of(const Column& column) {
   return column.name == "mesher" ? 3 : 4;
 }
 
-/// The name of an input says its model and its edge length as well.
+/// The name of an input contains its model and edge length.
 bool names_input(const Column& column, const Column& axis) {
   const auto is_of_input = [](const Column& c) {
     return c.name == "input" || c.name == "model" || c.name == "edge_length";
@@ -94,13 +94,13 @@ bool names_input(const Column& column, const Column& axis) {
   return is_of_input(column) && is_of_input(axis);
 }
 
-/// Does the column say what a row is of?
+/// Is the column a label of its row?
 bool is_asked(const Column& column) {
   if (column.name == "status" || column.name == "failure") return false;
   return column.kind == ColumnKind::label || column.name == "edge_length";
 }
 
-/// Do rows that differ in nothing else but this axis differ in the value? Strategies, say, do not change a mesh.
+/// Do rows that differ only in this axis differ in the value? Strategies, for example, do not change a mesh.
 bool has_effect(const ResultTable& table, std::size_t axis, std::size_t of) {
   std::unordered_map<std::string, std::string> values;
   for (const ResultRow& row : table.rows) {
@@ -127,7 +127,7 @@ std::vector<Axis> axes_of(const ResultTable& table, const std::string& of) {
   return axes;
 }
 
-/// Both axes have several values where both are there, and at least half of their combinations exist.
+/// In rows with both axes, both have several values, and at least half of their combinations exist.
 bool is_worth_a_map(const ResultTable& table, const AxisPair& pair) {
   std::set<std::string> firsts, seconds;
   std::set<std::pair<std::string, std::string>> both;
@@ -160,7 +160,7 @@ std::string replaced(std::string text, const std::string& place, const std::stri
   return text;
 }
 
-/// The chart with the names of two axes.
+/// The chart with the names of two axes filled in.
 ReportChart made_for(ReportChart chart, const AxisPair& axes) {
   chart.name += "-" + axes.first.column->name + "-" + axes.second.column->name;
   for (const auto& [word, axis] : {std::pair("first", axes.first), std::pair("second", axes.second)})

@@ -21,7 +21,7 @@ struct ClaimRow {
   }
 };
 
-/// The rows that have these texts in these columns; none if the experiment or its table is missing.
+/// The rows with these texts in these columns; none if the experiment or its table is missing.
 std::vector<ClaimRow> rows_of(Results results, const std::string& experiment, std::string_view table,
                               const std::map<std::string, std::string>& texts = {}) {
   std::vector<ClaimRow> rows;
@@ -36,7 +36,7 @@ std::vector<ClaimRow> rows_of(Results results, const std::string& experiment, st
   return rows;
 }
 
-/// A measure that a row of a table gives.
+/// A measure from a row of a table.
 ClaimMeasure measure_of(const ClaimRow& row, std::string what, Cell value, std::string bound, BoundTest strong,
                         BoundTest weak) {
   return {std::move(what), std::move(value), std::move(bound), strong, weak,
@@ -47,19 +47,21 @@ BoundTest yes_or_no(bool holds) {
   return holds ? BoundTest::holds : BoundTest::fails;
 }
 
-/// "Little" is up to this; the paper's own ratios are 1.02 to 1.04. The weaker form is its "same order of magnitude".
+/// The bound of "little"; the paper's ratios are 1.02 to 1.04. The weaker form is the paper's "same order of
+/// magnitude".
 constexpr double little = 1.10, same_order = 2;
 
-/// The paper saves a factor of 16 to 23; we ask for half of the least of them, or else for anything at all.
+/// The paper saves a factor of 16 to 23. The strong form asks for half of the smaller one, the weaker form for any
+/// saving.
 constexpr double least_saving = 8, any_saving = 1;
 
-/// Growth with an exponent up to this is linear, up to the second nearly so.
+/// Growth is linear up to the first exponent, and nearly linear up to the second.
 constexpr double linear = 1.10, nearly_linear = 1.30;
 
 /// A test of one form of a bound.
 using TestOfBound = BoundTest (*)(const bench::Estimate&, double);
 
-/// What a claim asks of an estimate, in its strong and its weaker form.
+/// The bound of a claim on an estimate, in its strong and its weaker form.
 struct EstimateBound {
   TestOfBound test;
   double strong, weak;
@@ -75,7 +77,7 @@ void add_estimates(const std::vector<ClaimRow>& rows, std::string_view column, c
                                           bound.test(*value, bound.strong), bound.test(*value, bound.weak)));
 }
 
-/// That the exponent of these seconds is about 1: a measure for each fit.
+/// The claim that these seconds grow with an exponent of about 1; one measure for each fit.
 PaperClaim linear_claim(Results results, const std::string& id, const std::string& section, const std::string& sentence,
                         const std::string& strategy, const std::string& quantity) {
   PaperClaim claim{id, section, sentence, {"fig8"}};
@@ -86,7 +88,7 @@ PaperClaim linear_claim(Results results, const std::string& id, const std::strin
   return claim;
 }
 
-/// The other way round: the paper says that the others are not linear.
+/// The opposite claim: the paper says that the others are not linear.
 PaperClaim others_claim(Results results) {
   PaperClaim claim{"refinement-is-not-linear",
                    "6",
@@ -104,9 +106,9 @@ void add_time_claims(Results results, std::vector<PaperClaim>& claims) {
   PaperClaim check{"check-costs-little",
                    "6, Table 1",
                    "With the face protection check, the CDT takes hardly longer than the Delaunay tetrahedralization "
-                   "that it starts from.",
+                   "from which it starts.",
                    {"table1"}};
-  check.weaker = "They are of the same order: less than " + rounded(same_order, 1) + " times.";
+  check.weaker = "They are of the same order of magnitude: less than " + rounded(same_order, 1) + " times.";
   add_ratios("with check / Delaunay", {experiments::is_at_most, little, same_order, "at most " + rounded(little)},
              check);
   claims.push_back(check);
@@ -137,7 +139,7 @@ void add_time_claims(Results results, std::vector<PaperClaim>& claims) {
   claims.push_back(others_claim(results));
 }
 
-/// How a measure of quality is compared.
+/// A measure of quality, and how it is compared.
 struct QualityMeasure {
   const char* column;
   const char* words;
@@ -148,9 +150,9 @@ constexpr std::array<QualityMeasure, 4> measures = {{{"mean_r", "mean r", false}
                                                      {"worst_r", "worst r", false},
                                                      {"smallest_dihedral", "smallest dihedral angle", true}}};
 
-/// Compares our mesh with TetGen's by every measure; the weaker form asks for the mean only.
+/// Compares our mesh with TetGen's by every measure; the weaker form uses only the mean.
 void add_figure(Results results, const std::string& figure, PaperClaim& claim) {
-  const auto rows = [&](const char* variant) {  // those that went well, with a comparable number of tetrahedra
+  const auto rows = [&](const char* variant) {  // successful runs with a comparable number of tetrahedra
     return rows_of(results, figure, "quality", {{"variant", variant}, {"status", "ok"}, {"comparable", "yes"}});
   };
   const auto all_ours = rows("ccdt fcc"), all_theirs = rows("tetgen");
@@ -167,7 +169,8 @@ void add_figure(Results results, const std::string& figure, PaperClaim& claim) {
   }
 }
 
-/// By one criterion, before improvement. The weaker form: FCC is the best more often than each other lattice.
+/// One measure for each criterion, before improvement. The weaker form: FCC is the best more often than each other
+/// lattice.
 void add_lattices(Results results, PaperClaim& claim) {
   for (const ClaimRow& row : rows_of(results, "lattices", "best", {{"improved", "no"}})) {
     const double cases = row.number("cases"), fcc = row.number("fcc"), bcc = row.number("bcc"), sc = row.number("sc");
@@ -190,17 +193,18 @@ void add_quality_claims(Results results, std::vector<PaperClaim>& claims) {
   for (const std::string& figure : better.experiments) add_figure(results, figure, better);
   claims.push_back(better);
 
-  PaperClaim fcc{"fcc-is-best",
-                 "3",
-                 "Of all Bravais lattices, the face-centred cubic one makes the best tetrahedra (here: of FCC, BCC and "
-                 "SC, in meshes as the lattice makes them).",
-                 {"lattices"}};
+  PaperClaim fcc{
+      "fcc-is-best",
+      "3",
+      "Of all Bravais lattices, the face-centered cubic one makes the best tetrahedra (here: of FCC, BCC and "
+      "SC, in meshes as the lattice makes them).",
+      {"lattices"}};
   fcc.weaker = "FCC is the best in more cases than each of the others.";
   add_lattices(results, fcc);
   claims.push_back(fcc);
 }
 
-/// Adds a measure that has to be 0 for each row with cases; `whole` is what it is counted among.
+/// Adds a measure that must be 0 for each row with cases; `whole` is the column of their number.
 void add_zeros(const std::vector<ClaimRow>& rows, const char* label, const char* part, const char* whole,
                const std::string& words, PaperClaim& claim) {
   for (const ClaimRow& row : rows) {
@@ -228,7 +232,7 @@ void add_theorem(Results results, std::vector<PaperClaim>& claims) {
                        "A model whose grazeable edges are protected has a constrained Delaunay tetrahedralization "
                        "(Shewchuk's condition).",
                        {"theorem1"}};
-  // The theorem does not speak of families that are not in general position.
+  // The theorem does not cover families that are not in general position.
   const auto families = rows_of(results, "theorem1", "families", {{"position", "general"}});
   add_zeros(families, "family", "against_if", "premise", "protected, but without", sufficient);
   add_zeros(families, "family", "against_only_if", "dt", "with one, but not protected", necessary);
@@ -236,7 +240,7 @@ void add_theorem(Results results, std::vector<PaperClaim>& claims) {
   claims.insert(claims.end(), {existence, sufficient, necessary});
 }
 
-/// How many inputs of a kind there were, and in how many of them the splitting ended.
+/// The number of inputs of a kind, and of those for which the splitting terminated.
 struct EndedCount {
   double cases = 0, ended = 0;
   std::vector<std::string> runs = {};
@@ -245,17 +249,17 @@ struct EndedCount {
 void add_ended(const std::string& kind, const EndedCount& count, const char* table, PaperClaim& claim) {
   if (count.cases == 0) return;
   const BoundTest outcome = yes_or_no(count.ended == count.cases);
-  claim.measured.push_back({kind + ": inputs where it ended", count.ended,
+  claim.measured.push_back({kind + ": inputs where it terminated", count.ended,
                             "all " + with_separators(static_cast<std::uint64_t>(count.cases)), outcome, outcome,
                             "termination", table, count.runs});
 }
 
 void add_termination(Results results, std::vector<PaperClaim>& claims) {
-  PaperClaim ends{"midpoints-end",
-                  "2",
-                  "Inserting the middle points of missing grazeable edges again and again ends, with all of them "
-                  "represented.",
-                  {"termination"}};
+  PaperClaim ends{
+      "midpoints-end",
+      "2",
+      "Repeatedly inserting midpoints of missing grazeable edges terminates, and all edges are then represented.",
+      {"termination"}};
   EndedCount of_solids;
   for (const ClaimRow& row : rows_of(results, "termination", "solids", {{"protection", "midpoint"}})) {
     const std::string ended = row.text("ended");
@@ -278,19 +282,19 @@ void add_termination(Results results, std::vector<PaperClaim>& claims) {
 void add_existence_claims(Results results, std::vector<PaperClaim>& claims) {
   add_theorem(results, claims);
   add_termination(results, claims);
-  PaperClaim harmless{"interior-points-harmless",
-                      "3",
-                      "Interior points do not affect whether a CDT exists: where the model has one, it has one with "
-                      "them, too.",
-                      {"interior-points"}};
+  PaperClaim harmless{
+      "interior-points-harmless",
+      "3",
+      "Interior points do not affect the existence of a CDT: if the model has one, it also has one with them.",
+      {"interior-points"}};
   add_zeros(rows_of(results, "interior-points", "existence"), "family", "lost", "cases",
-            "with a CDT that one interior point takes away", harmless);
+            "with a CDT that one interior point destroys", harmless);
   add_zeros(rows_of(results, "interior-points", "rules", {{"lattice", "all"}}), "rule", "harmed", "cases",
             "with protected edges that points would destroy", harmless);
   claims.push_back(harmless);
 }
 
-/// What the measures are of for which a form of the claim came out so.
+/// The names of the measures for which a form of the claim has this outcome.
 std::string names_of_measures(const PaperClaim& claim, BoundTest ClaimMeasure::*form, BoundTest outcome) {
   std::vector<std::string> names;
   for (const ClaimMeasure& m : claim.measured)
@@ -301,21 +305,27 @@ std::string names_of_measures(const PaperClaim& claim, BoundTest ClaimMeasure::*
   return joined(names) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
 
-/// Did a form of the claim come out so for a measure?
+/// Does a form of the claim have this outcome for any measure?
 bool any(const PaperClaim& claim, BoundTest ClaimMeasure::*form, BoundTest outcome) {
   return std::ranges::find(claim.measured, outcome, form) != claim.measured.end();
 }
 
 }  // namespace
 
+std::string_view words_of(ClaimVerdict verdict) {
+  for (const NamedValue<ClaimVerdict>& one : names_of(verdict))
+    if (one.value == verdict) return one.what;
+  return {};
+}
+
 void judge(PaperClaim& claim) {
   if (claim.measured.empty()) {
     claim.verdict = ClaimVerdict::not_testable;
-    claim.reason = "Nothing was measured: it takes " + joined(claim.experiments) + ".";
+    claim.reason = "Nothing was measured: this claim needs " + joined(claim.experiments) + ".";
   } else if (!any(claim, &ClaimMeasure::strong, BoundTest::fails) &&
              !any(claim, &ClaimMeasure::strong, BoundTest::undecided)) {
     claim.verdict = ClaimVerdict::confirmed;
-    claim.reason = "All that was measured is as the paper says.";
+    claim.reason = "All measurements agree with the paper.";
   } else if (any(claim, &ClaimMeasure::weak, BoundTest::fails)) {
     claim.verdict = ClaimVerdict::refuted;
     claim.reason = "Contradicted by: " + names_of_measures(claim, &ClaimMeasure::weak, BoundTest::fails) + ".";

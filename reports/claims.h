@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/experiments/experiment.h"
@@ -22,31 +23,36 @@ using results::with_separators;
 
 /// The result of testing a claim of the paper.
 enum class ClaimVerdict {
-  confirmed,    ///< all that was measured is as the claim says
-  reservation,  ///< it holds in a weaker form
-  refuted,      ///< something that was measured contradicts even that
-  not_testable  ///< nothing was measured, or the intervals do not tell
+  confirmed,    ///< all measurements agree with the claim
+  reservation,  ///< a weaker form of the claim holds
+  refuted,      ///< a measurement contradicts even the weaker form
+  not_testable  ///< nothing was measured, or the intervals are too wide
 };
 
+/// The names are those in JSON, and what follows is for people.
 constexpr auto names_of(ClaimVerdict) {
-  return std::to_array<NamedValue<ClaimVerdict>>({{ClaimVerdict::confirmed, "confirmed"},
-                                                  {ClaimVerdict::reservation, "confirmed with a reservation"},
-                                                  {ClaimVerdict::refuted, "refuted"},
-                                                  {ClaimVerdict::not_testable, "not testable here"}});
+  return std::to_array<NamedValue<ClaimVerdict>>(
+      {{ClaimVerdict::confirmed, "confirmed", "confirmed"},
+       {ClaimVerdict::reservation, "confirmed with a reservation", "partly confirmed"},
+       {ClaimVerdict::refuted, "refuted", "refuted"},
+       {ClaimVerdict::not_testable, "not testable here", "not testable at this scale"}});
 }
 
-/// One number that a claim stands or falls with.
+/// The verdict in words for people.
+std::string_view words_of(ClaimVerdict verdict);
+
+/// One number that decides a claim.
 struct ClaimMeasure {
   std::string what;                                  ///< for people
-  Cell value;                                        ///< with its interval, if it has one
-  std::string bound;                                 ///< what the claim asks of it, for people
-  BoundTest strong = experiments::BoundTest::fails;  ///< does it hold as the paper has it?
-  BoundTest weak = experiments::BoundTest::fails;    ///< and in its weaker form?
+  Cell value;                                        ///< with its interval, if there is one
+  std::string bound;                                 ///< the bound of the claim, for people
+  BoundTest strong = experiments::BoundTest::fails;  ///< does the claim hold as in the paper?
+  BoundTest weak = experiments::BoundTest::fails;    ///< does it hold in its weaker form?
   std::string experiment, table;
   std::vector<std::string> runs = {};
 };
 
-/// A claim of the paper and what was measured of it.
+/// A claim of the paper and its measurements.
 struct PaperClaim {
   std::string id;
   std::string section;                   ///< of the paper
@@ -58,11 +64,11 @@ struct PaperClaim {
   std::string reason = {};
 };
 
-/// Fills in the verdict and its reason, from the measures alone: confirmed if all hold as the paper has them, refuted
-/// if one fails even in the weaker form, with a reservation if all hold in that.
+/// Fills in the verdict and its reason from the measures alone: confirmed if all hold as in the paper, refuted if one
+/// fails even in the weaker form, partly confirmed if all hold in the weaker form.
 void judge(PaperClaim& claim);
 
-/// All claims, judged by what these experiments found. A claim whose experiments are missing is not testable here.
+/// All claims, judged by the results of these experiments. A claim whose experiments are missing is not testable.
 std::vector<PaperClaim> judge_claims(std::span<const ExperimentResult> results);
 
 }  // namespace ccdt::reports

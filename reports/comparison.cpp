@@ -17,7 +17,7 @@ using results::label_column;
 using results::table_of;
 using results::time_column;
 
-/// Columns that look like labels, but say how a row went: they are compared.
+/// Columns that look like labels but state results, so they are compared.
 bool is_outcome(const Column& column) {
   return column.name == "status" || column.name == "failure";
 }
@@ -32,18 +32,18 @@ std::string key_of(const ResultTable& table, const ResultRow& row) {
   return joined(labels);
 }
 
-/// The rows of a table by their labels; of several with the same labels in their order.
+/// The rows of a table by their labels; rows with equal labels stay in order.
 std::unordered_map<std::string, std::deque<const ResultRow*>> rows_by_key(const ResultTable& table) {
   std::unordered_map<std::string, std::deque<const ResultRow*>> rows;
   for (const ResultRow& row : table.rows) rows[key_of(table, row)].push_back(&row);
   return rows;
 }
 
-/// The tables of the new section while they are filled.
+/// The tables of the new section while it is built.
 struct ComparisonTables {
   std::string first, second;  ///< folders, relative to that of the new report
   ResultTable summary =
-      table_of("summary", "In all",
+      table_of("summary", "Summary",
                {label_column("experiment"), figure_column("figures", "deterministic figures"),
                 figure_column("different", "of these different"),
                 figure_column("others_different", "different, of other meshers"), figure_column("times"),
@@ -54,17 +54,17 @@ struct ComparisonTables {
                {label_column("experiment"), label_column("table"), label_column("row"), label_column("quantity"),
                 time_column("first"), time_column("second"), time_column("ratio", "second / first"),
                 figure_column("within", "within the first's interval")});
-  ResultTable differences = table_of("differences", "Figures that differ, though they should not",
+  ResultTable differences = table_of("differences", "Figures that differ but should not",
                                      {label_column("experiment"), label_column("table"), label_column("row"),
                                       label_column("quantity"), figure_column("first"), figure_column("second")});
 };
 
-/// Of one experiment: a row of the summary.
+/// The row of an experiment in the summary.
 struct ComparisonCounts {
   std::uint64_t figures = 0, different = 0, others_different = 0, times = 0, outside = 0, unmatched = 0;
 };
 
-/// Others' programs need not repeat themselves.
+/// Other meshers need not be deterministic.
 bool is_of_another_mesher(const ResultTable& table, const ResultRow& row) {
   const auto mesher = std::ranges::find(table.columns, "mesher", &Column::name);
   return mesher != table.columns.end() && results::text_in(table, row, "mesher") != "ccdt";
@@ -76,7 +76,7 @@ class ExperimentComparison {
   ExperimentComparison(std::string experiment, ComparisonTables& tables)
       : experiment_(std::move(experiment)), tables_(tables) {}
 
-  /// Rows belong together that have the same labels; of several those at the same place among them.
+  /// Rows are matched by labels; rows with equal labels are matched by position.
   void compare_tables(const ResultTable& first, const ResultTable& second) {
     auto others = rows_by_key(second);
     for (const ResultRow& row : first.rows) {
@@ -159,7 +159,7 @@ std::string finding_of(const ResultTable& summary, const char* all, const char* 
   return experiments::share_words(static_cast<std::uint64_t>(total - wrong), static_cast<std::uint64_t>(total)) + words;
 }
 
-/// The runs of one of the folders, by their names in the new report.
+/// The runs of one folder by their names in the new report.
 void take_runs(const Report& from, const std::string& folder, Report& report) {
   for (const auto& [file, run] : from.runs) {
     RunLine line = run;
@@ -184,7 +184,7 @@ Report compare_reports(const std::filesystem::path& first, const std::filesystem
     const auto other = std::ranges::find(b.sections, s.result.name, [](const auto& o) { return o.result.name; });
     if (s.is_missing || other == b.sections.end() || other->is_missing) {
       if (!s.is_missing || (other != b.sections.end() && !other->is_missing))
-        section.result.problems.push_back(s.result.title + ": only one of the folders has it");
+        section.result.problems.push_back(s.result.title + ": only in one of the folders");
       continue;
     }
     compare_experiments(s.result, other->result, tables);
@@ -194,13 +194,14 @@ Report compare_reports(const std::filesystem::path& first, const std::filesystem
   section.result.title = "Comparison of " + first.string() + " and " + second.string();
   section.result.how.command = "ccdt report " + first.string() + " " + second.string();
   section.result.findings = {
-      finding_of(tables.summary, "figures", "different", " deterministic figures are the same, bit for bit."),
-      finding_of(tables.summary, "times", "outside", " times are within the interval that the first folder states.")};
+      finding_of(tables.summary, "figures", "different", " deterministic figures are equal bit for bit."),
+      finding_of(tables.summary, "times", "outside", " times are within the interval of the first folder.")};
   section.result.definitions = {
-      "Deterministic figures are counts and measures of meshes: the same inputs and options must give the same ones.",
-      "Figures of other meshers are counted apart: not all repeat themselves (Mesh_3 does not when it perturbs).",
-      "Times are compared by the value of the second folder and the interval of the first.",
-      "Rows belong together that have the same labels."};
+      "Deterministic figures are counts and measures of meshes: the same inputs and options must give the same "
+      "figures.",
+      "Figures of other meshers are counted separately: not all are deterministic (Mesh_3 is not when it perturbs).",
+      "A time agrees if the value of the second folder is within the interval of the first.",
+      "Rows are matched by their labels."};
   section.result.is_good = tables.differences.rows.empty();
   section.result.tables = {tables.summary, verdicts_table(a, b), tables.differences, tables.times};
   section.charts = charts_for(section.result, charts);

@@ -10,7 +10,7 @@
 namespace ccdt::reports {
 namespace {
 
-/// The command, but for its results, which go to files of their own.
+/// The command, with new files for its results.
 std::string repeating(std::vector<std::string> command) {
   for (std::size_t i = 0; i + 1 < command.size(); ++i) {
     const std::string ending = std::filesystem::path(command[i + 1]).extension().string();
@@ -29,7 +29,7 @@ RunLine run_line(const std::filesystem::path& file) {
   return run ? run_line(*run) : RunLine{"", "missing: " + file.string() + " cannot be read", "", "", {}};
 }
 
-/// Reads every run that a section stands on, once.
+/// Reads every run on which a section is based, once.
 void add_runs(const std::filesystem::path& folder, const ReportSection& section, Report& report) {
   const auto add = [&](const std::string& file) {
     if (!file.empty() && !report.runs.contains(file)) report.runs[file] = run_line(folder / file);
@@ -39,7 +39,7 @@ void add_runs(const std::filesystem::path& folder, const ReportSection& section,
   for (const KeptMesh& mesh : section.result.meshes) add(mesh.run);
 }
 
-/// The scale that the other experiments of the folder have.
+/// The scale of the other experiments of the folder.
 std::string usual_scale(const Report& report) {
   for (const ReportSection& section : report.sections)
     if (!section.is_missing) return section.result.how.scale;
@@ -65,7 +65,7 @@ ReportSection read_section(const std::filesystem::path& folder, const experiment
   return section;
 }
 
-/// Of so many runs a page holds the whole records.
+/// Up to this many runs, a page contains the whole records.
 constexpr std::size_t most_raw_runs = 3000;
 
 std::string_view status_of(const ReportSection& section) {
@@ -73,7 +73,7 @@ std::string_view status_of(const ReportSection& section) {
   return section.result.is_good ? "ok" : "failed";
 }
 
-/// The experiments that the folder has, and those that it should have.
+/// The experiments of the folder, and those that are missing.
 void add_experiments(const std::filesystem::path& folder, std::span<const ReportChart> charts, Report& report) {
   for (const experiments::KnownExperiment& known : experiments::known_experiments()) {
     ReportSection section = read_section(folder, known);
@@ -179,12 +179,12 @@ static void to_json(bench::Json& json, const RunLine& run) {
 
 Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts) {
   Report report;
-  report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization, measured again";
+  report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization: measurements";
   add_experiments(folder, charts, report);
   const bool has_sweep = std::filesystem::exists(folder / sweep_results::sweep_file);
   if (std::ranges::all_of(report.sections, &ReportSection::is_missing)) {
     if (!has_sweep)
-      throw InputError("there is neither an experiment nor a sweep in this folder", {.file = folder.string()},
+      throw InputError("this folder contains neither an experiment nor a sweep", {.file = folder.string()},
                        "fill one with `ccdt reproduce -o DIR` or `ccdt sweep SPEC.json -o DIR`");
     report.sections.clear();
   }

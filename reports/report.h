@@ -13,59 +13,60 @@
 
 namespace ccdt::reports {
 
-/// An experiment as a report shows it.
+/// An experiment in a report.
 struct ReportSection {
-  ExperimentResult result;  ///< of a missing one only the names, and the command that makes it
+  ExperimentResult result;  ///< if missing: only the names, and the command that makes it
   bool is_missing = false;
   std::string reason;  ///< why it is missing
   std::vector<ReportChart> charts;
 };
 
-/// What a reader needs in order to repeat a run.
+/// What a reader needs to repeat a run.
 struct RunLine {
-  std::string command;  ///< in the folder of the report; it overwrites nothing. Empty if nobody knows
+  std::string command;  ///< to be called in the folder of the report; it overwrites nothing. Empty if unknown
   std::string status;
   std::string mesher, version;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< in the mesher's own words
+  std::vector<std::pair<std::string, std::string>> settings;  ///< in the terms of the mesher
 };
 
-/// All that a report shows.
+/// The contents of a report.
 struct Report {
   std::string title;
   std::vector<PaperClaim> claims;
   std::vector<ReportSection> sections;
   std::map<std::string, RunLine> runs;  ///< by file, relative to the folder
-  bool has_raw_runs = true;  ///< the records of the runs are in the page; else it links to them, as there are many
-  std::map<std::string, std::string> more_files = {};  ///< made of the runs, as runs.csv: contents by name
+  bool has_raw_runs =
+      true;  ///< the page contains the records of the runs; otherwise it links to them, because there are many
+  std::map<std::string, std::string> more_files = {};  ///< files made from the runs, such as runs.csv: contents by name
 };
 
-/// What the JSON of a folder says: of `ccdt reproduce`, where an experiment that is missing or cannot be read is a
-/// section that says so, and a run that is missing a line that does; of `ccdt sweep`, one section.
+/// Reads the JSON of a folder. For `ccdt reproduce`, an experiment that is missing or cannot be read is a section that
+/// says so, and a missing run is a line that says so. For `ccdt sweep`, there is one section.
 ///
 /// \throw InputError  the folder has neither an experiment nor a sweep
 Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts);
 
-/// As JSON of schema `ccdt.report/1`, and of schema `ccdt.claims/1` its claims alone.
+/// The report as JSON of schema `ccdt.report/1`, and only its claims as `ccdt.claims/1`.
 bench::Json report_json(const Report& report);
 bench::Json claims_json(const Report& report);
 
-/// Two folders beside each other, as a report of one section: which deterministic figures differ, which times are
-/// outside of the interval that the first folder states, and which verdicts have changed. Rows belong together that
-/// have the same labels.
+/// Compares two folders, as a report of one section: which deterministic figures differ, which times are outside the
+/// interval of the first folder, and which verdicts have changed. Rows are matched by their labels.
 ///
 /// \param into  the folder of the new report, which its files are named from
 /// \throw InputError  one of the folders has no experiment
 Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
                        const std::filesystem::path& into, std::span<const ReportChart> charts);
 
-/// Where the files of a report are.
+/// The files of a report.
 struct WrittenReport {
   std::filesystem::path page;      ///< empty if there is none
   std::vector<std::string> notes;  ///< what could not be made, and what to do about it
 };
 
-/// Writes everything that is made of a report's JSON: report.json, claims.json, NAME.md and tables/ (Markdown, CSV,
-/// LaTeX) for each experiment, figures/ (SVG, PDF, PNG), more files, and the page index.html, which holds all of it.
+/// Writes everything that is made from the JSON of a report: report.json, claims.json, NAME.md and tables/ (Markdown,
+/// CSV, LaTeX) for each experiment, figures/ (SVG, PDF, PNG), more files, and the page index.html, which contains all
+/// of it.
 ///
 /// \param folder  where the runs and meshes of the report are, and its files go
 /// \param share   where ccdt's own files are: page.html, charts, render_figures.mjs
@@ -73,8 +74,8 @@ struct WrittenReport {
 WrittenReport write_report(const Report& report, const std::filesystem::path& folder,
                            const std::filesystem::path& share);
 
-/// The page with all that it shows inside: the report, the meshes of the viewer, and the raw JSON of every run and
-/// experiment, deflated. Files that are missing are left out.
+/// The page with all its data inside: the report, the meshes of the viewer, and the raw JSON of every run and
+/// experiment, compressed. Missing files are left out.
 ///
 /// \param folder  where the files are that the report names
 std::string fill_page(const std::string& page, const Report& report, const std::filesystem::path& folder);

@@ -20,7 +20,7 @@ using results::rounded;
 using results::with_interval;
 using results::with_separators;
 
-/// How many columns of a terminal a UTF-8 text takes: continuation bytes take none.
+/// The width of a UTF-8 text in columns of a terminal: continuation bytes take none.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -39,14 +39,14 @@ std::string aligned(const std::string& text, std::size_t column, std::size_t to)
   return column == 0 ? text + spaces : spaces + text;
 }
 
-/// A text within a Markdown cell, where a bar would end the cell and a line feed the row.
+/// A text for a Markdown cell, which a bar would end; a line feed would end the row.
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) safe += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
   return safe;
 }
 
-/// A whole number with separators, another with four digits.
+/// Whole numbers with separators, others with four digits.
 std::string number_text(double value) {
   constexpr double largest = 1e15;
   if (!std::isfinite(value)) return std::isnan(value) ? "" : "infinite";
@@ -70,7 +70,7 @@ bool is_empty(const ResultTable& table, std::size_t column) {
   return std::ranges::all_of(table.rows, [&](const ResultRow& row) { return cell_text(row.cells[column]).empty(); });
 }
 
-/// With all digits that are needed to read the same number back.
+/// With all digits needed to read the same number back.
 std::string all_digits(double value) {
   return std::isfinite(value) ? digits(value) : "";
 }
@@ -131,8 +131,8 @@ std::string machine(const bench::Environment& e) {
 }
 
 std::string how_measured(const results::Circumstances& how) {
-  if (how.runs <= 1) return "One run of each; all but the seconds is the same in every run.";
-  return "Medians of " + std::to_string(how.runs) + " runs or more, in turn after one that is not counted, with " +
+  if (how.runs <= 1) return "One run of each case; everything but the seconds is the same in every run.";
+  return "Medians of " + std::to_string(how.runs) + " runs or more, in turns, after one warm-up run, with " +
          rounded(100 * how.confidence, 2) + "% intervals.";
 }
 
@@ -148,9 +148,11 @@ std::string stages(const StageSeconds& s) {
                                                                {"label", s.label},
                                                                {"finish", s.finish},
                                                                {"improve", s.improve}}};
+  constexpr double least_share = 0.01;  // of meshing; the other stages do not matter to a reader
   std::string text;
   for (const auto& [name, seconds] : all)
-    if (seconds > 0) text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds)));
+    if (seconds >= least_share * s.mesh && seconds > 0)
+      text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds, 2)));
   return text.empty() ? "" : " (" + text + ")";
 }
 
@@ -161,14 +163,23 @@ std::string refinement(const MeshCounts& c) {
          with_separators(c.refined_in_facets) + " in facets\n";
 }
 
-/// Nothing if no edge was in danger.
+/// Nothing for other meshers.
+std::string segments(const std::optional<SegmentCounts>& s) {
+  if (!s) return "";
+  std::string text = "segments    " + with_separators(s->all) + ": " + with_separators(s->delaunay) + " Delaunay";
+  if (s->split > 0) text += ", " + with_separators(s->split) + " split into " + with_separators(s->pieces) + " pieces";
+  if (s->front > 0) text += ", " + with_separators(s->front) + " left to the front";
+  return text + "\n";
+}
+
+/// Nothing if no edge was split and no point dropped.
 std::string protection(const MeshCounts& c) {
   std::string text;
   for (const std::uint64_t splits : c.splits_by_level)
     text += (text.empty() ? "splits by level " : ", ") + with_separators(splits);
   if (c.dropped_interior_vertices > 0)
     text += (text.empty() ? "" : "; ") + with_separators(c.dropped_interior_vertices) +
-            " interior dropped for the sake of edges";
+            " interior points dropped to keep edges";
   return text.empty() ? "" : "protection  " + text + "\n";
 }
 
@@ -188,7 +199,7 @@ std::string quality_lines(const bench::Quality& q) {
          "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
 }
 
-/// Nothing if none was asked for.
+/// Nothing if the mesh was not improved.
 std::string improvement(const ImproveCounts& c) {
   if (c.stop == ImproveStop::none) return "";
   std::string text = "improvement " + with_separators(c.bad_cells) +
@@ -198,10 +209,10 @@ std::string improvement(const ImproveCounts& c) {
                      with_separators(c.collapsed_edges) + " collapsed; ";
   if (c.stop == ImproveStop::target) return text + "all reach the target\n";
   return text + with_separators(c.bad_cells_left) + " are left, " +
-         (c.stop == ImproveStop::time ? "the time was up" : "which nothing makes better") + "\n";
+         (c.stop == ImproveStop::time ? "because the time was up" : "because no change improves them") + "\n";
 }
 
-/// The first rows of a table, and how many more there are.
+/// The first rows of a table, and the number of the others.
 std::string first_rows(const ResultTable& table, std::size_t most) {
   if (table.rows.size() <= most) return to_terminal(text_table(table));
   ResultTable part = table;
@@ -212,6 +223,28 @@ std::string first_rows(const ResultTable& table, std::size_t most) {
 std::string check_word(const verify::Check& check) {
   if (check.failed == 0) return "ok";
   return check.required ? "FAILED" : "differs";
+}
+
+/// One line per check, with its first failures below it.
+std::string check_lines(const std::vector<verify::Check>& checks) {
+  std::size_t width = 0;
+  for (const verify::Check& check : checks) width = std::max(width, check.name.size());
+  std::string text;
+  for (const verify::Check& check : checks) {
+    const std::string word = check_word(check);
+    text += word + std::string(9 - word.size(), ' ') + check.name + std::string(width + 2 - check.name.size(), ' ');
+    text += check.failed == 0 ? with_separators(check.checked)
+                              : with_separators(check.failed) + " of " + with_separators(check.checked);
+    text += "\n";
+    for (const std::string& example : check.examples) text += "           " + example + "\n";
+  }
+  return text;
+}
+
+std::string volumes(const verify::Verification& verification) {
+  constexpr int digits = 6;
+  return "volume   " + rounded(verification.mesh_volume, digits) +
+         " (input: " + rounded(verification.input_volume, digits) + ")\n";
 }
 
 }  // namespace
@@ -300,25 +333,25 @@ std::string to_terminal(const ExperimentResult& result, std::size_t most_rows) {
   std::string text = result.title + "\n\n";
   for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty()) text += table.title + "\n\n" + first_rows(table, most_rows) + "\n";
-  return text + list("What this says", "  ", result.findings) + list("What went wrong", "  ", result.problems) +
+  return text + list("Findings", "  ", result.findings) + list("Problems", "  ", result.problems) +
          how_measured(result.how) + "\n";
 }
 
 std::string to_markdown(const ExperimentResult& result) {
   std::string text = "# " + result.title + "\n\n" + how_measured(result.how) + "\n\n";
-  text += markdown_list("What this says", result.findings) + markdown_list("What went wrong", result.problems);
+  text += markdown_list("Findings", result.findings) + markdown_list("Problems", result.problems);
   for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty())
       text += "## " + table.title + "\n\n" + to_markdown(text_table(table)) + "\n";
-  return text + markdown_list("What the rows mean", result.definitions) + "## How it was measured\n\n`" +
-         result.how.command + "`\n\n" + machine(result.how.environment) + "\n";
+  return text + markdown_list("Definitions", result.definitions) + "## How it was measured\n\n`" + result.how.command +
+         "`\n\n" + machine(result.how.environment) + "\n";
 }
 
 std::string summarize(const bench::RunRecord& r) {
   const MeshCounts& c = r.counts;
   std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
-  text += refinement(c) + protection(c) + lattice_cores(c);
+  text += refinement(c) + segments(c.segments) + protection(c) + lattice_cores(c);
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
   text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
           results::mebibytes(r.peak_rss_bytes) + "\n";
@@ -328,20 +361,29 @@ std::string summarize(const bench::RunRecord& r) {
   return text;
 }
 
-std::string to_terminal(const verify::Verification& verification) {
-  std::size_t width = 0;
-  for (const verify::Check& check : verification.checks) width = std::max(width, check.name.size());
-  std::string text;
+std::string in_one_line(const bench::RunRecord& r) {
+  return with_separators(r.counts.tetrahedra) + " tetrahedra in " + rounded(r.seconds.mesh) + " s, dihedral angles " +
+         rounded(r.quality.dihedral_degrees.min) + " to " + rounded(r.quality.dihedral_degrees.max) +
+         " degrees, worst r " + rounded(r.quality.r.max);
+}
+
+std::string summarize(const verify::Verification& verification) {
+  std::vector<verify::Check> failed;
+  std::size_t required = 0, passed = 0;
   for (const verify::Check& check : verification.checks) {
-    const std::string word = check_word(check);
-    text += word + std::string(9 - word.size(), ' ') + check.name + std::string(width + 2 - check.name.size(), ' ');
-    text += check.failed == 0 ? with_separators(check.checked)
-                              : with_separators(check.failed) + " of " + with_separators(check.checked);
-    text += "\n";
-    for (const std::string& example : check.examples) text += "           " + example + "\n";
+    if (!check.required) continue;
+    ++required;
+    if (check.failed == 0)
+      ++passed;
+    else
+      failed.push_back(check);
   }
-  return text + "volume   " + rounded(verification.mesh_volume, 12) + ", of the input " +
-         rounded(verification.input_volume, 12) + "\n";
+  return "checks   " + std::to_string(passed) + " of " + std::to_string(required) + " passed (--details lists them)\n" +
+         volumes(verification) + check_lines(failed);
+}
+
+std::string to_terminal(const verify::Verification& verification) {
+  return check_lines(verification.checks) + volumes(verification);
 }
 
 std::string to_json(const verify::Verification& verification, const std::string& input, const std::string& mesh) {

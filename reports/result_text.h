@@ -16,14 +16,14 @@ using results::ResultTable;
 /// short.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// With columns aligned by spaces, for a terminal. A rule follows the heading.
+/// For a terminal: columns are aligned by spaces, and a rule follows the heading.
 std::string to_terminal(const TextTable& table);
 
-/// In Markdown, with aligned columns so that the source can be read as well.
+/// In Markdown, with aligned columns so that the source is readable too.
 std::string to_markdown(const TextTable& table);
 
-/// A table as people read it: columns that are empty in all rows are left out, numbers are rounded, estimates have
-/// their intervals, and a row that failed says why.
+/// A table for people: empty columns are left out, numbers are rounded, estimates have their intervals, and a failed
+/// row says why.
 TextTable text_table(const ResultTable& table);
 
 /// All columns and rows with all digits, an estimate as three columns (name, name_low, name_high); RFC 4180.
@@ -32,15 +32,21 @@ std::string to_csv(const ResultTable& table);
 /// A `tabular` with the rules of LaTeX's package booktabs, in a `table` with a caption and a label.
 std::string to_latex(const ResultTable& table, const std::string& experiment);
 
-/// What a reader at a terminal gets of an experiment, or one of Markdown. A terminal gets so many rows of each table.
+/// An experiment for a terminal or in Markdown. A terminal gets at most `most_rows` rows of each table.
 std::string to_terminal(const ExperimentResult& result, std::size_t most_rows = std::string::npos);
 std::string to_markdown(const ExperimentResult& result);
 
-/// What a person wants to know after a mesh: counts, Steiner vertices, seconds by stage and the worst quality; a few
-/// lines.
+/// A run in a few lines: counts, Steiner vertices, seconds per stage and quality.
 std::string summarize(const bench::RunRecord& record);
 
-/// The result of `ccdt verify`: one line a check, with the first failures under it, and the volumes.
+/// A run in one line: what was made, how good it is, and how long it took.
+std::string in_one_line(const bench::RunRecord& record);
+
+/// The result of `ccdt verify` in two lines: how many tetrahedra and checks, and the volumes. Failed checks follow,
+/// each with its first examples.
+std::string summarize(const verify::Verification& verification);
+
+/// All checks of `ccdt verify`: one line per check, with the first failures below it, and the volumes.
 std::string to_terminal(const verify::Verification& verification);
 
 /// As JSON of schema `ccdt.verify/1`.

@@ -15,7 +15,7 @@ using gate::JudgedFigure;
 using gate::Judgment;
 using gate::Verdict;
 
-constexpr std::size_t most_good_rows = 100;  ///< in Markdown, of what is better or new
+constexpr std::size_t most_good_rows = 100;  ///< rows in Markdown for figures that are better or new
 
 /// A kind of figure that is listed.
 struct Part {
@@ -57,7 +57,7 @@ std::string percent(double ratio) {
   return (ratio >= 1 ? "+" : "") + results::rounded(100 * (ratio - 1), 3) + "%";
 }
 
-/// By how much: "+7%", or of what was sampled "+7.01% [+5.2%, +8.9%]".
+/// The change: "+7%", or for sampled figures "+7.01% [+5.2%, +8.9%]".
 std::string change_text(const JudgedFigure& figure) {
   if (!figure.ratio || !std::isfinite(*figure.ratio)) return "";
   if (!figure.interval) return figure.changed ? percent(*figure.ratio) : "";

@@ -6,10 +6,10 @@
 
 namespace ccdt::reports {
 
-/// A verdict as a terminal shows it: the verdict, then a line for each figure that is worse, undecided, better or new,
-/// the worst first, then the notes.
+/// A verdict for a terminal: the verdict, then one line for each figure that is worse, undecided, better or new, the
+/// worst first, then the notes.
 ///
-/// \param most_lines  of each kind of figure; the rest is counted
+/// \param most_lines  lines for each kind of figure; the others are only counted
 std::string to_terminal(const gate::Verdict& verdict, std::size_t most_lines = 40);
 
 /// The same in Markdown, with all figures that are worse or undecided.

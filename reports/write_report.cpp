@@ -42,14 +42,14 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-/// Draws the charts and the cut-open meshes, by the same descriptions that the page has.
+/// Draws the charts and the cut-open meshes from the same descriptions that the page uses.
 /// \return  what could not be drawn, and what to do about it
 std::vector<std::string> draw_figures(const std::filesystem::path& folder, const std::filesystem::path& share) {
   const auto script = share / "render_figures.mjs";
   const auto node = baselines::find_program("node", "CCDT_NODE");
   if (!std::filesystem::exists(script))
     return {"No figures: this build has no " + script.string() + "; build it with CCDT_BUILD_PAGE=ON."};
-  if (!node) return {"No figures: they are drawn by the program `node`, which is not there; install nodejs."};
+  if (!node) return {"No figures: the program `node`, which draws them, is missing; install nodejs."};
   const baselines::TemporaryFolder work;
   const auto log = work.path() / "log";
   const int code = baselines::run_program({node->string(), script.string(), (folder / "report.json").string(),
@@ -57,7 +57,7 @@ std::vector<std::string> draw_figures(const std::filesystem::path& folder, const
                                           {.log = log})
                        .shell_code();
   std::vector<std::string> notes = lines_of(log);
-  if (code != 0) notes.push_back("Not all figures: drawing them ended with code " + std::to_string(code) + ".");
+  if (code != 0) notes.push_back("Some figures are missing: drawing ended with code " + std::to_string(code) + ".");
   return notes;
 }
 
@@ -67,7 +67,7 @@ std::string compact_text(const bench::Json& json) {
   return json.dump(-1, ' ', false, bench::Json::error_handler_t::replace);
 }
 
-/// JSON as a script element may hold it: nothing in it ends the element.
+/// JSON for a script element: nothing in it can end the element.
 std::string inside_script(const std::string& json) {
   std::string text;
   text.reserve(json.size());
@@ -78,7 +78,7 @@ std::string inside_script(const std::string& json) {
   return text;
 }
 
-/// The JSON of each file that is there, by its name.
+/// The JSON of each existing file, by name.
 bench::Json contents_of(const std::set<std::string>& files, const std::filesystem::path& folder) {
   bench::Json contents = bench::Json::object();
   for (const std::string& file : files) {
@@ -96,7 +96,7 @@ std::set<std::string> mesh_files(const Report& report) {
   return files;
 }
 
-/// The kept meshes, small enough for a page of many.
+/// The kept meshes, reduced so that a page can hold many.
 bench::Json compact_meshes(const Report& report, const std::filesystem::path& folder) {
   bench::Json meshes = contents_of(mesh_files(report), folder);
   for (auto& [file, mesh] : meshes.items()) mesh = results::compact_mesh(mesh);
@@ -118,7 +118,7 @@ std::string element(const std::string& id, const std::string& type, const std::s
   return "<script type=\"" + type + "\" id=\"" + id + "\">" + content + "</script>\n";
 }
 
-constexpr std::size_t largest_plain_report = 3 << 19;  ///< bytes; a larger one is deflated
+constexpr std::size_t largest_plain_report = 3 << 19;  ///< bytes; larger files are compressed
 
 /// \param json  of the report
 std::string report_element(const std::string& json) {
@@ -148,15 +148,15 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
                            const std::filesystem::path& share) {
   WrittenReport written;
   for (const char* part : {"tables", "figures"}) {
-    std::filesystem::remove_all(folder / part);  // or those of experiments that are gone would stay
+    std::filesystem::remove_all(folder / part);  // otherwise those of removed experiments would stay
     std::filesystem::create_directories(folder / part);
   }
   const bench::Json json = report_json(report);
   const std::string text = compact_text(json);
-  // Nobody reads millions of lines; to write and parse them takes long.
+  // Nobody reads millions of lines, and writing and parsing them takes long.
   write_text(text.size() > largest_plain_report ? text : bench::to_text(json), folder / "report.json");
   write_text(bench::to_text(claims_json(report)), folder / "claims.json");
-  auto figures = std::async(std::launch::async, draw_figures, folder, share);  // which takes as long as all the rest
+  auto figures = std::async(std::launch::async, draw_figures, folder, share);  // which takes as long as everything else
   for (const ReportSection& section : report.sections) write_tables(section, folder);
   for (const auto& [name, content] : report.more_files) write_text(content, folder / name);
   const auto page = share / "page.html";

@@ -10,14 +10,15 @@ int main(int argc, char** argv) {
   using namespace ccdt::tools;
   ExitCode exit_code = wrong_usage;
   try {
-    CLI::App app("ccdt: tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",
+    CLI::App app("tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",
                  "ccdt");
-    app.set_version_flag("--version", "ccdt " + std::string(ccdt::engine_version));
+    app.set_version_flag("--version", "ccdt " + std::string(ccdt::engine_version), "print the version and exit");
+    app.set_help_flag("-h,--help", "print this help and exit");
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 done, 1 the result failed a check, 2 usage, 3 bad input or a file cannot be read or\n"
-        "written, 4 a limit (time, memory, subdivision) was reached, 5 undecided.\n\n"
-        "Example: mesh a part and prove the mesh right\n"
+        "Exit codes: 0 done; 1 the result failed a check; 2 wrong usage; 3 invalid input, or a file cannot be read "
+        "or\nwritten; 4 a limit (time, memory, subdivision) was reached; 5 undecided.\n\nExample: mesh a part and "
+        "verify the mesh\n"
         "  ccdt mesh part.stl -o part.vtu && ccdt verify part.stl part.vtu\n");
     add_model_command(app, exit_code);
     add_mesh_command(app, exit_code);
@@ -26,6 +27,8 @@ int main(int argc, char** argv) {
     add_sweep_command(app, exit_code);
     add_gate_command(app, exit_code);
     add_report_command(app, exit_code);
+    add_completion_command(app, exit_code);
+    add_man_command(app, exit_code);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -18,7 +18,7 @@
 namespace ccdt::tools {
 namespace {
 
-/// A task names the folder alone; a person may name the spec and the folder.
+/// A task names only the folder; a user may name the spec and the folder.
 std::filesystem::path folder_of(const SweepCommand& command) {
   const bool has_folder = !command.folder.empty();
   return std::filesystem::absolute(has_folder ? command.folder : command.spec).lexically_normal();
@@ -59,7 +59,7 @@ std::vector<sweep::MissingCase> missing_cases(const SweepCommand& command, const
   return missing;
 }
 
-/// What the tasks have to be told besides their chunk.
+/// The options of the tasks besides the number of their chunk.
 std::vector<std::string> options_of_tasks(const SweepCommand& command) {
   std::vector<std::string> words;
   if (command.mixed) words.push_back("--mixed");
@@ -87,11 +87,11 @@ void print_submission(const sweep::Submission& submission) {
 }  // namespace
 
 void add_cluster_options(CLI::App& verb, ClusterOptions& options) {
-  auto* slurm = verb.add_flag("--slurm", options.slurm,
-                              "give what is missing to Slurm, as one job array; call it again to see how it goes and "
-                              "to submit again what was lost");
-  verb.add_flag("--snakemake", options.snakemake, "write DIR/Snakefile for what is missing")->excludes(slurm);
-  verb.add_option("--chunk-minutes", options.chunk_minutes, "what a task of Slurm or Snakemake is worth")
+  auto* slurm = verb.add_flag(
+      "--slurm", options.slurm,
+      "submit the missing runs to Slurm as one job array; call it again to see the progress and to resubmit lost runs");
+  verb.add_flag("--snakemake", options.snakemake, "write DIR/Snakefile for the missing runs")->excludes(slurm);
+  verb.add_option("--chunk-minutes", options.chunk_minutes, "target duration of a Slurm or Snakemake task, in minutes")
       ->check(positive_number())
       ->capture_default_str();
   verb.add_option("--chunk", options.chunk, "run only the cases of DIR/chunks/NUMBER.json, as a task does")
@@ -109,7 +109,7 @@ ExitCode run_chunk(const SweepCommand& command) {
   sweep.cases = cases_of(chunk, document.cases);
   const sweep::ChunkLock lock(sweep.folder, chunk.number);
   print_results(run_cases(command, sweep, sweep.cases));
-  return done;  // failures are results; tasks that end with an error are taken for lost
+  return done;  // failures are results; a task that ends with an error counts as lost
 }
 
 void prepare_for_cluster(const SweepCommand& command, const PreparedSweep& sweep) {
@@ -144,7 +144,7 @@ std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& fold
     if (cases::needs_run(measured)) missing.insert(measured.id);
   try {
     return sweep::count_chunks(chunks, sweep::ask_slurm(folder), missing);
-  } catch (const Error& error) {  // the records can be counted without it
+  } catch (const Error& error) {  // the records can be counted without Slurm
     std::fprintf(stderr, "%s\n", error.what());
     return {};
   }

@@ -11,25 +11,24 @@
 #include "bench/sweep/slurm.h"
 #include "tools/sweep_command.h"
 
-/// `ccdt sweep` on a cluster: a sweep is cut into chunks, each of which a task runs by itself.
+/// `ccdt sweep` on a cluster: a sweep is cut into chunks, and each task runs one of them.
 namespace ccdt::tools {
 
 /// Adds --slurm, --snakemake, --chunk and --chunk-minutes to the verb.
 void add_cluster_options(CLI::App& verb, ClusterOptions& options);
 
-/// Runs what is missing of one chunk, as a task of a cluster does. It reads sweep.json, and changes nothing but
-/// records. Tasks with the same chunk wait for each other: where a node's daemon has died, its tasks may be alive
-/// still.
+/// Runs the missing cases of one chunk, as a task on a cluster does. It reads sweep.json and writes only records. Tasks
+/// with the same chunk wait for each other, because a task may still be alive after the daemon of its node has died.
 ///
-/// \throw InputError  there is no such chunk; or this machine or its programs are others than those of the sweep, and
-///                    the command does not say --mixed
+/// \throw InputError  there is no such chunk; or this machine or its programs differ from those of the sweep, without
+/// --mixed
 ExitCode run_chunk(const SweepCommand& command);
 
-/// Cuts what is missing of a prepared sweep into chunks, and submits them to Slurm or writes a Snakefile. Prints what
+/// Cuts the missing cases of a prepared sweep into chunks, and submits them to Slurm or writes a Snakefile. Prints what
 /// it did.
 void prepare_for_cluster(const SweepCommand& command, const PreparedSweep& sweep);
 
-/// Where the chunks of a folder are. None if it has none, or if Slurm does not say; then that is printed.
+/// The state of the chunks of a folder. None if it has none, or, with a message, if Slurm does not answer.
 ///
 /// \param cases  as the records stand
 std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& folder,
@@ -37,7 +36,7 @@ std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& fold
 
 bench::Json to_json(const sweep::ChunkCounts& counts);
 
-/// A line for people.
+/// The counts in one line.
 std::string in_words(const sweep::ChunkCounts& counts);
 
 }  // namespace ccdt::tools

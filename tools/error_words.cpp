@@ -10,7 +10,7 @@
 namespace ccdt::tools {
 namespace {
 
-constexpr std::size_t most_shown = 10;  ///< facets or points; the rest is counted
+constexpr std::size_t most_shown = 10;  ///< facets or points; the others are only counted
 
 template <class Type>
 bool is(const std::exception& error) {

@@ -5,11 +5,11 @@
 
 namespace ccdt::tools {
 
-/// What the program's exit code means; part of its interface.
+/// The exit codes of the program, part of its interface.
 enum ExitCode : int { done = 0, failed_a_check = 1, wrong_usage = 2, bad_input = 3, limit_reached = 4, undecided = 5 };
 
 /// The message for an error, as every verb prints it: "ccdt: FILE:LINE: what", then the facets and points of the place,
-/// then what to do, a line each.
+/// then what to do; each on a line of its own.
 std::string in_words(const std::exception& error);
 
 /// The program's exit code for an error.

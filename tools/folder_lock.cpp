@@ -21,7 +21,7 @@ std::string own_name() {
   return "process " + std::to_string(getpid()) + " on " + host.data();
 }
 
-/// Who has locked the file, as it wrote there.
+/// The process that locked the file, as it wrote into it.
 std::string holder(int file) {
   std::array<char, 512> text{};
   const ssize_t size = pread(file, text.data(), text.size(), 0);
@@ -37,12 +37,12 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const std::string other = holder(file_);
     close(file_);
-    throw InputError(other + " works in this folder", io::place_in(folder.string()),
-                     "wait for its end, or choose another folder");
+    throw InputError(other + " is working in this folder", io::place_in(folder.string()),
+                     "wait until it ends, or choose another folder");
   }
   const std::string own = own_name();
   const bool is_written = ftruncate(file_, 0) == 0 && pwrite(file_, own.data(), own.size(), 0) > 0;
-  static_cast<void>(is_written);  // it is for people
+  static_cast<void>(is_written);  // for people only
 }
 
 FolderLock::~FolderLock() {

@@ -4,10 +4,10 @@
 
 namespace ccdt::tools {
 
-/// While it lives, no other process can lock the folder. The system unlocks it if the process is killed.
+/// Locks a folder against other processes as long as the object lives. The system unlocks it if the process is killed.
 class FolderLock {
  public:
-  /// \throw InputError   another process works in the folder; says which
+  /// \throw InputError   another process is working in the folder; names it
   /// \throw OutputError  the folder cannot be written to
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();

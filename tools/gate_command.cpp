@@ -15,6 +15,7 @@
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/stop_signals.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -37,7 +38,7 @@ std::string names_of_cases(const gate::Recording& recording) {
   return text + (recording.cases.size() > most_names ? ", ..." : "");
 }
 
-/// Says what of two recordings is not compared, and why.
+/// Notes which parts of two recordings are not compared, and why.
 void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict& verdict) {
   for (const gate::Recording* one : {&base, &head})
     for (const std::string& note : one->notes)
@@ -54,12 +55,13 @@ void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict
     return figure.layer == gate::Layer::time && figure.verdict == Judgment::incomparable;
   });
   if (times > 0)
-    verdict.notes.push_back(std::to_string(times) +
-                            " times were recorded earlier and are not judged; measure them in turns: "
-                            "ccdt gate --base PROGRAM --head PROGRAM");
+    verdict.notes.push_back(
+        std::to_string(times) +
+        " times were recorded earlier and are not judged; to judge times, run base and head in turns: "
+        "ccdt gate --base PROGRAM --head PROGRAM");
 }
 
-/// The commands of one call of hyperfine.
+/// Compares the commands of one call of hyperfine.
 GateResult compare_alone(const GateCommand& command, const gate::Rules& rules) {
   GateResult result{{}, gate::read_recording(command.words[0])};
   if (result.head.kind != gate::Source::hyperfine || result.head.cases.size() < 2)
@@ -68,10 +70,10 @@ GateResult compare_alone(const GateCommand& command, const gate::Rules& rules) {
   result.verdict.head = command.words[0];
   result.verdict.figures = gate::compare_commands(result.head, rules);
   result.verdict.notes.push_back(
-      "the commands were measured one after the other, not in turns, and nothing was confirmed: what disturbed one of "
-      "them looks like a difference");
+      "the commands were measured one after the other, not in turns, and nothing was confirmed: a disturbance of one "
+      "of them looks like a difference");
   if (result.head.cases.size() > 2)
-    result.verdict.correction = "the confidence of each interval is raised for the number of commands (Bonferroni)";
+    result.verdict.correction = "the confidence of each interval is corrected for the number of commands (Bonferroni)";
   return result;
 }
 
@@ -92,7 +94,7 @@ GateResult judge(const GateCommand& command, const gate::Rules& rules) {
   return command.against.empty() ? compare_alone(command, rules) : compare_recorded(command, rules);
 }
 
-/// Adds to a file that others may have begun, as `$GITHUB_STEP_SUMMARY`.
+/// Appends to a file that may exist already, such as `$GITHUB_STEP_SUMMARY`.
 void append(const std::filesystem::path& file, const std::string& text) {
   if (!std::filesystem::exists(file)) {
     io::OutputFile output(file);
@@ -135,6 +137,15 @@ ExitCode exit_code_for(Judgment judgment) {
   return bad_input;
 }
 
+/// The text of a verdict begins with its name, which is colored.
+void print(const Verdict& verdict) {
+  const std::string name(name_of(verdict.verdict));
+  const Tone tone = verdict.verdict == Judgment::passed  ? Tone::good
+                    : verdict.verdict == Judgment::worse ? Tone::bad
+                                                         : Tone::note;
+  std::printf("%s%s", toned(name, tone).c_str(), reports::to_terminal(verdict).substr(name.size()).c_str());
+}
+
 ExitCode run_gate(const GateCommand& command) {
   const gate::Rules rules = rules_of(command);
   if (!command.markdown.empty()) check_can_be_written(command.markdown);
@@ -154,8 +165,8 @@ ExitCode run_gate(const GateCommand& command) {
   if (!command.folder.empty())
     bench::write_json(to_json(verdict), std::filesystem::path(command.folder) / "verdict.json");
   if (!command.markdown.empty()) append(command.markdown, reports::to_markdown(verdict));
-  if (!verdict.figures.empty() || !command.update) std::fputs(reports::to_terminal(verdict).c_str(), stdout);
-  if (command.update) std::printf("The baseline %s is what was found now.\n", command.against.c_str());
+  if (!verdict.figures.empty() || !command.update) print(verdict);
+  if (command.update) std::printf("Updated the baseline %s.\n", command.against.c_str());
   return command.update || verdict.shadow ? done : exit_code_for(verdict.verdict);
 }
 
@@ -172,27 +183,29 @@ void require(bool holds, const std::string& option, const std::string& what) {
   if (!holds) throw CLI::ValidationError(option, what);
 }
 
-/// Do the options fit together?
+/// Checks that the options fit together.
 void check(const GateCommand& command) {
   const bool has_reason = command.reason.find_first_not_of(" \t\n") != std::string::npos;
-  require(!command.update || has_reason, "--reason", "a baseline is updated for a reason that its readers understand");
-  require(command.update || !has_reason, "--reason", "only --update has a reason");
-  require(!command.update || !command.against.empty(), "--update", "the baseline is the file of --against");
+  require(!command.update || has_reason, "--reason", "say why the baseline changes");
+  require(command.update || !has_reason, "--reason", "use it with --update only");
+  require(!command.update || !command.against.empty(), "--update", "name the baseline with --against");
   if (!command.measures()) {
     require(command.words.size() == 1, "CURRENT", "give one recording, or --base and --head programs to measure");
     require(command.sweep.empty() && !command.calibrate, "--sweep, --calibrate", "give the programs to measure");
     return;
   }
-  require(!command.folder.empty(), "-o,--output", "measurements need a folder");
-  require(command.sweep.empty() || command.words.empty(), "--sweep", "excludes arguments of the programs");
-  if (command.calibrate) return require(!command.base.empty(), "--base", "a calibration measures the base");
+  require(!command.folder.empty(), "-o,--output", "name the folder for the measurements");
+  require(command.sweep.empty() || command.words.empty(), "--sweep",
+          "cannot be combined with arguments of the programs");
+  if (command.calibrate) return require(!command.base.empty(), "--base", "name the base: a calibration measures it");
   require(!command.head.empty(), "--head", "the program to judge is missing");
-  require(!command.base.empty() || !command.against.empty(), "--base", "give a base program, or --against a baseline");
-  require(command.against.empty() || !command.sweep.empty(), "--against", "a baseline is of the cases of a --sweep");
+  require(!command.base.empty() || !command.against.empty(), "--base",
+          "give a base program, or a baseline with --against");
+  require(command.against.empty() || !command.sweep.empty(), "--against", "a baseline needs the cases of a --sweep");
 }
 
 constexpr const char* footer =
-    "Is a program worse than another, or than a recording? There are three layers:\n\n"
+    "Finds out whether a program is worse than another one, or than a recording. There are three layers:\n\n"
     "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks, exit codes: any change of what\n"
     "                must stay the same fails, more work fails, less work passes; compared with a recording\n"
     "  instructions  what callgrind counts in each stage; compared with a recording of the same CPU model and "
@@ -220,13 +233,14 @@ constexpr const char* footer =
 void add_measuring_options(CLI::App& verb, GateCommand& command) {
   verb.add_option("--base", command.base, "program to compare with")->check(CLI::ExistingFile);
   verb.add_option("--head", command.head, "program to judge")->check(CLI::ExistingFile);
-  verb.add_option("--sweep", command.sweep, "cases that are measured: a spec of `ccdt sweep`");
-  verb.add_option("--seed", command.seed, "of the order of the runs; another one in each call by default");
+  verb.add_option("--sweep", command.sweep, "cases to measure: a spec of `ccdt sweep`");
+  verb.add_option("--seed", command.seed, "seed of the order of the runs; default: a new one in each call");
   verb.add_flag("--calibrate", command.calibrate, "measure how noisy the base is; writes DIR/calibration.json");
-  verb.add_option("--pairs", command.pairs, "of each case in a calibration")
+  verb.add_option("--pairs", command.pairs, "number of pairs of runs of each case in a calibration")
       ->check(CLI::Range(5, 100000))
       ->capture_default_str();
-  verb.add_option("--calibration", command.calibration, "what --calibrate wrote: raises thresholds of noisy cases")
+  verb.add_option("--calibration", command.calibration,
+                  "file that --calibrate wrote: raises the thresholds of noisy cases")
       ->check(CLI::ExistingFile);
 }
 
@@ -234,10 +248,11 @@ void add_measuring_options(CLI::App& verb, GateCommand& command) {
 
 void add_gate_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<GateCommand>();
-  CLI::App* verb = app.add_subcommand("gate", "is a program worse than another, or than a recording?");
-  verb->add_option("CURRENT", command->words, "a recording to judge; or after -- arguments of the measured programs");
-  verb->add_option("--against", command->against, "the recording, or the baseline file, to compare with");
-  verb->add_option("--rules", command->rules, "what is gated, and thresholds (.json, schema ccdt.rules/1)");
+  CLI::App* verb =
+      app.add_subcommand("gate", "find out whether a program is worse than another one, or than a recording");
+  verb->add_option("CURRENT", command->words, "recording to judge; after --: arguments of the measured programs");
+  verb->add_option("--against", command->against, "recording or baseline to compare with");
+  verb->add_option("--rules", command->rules, "rules: what is gated, and the thresholds (.json, schema ccdt.rules/1)");
   verb->add_option_function<std::vector<std::string>>(
           "--layers",
           [command](const std::vector<std::string>& names) {
@@ -246,12 +261,13 @@ void add_gate_command(CLI::App& app, ExitCode& exit_code) {
           "only these layers: exact, instructions, time")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"exact", "instructions", "time"}));
-  verb->add_option("-o,--output", command->folder, "folder of verdict.json and of what is measured; created if needed");
-  verb->add_option("--markdown", command->markdown, "append the verdict to this file, as $GITHUB_STEP_SUMMARY");
+      ->check(one_of({"exact", "instructions", "time"}));
+  verb->add_option("-o,--output", command->folder, "folder for verdict.json and the measurements; created if needed");
+  verb->add_option("--markdown", command->markdown,
+                   "append the verdict in Markdown to this file, such as $GITHUB_STEP_SUMMARY");
   verb->add_flag("--shadow", command->shadow, "report the verdict, but always pass");
-  verb->add_flag("--update", command->update, "make what is found the new baseline, the file of --against");
-  verb->add_option("--reason", command->reason, "why the baseline changes; is kept in it");
+  verb->add_flag("--update", command->update, "write the current figures to the baseline, the file of --against");
+  verb->add_option("--reason", command->reason, "why the baseline changes; stored in its history");
   add_measuring_options(*verb, *command);
   verb->footer(footer);
   verb->callback([command, &exit_code] {

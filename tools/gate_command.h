@@ -13,21 +13,21 @@
 /// The parts of `ccdt gate`.
 namespace ccdt::tools {
 
-/// What the user has asked for.
+/// The command line.
 struct GateCommand {
   std::vector<std::string> words;  ///< CURRENT, or the arguments of the programs that are measured
   std::string against, rules, markdown, folder;
-  std::string base, head, sweep, calibration;  ///< programs and files
-  std::vector<gate::Layer> layers;             ///< instead of those of the rules; empty: no change
+  std::string base, head, sweep, calibration;  ///< paths of programs and files
+  std::vector<gate::Layer> layers;             ///< override those of the rules; empty: no change
   std::optional<std::uint64_t> seed;
-  int pairs = 100;  ///< of each case in a calibration
+  int pairs = 100;  ///< pairs of runs of each case in a calibration
   bool shadow = false, update = false, calibrate = false;
   std::string reason;
 
   bool measures() const { return !base.empty() || !head.empty(); }
 };
 
-/// What was found, and what a new baseline is made of.
+/// The verdict, and the recording from which a new baseline is made.
 struct GateResult {
   gate::Verdict verdict;
   gate::Recording head;

@@ -37,7 +37,7 @@ std::filesystem::path absolute(const std::string& program) {
   return std::filesystem::absolute(program).lexically_normal();
 }
 
-/// Lets a recorded command call the program that was measured.
+/// Makes a recorded command call the measured program.
 void name_program(const std::filesystem::path& program, std::string& command) {
   constexpr std::string_view recorded = " && ccdt ";
   const auto at = command.find(recorded);
@@ -50,9 +50,9 @@ MeasuredProgram prepare(const GateCommand& command, const std::string& program, 
   sweep.spec = command.sweep;
   sweep.folder = (std::filesystem::path(command.folder) / side).string();
   sweep.program = absolute(program);
-  sweep.refresh = true;  // another program may have filled the folder
-  // Records of an earlier gate are no evidence: what the program calls (a library, if it is a script another program)
-  // may have changed, and its own file not.
+  sweep.refresh = true;  // records may come from another program
+  // Records of an earlier gate prove nothing: a library or another program that this one calls may have changed, even
+  // if its own file did not.
   if (std::filesystem::exists(sweep::sweep_file(sweep.folder)))
     std::filesystem::remove_all(std::filesystem::path(sweep.folder) / "runs");
   MeasuredProgram measured{prepare_sweep(sweep)};
@@ -95,7 +95,7 @@ bool has_instructions(const gate::Recording& recording) {
                              [](const auto& field) { return field.first.starts_with("instructions."); });
 }
 
-/// The recorded counts where they hold here; else those of the base program, counted now.
+/// The recorded counts if they are valid on this machine; otherwise those of the base program, counted now.
 gate::Recording instruction_base(const GateCommand& command, const gate::Rules& rules, const gate::Recording& recorded,
                                  const gate::Recording& head, const std::vector<cases::Case>& cases,
                                  gate::Verdict& verdict) {
@@ -109,7 +109,7 @@ gate::Recording instruction_base(const GateCommand& command, const gate::Rules& 
   gate::Recording base = count_instructions(command.base, rules, cases, folder);
   if (const std::string other = gate::other_conditions(base, head); !other.empty())
     verdict.notes.push_back("the programs were built differently: " + other);
-  base.identity = head.identity;  // both were counted here: what differs is the programs
+  base.identity = head.identity;  // both were counted here, so only the programs differ
   return base;
 }
 
@@ -122,7 +122,7 @@ void merge(const gate::Recording& counts, gate::Recording& recording) {
   recording.identity.insert(counts.identity.begin(), counts.identity.end());
 }
 
-/// Adds the instruction layer. Where instructions cannot be counted it is left out, unless somebody has asked for it.
+/// Adds the instruction layer. If instructions cannot be counted, it is left out, unless the user asked for it.
 void compare_instructions(const GateCommand& command, const gate::Rules& rules, const gate::Recording& recorded,
                           MeasuredProgram& head, gate::Verdict& verdict) {
   if (!rules.layers.contains(Layer::instructions)) return;
@@ -133,7 +133,7 @@ void compare_instructions(const GateCommand& command, const gate::Rules& rules, 
     append(gate::compare_instructions(base, counts, rules), verdict);
     if (const std::string other = gate::other_conditions(base, counts); has_instructions(base) && !other.empty())
       verdict.notes.push_back("instructions are not compared: " + other +
-                              "; --base PROGRAM counts those of a base here");
+                              "; --base PROGRAM counts those of a base on this machine");
     merge(counts, head.recording);
   } catch (const InputError& error) {
     if (!command.layers.empty() || !command.rules.empty()) throw;
@@ -145,7 +145,7 @@ std::uint64_t seed_of(const GateCommand& command) {
   return command.seed ? *command.seed : std::random_device()();
 }
 
-/// A program failed where its time was to be taken.
+/// A program failed while its time was measured.
 gate::JudgedFigure judged_failure(const gate::ProgramFailed& failure) {
   gate::JudgedFigure judged;
   const bool is_base = failure.side() == gate::Side::base;
@@ -217,13 +217,13 @@ void measure_sweep(const GateCommand& command, const gate::Rules& rules, GateRes
         gate::sweep_targets({absolute(command.base), absolute(command.head)}, timed, rules, times_folder(command)),
         verdict);
   else if (rules.layers.contains(Layer::time) && timed.empty())
-    verdict.notes.push_back("no case is timed: the rules name none that works");
+    verdict.notes.push_back("no case is timed: the rules name no case that works");
   else if (rules.layers.contains(Layer::time))
-    verdict.notes.push_back("times are only judged against a base that is measured too: --base PROGRAM");
+    verdict.notes.push_back("times are only judged against a base that is also measured: --base PROGRAM");
   result.head = std::move(head.recording);
 }
 
-/// \throw InputError  too few samples; the remedy is one of this command line
+/// \throw InputError  too few samples; the remedy names options of this command
 gate::Calibration calibration_of(const gate::SampleSet& samples, const gate::Rules& rules) {
   try {
     return gate::calibrate(samples, rules);

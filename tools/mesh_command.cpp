@@ -8,6 +8,7 @@
 #include "bench/run_record.h"
 #include "bench/surface_limit.h"
 #include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
@@ -20,6 +21,7 @@
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/sweep_command.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -29,35 +31,36 @@ enum class Surface { keep, remesh, refine };
 
 constexpr auto names_of(Surface) {
   return std::to_array<NamedValue<Surface>>(
-      {{Surface::keep, "keep", "the surface's triangles as they are"},
+      {{Surface::keep, "keep", "keep the triangles of the surface"},
        {Surface::remesh, "remesh", "new ones of --edge-length"},
-       {Surface::refine, "refine", "new ones of --edge-length on the same flat facets and straight segments"}});
+       {Surface::refine, "refine",
+        "make new triangles of --edge-length on the same flat facets and straight segments"}});
 }
 
 struct MeshCommand {
   std::string input, output, report;
-  std::string surface_output;  ///< where a remeshed surface goes
+  std::string surface_output;  ///< file for the remeshed surface
   std::string mesher = "ccdt";
   MeshOptions options;
   Surface surface = Surface::keep;
   double sharp_angle = surface::RemeshOptions().sharp_angle;
-  unsigned most_threads = 1;
 };
 
 void check_surface_options(const MeshCommand& command) {
   const bool remesh = command.surface == Surface::remesh;
   if (remesh && command.options.edge_length == 0)
-    throw CLI::ValidationError("--surface remesh", "give the length of its edges by --edge-length");
+    throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
   if (!remesh && !command.surface_output.empty())
-    throw CLI::ValidationError("--surface-output", "a new surface is made only with --surface remesh");
+    throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh");
   if (command.surface == Surface::refine && command.mesher != "ccdt")
-    throw CLI::ValidationError("--surface refine", "only ccdt refines a surface; give other meshers a remeshed one");
+    throw CLI::ValidationError("--surface refine",
+                               "only ccdt refines a surface; use --surface remesh for other meshers");
 }
 
 void check_files(const MeshCommand& command) {
   if (!io::is_tet_mesh_file(command.output))
-    throw OutputError("no mesh format has this ending", io::place_in(command.output),
-                      "use one of .mesh .vtu .msh .node .ele .face");
+    throw OutputError("the ending of the name is not that of a mesh format", io::place_in(command.output),
+                      "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
   check_can_be_written(command.output);
   check_are_different(command.input, command.output);
   check_are_different(command.options.background.name, command.output);
@@ -82,6 +85,7 @@ std::string note_of(const InputPlc::Bent& bent) {
 
 bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
   bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), input, command.options);
+  if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
   if (command.surface != Surface::keep) record.set_option("surface", std::string(name_of(command.surface)));
@@ -91,7 +95,7 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   return record;
 }
 
-/// The surface with edges of the wanted length, for whichever mesher.
+/// The surface with edges of the wanted length; any mesher may use it.
 InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progress& progress,
                   bench::RunRecord& record) {
   const Stopwatch watch(record.remesh_seconds);
@@ -115,15 +119,15 @@ std::string words_of(const bench::SurfaceLimit& limit) {
          results::rounded(limit.least_angle) + "; --surface refine gives flat facets even triangles";
 }
 
-/// What remains where the mesher ends its process, or a limit does: which mesher was asked for what.
+/// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.
 void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
   if (command.report.empty()) return;
   bench::RunRecord unfinished = record;
-  unfinished.set_failure(baselines::FailureKind::crashed, "the process ended before its run did");
+  unfinished.set_failure(baselines::FailureKind::crashed, "the process ended before the run was finished");
   bench::write_run_record(unfinished, command.report);
 }
 
-/// Reads, meshes, measures and writes; at every moment, the record has what is known of the run.
+/// Reads, meshes, measures and writes. At every moment, the record contains what is known of the run.
 void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   ProgressBar bar;
   const Progress progress = bar.progress();
@@ -134,7 +138,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   InputPlc input = [&] {
     const Stopwatch watch(read_seconds);
     InputPlc given = io::read_plc(command.input);
-    return plc::triangulate_bent_facets(given).value_or(given);
+    return plc::triangulate_bent_facets(given).value_or(std::move(given));
   }();
   record = begin_record(command, input);
   record.input.sha256 = bench::sha256_of_file(command.input);
@@ -152,9 +156,13 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   leave_provisional_record(command, record);
 
   baselines::MesherRun run = chosen.run(input, options, progress);
-  record.peak_rss_bytes = bench::peak_rss_bytes();  // of the mesher, not of what measures it
+  record.peak_rss_bytes = bench::peak_rss_bytes();  // the mesher's own, without that of the measurements below
   record.counts = run.result.counts;
   record.seconds = run.result.seconds;
+  if (chosen.name == "ccdt") {
+    record.cpu_seconds = run.result.cpu_seconds;
+    record.threads = run.result.threads;
+  }
   record.work = run.result.work;
   record.largest_rounding = run.result.largest_rounding;
   record.mesher_settings = std::move(run.settings);
@@ -178,7 +186,7 @@ void record_failure(const MeshCommand& command, bench::RunRecord& record, const 
     unread.name = command.input;
     record = begin_record(command, unread);
   }
-  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;  // it has no words of its own
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;  // its message says nothing
   record.set_failure(baselines::failure_kind_of(error), memory ? "out of memory" : error.what());
 }
 
@@ -187,78 +195,81 @@ void run(const MeshCommand& command) {
   check_files(command);
   bench::RunRecord record;
   try {
-    mesh_file(command, record);
+    with_threads(command.options.threads, [&] { mesh_file(command, record); });
   } catch (const std::exception& error) {
     record_failure(command, record, error);
     if (!command.report.empty()) bench::write_run_record(record, command.report);
     throw;
   }
   if (!command.report.empty()) bench::write_run_record(record, command.report);
-  std::printf("%s\n%s", command.output.c_str(), reports::summarize(record).c_str());
+  std::fputs(reports::summarize(record).c_str(), stdout);
+  std::printf("%s: %s\n", toned(command.output, Tone::good).c_str(), reports::in_one_line(record).c_str());
 }
 
-std::string footer() {
+std::string meshers_of_build() {
   std::string text = "Meshers of this build:\n";
   for (const baselines::Mesher& m : baselines::meshers())
     text += list_line(m.name, m.what + " (" + (m.version.empty() ? "" : m.version + ", ") + m.license + ")");
-  return text + list_line("FILE.json", "any other, as the file describes it; baselines/described has examples") +
-         "\nExample: a part with edges of about 2 mm inside, with the report of the run\n"
-         "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
-         "Example: edges inside as the size function part.sol says, which belongs to the mesh part.mesh\n"
-         "  ccdt mesh part.stl -o part.vtu --sizes part.sol\n"
-         "Example: the same with a new surface of such edges too, which is kept for `ccdt verify`\n"
-         "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface remesh --surface-output even.off\n"
-         "Example: the same flat facets and straight segments, with new vertices and even triangles\n"
-         "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface refine\n"
-         "Example: the constrained Delaunay tetrahedralization of the input alone\n"
-         "  ccdt mesh part.stl -o part.mesh --lattice none\n";
+  return text +
+         list_line("FILE.json", "any other mesher, as the file describes it; see the examples in baselines/described");
 }
 
+constexpr const char* footer =
+    "Example: fill a part with edges of about 2 mm, and write a report of the run\n"
+    "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
+    "Example: take edge lengths from the size function part.sol, which is defined on the mesh part.mesh\n"
+    "  ccdt mesh part.stl -o part.vtu --sizes part.sol\n"
+    "Example: remesh the surface to the same edge length, and keep it for `ccdt verify`\n"
+    "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface remesh --surface-output even.off\n"
+    "Example: keep flat facets and straight segments, but give them new vertices and even triangles\n"
+    "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface refine\n"
+    "Example: compute the constrained Delaunay tetrahedralization of the input alone\n"
+    "  ccdt mesh part.stl -o part.mesh --lattice none\n";
+
 void add_files(CLI::App& verb, MeshCommand& command) {
-  verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh")->required();
-  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .mesh .node")->required();
-  verb.add_option("--surface-output", command.surface_output, "write the remeshed surface there: .off .obj .ply .poly");
+  verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")
+      ->required();
+  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .node")->required();
+  verb.add_option("--surface-output", command.surface_output,
+                  "write the remeshed surface to this file: .off .obj .ply .poly");
   verb.add_option("--report", command.report,
-                  "write a report of the run there (JSON, schema ccdt.run/1), also of a failure");
+                  "write a report of the run to this file, even if it fails (JSON, schema ccdt.run/1)");
 }
 
 void add_strategies(CLI::App& verb, MeshCommand& command) {
-  verb.add_option("--mesher", command.mesher,
-                  "which mesher: one of those below, or a file .json that describes another")
+  verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
 
   constexpr auto protected_faces = std::to_array<NamedValue<bool>>(
-      {{true, "on", "those that are not Delaunay, which a check finds first"}, {false, "off", "all"}});
+      {{true, "on", "only faces that are not Delaunay, found by a check"}, {false, "off", "all"}});
   add_choice(verb, "--face-protection", command.options.face_protection, protected_faces,
-             "which faces go through the front");
-  add_choice(verb, "--lattice", command.options.lattice, "the crystal whose points fill the inside");
-  add_choice(verb, "--protection", command.options.protection, "where a missing segment is split");
+             "faces that go through the front");
+  add_choice(verb, "--lattice", command.options.lattice, "crystal lattice whose points fill the inside");
+  add_choice(verb, "--protection", command.options.protection, "where missing segments are split");
   add_choice(verb, "--locator", command.options.locator,
-             "what finds the vertices near a face and the faces near an edge");
+             "search structure for the vertices near a face and the faces near an edge");
   add_choice(verb, "--delaunay", command.options.delaunay,
-             "how the Delaunay tetrahedralization is built; the result is the same");
-  add_choice(verb, "--surface", command.surface, "which triangles bound the mesh");
+             "method of Delaunay tetrahedralization; all give the same result");
+  add_choice(verb, "--surface", command.surface, "surface of the mesh");
   verb.add_option("--sharp-angle", command.sharp_angle,
-                  "remeshing keeps edges between facets whose normals differ by more degrees")
+                  "remeshing keeps edges between facets whose normals differ by more than this, in degrees")
       ->check(CLI::Range(1.0, 179.0))
       ->capture_default_str();
-  verb.add_option("--threads", command.most_threads, "at most this many threads work; so far there is one")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_threads(verb, command.options.threads);
 }
 
 void add_improvement(CLI::App& verb, ImproveOptions& options) {
   add_choice(verb, "--improve", options.improvement, improve::names_of(Improvement{}),
-             "what makes the worst tetrahedra better; with --lattice none, the default is none");
-  add_choice(verb, "--objective", options.objective, "what is improved");
-  add_choice(verb, "--boundary", options.boundary, "what improvement may do with the boundary");
+             "how the worst tetrahedra are improved; default with --lattice none: none");
+  add_choice(verb, "--objective", options.objective, "quality measure to improve");
+  add_choice(verb, "--boundary", options.boundary, "whether improvement may move boundary vertices");
   verb.add_option("--target-dihedral", options.target_dihedral,
-                  "degrees: improve until no dihedral angle is smaller, nor larger than 180 less this")
+                  "improve until all dihedral angles are between this and 180 minus this, in degrees")
       ->check(CLI::Range(0.0, 60.0))
       ->check(non_negative_number())  // a range accepts nan
       ->capture_default_str();
-  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron is worse than this; with --objective r")
+  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron has a greater r; with --objective r")
       ->check(CLI::Range(1.0, 1e6))
       ->check(positive_number())
       ->capture_default_str();
@@ -269,28 +280,28 @@ void add_improvement(CLI::App& verb, ImproveOptions& options) {
 
 void add_numbers(CLI::App& verb, MeshOptions& options) {
   verb.add_option("--edge-length", options.edge_length,
-                  "target edge length in units of the input; default: as the surface has it, with --surface refine a\n"
-                  "fortieth of the diagonal of the bounding box")
+                  "target edge length in units of the input; default: that of the surface; with --surface refine, "
+                  "a\nfortieth of the diagonal of the bounding box")
       ->check(positive_number());
   verb.add_option("--grading", options.grading,
                   "growth of the edge length per unit of distance from the surface; 0: uniform")
       ->check(non_negative_number())
       ->capture_default_str();
   verb.add_option("--sizes", options.background.name,
-                  "edge lengths inside from a file: .sol beside its .mesh, .mtr beside its .node or .poly");
+                  "file with a size function for the inside: .sol beside its .mesh, .mtr beside its .node or .poly");
   verb.add_option("--sphere-factor", options.sphere_factor,
-                  "no interior point is in the smallest sphere of a surface triangle, its radius times this")
+                  "keep interior points out of the smallest spheres of surface triangles, with radii times this factor")
       ->check(non_negative_number())
       ->capture_default_str();
   verb.add_option("--clearance", options.clearance,
-                  "no interior point is nearer to the surface than this times the edge length there")
+                  "least distance of interior points from the surface, in edge lengths there")
       ->check(non_negative_number())
       ->capture_default_str();
-  verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size that the paper gives its uniform grids")
+  verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size of the paper's uniform grids")
       ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   verb.add_option("--flatness", options.flatness,
-                  "a patch this near to one plane is one facet; fraction of the bounding box")
+                  "tolerance for triangles in one plane to be one facet, as a fraction of the bounding box")
       ->check(non_negative_number())
       ->capture_default_str();
 }
@@ -302,14 +313,14 @@ void add_options(CLI::App& verb, MeshCommand& command) {
   add_numbers(verb, command.options);
 }
 
-/// What is wrong with these words of a command line; empty: nothing.
-/// \param all  they are all options, so that they must fit each other
+/// The error in these words of a command line; empty: none.
+/// \param all  the words are all options, so they must fit together
 std::string fault_of(std::vector<std::string> words, bool all) {
   CLI::App verb;
   MeshCommand command;
   add_options(verb, command);
   words.insert(words.begin(), {"part.off", "-o", "part.vtu"});
-  std::ranges::reverse(words);  // as CLI11 wants them
+  std::ranges::reverse(words);  // the order that CLI11 wants
   try {
     verb.parse(std::move(words));
     if (all) check_surface_options(command);
@@ -341,7 +352,8 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<MeshCommand>();
   CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
   add_options(*verb, *command);
-  verb->footer(footer());
+  verb->footer(meshers_of_build);
+  verb->footer(footer);
   verb->callback([command, &exit_code] {
     run(*command);
     exit_code = done;

@@ -21,7 +21,7 @@ std::string footer() {
   for (const models::Solid& solid : models::solids())
     text += list_line(std::string(solid.name), std::string(solid.what));
   return text +
-         "\nExample: a stepping pole with edges of about 2 mm\n"
+         "\nExample: write a stepping pole with edges of about 2 mm\n"
          "  ccdt model stepping-pole --edge-length 2 -o pole.poly\n";
 }
 
@@ -41,13 +41,11 @@ void add_model_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("model", "write one of the paper's solids, or a primitive, at a given density");
   std::vector<std::string> names;
   for (const models::Solid& solid : models::solids()) names.emplace_back(solid.name);
-  verb->add_option("NAME", command->name, "which solid (listed below)")
-      ->required()
-      ->check(CLI::IsMember(names).description(""));
+  verb->add_option("NAME", command->name, "solid (listed below)")->required()->check(one_of(names));
   verb->add_option("--edge-length", command->edge_length,
-                   "of the triangles, in units of the solid; default: the solid's")
+                   "edge length of the triangles, in units of the solid; default: that of the solid")
       ->check(positive_number());
-  verb->add_option("-o,--output", command->output, "surface or PLC: .stl .off .obj .ply .poly .smesh .mesh")
+  verb->add_option("-o,--output", command->output, "surface or PLC: .stl .off .obj .ply .poly .smesh .mesh .meshb")
       ->required();
   verb->footer(footer());
   verb->callback([command, &exit_code] {

@@ -3,6 +3,9 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <iterator>
+#include <sstream>
+#include <string_view>
 
 #include "baselines/mesher.h"
 #include "engine/io/files.h"
@@ -10,12 +13,21 @@
 namespace ccdt::tools {
 namespace {
 
-/// \return  what CLI11 prints if the text is not such a number, else nothing
+/// \return  the message for CLI11 if the text is not such a number; empty if it is
 std::string complaint(const std::string& text, double least, bool least_itself) {
   double value = 0;
-  const std::string kind = least_itself ? "a number from 0" : "a number greater than 0";
+  const std::string kind = least_itself ? "a number of at least 0" : "a number greater than 0";
   if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) return text + " is not " + kind;
   return value > least || (least_itself && value == least) ? "" : text + " is not " + kind;
+}
+
+constexpr const char* choices_prefix = "one of:";
+
+/// The choices are kept in the name of the validator: --help would print them in any other place.
+std::string validator_name(const std::vector<std::string>& choices) {
+  std::string name = choices_prefix;
+  for (const std::string& choice : choices) name += " " + choice;
+  return name;
 }
 
 }  // namespace
@@ -28,15 +40,40 @@ CLI::Validator non_negative_number() {
   return CLI::Validator([](std::string& text) { return complaint(text, 0, true); }, ">= 0");
 }
 
+CLI::Validator one_of(const std::vector<std::string>& names, bool ignore_case) {
+  CLI::Validator validator = ignore_case ? CLI::IsMember(names, CLI::ignore_case) : CLI::IsMember(names);
+  return validator.description("").name(validator_name(names));
+}
+
+std::vector<std::string> choices_of(CLI::Option& option) {
+  for (int i = 0;; ++i) {
+    std::string name;
+    try {
+      name = option.get_validator(i)->get_name();
+    } catch (const CLI::OptionNotFound&) {  // that was the last one
+      return {};
+    }
+    if (!name.starts_with(choices_prefix)) continue;
+    std::istringstream words(name.substr(std::string_view(choices_prefix).size()));
+    return {std::istream_iterator<std::string>(words), {}};
+  }
+}
+
 CLI::Validator known_mesher() {
+  std::vector<std::string> names;
+  for (const baselines::Mesher& m : baselines::meshers()) names.push_back(m.name);
   return CLI::Validator(
-      [](std::string& text) {
-        if (baselines::is_mesher_description(text)) return std::string();  // its errors are those of an input
-        std::vector<std::string> names;
-        for (const baselines::Mesher& m : baselines::meshers()) names.push_back(m.name);
+      [names](std::string& text) {
+        if (baselines::is_mesher_description(text)) return std::string();  // reading it reports its errors
         return CLI::IsMember(names)(text);
       },
-      "");
+      "", validator_name(names));
+}
+
+void add_threads(CLI::App& verb, unsigned& threads) {
+  verb.add_option("--threads", threads, "the most threads that work at the same time; the result is the same")
+      ->check(CLI::PositiveNumber)
+      ->default_str("all cores");
 }
 
 std::string list_line(std::string name, const std::string& what) {
@@ -51,7 +88,7 @@ void check_can_be_written(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored))
     throw OutputError("this is a folder", io::place_in(file.string()), "give the name of a file in it");
   if (!std::filesystem::is_directory(folder, ignored))
-    throw OutputError("there is no folder " + folder.string(), io::place_in(file.string()), "make it first");
+    throw OutputError("there is no folder " + folder.string(), io::place_in(file.string()), "create it first");
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw OutputError("the folder " + folder.string() + " cannot be written to", io::place_in(file.string()),
                       "choose another");

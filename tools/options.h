@@ -15,12 +15,18 @@ CLI::Validator positive_number();
 /// A finite number that is not negative.
 CLI::Validator non_negative_number();
 
+/// One of these names. Shells complete them.
+CLI::Validator one_of(const std::vector<std::string>& names, bool ignore_case = false);
+
+/// The names that the option accepts; empty if no `one_of` checks it.
+std::vector<std::string> choices_of(CLI::Option& option);
+
 /// A mesher of this build, or a file that describes another.
 CLI::Validator known_mesher();
 
-/// Adds an option whose values are names, in whatever case; --help lists them with what they mean.
+/// Adds an option whose values are names, in upper or lower case; --help lists them with their meanings.
 ///
-/// \param target  gets the value; its own is the default, or if that is not among the values, the first of these
+/// \param target  gets the value; the default is its own value, or the first one if that is not among the values
 /// \param what    the option's meaning
 template <class Target, class Value, std::size_t count>
 void add_choice(CLI::App& verb, const std::string& option, Target& target,
@@ -39,7 +45,7 @@ void add_choice(CLI::App& verb, const std::string& option, Target& target,
               if (v.name == name) target = v.value;
           },
           what)
-      ->transform(CLI::IsMember(names, CLI::ignore_case).description(""))
+      ->transform(one_of(names, true))
       ->default_str(standard);
 }
 
@@ -48,11 +54,14 @@ void add_choice(CLI::App& verb, const std::string& option, Enum& target, const s
   add_choice(verb, option, target, names_of(Enum{}), what);
 }
 
-/// A line of a list in --help: a name, padded, and what it means.
+/// Adds --threads. \param threads  gets their number; 0, which stands for all cores, is the default
+void add_threads(CLI::App& verb, unsigned& threads);
+
+/// A line of a list in --help: a padded name and its meaning.
 std::string list_line(std::string name, const std::string& what);
 
-/// Checks, before hours of work, that a file can be written there.
-/// \throw OutputError  its folder does not exist or cannot be written to, or the place is a folder
+/// Checks, before hours of work, that the file can be written.
+/// \throw OutputError  its folder does not exist or is not writable, or the path is a folder
 void check_can_be_written(const std::filesystem::path& file);
 
 /// \throw OutputError  writing `output` would overwrite `input`

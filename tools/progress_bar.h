@@ -7,8 +7,8 @@
 
 namespace ccdt::tools {
 
-/// A line at the bottom of the terminal that says how far the work is: stage, bar, per cent and the seconds since the
-/// start. It is drawn a few times a second at most and erased at the end. Where standard error is no terminal, nothing
+/// A line at the bottom of the terminal that shows the progress: stage, bar, percentage and the seconds since the
+/// start. It is drawn at most a few times a second and erased at the end. If standard error is not a terminal, nothing
 /// is drawn.
 class ProgressBar {
  public:
@@ -17,7 +17,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// To be handed to the work; valid as long as this object is. Empty where nothing is drawn.
+  /// The callback for the work, valid as long as this object lives. Empty if nothing is drawn.
   Progress progress();
   void erase();
 

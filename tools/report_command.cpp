@@ -17,16 +17,16 @@ struct ReportCommand {
   std::string output;
 };
 
-constexpr std::size_t most_rows = 20;  ///< of a table of a sweep, on a terminal
+constexpr std::size_t most_rows = 20;  ///< rows of a sweep's table, on a terminal
 
 std::string verdicts(const reports::Report& report) {
   reports::TextTable table = {{"the paper's claim", "verdict"}};
   for (const reports::PaperClaim& claim : report.claims)
-    table.push_back({claim.sentence, std::string(name_of(claim.verdict))});
+    table.push_back({claim.sentence, std::string(words_of(claim.verdict))});
   return reports::to_terminal(table);
 }
 
-/// Writes a report and prints what could not be made, and where the report is, last.
+/// Writes a report, and prints what could not be made and, last, where the report is.
 void write_and_print(const reports::Report& report, const std::filesystem::path& folder) {
   const reports::WrittenReport written = reports::write_report(report, folder, share_folder());
   for (const std::string& note : written.notes) std::fprintf(stderr, "%s\n", note.c_str());
@@ -34,7 +34,7 @@ void write_and_print(const reports::Report& report, const std::filesystem::path&
   std::printf("\nThe report is in\n%s\n", place.c_str());
 }
 
-/// Words in lines of at most that width, indented.
+/// The words in indented lines of at most this width.
 std::string in_lines(const std::string& words, std::size_t width) {
   std::string text;
   std::istringstream list(words);
@@ -62,22 +62,23 @@ void run(const ReportCommand& command) {
 }
 
 constexpr const char* footer =
-    "The folder is one that `ccdt reproduce` or `ccdt sweep` has filled. All is made anew from the JSON files in it:\n"
+    "The folder is one that `ccdt reproduce` or `ccdt sweep` has filled. Everything is made again from the JSON files "
+    "in it:\n"
     "report.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG), the page index.html, and\n"
     "claims.json. The report says what is missing.\n\n"
-    "Of a sweep there are runs.csv and runs.jsonl as well, for pandas and R: a line for each run, with these "
+    "A sweep also gets runs.csv and runs.jsonl, for pandas and R: one line for each run, with these "
     "columns:\n";
 
 constexpr const char* examples =
-    "where `counted` is yes or no (a warm-up run), `file` the whole record, `seconds` those of meshing alone, "
+    "where `counted` is yes, or no for a warm-up run, `file` the whole record, `seconds` those of meshing alone, "
     "`verified`\n"
-    "and `kind` empty where the record does not say, and each option of the sweep a column option_NAME. What is not\n"
-    "known is empty in CSV and null in JSON.\n\n"
-    "Example: the report of a folder, after one of its experiments was made again\n"
+    "and `kind` empty where the record does not say, and each option of the sweep has a column option_NAME. What is "
+    "not known is empty in CSV and null in JSON.\n\n"
+    "Example: measure one experiment again, then update the report\n"
     "  ccdt reproduce fig8 -o build/paper --scale paper && ccdt report build/paper\n"
-    "Example: what has changed from one folder to the other; the report goes to new/comparison\n"
+    "Example: compare two folders; the report goes to new/comparison\n"
     "  ccdt report old new\n"
-    "Example: the median seconds of each mesher of a sweep, in Python\n"
+    "Example: get the median seconds of each mesher of a sweep, in Python\n"
     "  runs = pandas.read_csv('DIR/runs.csv'); runs[runs.counted == 'yes'].groupby('mesher').seconds.median()\n";
 
 }  // namespace
@@ -107,17 +108,17 @@ void make_report(const std::filesystem::path& folder) {
 
 void add_report_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ReportCommand>();
-  CLI::App* verb = app.add_subcommand("report", "tables, figures and the page from the JSON of a folder");
+  CLI::App* verb = app.add_subcommand("report", "make tables, figures and the page from the JSON of a folder");
   verb->add_option("DIR", command->folders,
-                   "a folder that `ccdt reproduce` or `ccdt sweep` has filled; two are compared")
+                   "folder that `ccdt reproduce` or `ccdt sweep` has filled; two folders are compared")
       ->required()
       ->expected(1, 2)
       ->check(CLI::ExistingDirectory);
-  verb->add_option("-o,--output", command->output, "folder of a comparison; default: comparison in the second DIR");
+  verb->add_option("-o,--output", command->output, "folder for a comparison; default: comparison in the second DIR");
   verb->footer(footer + in_lines(sweep_results::run_columns_help(), 116) + examples);
   verb->callback([command, &exit_code] {
     if (command->folders.size() == 1 && !command->output.empty())
-      throw CLI::ValidationError("--output", "a report goes to its own folder; only a comparison has another");
+      throw CLI::ValidationError("--output", "use it with two folders only: a report is written to its own folder");
     run(*command);
     exit_code = done;
   });

@@ -32,9 +32,9 @@ struct NamedScale {
   const char* what;
 };
 constexpr std::array<NamedScale, 3> named_scales = {
-    {{"quick", 8000, "8,000 tetrahedra a model: all in 3 minutes on two cores"},
-     {"paper", 100000, "100,000: all in 17 minutes"},
-     {"large", 1000000, "10^6, and in fig8 to 10^7"}}};
+    {{"quick", 8000, "8,000 tetrahedra per model: everything in 3 minutes on two cores"},
+     {"paper", 100000, "100,000: everything in 17 minutes"},
+     {"large", 1000000, "10^6, and up to 10^7 in fig8"}}};
 
 constexpr const char* claims_name = "claims";
 constexpr const char* identity_file = "identity.json";
@@ -64,7 +64,7 @@ double tetrahedra_of(const std::string& scale) {
   return tetrahedra;
 }
 
-/// What is asked for, in the order of reports.
+/// The chosen experiments, in the order of reports.
 std::vector<const experiments::KnownExperiment*> chosen(const ReproduceCommand& command) {
   const auto is_named = [&](const std::string& name) {
     return std::ranges::find(command.experiments, name) != command.experiments.end();
@@ -77,8 +77,8 @@ std::vector<const experiments::KnownExperiment*> chosen(const ReproduceCommand& 
   return experiments;
 }
 
-/// Copies a file of the user's to the folder, so that everything can be repeated there.
-/// \return  where it is now
+/// Copies a user's file to the folder, so that everything can be repeated there.
+/// \return  the copy
 std::filesystem::path taken(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   auto copy = std::filesystem::absolute(folder / file.filename());
@@ -93,11 +93,11 @@ void check_names_differ(const std::vector<std::filesystem::path>& files) {
   for (const auto& file : files) {
     if (names.insert(file.filename()).second) continue;
     throw InputError("two inputs have the same name", io::place_in(file.string()),
-                     "rename one of them: the rows of a table are known by it");
+                     "rename one of them: the rows of a table are told apart by these names");
   }
 }
 
-/// Takes the user's inputs and descriptions of meshers into the folder.
+/// Copies the user's inputs and descriptions of meshers into the folder.
 void take_files(ReproduceCommand& command) {
   check_names_differ(command.options.inputs);
   for (auto& input : command.options.inputs) input = taken(input, command.options.folder / "inputs");
@@ -106,7 +106,7 @@ void take_files(ReproduceCommand& command) {
   if (!command.beside.empty()) command.options.beside = command.beside;
 }
 
-/// The command that does this experiment alone in the same way, in the folder.
+/// The command that repeats this experiment alone, to be called in the folder.
 std::string command_of(const experiments::KnownExperiment& known, const ReproduceCommand& command) {
   const experiments::ExperimentOptions& options = command.options;
   const auto in_folder = [&](const std::filesystem::path& file) {
@@ -128,8 +128,8 @@ std::string command_of(const experiments::KnownExperiment& known, const Reproduc
   return text + " -o .";
 }
 
-/// Whose records count in the folder, which from now on says so.
-/// \throw InputError  they were made by another program or on another machine, and nothing was said about that
+/// The machines and programs whose records count in the folder; also writes them there.
+/// \throw InputError  the records come from another program or machine, and no option says what to do
 std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
   std::vector<std::string> meshers;
   for (const baselines::Mesher& mesher : baselines::meshers()) meshers.push_back(mesher.name);
@@ -192,7 +192,7 @@ ExitCode run_until_stopped(ReproduceCommand& command) {
   try {
     return run(command) ? done : failed_a_check;
   } catch (const baselines::Stopped&) {
-    std::fprintf(stderr, "stopped: all finished runs are kept; call the same command to go on\n");
+    std::fprintf(stderr, "stopped: all finished runs are kept; repeat the command to continue\n");
     return static_cast<ExitCode>(stopped_exit_code());
   }
 }
@@ -204,46 +204,46 @@ std::string footer() {
   text += list_line(claims_name, "all experiments that test a claim of the paper") + "\nScales:\n";
   for (const NamedScale& scale : named_scales) text += list_line(scale.name, scale.what);
   return text +
-         "\nEvery run is a process of its own; its report stays in DIR/runs, that of an experiment is DIR/NAME.json.\n"
-         "Nothing is run twice: killed and called again, it goes on where it was.\n"
-         "A case that fails is a row with the reason. Tables, figures and the page are then made of all experiments\n"
-         "in DIR, as by `ccdt report DIR`.\n\n"
-         "Example: the whole paper, in minutes\n"
+         "\nEvery run is a separate process. Its report stays in DIR/runs; that of an experiment is DIR/NAME.json.\n"
+         "Nothing is run twice: if the command is stopped, call it again, and it continues where it was.\n"
+         "A case that fails is a row with the reason. At the end, tables, figures and the page are made from "
+         "all\nexperiments in DIR, as by `ccdt report DIR`.\n\n"
+         "Example: reproduce the whole paper, in minutes\n"
          "  ccdt reproduce -o build/reproduction\n"
-         "Example: the paper's Table 1 and Fig. 8, as large as there\n"
+         "Example: reproduce Table 1 and Fig. 8 at the paper's size\n"
          "  ccdt reproduce table1 fig8 --scale paper -o build/paper\n"
-         "Example: the three locators, on a part of your own as well\n"
+         "Example: compare the three locators, also on a part of your own\n"
          "  ccdt reproduce locators -o build/locators --input part.stl\n"
-         "Example: quality beside other meshers on parts alone, without the paper's models\n"
+         "Example: compare quality with other meshers, on your parts alone\n"
          "  ccdt reproduce quality -o build/quality --models none --input parts/*.off\n";
 }
 
 void add_limits(CLI::App& verb, ReproduceCommand& command) {
-  verb.add_option("--timeout", command.options.limits.seconds, "limit of a single run, in seconds")
+  verb.add_option("--timeout", command.options.limits.seconds, "time limit of a single run, in seconds")
       ->check(positive_number())
       ->capture_default_str();
-  verb.add_option("--memory-limit", command.memory_gibibytes, "limit of a single run, in GiB; default: none")
+  verb.add_option("--memory-limit", command.memory_gibibytes, "memory limit of a single run, in GiB; default: none")
       ->check(positive_number());
 }
 
 void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
-  verb.add_option("--runs", command.options.runs, "counted runs of each case")
+  verb.add_option("--runs", command.options.runs, "number of counted runs of each case")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
   verb.add_option("--scale", command.options.scale,
-                  "quick, paper, large, or about how many tetrahedra a model is to get")
+                  "quick, paper, large, or the approximate number of tetrahedra per model")
       ->capture_default_str();
   std::vector<std::string> models;
   for (const models::Solid& solid : models::solids()) models.emplace_back(solid.name);
   models.emplace_back("none");
   verb.add_option("--models", command.options.models,
-                  "measure only these, separated by commas; default: all models of the experiment; none: files alone")
+                  "models to measure, separated by commas; default: all models of the experiment; none: only files")
       ->delimiter(',')
-      ->check(CLI::IsMember(models).description(""));
-  verb.add_option("--input", command.options.inputs, "files to measure as well (not table1 and figures)")
+      ->check(one_of(models));
+  verb.add_option("--input", command.options.inputs, "files to measure as well (not in table1 and the figures)")
       ->check(CLI::ExistingFile);
   verb.add_option("--beside", command.beside,
-                  "other meshers to measure, or files (.json) that describe them, separated by commas; default: all of "
+                  "other meshers to measure, or .json files that describe them, separated by commas; default: all of "
                   "this build")
       ->delimiter(',')
       ->check(known_mesher());
@@ -251,22 +251,23 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
 
 void add_what_to_keep(CLI::App& verb, ReproduceCommand& command) {
   auto* refresh = verb.add_flag("--refresh", command.refresh,
-                                "the folder was made with another program or on another machine: measure again");
-  verb.add_flag("--mixed", command.mixed, "the same, but keep what was measured")->excludes(refresh);
-  verb.add_flag("--retry-failed", command.retry_failed, "run cases again that failed");
+                                "if the folder comes from another program or machine: measure everything again");
+  verb.add_flag("--mixed", command.mixed, "if the folder comes from another program or machine: keep what was measured")
+      ->excludes(refresh);
+  verb.add_flag("--retry-failed", command.retry_failed, "run failed cases again");
 }
 
 }  // namespace
 
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ReproduceCommand>();
-  CLI::App* verb = app.add_subcommand("reproduce", "run the paper's experiments, end to end, to a report");
+  CLI::App* verb = app.add_subcommand("reproduce", "run the paper's experiments and write a report");
   command->options.scale = named_scales[0].name;
   std::vector<std::string> names = {claims_name};
   for (const experiments::KnownExperiment& e : experiments::known_experiments()) names.push_back(e.name);
-  verb->add_option("EXPERIMENT", command->experiments, "which (listed below); default: all")
-      ->check(CLI::IsMember(names).description(""));
-  verb->add_option("-o,--output", command->folder, "folder of the report; created if needed")->required();
+  verb->add_option("EXPERIMENT", command->experiments, "experiments (listed below); default: all")
+      ->check(one_of(names));
+  verb->add_option("-o,--output", command->folder, "folder for the report; created if needed")->required();
   add_what_to_measure(*verb, *command);
   add_limits(*verb, *command);
   add_what_to_keep(*verb, *command);

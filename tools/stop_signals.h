@@ -2,7 +2,7 @@
 
 namespace ccdt::tools {
 
-/// While one of these lives, SIGINT, SIGTERM and SIGHUP do not end this process but ask it to stop: see
+/// As long as the object lives, SIGINT, SIGTERM and SIGHUP do not end this process but ask it to stop: see
 /// `baselines::request_stop`.
 class StopSignals {
  public:
@@ -12,7 +12,7 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 };
 
-/// What a process ends with that a signal has asked to stop: 128 and its number, as shells expect.
+/// The exit code of a process that a signal asked to stop: 128 plus the number of the signal, as shells expect.
 int stopped_exit_code();
 
 }  // namespace ccdt::tools

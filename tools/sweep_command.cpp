@@ -25,9 +25,9 @@
 namespace ccdt::tools {
 namespace {
 
-constexpr std::size_t most_names = 5;  ///< of cases that a message lists
+constexpr std::size_t most_names = 5;  ///< names of cases in a message
 
-/// The file of a spec, or the spec of that name that comes with the program.
+/// The file of a spec, or the built-in spec of this name.
 std::filesystem::path spec_file(const std::string& spec) {
   const auto known = share_folder() / "sweeps" / (spec + ".json");
   const bool is_known = !std::filesystem::is_regular_file(spec) && std::filesystem::exists(known);
@@ -39,7 +39,7 @@ sweep::SweepSpec spec_of(const SweepCommand& command, const sweep::MeshOptionRul
   if (!command.inputs.empty()) sweep::replace_files(spec, command.inputs);
   if (command.jobs > 1 && spec.repetitions.until > 0)
     throw CLI::ValidationError("--jobs",
-                               "runs beside each other disturb their times, but 'repetitions' of the spec "
+                               "runs at the same time disturb each other's times, but 'repetitions' of the spec "
                                "asks for exact ones");
   return spec;
 }
@@ -62,7 +62,7 @@ cases::RunnerSettings settings_of(const SweepCommand& command, const PreparedSwe
           .retry_failed = command.retry_failed};
 }
 
-/// Gives each case the id by which its records are known. Equal inputs make equal cases, of which one remains.
+/// Gives each case the id that its records carry. Equal inputs make equal cases, of which one remains.
 std::vector<cases::MeasuredCase> identify(cases::Runner& runner, std::vector<sweep::SweepCase>& cases) {
   std::vector<cases::MeasuredCase> loaded = runner.load(sweep::asked_of(cases)), measured;
   std::vector<sweep::SweepCase> different;
@@ -94,7 +94,7 @@ void print_changes(const sweep::SweepChanges& changes) {
       changes.obsolete);
 }
 
-/// A sweep as its folder says it is; nothing is written.
+/// A sweep as described by its folder; nothing is written.
 struct KnownSweep {
   PreparedSweep sweep;
   std::vector<cases::MeasuredCase> measured;
@@ -143,7 +143,7 @@ ExitCode run_all(const SweepCommand& command) {
     return done;
   }
   const ExitCode code = print_results(run_cases(command, sweep, sweep.cases));
-  if (command.jobs > 1) std::printf("\nTimes are disturbed: %d cases ran at the same time.\n", command.jobs);
+  if (command.jobs > 1) std::printf("\nTimes are not reliable: %d cases ran at the same time.\n", command.jobs);
   std::printf("\nTables, figures and the page: ccdt report %s\n", command.folder.c_str());
   return code;
 }
@@ -161,7 +161,7 @@ ExitCode run(const SweepCommand& command) {
   }
 }
 
-/// Is the failure a fault of our own engine?
+/// Is the failure a fault of ccdt itself?
 bool is_fault(const cases::MeasuredCase& measured) {
   using baselines::FailureKind;
   const auto kind = measured.first.kind;
@@ -172,17 +172,15 @@ bool is_fault(const cases::MeasuredCase& measured) {
 constexpr const char* footer =
     "The spec (JSON, schema ccdt.sweep/1) says which models and files, in which sizes, are meshed by which meshers "
     "with\n"
-    "which options. Each run is a process of its own with limits of time and memory; its report is a file in "
-    "DIR/runs.\n"
-    "Nothing is run twice: stopped or killed and called again, the command goes on where it was. A case that fails is "
-    "a\n"
-    "result like any other. Specs that come with the program are known by their names:\n\n"
-    "  scaling          the paper's models from 10^4 to 10^7 tetrahedra, by all meshers\n"
+    "which options. Each run is a separate process with limits of time and memory; its report is a file in DIR/runs.\n"
+    "Nothing is run twice: if the command is stopped, call it again, and it continues where it was. A case that "
+    "fails\nis a result like any other. These specs come with the program:\n\n"
+    "  scaling          the paper's models from 10^4 to 10^7 tetrahedra, with all meshers\n"
     "  strategies       every strategy of every stage\n"
-    "  parts            your files, by all meshers: --input 'parts/*.off'\n\n"
-    "Example: how long would it take?\n"
+    "  parts            your files, with all meshers: --input 'parts/*.off'\n\n"
+    "Example: estimate how long it takes\n"
     "  ccdt sweep scaling -o build/scaling --dry-run\n"
-    "Example: run it, and look at it\n"
+    "Example: run it, and make its report\n"
     "  ccdt sweep scaling -o build/scaling && ccdt report build/scaling\n"
     "Example: all meshers on parts of your own\n"
     "  ccdt sweep parts -o build/parts --input 'parts/*.off'\n"
@@ -233,7 +231,7 @@ std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const Pr
     return cases::Runner(std::move(settings)).run(sweep::asked_of(cases));
   } catch (const baselines::Stopped&) {
     bar.erase();
-    std::fprintf(stderr, "stopped: %s of %s runs are finished; call the same command to go on\n",
+    std::fprintf(stderr, "stopped: %s of %s runs are finished; repeat the command to continue\n",
                  results::with_separators(finished).c_str(), results::with_separators(all).c_str());
     throw;
   }
@@ -268,25 +266,28 @@ ExitCode print_results(std::span<const cases::MeasuredCase> cases) {
 
 void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<SweepCommand>();
-  CLI::App* verb = app.add_subcommand("sweep", "mesh many inputs with many options and meshers, nothing twice");
-  verb->add_option("SPEC", command->spec, "what to run (.json), or one of the names below")->required();
-  verb->add_option("-o,--output", command->folder, "folder of the results; created if needed");
-  verb->add_option("--input", command->inputs, "mesh these files, or those that match, instead of the spec's files");
-  verb->add_option("--jobs", command->jobs, "cases at the same time; their times are then disturbed")
+  CLI::App* verb = app.add_subcommand("sweep", "mesh many inputs with many options and meshers; nothing is run twice");
+  verb->add_option("SPEC", command->spec, "file that says what to run (.json), or one of the names below")->required();
+  verb->add_option("-o,--output", command->folder, "folder for the results; created if needed");
+  verb->add_option("--input", command->inputs, "files or patterns to mesh instead of the spec's files");
+  verb->add_option("--jobs", command->jobs,
+                   "number of cases to run at the same time; their times are then not reliable")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  verb->add_flag("--retry-failed", command->retry_failed, "run cases again that failed");
+  verb->add_flag("--retry-failed", command->retry_failed, "run failed cases again");
   auto* refresh = verb->add_flag("--refresh", command->refresh,
-                                 "the folder was made with another program or on another machine: measure again");
-  verb->add_flag("--mixed", command->mixed, "the same, but keep what was measured")->excludes(refresh);
-  auto* status = verb->add_flag("--status", command->status, "only print how far the sweep is");
-  verb->add_flag("--dry-run", command->dry_run, "only print how much there is to run, and what it would take")
+                                 "if the folder comes from another program or machine: measure everything again");
+  verb->add_flag("--mixed", command->mixed,
+                 "if the folder comes from another program or machine: keep what was measured")
+      ->excludes(refresh);
+  auto* status = verb->add_flag("--status", command->status, "print the progress of the sweep and exit");
+  verb->add_flag("--dry-run", command->dry_run, "print how much there is to run and what it takes, and exit")
       ->excludes(status);
   verb->add_flag("--json", command->json, "print --status and --dry-run as JSON");
   add_cluster_options(*verb, command->cluster);
   verb->footer(footer);
   verb->callback([command, &exit_code] {
-    const bool names_folder = command->cluster.chunk >= 0;  // instead of a spec
+    const bool names_folder = command->cluster.chunk >= 0;  // the first argument is a folder, not a spec
     if (command->folder.empty() && !names_folder) throw CLI::RequiredError("-o,--output");
     exit_code = run(*command);
   });

@@ -15,16 +15,16 @@ namespace ccdt::tools {
 
 /// How a sweep uses a cluster.
 struct ClusterOptions {
-  int chunk = -1;          ///< the one to run here; -1: none
-  bool slurm = false;      ///< submit what is missing
-  bool snakemake = false;  ///< write a Snakefile for what is missing
+  int chunk = -1;          ///< number of the chunk to run here; -1: none
+  bool slurm = false;      ///< submit the missing runs
+  bool snakemake = false;  ///< write a Snakefile for the missing runs
   double chunk_minutes = 30;
 };
 
-/// What the user has asked for.
+/// The command line.
 struct SweepCommand {
   std::string spec, folder;
-  std::filesystem::path program = {};  ///< the `ccdt` that is run; empty: this one
+  std::filesystem::path program = {};  ///< the `ccdt` to run; empty: this one
   std::vector<std::string> inputs;
   int jobs = 1;
   bool retry_failed = false, refresh = false, mixed = false;
@@ -32,7 +32,7 @@ struct SweepCommand {
   ClusterOptions cluster = {};
 };
 
-/// A sweep whose folder is ready for runs: it has the models and an up-to-date sweep.json.
+/// A sweep whose folder is ready for runs: the models and sweep.json are up to date.
 struct PreparedSweep {
   std::filesystem::path folder;  ///< absolute
   std::uint64_t seed = 1;
@@ -46,21 +46,21 @@ struct PreparedSweep {
 /// \throw OutputError  the folder cannot be written to
 PreparedSweep prepare_sweep(const SweepCommand& command);
 
-/// The cases of a prepared sweep as the records stand.
+/// The cases of a prepared sweep with their current records.
 std::vector<cases::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep);
 
-/// Runs what is missing of these cases of the sweep, with a progress bar.
+/// Runs those of these cases that have no record yet, with a progress bar.
 ///
 /// \throw baselines::Stopped  the user has stopped the program
 /// \throw OutputError         a record cannot be written
 std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
                                            std::span<const sweep::SweepCase> cases);
 
-/// Prints how the cases ended, by mesher.
-/// \return  what the program ends with: a failure of other meshers is a result, but of ours one that must not be
+/// Prints for each mesher how its cases ended.
+/// \return  the exit code: a failure of another mesher is a result, a failure of ccdt is an error
 ExitCode print_results(std::span<const cases::MeasuredCase> cases);
 
-/// What `ccdt mesh` accepts.
+/// The options that `ccdt mesh` accepts.
 sweep::MeshOptionRules mesh_option_rules();
 
 }  // namespace ccdt::tools

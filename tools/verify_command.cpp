@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "bench/verify/verify.h"
+#include "engine/base/parallel.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
@@ -10,13 +11,16 @@
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
 
 struct VerifyCommand {
   std::string input, mesh, report;
+  bool details = false;
   verify::VerifyOptions options;
+  unsigned threads = 0;
 };
 
 bool run(const VerifyCommand& command) {
@@ -33,8 +37,9 @@ bool run(const VerifyCommand& command) {
     const TetMesh mesh = io::read_tet_mesh(command.mesh);
     verification = verify::verify(input, mesh, command.options, bar.progress());
   }
-  std::fputs(reports::to_terminal(verification).c_str(), stdout);
-  std::printf("%s: %s\n", command.mesh.c_str(), verification.ok() ? "right" : "WRONG");
+  const std::string text = command.details ? reports::to_terminal(verification) : reports::summarize(verification);
+  const std::string verdict = verification.ok() ? toned("right", Tone::good) : toned("WRONG", Tone::bad);
+  std::printf("%s%s: %s\n", text.c_str(), command.mesh.c_str(), verdict.c_str());
   if (!command.report.empty()) {
     io::OutputFile report(command.report);
     report << reports::to_json(verification, command.input, command.mesh);
@@ -47,26 +52,32 @@ bool run(const VerifyCommand& command) {
 
 void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<VerifyCommand>();
-  CLI::App* verb = app.add_subcommand("verify", "check a mesh of any mesher exactly against its input");
-  verb->add_option("INPUT", command->input, "the surface or PLC that was meshed")->required();
-  verb->add_option("MESH", command->mesh, "the mesh: .vtu .msh .mesh .node")->required();
+  CLI::App* verb =
+      app.add_subcommand("verify", "check exactly that a mesh, made by any mesher, is right for its input");
+  verb->add_option("INPUT", command->input, "surface or PLC that was meshed")->required();
+  verb->add_option("MESH", command->mesh, "mesh to check: .vtu .msh .msh4 .mesh .meshb .node")->required();
   verb->add_option("--flatness", command->options.flatness,
-                   "what counts as flat and as the same place; fraction of the bounding box")
+                   "tolerance for flat facets and equal positions, as a fraction of the bounding box")
       ->check(non_negative_number())
       ->capture_default_str();
-  add_choice(*verb, "--constrained-delaunay", command->options.delaunay, "must the mesh be constrained Delaunay?");
-  add_choice(*verb, "--surface", command->options.surface, "whose surface the mesh must have");
-  add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input have to be");
-  verb->add_option("--report", command->report, "write the checks there as JSON (schema ccdt.verify/1)");
+  add_choice(*verb, "--constrained-delaunay", command->options.delaunay,
+             "whether the mesh must be constrained Delaunay");
+  add_choice(*verb, "--surface", command->options.surface, "which surface the mesh must have");
+  add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input must be");
+  add_threads(*verb, command->threads);
+  verb->add_flag("--details", command->details, "list all checks, not only those that failed");
+  verb->add_option("--report", command->report, "write all checks to this file as JSON (schema ccdt.verify/1)");
   verb->footer(
-      "Exit code 0: the mesh is right; 1: it is not.\n\n"
-      "Example: does the mesh fill exactly the part?\n"
+      "Exit codes: 0 the mesh is right; 1 it is wrong.\n\n"
+      "Example: check that the mesh fills the part exactly\n"
       "  ccdt verify part.stl part.vtu\n"
-      "Example: the same of a mesh that was improved with --boundary slide\n"
+      "Example: check a mesh that was improved with --boundary slide\n"
       "  ccdt verify --boundary slide part.stl part.vtu\n"
-      "Example: is this a mesh at all, by a mesher that makes a surface of its own?\n"
+      "Example: check the mesh of a mesher that makes its own surface\n"
       "  ccdt verify --surface own part.stl part.vtu\n");
-  verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
+  verb->callback([command, &exit_code] {
+    exit_code = with_threads(command->threads, [&] { return run(*command); }) ? done : failed_a_check;
+  });
 }
 
 }  // namespace ccdt::tools

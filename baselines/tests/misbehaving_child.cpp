@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Long enough for every test; a test that fails leaves nothing behind for ever.
+/// Long enough for every test, but not forever, so that a failing test leaves nothing behind.
 void sleep_long() {
   std::this_thread::sleep_for(std::chrono::seconds(60));
 }

@@ -107,7 +107,7 @@ TEST(RunProgram, WithoutLimitsEndsInTheSameWays) {
   EXPECT_EQ(without("segfault").kind, FailureKind::crashed);
 }
 
-/// A program that leaves a process of its own behind, which has left its group and its session.
+/// A program that leaves behind a process outside its group and session.
 class ServerOfProgram : public testing::Test {
  protected:
   std::vector<std::string> command(const std::string& how) const {
@@ -181,7 +181,7 @@ TEST(RunProgram, WorksInSeveralThreads) {
 }
 
 TEST(RunProgram, EndsAtOnceWhenTheProcessIsToStop) {
-  // In a fork, which alone is to stop.
+  // In a fork, so that only the fork stops.
   const baselines::ProcessResult fork = baselines::run_function([] {
     std::thread user([] {
       usleep(50000);

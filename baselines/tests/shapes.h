@@ -55,7 +55,7 @@ inline plc::InputPlc cube_with_hole() {
   return plc;
 }
 
-/// A unit cube whose faces are grids of n x n squares, each face with vertices of its own.
+/// A unit cube whose faces are grids of n x n squares, each face with its own vertices.
 inline plc::InputPlc cube_with_grid(std::uint32_t n) {
   plc::InputPlc plc;
   plc.name = "cube with a grid";
@@ -80,7 +80,7 @@ inline plc::InputPlc cube_with_grid(std::uint32_t n) {
   return plc;
 }
 
-/// Every triangle with vertices of its own, as in an STL file.
+/// Every triangle has its own vertices, as in an STL file.
 inline plc::InputPlc with_repeated_vertices(const plc::InputPlc& plc) {
   plc::InputPlc repeated;
   repeated.name = plc.name;

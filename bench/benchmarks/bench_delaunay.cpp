@@ -1,13 +1,13 @@
 // What is measured: the Delaunay tetrahedralization of points that are in memory, from the plain array of points to the
-// finished structure, on one thread; the release of the structure is not within.
+// finished structure, on one thread; releasing the structure is not included.
 //
-//   delaunay/insert/...  build_delaunay, vertex by vertex; the sorting along a Hilbert curve is within
-//   delaunay/wrap/...    wrap_delaunay, the paper's way: face by face in a uniform grid, which is made within; it is
+//   delaunay/insert/...  build_delaunay, vertex by vertex; including the sorting along a Hilbert curve
+//   delaunay/wrap/...    wrap_delaunay, the paper's way: face by face in a uniform grid, which is included; it is
 //                        given the ranks that decide ties, those of build_delaunay, so that both have one result
 //   delaunay/cgal/...    CGAL's Delaunay_triangulation_3 with its kernel of exact predicates, given the same points, of
 //                        the very same coordinates, as a range
 //   delaunay/tetgen/...  TetGen's library without switches but for silence; it returns a list of tetrahedra, whose
-//                        making is within
+//                        making is included
 //
 //   .../random/N         N uniformly distributed points, snapped to the grid
 //   .../lattice/N        N points of a perfect face-centered lattice in random order: almost all spheres have more than
@@ -55,7 +55,7 @@ struct PointSet {
   std::function<std::vector<Point3>(std::int64_t size)> make;
 };
 
-/// What two correct results have in common.
+/// The properties that two correct results share.
 struct Outcome {
   std::size_t cells = 0;
   double volume = 0;
@@ -168,29 +168,29 @@ struct TetGen {
 };
 #endif
 
-/// Points, and what insertion makes of them.
+/// Points, and the result of inserting them.
 struct Reference {
   std::vector<Point3> points;
   Outcome inserted;
 };
 
-/// Made once for each set and size.
+/// Computed once for each set and size.
 const Reference& reference(const PointSet& set, std::int64_t size) {
   static std::map<std::pair<std::string, std::int64_t>, Reference> made;
   Reference& kept = made[{set.name, size}];
-  if (kept.points.empty()) {  // also if making them has failed before, so that it fails again
+  if (kept.points.empty()) {  // also after a failure, so that it fails again
     kept.points = set.make(size);
     kept.inserted = Insert::outcome(Insert::build(kept.points));
   }
   return kept;
 }
 
-/// Why a result is not right; empty if it is.
+/// The error of a result; empty if it is right.
 template <class Program>
 std::string find_fault(const PointSet& set, std::int64_t size) {
   const auto& [points, ours] = reference(set, size);
   if constexpr (std::is_same_v<Program, Insert>) {
-    // The hull of random points is nearly known; apart from that, all others are compared with this one.
+    // Checks insertion by the approximate volume of the hull of random points; all others are compared with insertion.
     const double cube = 0x1p156, volume = ours.volume;
     const bool fills_cube = volume > 0.9 * cube && volume <= cube;
     return set.name == "random" && !fills_cube ? "it does not fill the cube" : "";

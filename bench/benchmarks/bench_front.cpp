@@ -1,5 +1,5 @@
 // What is measured: advance_front, from the facets, the Delaunay tetrahedralization of all vertices and the outcome of
-// the face protection check to the tetrahedra of the front; making the locator is within.
+// the face protection check to the tetrahedra of the front; making the locator is included.
 //
 //   front/grid/...     vertices and faces nearby are found in uniform grids
 //   front/octree/...   ... in octrees
@@ -29,7 +29,7 @@ struct Strategy {
   bool check;
 };
 
-/// The codes that `mesh_plc` hands to the front.
+/// The codes that `mesh_plc` passes to the front.
 std::vector<std::uint32_t> codes_for(const Stages& s, bool check) {
   return check ? s.codes : std::vector<std::uint32_t>(s.codes.size(), delaunay::no_neighbor);
 }

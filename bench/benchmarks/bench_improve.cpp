@@ -1,19 +1,19 @@
 // What is measured: improve_mesh, from the constrained Delaunay tetrahedralization, complete but for its coordinates,
-// to the improved mesh; all boundary vertices stay. Making and undoing the structure that is improved is within.
+// to the improved mesh; all boundary vertices stay. Making and undoing the structure that is improved is included.
 //
 //   improve/swap/...     edges and faces are removed
 //   improve/smooth/...   interior vertices move
 //   improve/all/...      both, and interior vertices come and go
 //
 //   .../MODEL/N        with the interior points of the fcc lattice; the mesh has about N vertices
-//   .../flat-MODEL/N   the same, but z scaled by 0.3: the surface's own triangles forbid to reach the targets, so that
-//                      everything is tried for many cells
+//   .../flat-MODEL/N   the same, but z scaled by 0.3: the triangles of the surface make the targets unreachable, so
+//   everything is tried for many cells
 //   .../FILE           a file given by --input
 //
 // "vertices" and "cells" are those of the mesh before; "bad" are its cells that are not good enough, "bad_left" those
-// after: moving vertices spreads what cannot be mended, of which the worst counts. Before anything is timed, all cells
-// of the improved mesh must be positive and the worst no worse than before, and together they must fill the same
-// volume.
+// afterwards: moving vertices distributes the error that cannot be removed, and only the worst cell counts. Before
+// anything is timed, all cells of the improved mesh must be positive and the worst no worse than before, and together
+// they must fill the same volume.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@
 namespace ccdt::benchmarks {
 namespace {
 
-/// What `improve_mesh` is given, and changes.
+/// The data that `improve_mesh` gets and changes.
 struct Unimproved {
   mesh::TetMesh mesh;
   std::vector<std::uint32_t> facet_of_face;
@@ -63,7 +63,7 @@ improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement
                                options_of(improvement), u.points, u.mesh);
 }
 
-/// Of the worst cell; not positive if a cell is not.
+/// The quality of the worst cell; not positive if a cell is not.
 double least_quality(const Unimproved& u) {
   const improve::QualityGoal goal = improve::goal_of({});
   double least = std::numeric_limits<double>::infinity();

@@ -21,7 +21,7 @@ mesh::TetMesh label(const Stages& s) {
                                   s.delaunay);
 }
 
-/// By the divergence theorem, from the input's own triangles.
+/// The volume by the divergence theorem, from the triangles of the input.
 double enclosed_volume(const plc::Plc& plc) {
   double volume = 0;
   for (const plc::Facet& facet : plc.facets) {

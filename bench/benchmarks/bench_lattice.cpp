@@ -1,5 +1,5 @@
 // What is measured: place_lattice_points, from the surface (vertices, triangles, protected subsegments) in memory to
-// the array of interior points; the octree and the tests of distance to the surface are within.
+// the array of interior points; the octree and the tests of distance to the surface are included.
 //
 //   lattice/fcc/...   face-centered cubic
 //   lattice/bcc/...   body-centered cubic

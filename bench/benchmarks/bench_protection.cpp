@@ -25,12 +25,11 @@ namespace {
 std::string find_fault(const Stages& s, protection::Protection strategy) {
   const protection::ProtectedDelaunay result =
       protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), strategy);
-  delaunay::CellStar star(result.delaunay);
   for (std::size_t segment = 0; segment < result.chains.size(); ++segment) {
     if (!result.must_be_chain[segment]) continue;
     const auto& chain = result.chains[segment];
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      if (!star.has_edge(chain[i].vertex, chain[i + 1].vertex))
+      if (!has_edge(result.delaunay, chain[i].vertex, chain[i + 1].vertex))
         return "segment " + std::to_string(segment) + " is not protected";
   }
   return {};
@@ -40,7 +39,7 @@ void measure(benchmark::State& state, const Stages& s, protection::Protection st
   protection::ProtectedDelaunay changed;
   for (auto _ : state) {
     state.PauseTiming();
-    changed = {};  // its memory is used again, as in a run of the mesher
+    changed = {};  // its memory is reused, as in a run of the mesher
     changed = protection::unprotected(s.plc, s.input_delaunay);
     state.ResumeTiming();
     changed = protection::protect_edges(s.plc, std::move(changed), strategy);

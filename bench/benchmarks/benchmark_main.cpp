@@ -8,16 +8,17 @@
 #include <memory>
 
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 
 namespace ccdt::benchmarks {
 namespace {
 
-/// The faults of one family by size, once they have been looked for.
+/// The faults of one family by size, once they are known.
 using Faults = std::map<std::int64_t, std::string>;
 
 bool any_fault = false;
 
-/// What the user wants of all families.
+/// The user's options for all families.
 struct Wanted {
   std::int64_t largest = std::numeric_limits<std::int64_t>::max();  ///< size
   bool no_complexity = false;
@@ -40,7 +41,7 @@ const std::string& fault_of(const Family& family, std::int64_t size, Faults& fau
   return fault;
 }
 
-/// In front of the caller's arguments, which win.
+/// Arguments before those of the caller, which override them.
 std::vector<std::string> with_defaults(int argc, char** argv) {
   std::vector<std::string> all = {argv[0], "--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=5",
                                   "--benchmark_min_time=0.1", "--benchmark_display_aggregates_only=true"};
@@ -49,14 +50,15 @@ std::vector<std::string> with_defaults(int argc, char** argv) {
 }
 
 void print_help() {
-  std::cout << "Measures one stage of the mesher; what exactly is said at the top of its source.\n\n"
-               "  --input FILE   measure this part too, a file that \"ccdt mesh\" reads; may be repeated\n"
-               "  --largest N    leave out sizes above N\n"
-               "  --no-complexity  fit no complexity (Google Benchmark 1.7 crashes at fits through faults alone)\n\n";
+  std::cout
+      << "Measures one stage of the mesher; what exactly is said at the top of its source.\n\n"
+         "  --input FILE   also measure this file, which \"ccdt mesh\" must be able to read; may be repeated\n"
+         "  --largest N    skip sizes above N\n"
+         "  --no-complexity  fit no complexity (Google Benchmark 1.7 crashes if all points of a fit are faults)\n\n";
   benchmark::PrintDefaultHelp();
 }
 
-/// Files that share a name: their results would be indistinguishable.
+/// Finds files that share a name: their results would be indistinguishable.
 std::string check_names(const Files& files) {
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.filename().string());
@@ -145,7 +147,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   add_benchmarks(files);
-  benchmark::RunSpecifiedBenchmarks();
+  ccdt::with_threads(1, [] { return benchmark::RunSpecifiedBenchmarks(); });  // stages are compared on one core
   benchmark::Shutdown();
   return any_fault ? 1 : 0;
 }

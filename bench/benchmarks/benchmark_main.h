@@ -12,7 +12,7 @@
 
 #include "bench/benchmarks/stages.h"
 
-/// What the benchmark programs have in common: their names, sizes, counters and command line.
+/// The common parts of the benchmark programs: names, sizes, counters and command line.
 ///
 /// The arguments of each program are those of Google Benchmark, `--input FILE` as often as wanted, `--largest N` and
 /// `--no-complexity`. Repetitions are interleaved by default, so that all strategies see the same machine. The exit
@@ -23,9 +23,9 @@ namespace ccdt::benchmarks {
 struct Family {
   std::string name;                            ///< stage/strategy/subject
   std::vector<std::int64_t> sizes;             ///< the last part of the benchmarks' names; empty: one benchmark without
-  benchmark::BigO complexity = benchmark::oN;  ///< what is fitted through the sizes
+  benchmark::BigO complexity = benchmark::oN;  ///< the complexity to fit
 
-  /// Does it once and says why the result is not right; empty if it is. Asked once for each size, before its first
+  /// Runs once and returns the error of the result; empty if it is right. Called once for each size, before its first
   /// measurement; a benchmark with a fault is not measured.
   std::function<std::string(std::int64_t size)> find_fault;
   std::function<void(benchmark::State&, std::int64_t size)> measure;
@@ -33,10 +33,10 @@ struct Family {
 
 void add_family(const Family& family);
 
-/// The parts of the user: files that a stage is measured on beside the models.
+/// The user's files, on which a stage is measured in addition to the models.
 using Files = std::vector<std::filesystem::path>;
 
-/// Defined by each program: adds all that it measures.
+/// Defined by each program: adds its benchmarks.
 void add_benchmarks(const Files& files);
 
 /// One strategy of a stage.
@@ -62,7 +62,7 @@ void set_counters(benchmark::State& state, std::size_t vertices, std::size_t cel
 /// Sets a counter unless it is 0: the statistics of the repetitions would divide by it, and JSON has no NaN.
 void set_count(benchmark::State& state, const std::string& name, std::size_t count);
 
-/// Times `run()`, but not the release of its result.
+/// Measures the time of `run()`, without releasing its result.
 template <class Run>
 void time_runs(benchmark::State& state, const Run& run) {
   for (auto _ : state) {

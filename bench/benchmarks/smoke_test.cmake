@@ -1,4 +1,4 @@
-# Runs a benchmark program briefly, on the piston's smallest size and on a file of its own, and looks whether its JSON has
+# Runs a benchmark program briefly, on the piston's smallest size and on a generated file, and checks that its JSON has
 # rates and no errors.
 #
 #   cmake -DPROGRAM=... -DFOLDER=... -P smoke_test.cmake    FOLDER: where the file is written

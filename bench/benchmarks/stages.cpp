@@ -11,6 +11,7 @@
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/build_plc.h"
+#include "engine/protection/harmless_points.h"
 #include "engine/protection/protect_edges.h"
 #include "models/solids.h"
 
@@ -74,7 +75,10 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   const auto points =
       lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options)
           .points;
-  s.delaunay = protection::insert_interior(points, std::move(surface));
+  std::vector<Point3> harmless;
+  for (const std::uint32_t i : protection::harmless_points(points, surface)) harmless.push_back(points[i]);
+  s.delaunay = std::move(surface.delaunay);
+  insert_points(s.delaunay, harmless);
   s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
   if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = front::find_delaunay_faces(s.facets, s.delaunay);

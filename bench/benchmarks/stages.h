@@ -13,19 +13,19 @@
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
-/// What each stage of the engine works on, made once and kept, so that a benchmark times its stage alone.
+/// The inputs of each stage of the engine, computed once, so that a benchmark times only its stage.
 namespace ccdt::benchmarks {
 
-/// The benchmarks' sizes: about so many vertices has the mesh of a model.
+/// The sizes of the benchmarks: approximate numbers of vertices in the mesh of a model.
 inline constexpr std::array<std::int64_t, 5> model_sizes = {5000, 10000, 20000, 40000, 80000};
 
 /// The paper's models.
 inline constexpr std::array<const char*, 3> model_names = {"piston", "bracket", "stepping-pole"};
 
-/// The largest size of the flattened models, of which much goes through the front.
+/// The largest size of the flattened models, in which many faces go through the front.
 inline constexpr std::int64_t largest_flattened = 20000;
 
-/// All that `place_lattice_points` is given.
+/// The inputs of `place_lattice_points`.
 struct LatticeInput {
   std::vector<Point3> vertices;
   std::vector<lattice::SurfaceTriangle> triangles;
@@ -36,7 +36,7 @@ struct LatticeInput {
 /// Tetrahedra that can be compared: sorted lists of sorted vertices.
 using Tetrahedra = std::vector<std::array<std::uint32_t, 4>>;
 
-/// One meshing with the default strategies, but located by the grid, and what it had after each stage; in the order of
+/// One run with the default strategies, except for the grid locator, and its results after each stage; in the order of
 /// `mesh_plc`.
 struct Stages {
   plc::Plc plc;
@@ -68,7 +68,7 @@ Tetrahedra finite_cells(const delaunay::Delaunay& delaunay);
 
 std::vector<Point3> points_of(const delaunay::Delaunay& delaunay);
 
-/// Of tetrahedra together.
+/// The total volume of tetrahedra.
 double volume_of(const Tetrahedra& tetrahedra, const std::vector<Point3>& points);
 
 }  // namespace ccdt::benchmarks

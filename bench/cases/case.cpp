@@ -22,7 +22,7 @@ bool is_over_budget(const MeasuredCase& measured, const std::vector<double>& sam
 void add_run(MeasuredCase& measured, RunRecord record) {
   const bool failed = record.status != baselines::RunStatus::ok;
   const bool counts = !failed && measured.runs >= measured.asked.repetitions.warm_up;
-  // A failure counts even if it went well before: a row of fewer samples than the others would not be fair.
+  // A failure counts even after successful runs: a row with fewer samples than the others would not be fair.
   if (measured.runs == 0 || failed) measured.first = record;
   if (counts) measured.counted.push_back(std::move(record));
   ++measured.runs;

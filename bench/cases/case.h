@@ -18,12 +18,12 @@ struct Repetitions {
   int warm_up = 0;   ///< runs before those that count; they have the first numbers
   int at_least = 1;  ///< counted runs
   int at_most = 1;
-  double until = 0;  ///< between the two, stop once the 95% interval of the median is at most this share of it wide on
-                     ///< either side; 0: stop at `at_least`
-  double budget_seconds = 0;  ///< three counted runs are enough if together they take so long; 0: never
+  double until = 0;  ///< between the two, stop once the half-width of the median's 95% interval is at most this share
+                     ///< of the median; 0: stop at `at_least`
+  double budget_seconds = 0;  ///< three counted runs are enough if together they take this long; 0: never
 };
 
-/// The number of a run that interests the reader of a case: seconds of one stage, of several, or of all.
+/// The quantity of a run that is measured: seconds of one stage, of several, or of all.
 using SecondsOf = std::function<double(const StageSeconds&)>;
 
 /// One mesher on one input with one set of options.
@@ -37,30 +37,29 @@ struct Case {
   bool verify = false;                    ///< check each mesh exactly against its input
   std::string mesh_ending = {};  ///< keep the mesh of the last run, as meshes/ID and this; empty: no mesh is kept
   Repetitions repetitions = {};
-  SecondsOf seconds = &StageSeconds::mesh;  ///< what `repetitions.until` is about
+  SecondsOf seconds = &StageSeconds::mesh;  ///< the quantity to which `repetitions.until` applies
 };
 
 /// A case with the records of its runs.
 struct MeasuredCase {
   Case asked;
   std::string id = {};                  ///< a hash of all that determines the result; begins the names of the records
-  int runs = 0;                         ///< records there are, from number 0 on
-  RunRecord first = {};                 ///< of the first run, or of the one that failed; meaningless without runs
-  std::vector<RunRecord> counted = {};  ///< those that went well, without the warm-up
+  int runs = 0;                         ///< number of records, numbered from 0
+  RunRecord first = {};                 ///< the first run, or the one that failed; meaningless without runs
+  std::vector<RunRecord> counted = {};  ///< successful runs without the warm-up
   bool failed() const { return runs > 0 && first.status != baselines::RunStatus::ok; }
 };
 
 /// Takes the record of the next run.
 void add_run(MeasuredCase& measured, RunRecord record);
 
-/// Does the case need another run? One that has failed does not.
+/// Does the case need another run? A failed case does not.
 bool needs_run(const MeasuredCase& measured);
 
 /// The file of a run, relative to the folder: "runs/ID-NUMBER.json".
 std::string run_file(const std::string& id, int number);
 
-/// The files of the runs that a row of this case stands on, relative to the folder: the counted ones, or the one that
-/// failed.
+/// The files of the runs behind a row of this case, relative to the folder: the counted ones, or the one that failed.
 std::vector<std::string> run_files(const MeasuredCase& measured);
 
 /// The file of the mesh that is kept of a case, relative to the folder: "meshes/ID.ENDING".
@@ -69,8 +68,8 @@ std::string mesh_file(const MeasuredCase& measured);
 /// One number of each counted run.
 std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
-/// The width of the median's 95% interval on its wider side, as a share of the median. 0 with fewer than two samples,
-/// or if all are 0.
+/// The larger half-width of the median's 95% interval, as a share of the median. 0 with fewer than two samples, or if
+/// all are 0.
 double spread_of(const std::vector<double>& samples);
 
 }  // namespace ccdt::cases

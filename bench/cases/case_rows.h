@@ -19,13 +19,13 @@ using results::RowColumn;
 
 /// \name Seconds of a run.
 /// @{
-/// Of the constrained Delaunay tetrahedralization of given vertices, the paper's CDT times: Delaunay, face check, front
-/// and labeling.
+/// The seconds of the constrained Delaunay tetrahedralization of given vertices, as in the paper: Delaunay, face check,
+/// front and labeling.
 double cdt_seconds(const StageSeconds& seconds);
 double whole_seconds(const StageSeconds& seconds);
 /// @}
 
-/// A row of a table: a case, and which of its seconds are meant. Rows with more to say derive from it.
+/// A row of a table: a case, and which of its seconds are meant. Rows with more contents derive from it.
 struct CaseRow {
   MeasuredCase measured = {};
   SecondsOf seconds = whole_seconds;
@@ -33,23 +33,23 @@ struct CaseRow {
   bool ok() const { return !measured.failed(); }
 };
 
-/// The files of the runs that a row stands on.
+/// The files of the runs behind a row.
 std::vector<std::string> runs_of(const CaseRow& row);
 
 /// The seconds of the counted runs, and their median; none if a run failed.
 std::vector<double> samples_of(const CaseRow& row);
 std::optional<Estimate> seconds_of(const CaseRow& row);
 
-/// Over that of another row; none if one of them failed or took no time.
+/// The ratio to another row; none if one of them failed or took no time.
 std::optional<Estimate> ratio_of(const CaseRow& above, const CaseRow& below);
 
-/// Is it of our own mesher?
+/// Does the row belong to our mesher?
 bool is_ours(const CaseRow& row);
 
 /// The name of its mesher, whether built in or described by a file.
 std::string mesher_of(const CaseRow& row);
 
-/// \name Columns of such rows. Figures and seconds are empty where a run failed.
+/// \name Columns of such rows. Figures and seconds are empty if a run failed.
 /// @{
 RowColumn<CaseRow> status_column();
 RowColumn<CaseRow> reason_column();
@@ -62,15 +62,15 @@ RowColumn<CaseRow> run_column(results::Column column, const std::function<result
 /// Why a run failed: "timeout: limit of 600 s".
 std::string failure(const MeasuredCase& measured);
 
-/// The mesh that the case has kept.
+/// The kept mesh of the case.
 /// \pre it has not failed, and has a `mesh_ending`
 mesh::TetMesh mesh_of(const Runner& runner, const MeasuredCase& measured);
 
-/// Keeps that mesh for pictures and the viewer, too, in meshes/ID.json.
+/// Also keeps this mesh for pictures and the viewer, in meshes/ID.json.
 /// \throw OutputError
 results::KeptMesh keep_mesh(const Runner& runner, const MeasuredCase& measured, const std::string& title);
 
-/// Runs the cases that rows ask for (in `measured.asked`), and fills in what was measured.
+/// Runs the cases of the rows (`measured.asked`), and fills in the measurements.
 /// \param rows  derived from `CaseRow`
 template <class Rows>
 void measure_rows(Runner& runner, Rows& rows) {
@@ -80,7 +80,7 @@ void measure_rows(Runner& runner, Rows& rows) {
   for (std::size_t i = 0; i < measured.size(); ++i) rows[i].measured = std::move(measured[i]);
 }
 
-/// The files of these rows' runs, one row's after the other's, none twice.
+/// The files of the runs of these rows, row by row, without duplicates.
 template <class Rows>
 std::vector<std::string> all_runs_of(const Rows& rows) {
   std::vector<std::string> files;

@@ -22,12 +22,12 @@ constexpr const char* mixed_member = "mixed_with";
 void add_machine(Identity& identity) {
   const bench::Environment here = bench::capture_environment();
   identity["machine.cpu"] = here.cpu;
-  // All of the machine: a batch system may give a process a part of them.
+  // All cores of the machine: a batch system may give a process only some of them.
   identity["machine.cores"] = std::to_string(sysconf(_SC_NPROCESSORS_CONF));
   identity["machine.system"] = here.system;
 }
 
-/// What a case depends on: its mesher, and the machine, which determines the times.
+/// The fields on which a case depends: those of its mesher, and of the machine, which determines the times.
 Identity part_for(const std::string& mesher, const Identity& identity) {
   Identity part;
   for (const auto& [field, value] : identity)
@@ -39,7 +39,7 @@ bench::Json read_identities(const std::filesystem::path& file) {
   const io::FileBytes bytes = io::read_whole_file(file);
   bench::Json json = bench::Json::parse(bytes.bytes, nullptr, false);
   if (!json.is_object() || !json.contains(identity_member))
-    throw InputError("this file does not say with which programs its folder was made", io::place_in(file.string()),
+    throw InputError("this file does not say which programs made its folder", io::place_in(file.string()),
                      "choose another folder, or remove the file to measure everything again");
   return json;
 }
@@ -91,7 +91,7 @@ std::vector<Identity> accepted_identities(const std::filesystem::path& file, con
   const auto mixed = json.value(mixed_member, std::vector<Identity>());
   const std::vector<std::string> changes = differences(then, now);
   Identity all = now;
-  all.insert(then.begin(), then.end());  // of meshers that are not asked for now
+  all.insert(then.begin(), then.end());  // of meshers that are not used now
   std::vector<Identity> accepted = {all};
   if (!changes.empty()) {
     const bool is_known =

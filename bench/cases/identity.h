@@ -11,11 +11,10 @@
 
 namespace ccdt::cases {
 
-/// What results depend on besides their cases, by the name of the field: "machine.cpu", "ccdt.binary" (a hash),
-/// "tetgen.version".
+/// The fields on which results depend besides their cases: "machine.cpu", "ccdt.binary" (a hash), "tetgen.version".
 using Identity = std::map<std::string, std::string>;
 
-/// Of this machine and of these meshers.
+/// The identity of this machine and these meshers.
 ///
 /// \param meshers  of this build, or files that describe others
 /// \param program  the `ccdt` that runs them
@@ -25,14 +24,14 @@ Identity identity_of(const std::vector<std::string>& meshers, const std::filesys
 /// What to do with records that were made with another identity.
 enum class OtherIdentity {
   refuse,   ///< throw
-  refresh,  ///< measure again; what was made with it is obsolete
-  mixed     ///< keep it beside what is made now
+  refresh,  ///< measure again; the old records are obsolete
+  mixed     ///< keep the old records beside the new ones
 };
 
-/// The fields that both have and that differ, with both values: "machine.cpu was 'A' and is 'B'".
+/// The common fields that differ, with both values: "machine.cpu was 'A' and is 'B'".
 std::vector<std::string> differences(const Identity& then, const Identity& now);
 
-/// The identities whose records count: first the one of now, then those that it is mixed with.
+/// The identities whose records count: first the current one, then those with which it is mixed.
 ///
 /// \param file  a JSON document with the members of `identities_json`; need not exist
 /// \throw InputError  the identity of the file differs, and the policy is to refuse; the message names the fields

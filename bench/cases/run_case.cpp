@@ -14,7 +14,7 @@ namespace {
 class Scratch {
  public:
   explicit Scratch(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::filesystem::remove_all(folder_);  // of a run that was killed
+    std::filesystem::remove_all(folder_);  // left by a run that was killed
     std::filesystem::create_directories(folder_);
   }
   ~Scratch() {
@@ -31,7 +31,7 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
-/// A file as it is called in its folder; elsewhere by its whole path.
+/// A file by its name relative to the folder if it is inside, otherwise by its full path.
 std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
   const auto whole = std::filesystem::absolute(file).lexically_normal();
   const auto name = whole.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
@@ -48,7 +48,7 @@ baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> co
   return baselines::run_program(command, {.folder = place.folder, .limits = limits, .scratch = scratch.folder()});
 }
 
-/// The record of a child that ended before it wrote a report.
+/// The record of a child process that ended before it wrote a report.
 RunRecord record_without_report(const RunPlace& place, const Case& asked) {
   RunRecord record;
   record.environment = bench::capture_environment();
@@ -74,7 +74,7 @@ RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesys
   return record;
 }
 
-/// A new surface is what the mesh is verified against.
+/// The mesh is verified against the new surface.
 bool has_new_surface(const Case& asked) {
   const auto surface = std::ranges::find(asked.options, "--surface");
   return asked.verify && surface != asked.options.end() && surface + 1 != asked.options.end() &&
@@ -86,7 +86,7 @@ RunFiles files_of(const Case& asked, const Scratch& scratch) {
   return {input, scratch.file("mesh" + mesh_ending(asked)), scratch.folder()};
 }
 
-/// The files of a mesh in several formats have one stem.
+/// The files of a mesh that consists of several files have the same stem.
 void keep_mesh(const RunPlace& place, const MeasuredCase& measured, const Scratch& scratch) {
   std::filesystem::create_directories(place.folder / "meshes");
   for (const auto& entry : std::filesystem::directory_iterator(scratch.folder()))
@@ -102,6 +102,9 @@ std::vector<std::string> mesh_arguments(const std::filesystem::path& folder, con
   const bool is_description = baselines::is_mesher_description(asked.mesher);
   std::vector<std::string> command = {"mesh", name_in(folder, asked.input), "-o", mesh, "--report", report};
   command.insert(command.end(), {"--mesher", is_description ? name_in(folder, asked.mesher) : asked.mesher});
+  // Meshers are compared on one core unless a case asks for more.
+  if (std::ranges::find(asked.options, "--threads") == asked.options.end())
+    command.insert(command.end(), {"--threads", "1"});
   command.insert(command.end(), asked.options.begin(), asked.options.end());
   return command;
 }
@@ -126,7 +129,7 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   if (asked.verify && record.status == baselines::RunStatus::ok) verify_run(place, measured, files, record);
   if (record.status == baselines::RunStatus::ok && !asked.mesh_ending.empty()) keep_mesh(place, measured, scratch);
   std::filesystem::create_directories(folder / "runs");
-  // Written in the scratch folder, so that a kill leaves nothing beside the records.
+  // Written in the scratch folder, so that a killed process leaves nothing among the records.
   const auto written = scratch.file("run.json");
   bench::write_run_record(record, written);
   std::filesystem::rename(written, folder / file);

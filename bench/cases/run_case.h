@@ -8,28 +8,29 @@
 
 namespace ccdt::cases {
 
-/// Where a run takes place.
+/// The surroundings of a run.
 struct RunPlace {
   std::filesystem::path program;  ///< the `ccdt` that is run
-  std::filesystem::path folder;   ///< of all records; the child runs there
-  int jobs = 1;                   ///< how many runs there are at the same time
+  std::filesystem::path folder;   ///< of all records; the child process runs there
+  int jobs = 1;                   ///< number of simultaneous runs
 };
 
 /// The arguments of a `ccdt` that runs a case in this folder and writes these files.
 std::vector<std::string> mesh_arguments(const std::filesystem::path& folder, const Case& asked, const std::string& mesh,
                                         const std::string& report);
 
-/// Makes the next run of a case in a child process, verifies the mesh if that is asked for and was not done for an
-/// equal mesh of this case, writes the record as runs/ID-NUMBER.json (whole or not at all), and adds it to the case.
+/// Makes the next run of a case in a child process. Verifies the mesh if the case asks for it, unless an equal mesh of
+/// the case was verified already. Writes the record as runs/ID-NUMBER.json (complete or not at all), and adds it to the
+/// case.
 ///
-/// A child that crashes or meets a limit has a record as well. Its command is one that can be repeated in the folder,
-/// wherever that has been moved to, and overwrites nothing.
+/// A child process that crashes or reaches a limit has a record as well. The command in the record can be repeated in
+/// the folder, even if that has been moved, and overwrites nothing.
 ///
 /// \throw baselines::Stopped  the user has stopped the program; nothing is left of this run
 /// \throw OutputError         the record cannot be written
 void run_next(const RunPlace& place, MeasuredCase& measured);
 
-/// Makes the mesh of a case once more, to keep it, if that was not asked for when the case was run. Leaves no record.
+/// Makes the mesh of a case again to keep it, if the case was run without keeping it. Leaves no record.
 /// \throw baselines::Stopped  the user has stopped the program
 void make_mesh_again(const RunPlace& place, const MeasuredCase& measured);
 

@@ -14,7 +14,7 @@
 namespace ccdt::cases {
 namespace {
 
-/// Whether all of them were needed was decided when they were made, and to ask again would take longer than to read.
+/// Whether all of them were needed was decided when they were made. Deciding again would take longer than reading them.
 int most_runs(const Repetitions& repetitions) {
   const int counted =
       repetitions.until > 0 ? std::max(repetitions.at_least, repetitions.at_most) : repetitions.at_least;
@@ -23,7 +23,7 @@ int most_runs(const Repetitions& repetitions) {
 
 /// The case with this id, and its records.
 ///
-/// \param retried  failures of these cases count, even if failures are to be retried
+/// \param retried  failures of these cases count, even with `retry_failed`
 MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const std::string& id,
                        const std::set<std::string>& retried) {
   MeasuredCase measured{asked, id};
@@ -37,7 +37,7 @@ MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const 
   return measured;
 }
 
-/// With the first of these ids that has all its records; without one, with the first of all.
+/// The case with the first of these ids that has all its records, otherwise with the first id.
 MeasuredCase find_case(const RunnerSettings& settings, const Case& asked, const std::vector<std::string>& ids,
                        const std::set<std::string>& retried) {
   MeasuredCase of_now = read_case(settings, asked, ids.front(), retried);
@@ -60,7 +60,7 @@ Group distinct(std::vector<MeasuredCase>& cases) {
   return firsts;
 }
 
-/// What was measured of the first of an id holds for all.
+/// The measurements of the first case of an id hold for all.
 void share(const Group& firsts, std::vector<MeasuredCase>& cases) {
   std::map<std::string, const MeasuredCase*> by_id;
   for (const MeasuredCase* first : firsts) by_id[first->id] = first;
@@ -73,7 +73,7 @@ void share(const Group& firsts, std::vector<MeasuredCase>& cases) {
   }
 }
 
-/// Counts runs for the progress, from whichever thread.
+/// Counts runs for the progress, from any thread.
 class RunCounter {
  public:
   RunCounter(const Progress& progress, const Group& cases) : progress_(progress) {
@@ -96,7 +96,7 @@ class RunCounter {
     report(progress_, measured.asked.name, done_, total_);
   }
 
-  /// At least so many more runs.
+  /// At least this many more runs.
   static int left(const MeasuredCase& measured) {
     if (!needs_run(measured)) return 0;
     const Repetitions& repetitions = measured.asked.repetitions;
@@ -116,7 +116,7 @@ void run_counted(const RunPlace& place, MeasuredCase& measured, RunCounter& coun
   counter.end(measured, left_before);
 }
 
-/// Those that are compared with each other, in the order of their first cases.
+/// The groups of cases that are compared with each other, in the order of their first cases.
 std::vector<Group> groups_of(const Group& cases) {
   std::vector<Group> groups;
   std::map<std::string, std::size_t> known;
@@ -128,8 +128,8 @@ std::vector<Group> groups_of(const Group& cases) {
   return groups;
 }
 
-/// The cases of a group that are to run next: those that need runs and have had the fewest, in random order. The order
-/// depends on the seed and the round alone, so that it is the same after an interruption.
+/// The cases of a group that run next: those that need runs and have the fewest, in random order. The order depends on
+/// the seed and the round alone, so that it is the same after an interruption.
 Group next_round(const Group& group, std::uint64_t seed) {
   Group round;
   for (MeasuredCase* measured : group) {
@@ -168,7 +168,7 @@ Runner::Runner(RunnerSettings settings) : settings_(std::move(settings)) {}
 
 std::vector<MeasuredCase> Runner::load(std::span<const Case> cases) {
   std::vector<std::vector<std::string>> ids(cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i)  // here, since only one thread may use the hashes
+  for (std::size_t i = 0; i < cases.size(); ++i)  // here, because only one thread may use the hashes
     for (const Identity& identity : settings_.identities) ids[i].push_back(id_of(cases[i], identity, hashes_));
   std::vector<MeasuredCase> all(cases.size());
   bench::in_parallel(cases.size(), [&](std::size_t i) { all[i] = find_case(settings_, cases[i], ids[i], tried_); });

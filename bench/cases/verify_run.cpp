@@ -15,10 +15,10 @@ using bench::VerifiedMesh;
 constexpr bench::DocumentKind verification_kind = {"ccdt.verify/1", "not a report of schema ccdt.verify/1",
                                                    "verify the mesh again"};
 
-/// An exact check takes longer than a mesher, but not this much longer.
+/// An exact check takes longer than a mesher, but at most by this factor.
 constexpr double seconds_per_second = 20, least_seconds = 300;
 
-/// What an equal mesh of the case was found to be.
+/// The verification of an equal mesh of the case.
 const VerifiedMesh* known_verification(const MeasuredCase& measured, const RunRecord& record) {
   const auto is_equal = [&](const RunRecord& run) {
     return run.verification && !record.mesh_fingerprint.empty() && run.mesh_fingerprint == record.mesh_fingerprint;
@@ -68,8 +68,14 @@ void verify_run(const RunPlace& place, const MeasuredCase& measured, const RunFi
     return take(same, record);
   }
   const auto report = files.scratch / "verification.json";
-  std::vector<std::string> command = {place.program.string(), "verify",   files.input.string(),
-                                      files.mesh.string(),    "--report", report.string()};
+  std::vector<std::string> command = {place.program.string(),
+                                      "verify",
+                                      files.input.string(),
+                                      files.mesh.string(),
+                                      "--report",
+                                      report.string(),
+                                      "--threads",
+                                      "1"};
   const std::vector<std::string> options = options_of(measured.asked);
   command.insert(command.end(), options.begin(), options.end());
   const baselines::Limits limits{.seconds =

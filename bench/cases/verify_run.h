@@ -7,18 +7,18 @@
 
 namespace ccdt::cases {
 
-/// The files of a run whose mesh is to be verified.
+/// The files of a run whose mesh is verified.
 struct RunFiles {
-  std::filesystem::path input;  ///< what the mesh must agree with: the case's input, or the surface made of it
+  std::filesystem::path input;  ///< the reference: the input of the case, or the surface made from it
   std::filesystem::path mesh;
   std::filesystem::path scratch;  ///< a folder for the verifier's own files
 };
 
-/// Checks the mesh of a run exactly, in a child process of its own, and says in its record what came out. A mesh that
-/// is not right makes the run a failure. An equal mesh of an earlier run of the case is not checked again. Meshers that
-/// make a surface of their own are held to what their meshes promise.
+/// Checks the mesh of a run exactly, in a separate child process, and adds the result to its record. A wrong mesh makes
+/// the run a failure. An equal mesh of an earlier run of the case is not checked again. Meshers that make their own
+/// surface are checked with `--surface own`.
 ///
-/// \pre the run went well
+/// \pre the run succeeded
 /// \throw baselines::Stopped  the user has stopped the program
 void verify_run(const RunPlace& place, const MeasuredCase& measured, const RunFiles& files, RunRecord& record);
 

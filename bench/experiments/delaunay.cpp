@@ -28,18 +28,18 @@ std::string title_of(const Names& names, const std::string& name) {
 
 std::vector<std::string> definitions(const std::string& command) {
   return {
-      "Points: uniformly random in a cube; a perfect face-centred lattice; the vertices of a mesh of a model or file.",
-      "Insert: vertex by vertex along a Hilbert curve. Wrap: the paper's, face by face in a uniform grid.",
+      "Points: uniformly random in a cube; a perfect face-centered lattice; the vertices of a mesh of a model or file.",
+      "Insert: vertex by vertex along a Hilbert curve. Wrap: the paper's method, face by face in a uniform grid.",
       "CGAL: Delaunay_triangulation_3 with exact predicates. TetGen: its library, without switches.",
-      "Seconds are CPU time of the one thread that works, from the points in memory to the finished structure.",
+      "Seconds are CPU time of one thread, from the points in memory to the finished structure.",
       "They are medians of repetitions in random order.",
-      "A method that this build lacks, or that is not measured on so many points, has no row.",
-      "Before anything is timed, the results are compared: insert and wrap have the very same tetrahedra.",
-      "CGAL and TetGen fill the same volume as they, with as many tetrahedra on random points.",
+      "A method that this build lacks, or that is not measured on this many points, has no row.",
+      "Before timing, the results are compared: insert and wrap have the same tetrahedra.",
+      "CGAL and TetGen fill the same volume, with the same number of tetrahedra on random points.",
       "Other points have many Delaunay tetrahedralizations, which differ in the number of tetrahedra.",
       "Ratios are of medians.",
-      "All rows stand on " + std::string(output_file) +
-          ", as Google Benchmark wrote it. In the folder of the report this repeats it: " + command,
+      "All rows come from " + std::string(output_file) +
+          ", as written by Google Benchmark. To repeat it in the folder of the report: " + command,
   };
 }
 
@@ -116,7 +116,7 @@ void add_repetition(const bench::Json& run, Measured& measured) {
   measured.family = run.at("family_index");
   if (run.value("error_occurred", false)) {
     measured.status = "failed";
-    measured.fault = run.value("error_message", "it failed");
+    measured.fault = run.value("error_message", "the benchmark failed");
     return;
   }
   measured.vertices = run.at("vertices").get<double>();
@@ -124,7 +124,7 @@ void add_repetition(const bench::Json& run, Measured& measured) {
   measured.seconds.push_back(run.at("cpu_time").get<double>() * seconds_in(run.at("time_unit")));
 }
 
-/// The benchmarks in the program's order, whichever order they ran in.
+/// The benchmarks in the order of the program, not in that of the runs.
 std::vector<Measured> measured_in(const bench::Json& json) {
   std::map<std::string, Measured> by_name;
   for (const bench::Json& run : json.at("benchmarks")) {
@@ -155,12 +155,12 @@ void add_comparison(Group group, const char* method, const char* other, std::vec
   if (!estimate) return;
   const std::string verdict = is_at_most(*estimate, 1) == BoundTest::holds    ? "it is faster"
                               : is_at_least(*estimate, 1) == BoundTest::holds ? "it is slower"
-                                                                              : "neither is surely faster";
+                                                                              : "neither is certainly faster";
   findings.push_back(subject(*find(group, other)) + ": " + method + " takes " + with_interval(*estimate) +
                      " times as long as " + other + ": " + verdict + ".");
 }
 
-/// How the time of a vertex grows from the smallest to the largest set of these points.
+/// The growth of the time per vertex from the smallest to the largest set of these points.
 void add_growth(Group small, Group large, std::vector<std::string>& findings) {
   std::vector<std::string> growths;
   for (const auto& [name, method] : methods) {
@@ -171,11 +171,10 @@ void add_growth(Group small, Group large, std::vector<std::string>& findings) {
   }
   if (!growths.empty())
     findings.push_back(small.front().points +
-                       ": the largest set takes so many times as long a vertex as the smallest: " + joined(growths) +
-                       ".");
+                       ": time per vertex of the largest set over that of the smallest: " + joined(growths) + ".");
 }
 
-/// What failed, and what the timed results must have in common and have not.
+/// Adds failures, and differences between results that must agree.
 void add_problems(Group group, ExperimentResult& result) {
   const Measured* inserted = find(group, "insert");
   for (const Measured& m : group) {
@@ -183,7 +182,7 @@ void add_problems(Group group, ExperimentResult& result) {
     if (!m.fault.empty())
       add_problem(result, m.points + " " + m.size + ", " + m.method + ": " + m.fault, is_ours);
     else if (inserted != nullptr && m.tetrahedra != inserted->tetrahedra && (is_ours || has_no_ties))
-      add_problem(result, subject(m) + ": " + m.method + " has not as many tetrahedra as insert", is_ours);
+      add_problem(result, subject(m) + ": " + m.method + " does not have as many tetrahedra as insert", is_ours);
   }
 }
 
@@ -205,8 +204,8 @@ void evaluate(const std::vector<Measured>& all, ExperimentResult& result) {
                    table_of_rows("ratios", "How the times compare", ratio_columns, groups)};
 }
 
-/// About how many points the largest sets have, of an experiment with about so many tetrahedra a model. Wrapping, which
-/// takes longest, sets the pace.
+/// The approximate number of points in the largest sets, for this number of tetrahedra per model. Wrapping takes
+/// longest and determines it.
 std::int64_t largest_size(double tetrahedra) {
   constexpr double least = 1000, quick = 10000;
   return static_cast<std::int64_t>(std::max({least, std::min(tetrahedra, quick), tetrahedra / 2}));
@@ -240,18 +239,18 @@ std::vector<std::string> wanted_methods(const ExperimentOptions& options) {
   return wanted;
 }
 
-/// Of a child that left no JSON: a row for all that it was to measure.
+/// Adds a row for everything that a child process without JSON was meant to measure.
 void add_failure(const ExperimentOptions& options, const baselines::ProcessResult& child, ExperimentResult& result) {
   std::vector<Measured> all;
   for (const std::string& set : wanted_sets(options))
     for (const std::string& method : wanted_methods(options))
       all.push_back({set, "", method, std::string(name_of(child.status)), child.reason});
   result.tables[0] = table_of_rows("times", result.tables[0].title, time_columns, all);
-  add_problem(result, std::string(program_name) + " did not end well: " + child.reason);
+  add_problem(result, std::string(program_name) + " failed: " + child.reason);
 }
 
 /// Evaluates the JSON that the program wrote.
-/// \return  is it whole, and stamped so?
+/// \return  is it complete, and marked as such?
 bool evaluate_file(const std::filesystem::path& file, const std::string& stamp, ExperimentResult& result) {
   try {
     const std::string text = io::read_whole_file(file).bytes;
@@ -322,7 +321,7 @@ ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runne
   std::filesystem::remove(file);
   report(runner.settings().progress, program_name, 0, 0);
   baselines::Limits limits = options.limits;
-  limits.seconds *= options.runs;  // there are many runs in this one
+  limits.seconds *= options.runs;  // this command makes many runs
   const baselines::ProcessResult child = baselines::run_program(command, {.limits = limits});
   if (evaluate_file(file, "", result)) return result;
   std::filesystem::remove(file);

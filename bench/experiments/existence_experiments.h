@@ -14,19 +14,19 @@ namespace ccdt::experiments {
 using small_plcs::Family;
 using small_plcs::SmallPlc;
 
-/// What was counted in the trials of one family of small PLCs.
+/// The counts of the trials of one family of small PLCs.
 struct FamilyTrials {
   Family family;
-  std::vector<std::uint64_t> counts = {};  ///< one a column of the table
+  std::vector<std::uint64_t> counts = {};  ///< one per column of the table
   std::uint64_t disagreements = 0;         ///< between the engine and the exhaustive tests, or among these
   std::string first_disagreement = {};     ///< with the PLC, in words
-  SmallPlc counterexample = {};  ///< of those to either direction of the theorem the first with the fewest vertices
+  SmallPlc counterexample = {};            ///< for each direction of the theorem, the first with the fewest vertices
   bool has_counterexample() const { return !counterexample.vertices.empty(); }
 };
 void add_trial(const small_plcs::Trial& trial, FamilyTrials& trials);
 
 /// Tests the paper's Theorem 1 (section 5.2), "If and only if a model X is grazeable edge protected and face protected,
-/// X has a DT", in both directions on random small PLCs by exhaustive search, and holds the engine against it.
+/// X has a DT", in both directions on random small PLCs by exhaustive search, and compares the engine with it.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 ExperimentResult measure_theorem1(const ExperimentOptions& options, cases::Runner& runner);
@@ -41,17 +41,16 @@ struct TerminationRow : CaseRow {
   Protection protection = Protection::midpoint;
 };
 
-/// Does the paper's way to protect edges, inserting middle points again and again (section 2), come to an end? Protects
-/// our solids, stars of segments that meet at smaller and smaller angles, and the user's files, by midpoints and by our
-/// shells.
+/// Does the paper's edge protection, which inserts midpoints repeatedly (section 2), terminate? Protects our solids,
+/// stars of segments that meet at smaller and smaller angles, and the user's files, by midpoints and by our shells.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
-/// \throw InputError   none of the models that were asked for is part of it
+/// \throw InputError   none of the chosen models is part of it
 ExperimentResult measure_termination(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult termination_result(std::span<const TerminationRow> rows);
 
-/// One input with one lattice under one rule of what keeps interior points away from the surface. Its counts tell how
-/// many points were placed, and how many were dropped because they would have destroyed a protected edge.
+/// One input with one lattice and one rule that keeps interior points away from the surface. Its counts say how many
+/// points were placed, and how many were dropped because they would have destroyed a protected edge.
 struct InteriorRow : CaseRow {
   std::string model;
   double edge_length = 0;  ///< of one of our solids; 0: a file
@@ -59,12 +58,12 @@ struct InteriorRow : CaseRow {
   Lattice lattice = Lattice::fcc;
 };
 
-/// Tests what the paper says in section 3, that interior points never do harm: by exhaustion on small PLCs, and meshes
-/// all solids at several edge lengths, and the files of the user, with all lattices and rules; each once, for the
-/// counts are always the same.
+/// Tests the paper's statement that interior points never do harm (section 3): by exhaustive search on small PLCs, and
+/// by meshing all solids at several edge lengths and the user's files with all lattices and rules. Each is meshed once,
+/// because the counts are always the same.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
-/// \throw InputError   none of the models that were asked for is part of it
+/// \throw InputError   none of the chosen models is part of it
 ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
                                         std::span<const small_plcs::ExistenceTrials> trials);

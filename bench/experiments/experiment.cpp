@@ -13,7 +13,8 @@ namespace {
 
 constexpr int most_runs = 60;
 
-/// What takes long is run less often. What is long depends on the scale: ten seconds with 100,000 tetrahedra a model.
+/// Long cases are run less often. What counts as long depends on the scale: ten seconds with 100,000 tetrahedra per
+/// model.
 double budget(const ExperimentOptions& options) {
   return options.tetrahedra / 10000;
 }
@@ -60,7 +61,7 @@ std::vector<std::string> described_meshers(const ExperimentOptions& options) {
 void check_something_is_measured(std::size_t cases, std::string_view experiment) {
   if (cases == 0)
     throw InputError("none of these models is part of the experiment " + std::string(experiment), {},
-                     "leave out --models, and it measures all that it has");
+                     "without --models, it measures all its models");
 }
 
 cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,

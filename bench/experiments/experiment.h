@@ -72,76 +72,75 @@ using results::with_separators;
 struct ExperimentOptions {
   std::filesystem::path program;                   ///< the `ccdt` that is run
   std::filesystem::path folder;                    ///< models, meshes and records go here; exists
-  int runs = 5;                                    ///< counted runs a case; one more before them is not counted
-  double tetrahedra = 100000;                      ///< about how many a model is to get
+  int runs = 5;                                    ///< counted runs per case, after one warm-up run
+  double tetrahedra = 100000;                      ///< approximate number of tetrahedra per model
   std::string scale = "paper";                     ///< as the user said it
-  std::string command = {};                        ///< that repeats the experiment
-  std::vector<std::string> models;                 ///< to measure; empty: all that the experiment has
+  std::string command = {};                        ///< the command that repeats the experiment
+  std::vector<std::string> models;                 ///< models to measure; empty: all of the experiment
   std::optional<std::vector<std::string>> beside;  ///< other meshers to measure; none: all of this build
-  std::vector<std::filesystem::path> inputs;       ///< files in the folder to measure as well, if it takes files
+  std::vector<std::filesystem::path> inputs;  ///< files in the folder to measure as well, if the experiment takes files
   baselines::Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
 };
 
 /// Makes the folders of an experiment: models, meshes, runs.
 ///
-/// \param runs  counted runs a case
-/// \return      the circumstances, as they are before the first run
+/// \param runs  counted runs per case \return      the circumstances before the first run
 Circumstances start_experiment(const ExperimentOptions& options, int runs);
 
-/// The factor of an edge length that makes about 100,000 tetrahedra, to make as many as are wanted.
+/// The factor for an edge length that makes about 100,000 tetrahedra, to make the wanted number.
 double edge_factor(const ExperimentOptions& options);
 
-/// Has the user asked for this model?
+/// Did the user choose this model?
 bool is_asked_for(const ExperimentOptions& options, std::string_view model);
 
-/// Does this build have the mesher, and has the user not left it out? Ours always takes part.
+/// Does this build have the mesher, and did the user not exclude it? Ours always takes part.
 bool is_measured(const ExperimentOptions& options, std::string_view mesher);
 
-/// The same where times are compared. Mesh_3 cannot mesh the paper's models with fewer tetrahedra than 50,000, however
-/// long its edges may be, so it takes part only where that many are wanted.
+/// The same for comparisons of times. Mesh_3 cannot mesh the paper's models with fewer than 50,000 tetrahedra, for any
+/// edge length, so it takes part only if at least that many are wanted.
 bool is_timed(const ExperimentOptions& options, std::string_view mesher);
 
-/// The meshers that the user has described by files, each the path of the file.
+/// The meshers that the user described by files, by the paths of these.
 std::vector<std::string> described_meshers(const ExperimentOptions& options);
 
-/// \throw InputError  there is nothing to measure, because none of the models that were asked for is part of it
+/// \throw InputError  there is nothing to measure, because none of the chosen models is part of it
 void check_something_is_measured(std::size_t cases, std::string_view experiment);
 
 /// The text for the outcome of a test.
 std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails);
 
-/// A case that is run once: one whose figures are of interest, but not its times. Its mesh is verified.
+/// A case that is run once, because its figures matter but not its times. Its mesh is verified.
 ///
 /// \param name  for people and problems: "piston, insert"
 cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
                         const std::filesystem::path& input, std::vector<std::string> words);
 
-/// How narrow the interval of a median is to be on either side, over the median, where nobody asks for more.
+/// The default half-width of a median's interval, as a share of the median.
 inline constexpr double usual_precision = 0.05;
 
-/// The same, run until some of its seconds are known as precisely as that.
+/// The same, run until some of its seconds are known with this precision.
 ///
-/// \param group  of the cases that it takes turns with
+/// \param group  the cases with which it takes turns
 cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single,
                        double until = usual_precision, cases::SecondsOf seconds = whole_seconds);
 
 /// A definition: how often timed cases are run.
 std::string repetition_words(const ExperimentOptions& options, double until = usual_precision);
 
-/// Circumstances that say only that there is one run a case; the others are the same for all experiments.
+/// Circumstances with one run per case; the others are the same for all experiments.
 inline Circumstances once() {
   Circumstances how;
   how.runs = 1;
   return how;
 }
 
-/// Adds what went wrong. A result is bad if anything of our own did.
+/// Adds a problem. A result is bad if ccdt itself failed.
 void add_problem(ExperimentResult& result, std::string problem, bool is_ours = true);
 
-/// Makes the failure of a row a problem. Of our own mesher it is one that makes the result bad.
+/// Adds the failure of a row as a problem. A failure of our mesher makes the result bad.
 void add_problem_of(const CaseRow& row, ExperimentResult& result);
 
-/// The words of a command line, which spaces separate.
+/// The words of a command line, separated by spaces.
 std::vector<std::string> words_of(const std::string& line);
 
 /// "20 of 1,000"

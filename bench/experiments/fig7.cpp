@@ -35,10 +35,10 @@ const RowColumns<Row> columns = {
 ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner) {
   ExperimentOptions small = options;
   small.tetrahedra = std::min(options.tetrahedra, static_cast<double>(most_kept_tetrahedra) / 2);
-  ExperimentResult result{.how = start_experiment(small, 1),
-                          .definitions = {"All strategies are the default ones; the run has them.",
-                                          "In the pictures, tetrahedra in front of a plane through the middle are "
-                                          "left out whole."}};
+  ExperimentResult result{
+      .how = start_experiment(small, 1),
+      .definitions = {"All strategies are the defaults; the record of the run lists them.",
+                      "In the pictures, all tetrahedra in front of a plane through the middle are left out."}};
   std::vector<Row> rows;
   for (const PaperModel& model : paper_models) {
     if (!is_asked_for(options, model.name)) continue;

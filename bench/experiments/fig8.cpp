@@ -13,7 +13,7 @@ namespace {
 
 constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
 
-/// A way to mesh the coarsest sizes: so many at small scales, and so many where claims are judged. With the same
+/// A way to mesh the coarsest sizes: their number at small scales, and at scales where claims are judged. With the same
 /// scatter, the interval of an exponent is half as wide with seven sizes as with five.
 struct Strategy {
   std::string label, mesher, words;
@@ -37,22 +37,23 @@ const std::vector<std::string> definitions = {
     "Without check: Delaunay by insertion, and every face goes through the front.",
     "Paper's grid: the front finds its vertices with the uniform grid of section 4 (--locator grid).",
     "Seconds of the other meshers: the call of the library that makes the mesh.",
-    "Same vertices: all those of our mesh with the check. Its own: refined to the edge length of the surface.",
-    "What is not named here is done as by default; the records of the runs have all options.",
-    "Wrap's Delaunay stage does not hold the tetrahedralization of the input alone, which edge protection needs.",
+    "Same vertices: all vertices of our mesh with the check. Its own: refined to the edge length of the surface.",
+    "All other options are the defaults; the records of the runs list them.",
+    "Wrap's Delaunay stage does not include the tetrahedralization of the input alone, which edge protection needs.",
     "Exponent: slope of the logarithms of median seconds over those of vertices; 1 is linear.",
-    "Slope: of the straight line through the median seconds over the vertices; R2: its share of the variance.",
+    "Slope: that of the straight line through the median seconds over the vertices.",
+    "R2: the share of the variance that the line explains.",
     "Intervals of both are Student's t for 95% confidence.",
-    "Mesh_3 takes part from 50,000 tetrahedra on (--scale paper): small features of the models keep it from fewer.",
+    "Mesh_3 takes part from 50,000 tetrahedra on (--scale paper): because of small features, it cannot make fewer.",
 };
 
 using Series = std::span<const Fig8Row>;
 
-/// How some seconds of a series grow with the number of vertices.
+/// The growth of some seconds of a series with the number of vertices.
 struct Fit {
   Series series;
   std::string quantity;
-  std::vector<double> vertices = {}, medians = {};  ///< of the points that went well and took any time
+  std::vector<double> vertices = {}, medians = {};  ///< points of successful runs that took measurable time
   bench::LineFit line = {}, power = {};
 };
 
@@ -69,7 +70,7 @@ std::vector<std::string> runs_of(const LineEnd& end) {
   return all_runs_of(end.series);
 }
 
-/// The columns that say of which series a row is.
+/// The columns that name the series of a row.
 template <class Row>
 RowColumns<Row> series_columns(const Fig8Row& (*of)(const Row&), const RowColumns<Row>& more) {
   RowColumns<Row> columns = {{label_column("model"), [of](const Row& row) { return of(row).model; }},
@@ -94,7 +95,7 @@ const RowColumns<Fit> fit_columns = series_columns<Fit>(
      {figure_column("points", "sizes"), [](const Fit& fit) { return fit.vertices.size(); }},
      {time_column("exponent"), [](const Fit& fit) { return fit.power.slope; }},
      {time_column("exponent_r2", "R2 of the exponent"), [](const Fit& fit) { return fit.power.r_squared; }},
-     {time_column("microseconds_per_vertex", "slope, a vertex", "us"),
+     {time_column("microseconds_per_vertex", "slope per vertex", "us"),
       [](const Fit& fit) { return in_microseconds(fit.line.slope); }},
      {time_column("seconds_at_zero", "", "s"), [](const Fit& fit) { return fit.line.intercept; }},
      {time_column("r2", "R2 of the line"), [](const Fit& fit) { return fit.line.r_squared; }}});
@@ -147,7 +148,7 @@ std::string finding_of(Series series, const std::vector<Fit>& fits) {
                 "does not hold");
 }
 
-/// Those of this build that are asked for, and the meshers that the user describes.
+/// The chosen meshers of this build, and those that the user describes.
 std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
   std::vector<Strategy> asked;
   std::ranges::copy_if(strategies, std::back_inserter(asked),
@@ -172,8 +173,8 @@ cases::Case case_of(const ExperimentOptions& options, const PaperModel& model, c
                      words_of(strategy.words + (is_ours ? " --improve none --grading 0" : "")));
 }
 
-/// From a tenth of the tetrahedra that are wanted to ten times as many, within the limits of the solid. Our mesh of
-/// each is made once, for its vertices.
+/// Sizes from a tenth to ten times the wanted number of tetrahedra, within the limits of the solid. Our mesh of each is
+/// made once, for its vertices.
 std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperModel& model, cases::Runner& runner) {
   std::vector<ModelSize> sizes;
   const auto solid = std::ranges::find(models::solids(), model.name, &models::Solid::name);
@@ -224,7 +225,7 @@ ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
     for (const double vertices : {std::ranges::min(fit.vertices), std::ranges::max(fit.vertices)})
       lines.push_back({series, vertices, fit.line.intercept + vertices * fit.line.slope.value});
   }
-  result.tables = {table_of_rows("fits", "How the seconds grow with the number of vertices", fit_columns, fits),
+  result.tables = {table_of_rows("fits", "Growth of the seconds with the number of vertices", fit_columns, fits),
                    table_of_rows("points", "Seconds against size", point_columns, rows),
                    table_of_rows("lines", "Straight lines through the points", line_columns, lines, true)};
   for (const Fig8Row& row : rows) add_problem_of(row, result);

@@ -8,10 +8,10 @@ namespace ccdt::experiments {
 namespace {
 
 constexpr std::array lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
-constexpr double tetrahedra_a_trial = 100;  ///< so many small PLCs a family are tried for the wanted tetrahedra
+constexpr double tetrahedra_a_trial = 100;           ///< small PLCs per family for each wanted tetrahedron
 constexpr std::array coarsenings = {4.0, 2.0, 1.0};  ///< of a solid's usual edge length
 
-/// What keeps interior points away from the surface.
+/// A rule that keeps interior points away from the surface.
 struct InteriorRule {
   std::string name;
   std::vector<std::string> options;
@@ -29,25 +29,26 @@ std::vector<std::string> definitions() {
       "The paper, section 3: \"Insertion of interior points does not affect CDT existence.\" It gives no proof.",
       "Family: small random PLCs with a CDT, to which one interior point is added; existence is tested by exhaustion.",
       "Existence rests on edge protection: each grazeable edge is a chain of Delaunay edges.",
-      "A point does harm, and is dropped, if with it a protected edge would be Delaunay no more.",
+      "For each protected edge, an empty sphere through its ends is chosen. It keeps the edge Delaunay.",
+      "A point inside one of these spheres could destroy the edge, and is left out.",
       "Rule paper: no point in the smallest sphere of a face or subsegment, nor near to the surface.",
       "Near: within 0.55 edge lengths.",
       "Rule no spheres: the distance alone (--sphere-factor 0).",
-      "Rule no distances: neither (--sphere-factor 0 --clearance 0.01).",
+      "Rule no distances: neither rule (--sphere-factor 0 --clearance 0.01).",
       "A case is one input at one density, with one lattice and one rule.",
       "The smallest counterexample we know is a tetrahedron with a dent, five vertices, and one point below the dent.",
-      "With that point it has tetrahedralizations, but no constrained Delaunay one.",
+      "With that point, it has tetrahedralizations, but none is constrained Delaunay.",
       "See engine/tests/interior_points_test.cpp.",
   };
 }
 
-const char* const dropped_title = "points that would have destroyed a protected edge";
+const char* const dropped_title = "points in the sphere of a protected edge";
 
 ResultTable existence_table(std::span<const small_plcs::ExistenceTrials> existence) {
-  ResultTable table = table_of("existence", "Existence with one interior point more, by exhaustion",
+  ResultTable table = table_of("existence", "Existence with one more interior point, by exhaustive search",
                                {label_column("family"), figure_column("cases", "PLCs with a CDT"),
-                                figure_column("lost", "of these without one with the point"),
-                                note_column("counterexample", "the smallest, its last vertex the point")});
+                                figure_column("lost", "of these, without a CDT once the point is added"),
+                                note_column("counterexample", "the smallest; its last vertex is the point")});
   for (const small_plcs::ExistenceTrials& trials : existence)
     add_row(table, {}, trials.family, trials.cases, trials.lost,
             cell_if(trials.lost > 0, small_plcs::in_words(trials.counterexample)));
@@ -68,10 +69,10 @@ ResultTable cases_table(std::span<const InteriorRow> rows) {
   return table_of_rows("cases", "The cases", columns, rows);
 }
 
-/// The sums over all cases that went well of each rule, with one lattice and with all.
+/// The sums over all successful cases of each rule, with one lattice and with all.
 ResultTable rules_table(const ResultTable& cases) {
   ResultTable table = table_of(
-      "rules", "What the rules let through",
+      "rules", "Points that the rules allow",
       {label_column("rule"), label_column("lattice"), figure_column("cases"), figure_column("interior_vertices"),
        figure_column("dropped", dropped_title), figure_column("harmed", "cases with such points")});
   const auto add = [&](const std::string& rule, const std::string& lattice, const RowViews& rows) {
@@ -89,17 +90,18 @@ ResultTable rules_table(const ResultTable& cases) {
   return table;
 }
 
-/// What a row for all lattices says of its rule.
+/// The sentence about a rule from its row for all lattices.
 std::string rule_finding(const RowView& row) {
   const std::string rule = "Rule \"" + row.text("rule") + "\": ";
   const std::uint64_t cases = row.count("cases"), placed = row.count("interior_vertices"),
                       dropped = row.count("dropped");
   if (cases == 0) return rule + "no case to judge by";
   if (dropped == 0)
-    return rule + "no point did harm in " + with_separators(cases) + " cases with " + with_separators(placed) +
-           " interior vertices";
-  return rule + "points do harm: " + with_separators(dropped) + " points of " + with_separators(placed + dropped) +
-         " would have destroyed a protected edge, in " + share_words(row.count("harmed"), cases) + " cases";
+    return rule + "no point threatened an edge in " + with_separators(cases) + " cases with " +
+           with_separators(placed) + " interior vertices";
+  return rule + "points threaten edges: " + with_separators(dropped) + " points of " +
+         with_separators(placed + dropped) + " are in the sphere of a protected edge, in " +
+         share_words(row.count("harmed"), cases) + " cases";
 }
 
 }  // namespace

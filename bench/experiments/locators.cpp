@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array locators = {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity};
 
-/// A solid of ours.
+/// One of our solids.
 struct LocatorsModel {
   std::string name;
   double edge_length;  ///< for about 20,000 vertices
@@ -21,17 +21,17 @@ const std::vector<LocatorsModel> models = {{"piston", 2.3, SurfaceKind::uniform}
                                            {"rough-sphere", 0.06, SurfaceKind::rough}};
 
 const std::vector<std::string> definitions = {
-    "Seconds of the front alone; the locators' structures are built within it.",
-    "Check off: every face goes through the front. Check on: only the faces that are not Delaunay do.",
+    "Seconds of the front alone, including the construction of the locator.",
+    "Check off: every face goes through the front. Check on: only faces that are not Delaunay do.",
     "Uniform: the paper's models with interior vertices at the density of the surface.",
     "Graded: a cube with squares on its faces that shrink towards a corner.",
     "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
     "Edge ratio: the longest edge of the surface over the shortest.",
-    "Ratios are of medians. A claim holds if the whole interval is on its side of 1."};
+    "Ratios are of medians. A claim holds if the whole interval is on the right side of 1."};
 
 using Group = std::span<const LocatorsRow>;  ///< grid, octree, cavity
 
-/// A locator beside the first of its group.
+/// A locator compared with the first of its group.
 struct RatioRow : LocatorsRow {
   std::string title;
   Estimate value;
@@ -74,7 +74,7 @@ RowColumns<RatioRow> ratio_columns() {
   return columns;
 }
 
-/// What is expected of octree and grid: on a graded surface the octree is faster, on a uniform one the grid.
+/// The expectation for octree and grid: on a graded surface the octree is faster, on a uniform one the grid.
 std::optional<std::string> finding_of(const LocatorsRow& row, const Estimate& octree_over_grid) {
   const bool is_graded = row.kind == SurfaceKind::graded;
   if (!is_graded && row.kind != SurfaceKind::uniform) return {};
@@ -135,7 +135,7 @@ ExperimentResult locators_result(std::span<const LocatorsRow> rows) {
   }
   for (const LocatorsRow& row : rows) add_problem_of(row, result);
   result.tables = {table_of_rows("front", "Seconds of the front", front_columns, rows),
-                   table_of_rows("ratios", "Beside the paper's grid", ratio_columns(), ratios),
+                   table_of_rows("ratios", "Compared with the paper's grid", ratio_columns(), ratios),
                    table_of_rows("sizes", "The surfaces", size_columns, firsts)};
   return result;
 }

@@ -11,7 +11,7 @@
 namespace ccdt::experiments {
 namespace {
 
-/// By what meshes are compared: columns of the table of quality.
+/// The criteria for comparing meshes: columns of the table of quality.
 constexpr std::array<std::string_view, 5> all_criteria = {"mean_r", "p99_r", "worst_r", "smallest_dihedral",
                                                           "largest_dihedral"};
 constexpr std::span<const std::string_view> judged_criteria = std::span(all_criteria).first<4>();
@@ -42,13 +42,13 @@ std::vector<RowViews> meshes_by_model(const ExperimentResult& result,
   return models;
 }
 
-/// Leaves those of which every mesh went well.
+/// Keeps the models whose meshes were all made successfully.
 std::vector<RowViews> whole(std::vector<RowViews> models) {
   std::erase_if(models, [](const RowViews& meshes) { return !std::ranges::all_of(meshes, is_ok); });
   return models;
 }
 
-/// On how many models no other mesh is better than the one of this number.
+/// The number of models on which no other mesh is better than the one with this number.
 std::uint64_t best_in(const std::vector<RowViews>& models, std::size_t number, std::string_view criterion) {
   const auto is_best = [&](const RowViews& meshes) {
     const RowView& mesh = meshes[number];
@@ -59,7 +59,7 @@ std::uint64_t best_in(const std::vector<RowViews>& models, std::size_t number, s
   return static_cast<std::uint64_t>(std::ranges::count_if(models, is_best));
 }
 
-/// Of other meshers' comparable meshes the best by a criterion; none if there is no such mesh.
+/// The best comparable mesh of other meshers by a criterion; none if there is no such mesh.
 std::optional<RowView> best_other(const RowViews& meshes, std::string_view criterion) {
   std::optional<RowView> best;
   for (const RowView& mesh : meshes) {
@@ -70,11 +70,11 @@ std::optional<RowView> best_other(const RowViews& meshes, std::string_view crite
 }
 
 ResultTable verdicts_table(const ExperimentResult& result) {
-  ResultTable table =
-      table_of("verdicts", "Better than all others?",
-               {label_column("model"), label_column("variant"), label_column("criterion", "by"),
-                figure_column("better", "better than all others"), figure_column("ours"),
-                figure_column("best_other", "best of the others"), figure_column("best_other_variant", "whose")});
+  ResultTable table = table_of("verdicts", "Better than all others?",
+                               {label_column("model"), label_column("variant"), label_column("criterion", "by"),
+                                figure_column("better", "better than all others"), figure_column("ours"),
+                                figure_column("best_other", "best of the others"),
+                                figure_column("best_other_variant", "mesher of the best of the others")});
   for (const RowViews& meshes : meshes_by_model(result))
     for (const RowView& mesh : meshes) {
       if (mesh.text("mesher") != "ccdt" || !is_ok(mesh)) continue;
@@ -90,7 +90,7 @@ ResultTable verdicts_table(const ExperimentResult& result) {
   return table;
 }
 
-/// In how many cases each variant of ours is better than all others, by each criterion.
+/// The number of cases in which each variant of ours is better than all others, by each criterion.
 void conclude_mesher_quality(ExperimentResult& result) {
   const ResultTable verdicts = verdicts_table(result);
   std::set<std::string> variants;
@@ -109,7 +109,7 @@ void conclude_mesher_quality(ExperimentResult& result) {
   result.tables.insert(result.tables.begin() + 1, verdicts);
 }
 
-/// In how many cases each lattice is the best by each criterion, alone or with others.
+/// The number of cases in which each lattice is the best by each criterion, alone or with others.
 ResultTable best_lattices_table(const ExperimentResult& result) {
   ResultTable table =
       table_of("best", "The best lattice",
@@ -141,9 +141,9 @@ void conclude_lattices(ExperimentResult& result) {
   result.tables.insert(result.tables.begin(), table);
 }
 
-/// In how many cases each part is the best, alone or with others.
+/// The number of cases in which each part is the best, alone or with others.
 void conclude_improvement(ExperimentResult& result) {
-  ResultTable table = table_of("best", "The best in so many cases",
+  ResultTable table = table_of("best", "Number of cases in which each is the best",
                                {label_column("improve", "improvement"), label_column("criterion", "by"),
                                 figure_column("cases"), figure_column("best", "best in")});
   const auto models = meshes_by_model(result);
@@ -162,7 +162,7 @@ std::string default_setting() {
   return setting_in_words(MeshOptions().sphere_factor, MeshOptions().clearance);
 }
 
-/// From 1: by how many meshes this one is surpassed; those that are as good share the mean of their places.
+/// The rank of a mesh, from 1; equally good meshes share the mean of their ranks.
 double rank_of(const RowView& mesh, const RowViews& others, std::string_view criterion) {
   const double value = mesh.number(criterion);
   double better = 0, equal = 0;
@@ -197,18 +197,18 @@ void add_setting(const std::vector<RowViews>& models, std::size_t setting, Resul
 
 std::vector<std::string> setting_findings(const ResultTable& table) {
   const RowViews settings = rows_with(table);
-  if (settings.empty()) return {"There is no surface on which every setting went well."};
+  if (settings.empty()) return {"There is no surface on which every setting succeeded."};
   const auto rank = [](const RowView& row) { return row.number("rank"); };
   const RowView usual = rows_with(table, {{"setting", default_setting()}}).front();
   RowView best = *std::ranges::min_element(settings, {}, rank);
-  if (rank(usual) <= rank(best)) best = usual;  // as good as any
+  if (rank(usual) <= rank(best)) best = usual;  // equally good
   return {"The best setting is " + best.text("setting") + ", with a mean rank of " + rounded(rank(best)) + " among " +
               std::to_string(settings.size()),
           best.row == usual.row ? "It is the default"
                                 : "The default, " + default_setting() + ", has a mean rank of " + rounded(rank(usual))};
 }
 
-/// Sums up the models on which every setting went well.
+/// Sums up the models on which every setting succeeded.
 void conclude_lattice_fit(ExperimentResult& result) {
   ResultTable table =
       table_of("settings", "The settings",
@@ -238,13 +238,13 @@ StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::strin
                  .equal_counts = true,
                  .keeps_meshes = true};
   plan.definitions = {
-      "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh has.",
-      "Rows that are more than 15% away from that number are shown, and not compared with.",
+      "Every mesher gets the edge length at which it makes as many tetrahedra as our FCC mesh.",
+      "Rows that differ by more than 15% from that number are shown but not compared.",
       "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge length.",
-      "ccdt: --improve all, but where it says unimproved; tetgen: -pYq1.414/10a.",
+      "ccdt: --improve all, unless marked unimproved; tetgen: -pYq1.414/10a.",
       "cgal-mesh3: with perturbation and exudation.",
-      "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1, seconds as its log has them.",
-      "What takes long has at most three counted runs.",
+      "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1; its seconds come from its log.",
+      "Long cases have at most three counted runs.",
   };
   std::vector<std::string> others = described_meshers(options);
   for (const char* name : {"gmsh-hxt", "cgal-mesh3", "tetgen"})
@@ -260,7 +260,8 @@ StudyPlan lattices_plan() {
       .experiment = "lattices",
       .models = names_of_paper_models(),
       .labels = {label_column("lattice"), label_column("improved")},
-      .definitions = {"The paper, section 3: of a unit cell, the tetrahedra of the FCC lattice are better than others.",
+      .definitions = {"The paper, section 3: in a unit cell, the tetrahedra of the FCC lattice are better than those "
+                      "of other lattices.",
                       "All lattices have the same number of vertices per volume, and the same surface.",
                       "The claim is confirmed by a measure if FCC alone is the best in every case.",
                       "Improvement stops at a target: lattices that all reach it differ in worst values by chance."},
@@ -276,14 +277,15 @@ StudyPlan lattices_plan() {
 }
 
 StudyPlan improvement_plan() {
-  StudyPlan plan{.experiment = "improvement",
-                 .models = names_of_paper_models(),
-                 .labels = {label_column("improve", "improvement")},
-                 .definitions = {"none: the constrained Delaunay tetrahedralization with its FCC lattice.",
-                                 "swap: other tetrahedra of the same vertices. smooth: other places for them.",
-                                 "all: both, and vertices inside are inserted and taken out.",
-                                 "Improve: median seconds of the improvement, which are part of the seconds."},
-                 .conclude = conclude_improvement};
+  StudyPlan plan{
+      .experiment = "improvement",
+      .models = names_of_paper_models(),
+      .labels = {label_column("improve", "improvement")},
+      .definitions = {"none: the constrained Delaunay tetrahedralization with its FCC lattice.",
+                      "swap: other tetrahedra of the same vertices. smooth: other positions of the vertices.",
+                      "all: both, and interior vertices are inserted and removed.",
+                      "Improve: median seconds of improvement, included in the seconds."},
+      .conclude = conclude_improvement};
   for (const char* improve : {"none", "swap", "smooth", "all"})
     plan.variants.push_back({improve, "ccdt", {"--lattice", "fcc", "--improve", improve}, {improve}});
   return plan;
@@ -296,12 +298,12 @@ StudyPlan lattice_fit_plan() {
                  .conclude = conclude_lattice_fit,
                  .once = true};
   plan.definitions = {
-      "Sphere: no lattice point in the smallest sphere of a face, its radius times --sphere-factor.",
-      "Clearance: none nearer to the surface than --clearance edge lengths.",
-      "Rank: of the setting among all, from 1, mean over the cases and the four criteria.",
+      "Sphere: no lattice point is in the smallest sphere of a face, with its radius times --sphere-factor.",
+      "Clearance: no lattice point is nearer to the surface than --clearance edge lengths.",
+      "Rank: that of the setting among all, from 1; mean over the cases and the four criteria.",
       "The criteria: mean, p99 and worst r, and the smallest dihedral angle. The best has the least rank.",
       "Improvement stops at a target: settings that all reach it differ in worst values by chance.",
-      "Columns are means over the cases; of worst r the geometric one. Improve: their seconds together.",
+      "Columns are means over the cases; for worst r, geometric means. Improve: the sum of their seconds.",
   };
   const auto add = [&](double sphere_factor, double clearance) {
     const std::string name = setting_in_words(sphere_factor, clearance);

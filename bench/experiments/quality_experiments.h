@@ -7,8 +7,8 @@
 
 namespace ccdt::experiments {
 
-/// Our meshes beside those of other meshers, at equal numbers of tetrahedra: ccdt with its FCC lattice, improved and
-/// not, and with BCC, and TetGen, Mesh_3 and HXT (what of these the build has, or the machine).
+/// Compares our meshes with those of other meshers at equal numbers of tetrahedra: ccdt with its FCC lattice, improved
+/// and not, and with BCC; TetGen, Mesh_3 and HXT, as far as the build or the machine has them.
 ///
 /// \param experiment  begins the names of its files
 StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::string& experiment,
@@ -21,8 +21,8 @@ StudyPlan lattices_plan();
 /// What each part of the improvement does alone: nothing, swaps, smoothing, all; with the FCC lattice.
 StudyPlan improvement_plan();
 
-/// How near to the surface lattice points may be: the same surfaces with many settings, the defaults of `ccdt mesh`
-/// among them, with the FCC lattice and all of the improvement.
+/// How near to the surface may lattice points be? The same surfaces with many settings, including the defaults of `ccdt
+/// mesh`, with the FCC lattice and full improvement.
 StudyPlan lattice_fit_plan();
 
 }  // namespace ccdt::experiments

@@ -25,7 +25,7 @@ std::vector<SurfaceFile> sources_of(const ExperimentOptions& options, const Stud
   return sources;
 }
 
-/// One source, while it is measured.
+/// One source while it is measured.
 struct SourceStudy {
   const ExperimentOptions& options;
   cases::Runner& runner;
@@ -45,7 +45,7 @@ std::optional<std::uint64_t> count_of(const cases::MeasuredCase& measured) {
   return measured.first.counts.tetrahedra;
 }
 
-/// Remeshes a surface if its triangles are not even and of about that length, and writes it.
+/// Remeshes a surface, unless its triangles are even and have about this edge length, and writes it.
 /// \throw InputError, MeshError  as `remesh_surface`
 EvenSurface make_even_surface(plc::InputPlc input, double edge_length, const std::filesystem::path& file) {
   const bool is_even = bench::has_even_triangles(plc::build_plc(input), edge_length);
@@ -57,8 +57,8 @@ EvenSurface make_even_surface(plc::InputPlc input, double edge_length, const std
   return made;
 }
 
-/// Looks for the edge length of the surface at which our FCC lattice makes the wanted number of tetrahedra, the surface
-/// having edges of the length of those inside.
+/// Searches for the edge length at which our FCC lattice makes the wanted number of tetrahedra. Surface and inside have
+/// the same edge length.
 EvenSurface find_surface(const SourceStudy& study) {
   const auto& [name, user_file, ignored] = study.source;
   const auto solid = std::ranges::find(models::solids(), name, &models::Solid::name);
@@ -87,7 +87,7 @@ EvenSurface find_surface(const SourceStudy& study) {
   return best;
 }
 
-/// The edge lengths that the variants are asked for.
+/// The target edge lengths of the variants.
 std::vector<double> edge_lengths_of(const SourceStudy& study, const EvenSurface& surface) {
   std::vector<double> lengths(study.plan.variants.size(), surface.edge_length);
   if (!study.plan.equal_counts) return lengths;
@@ -105,7 +105,7 @@ std::vector<double> edge_lengths_of(const SourceStudy& study, const EvenSurface&
   return lengths;
 }
 
-/// Every variant once, then again as often as its time needs.
+/// Runs every variant once, then as often as its time needs.
 std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const EvenSurface& surface,
                                               const std::vector<double>& edge_lengths) {
   std::vector<cases::Case> all;
@@ -138,13 +138,14 @@ std::vector<std::string> study_definitions() {
       "Aspect ratio: the longest edge over 2 sqrt(6) times the radius of the inscribed sphere, as in VTK and Verdict.",
       "HXT improves its inverse. The regular tetrahedron's is 1.",
       "Radius-edge ratio: the circumscribed sphere's radius over the shortest edge, as in TetGen; regular: 0.612.",
-      "Surface: triangles of nearly one size, at which our tetrahedra inside have edges of the surface's length.",
-      "It is remeshed, unless its angles have 25 degrees or more and nine tenths of its edges differ by less than 2.",
-      "Seconds are of meshing alone, with improvement, without reading and writing; one thread.",
+      "Surface: triangles of nearly one size. Our tetrahedra inside have edges of the same length.",
+      "It is kept if its angles are at least 25 degrees and nine tenths of its edges agree within a factor of 2.",
+      "Otherwise it is remeshed.",
+      "Seconds: meshing with improvement, without reading and writing; one thread.",
   };
 }
 
-/// The columns that say whose a row is.
+/// The columns that identify a row.
 RowColumns<QualityRow> label_columns(const StudyPlan& plan) {
   RowColumns<QualityRow> columns = {{label_column("model"), &QualityRow::model}};
   for (std::size_t i = 0; i < plan.labels.size(); ++i)
@@ -162,7 +163,7 @@ Cell improve_seconds_cell(const QualityRow& row) {
   return row.ok() ? Cell(bench::median(samples_of(row.measured, &StageSeconds::improve))) : Cell();
 }
 
-/// Million tetrahedra a second, where the clock could tell.
+/// Million tetrahedra per second, if the clock could measure it.
 Cell speed_cell(const QualityRow& row) {
   const auto seconds = seconds_of(row);
   const double millions = static_cast<double>(row.measured.first.counts.tetrahedra) / 1e6;
@@ -191,18 +192,18 @@ ResultTable quality_table(const StudyPlan& plan, std::span<const QualityRow> row
                     [](Q q) { return q.radius_edge_ratio.mean; }),
              figure(figure_column("worst_radius_edge", "worst radius-edge ratio"),
                     [](Q q) { return q.radius_edge_ratio.max; }),
-             {figure_column("edge_length", "edge length asked for"),
+             {figure_column("edge_length", "target edge length"),
               [](const QualityRow& row) { return cell_if(row.ok(), row.edge_length); }},
              {figure_column("comparable", "comparable number of tetrahedra"),
               [](const QualityRow& row) { return cell_if(row.ok(), row.is_comparable()); }},
              {time_column("seconds", "", "s"), seconds_cell},
-             {time_column("improve_seconds", "of these improvement", "s"), improve_seconds_cell},
-             {time_column("speed", "million tetrahedra a second"), speed_cell},
+             {time_column("improve_seconds", "of these, improvement", "s"), improve_seconds_cell},
+             {time_column("speed", "million tetrahedra per second"), speed_cell},
              reason_column()});
   return table_of_rows("quality", "Quality", columns, rows);
 }
 
-/// A row a bin. The histograms have as many bins as the quality's.
+/// One row per bin. All histograms have the same number of bins.
 template <class HistogramOf>
 ResultTable histogram_table(const StudyPlan& plan, std::span<const QualityRow> rows, std::string name,
                             std::string title, const std::string& unit, HistogramOf histogram_of) {

@@ -7,6 +7,7 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/quality_experiments.h"
+#include "bench/experiments/speed.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 using Measure = std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)>;
 
-/// Of a study of quality.
+/// The description of a study of quality.
 Measure study(const std::function<StudyPlan(const ExperimentOptions&)>& plan) {
   return [plan](const ExperimentOptions& options, cases::Runner& runner) {
     return measure_study(options, runner, plan(options));
@@ -26,7 +27,7 @@ Measure quality(const std::string& name, const std::vector<std::string>& models)
   return study([=](const ExperimentOptions& options) { return mesher_quality_plan(options, name, models); });
 }
 
-/// The quality of one of the paper's models, which is then not among the user's choices.
+/// The quality of one of the paper's models; the user cannot choose models then.
 Measure quality_figure(const std::string& name, const std::string& model) {
   return [name, model](const ExperimentOptions& options, cases::Runner& runner) {
     ExperimentOptions own = options;
@@ -35,8 +36,7 @@ Measure quality_figure(const std::string& name, const std::string& model) {
   };
 }
 
-/// Gives the result the names that all other results of the experiment have.
-/// Says which times spread too much.
+/// Gives the result the usual names of the experiment. Says which times spread too much.
 void add_uncertainty(const std::set<std::string>& names, ExperimentResult& result) {
   constexpr std::size_t most_named = 5;
   if (names.empty()) return;
@@ -45,7 +45,7 @@ void add_uncertainty(const std::set<std::string>& names, ExperimentResult& resul
   const std::string more = names.size() > some.size() ? "; ..." : "";
   add_problem(result,
               "the times of " + with_separators(names.size()) +
-                  " cases spread wider than was asked for: " + joined(some, "; ") + more,
+                  " cases spread more than requested: " + joined(some, "; ") + more,
               false);
 }
 
@@ -64,7 +64,7 @@ Measure named(const KnownExperiment& known) {
 }
 
 std::vector<KnownExperiment> all_experiments() {
-  const std::string quality_words = "tetrahedra beside those of other meshers, at equal numbers of them";
+  const std::string quality_words = "tetrahedra compared with other meshers', at equal numbers";
   std::vector<KnownExperiment> all = {
       {"table1", "Table 1: the CDT with and without the face protection check", "6, Table 1",
        "Delaunay, the CDT with and without the check, and other meshers", true, true, measure_table1},
@@ -80,21 +80,23 @@ std::vector<KnownExperiment> all_experiments() {
        "the stepping pole's " + quality_words, true, true, quality_figure("fig11", "stepping-pole")},
       {"lattices", "Lattices: is FCC the best?", "3", "FCC, BCC and SC, before and after improvement", true, true,
        study([](const auto&) { return lattices_plan(); })},
-      {"locators", "Locators: who finds the front's vertices and occluders fastest", "4",
+      {"locators", "Locators: which one finds the front's vertices and occluders fastest", "4",
        "grid, octree and cavity on even and on graded surfaces", true, false, measure_locators},
       {"delaunay", "Delaunay: insertion and wrapping beside CGAL and TetGen", "5",
        "the Delaunay tetrahedralization of the same points by four programs", true, false, measure_delaunay},
-      {"improvement", "Improvement: what swaps, smoothing and both do", "5", "swaps only, smoothing only, both", true,
-       false, study([](const auto&) { return improvement_plan(); })},
+      {"improvement", "Improvement: the effect of swaps, smoothing and both", "5", "swaps only, smoothing only, both",
+       true, false, study([](const auto&) { return improvement_plan(); })},
       {"theorem1", "Theorem 1: protected if and only if there is a DT", "5.2, Theorem 1",
        "Theorem 1 in both directions, by exhaustive search on small inputs", true, true, measure_theorem1},
-      {"termination", "Termination: does splitting at midpoints end?", "2",
+      {"termination", "Termination: does splitting at midpoints terminate?", "2",
        "midpoints and shells where segments meet at small angles", true, true, measure_termination},
       {"interior-points", "Interior points: do they never harm existence?", "3",
        "do interior points never harm existence, as the paper says?", true, true, measure_interior_points},
       {"quality", "Quality: our tetrahedra beside those of other meshers", "6",
-       "all three models and files of yours beside other meshers", false, false,
+       "all three models and your files, compared with other meshers", false, false,
        quality("quality", names_of_paper_models())},
+      {"speed", "Speed: how fast, on how many threads, and at what quality", "6",
+       "seconds, memory and quality beside other meshers, and scaling with threads", false, false, measure_speed},
       {"lattice-fit", "Lattice fit: how near to the surface should lattice points be?", "3",
        "many settings of --sphere-factor and --clearance", false, false,
        study([](const auto&) { return lattice_fit_plan(); })},

@@ -16,17 +16,18 @@ struct KnownExperiment {
   std::string title;       ///< for people
   std::string section;     ///< of the paper
   std::string what;        ///< one line for people
-  bool is_usual = true;    ///< done when none is named
-  bool is_claimed = true;  ///< a claim of the paper is tested by it
+  bool is_usual = true;    ///< runs when none is named
+  bool is_claimed = true;  ///< tests a claim of the paper
 
-  /// Measures what the records of the runner do not tell yet. The result has name, title and section of this entry.
+  /// Measures what the records of the runner do not contain yet. The result has the name, title and section of this
+  /// entry.
   std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)> measure;
 };
 
-/// In the order in which reports show them.
+/// All experiments, in the order of reports.
 std::span<const KnownExperiment> known_experiments();
 
-/// Null if there is none of that name.
+/// The experiment of this name; null if there is none.
 const KnownExperiment* known_experiment(std::string_view name);
 
 }  // namespace ccdt::experiments

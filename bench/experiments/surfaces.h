@@ -25,13 +25,13 @@ struct SurfaceFile {
   double edge_length = 0;  ///< of the model; 0: a file of the user's
 };
 
-/// Writes one of our solids for an experiment, with an edge length that is meant for 100,000 tetrahedra and changed for
-/// the number that is wanted (but within the limits of the solid).
+/// Writes one of our solids for an experiment. The edge length is that for 100,000 tetrahedra, scaled to the wanted
+/// number within the limits of the solid.
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length);
 
-/// Writes the solids that are asked for, each with multiples of its usual edge length, if it has then other vertices
-/// than before: some solids are always the same, and others get no coarser.
+/// Writes the chosen solids with multiples of their default edge lengths, as far as the vertices differ: some solids
+/// are always the same, and others cannot get coarser.
 std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const std::string& experiment,
                                       std::span<const double> coarsenings);
 

@@ -8,7 +8,7 @@
 namespace ccdt::experiments {
 namespace {
 
-/// What the paper measured on a model (Table 1; Pentium IV, 2.0 GHz).
+/// The paper's measurements of a model (Table 1; Pentium IV, 2.0 GHz).
 struct PaperTimes {
   std::string model;
   double delaunay = 0, with_check = 0, without_check = 0;
@@ -51,7 +51,7 @@ const std::vector<Timed> all_timed = {
     {"TetGen, its own vertices", "tetgen_quality"},
     {"CGAL Mesh_3, its own vertices", "mesh3"}};
 
-/// What is divided by what.
+/// A ratio: what is divided by what.
 struct Ratio {
   std::string title, above, below;
 };
@@ -66,17 +66,17 @@ const std::vector<std::string> definitions = {
     "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
     "CDT: the stages delaunay, face_check, front and label of a run.",
     "Without the check, every face goes through the front.",
-    "Not in the CDT times: facets, the constrained Delaunay triangulation of each facet, once before the lattice.",
-    "Nor in them: finish, which gives the coordinates their units back and checks the result.",
+    "Not included in CDT times: facets, the constrained Delaunay triangulation of each facet, once before the lattice.",
+    "Also not included: finish, which restores the units of the coordinates and checks the result.",
     "Paper's grid: the front finds its vertices with the uniform grid of the paper's section 4 (--locator grid).",
-    "All other strategies are the default ones; the records of the runs have them.",
-    "with check / Delaunay is taken within each run; the other ratios are of medians.",
+    "All other strategies are the defaults; the records of the runs list them.",
+    "with check / Delaunay is computed within each run; the other ratios are ratios of medians.",
     "CGAL Delaunay, same vertices: all vertices of our mesh.",
     "TetGen CDT, same vertices: switch p, the input with our interior vertices.",
     "Its own vertices: refined to the edge length of the surface, by TetGen with pYq1.414a, which keeps the surface.",
-    "Mesh_3 replaces the surface. It refines alone: nobody's improvement is in these times.",
-    "Meshers other than ours are timed by the call of the library alone.",
-    "Mesh_3 takes part from 50,000 tetrahedra on (--scale paper): small features of the models keep it from fewer."};
+    "Mesh_3 replaces the surface. It only refines: these times contain no improvement of any mesher.",
+    "For other meshers, only the call of the library is timed.",
+    "Mesh_3 takes part from 50,000 tetrahedra on (--scale paper): because of small features, it cannot make fewer."};
 
 struct TimedRow : CaseRow {
   std::string model;
@@ -129,7 +129,7 @@ const RowColumns<ModelRow> size_columns = {
     {figure_column("same_tetrahedra", "same tetrahedra without the check"),
      [](const ModelRow& row) { return cell_if(row.both_ok(), row.is_same_mesh()); }}};
 
-/// Microseconds that a vertex or tetrahedron costs, in the median.
+/// Median microseconds per vertex or tetrahedron.
 double cost(const cases::MeasuredCase& measured, const cases::SecondsOf& seconds, std::uint64_t MeshCounts::*unit) {
   return 1e6 * bench::median(samples_of(measured, seconds)) / static_cast<double>(measured.first.counts.*unit);
 }
@@ -145,9 +145,9 @@ double front_cost(const ModelRow& row) {  // without the check, the front builds
 }
 const RowColumns<ModelRow> cost_columns = {
     {label_column("model"), &ModelRow::model},
-    {time_column("delaunay", "Delaunay, a vertex", "us"), delaunay_cost},
-    {time_column("check", "face check, front and labels, a vertex", "us"), check_cost},
-    {time_column("front", "front without the check, a tetrahedron", "us"), front_cost}};
+    {time_column("delaunay", "Delaunay, per vertex", "us"), delaunay_cost},
+    {time_column("check", "face check, front and labels, per vertex", "us"), check_cost},
+    {time_column("front", "front without the check, per tetrahedron", "us"), front_cost}};
 
 std::vector<TimedRow> timed_rows(const Table1Model& model) {
   std::vector<TimedRow> rows;
@@ -161,7 +161,8 @@ std::vector<TimedRow> timed_rows(const Table1Model& model) {
   return rows;
 }
 
-/// Of two seconds of one way, in each run, so that the machine's ups and downs cancel out; else of the medians.
+/// The ratio within each run if both times come from it, so that changes of the machine's speed cancel out; otherwise
+/// the ratio of the medians.
 std::optional<Estimate> divided(const TimedRow& above, const TimedRow& below) {
   if (above.timed.way != below.timed.way) return ratio_of(above, below);
   if (!above.ok()) return {};
@@ -191,36 +192,35 @@ std::string times_delaunay(const RatioRow& ratio) {
   return with_interval(ratio.value) + " times as long as Delaunay (paper: " + rounded(*ratio.paper, 4) + "): ";
 }
 
-/// Where our ratios differ from the paper's, and why, as measured.
+/// Explains by measurements where our ratios differ from the paper's.
 void add_differences(const ModelRow& row, const std::vector<RatioRow>& ratios, std::vector<std::string>& lines) {
   const std::string who = row.model + ": ";
   for (const RatioRow& ratio : ratios) {
     if (!ratio.paper) continue;
     if (ratio.title == all_ratios[0].title) {
       const BoundTest test = is_at_most(ratio.value, *ratio.paper);
-      lines.push_back(
-          who + "with the check, the CDT takes " + times_delaunay(ratio) +
-          choose(test, "not more than there.", "these runs cannot tell it from there.", "more than there."));
+      lines.push_back(who + "with the check, the CDT takes " + times_delaunay(ratio) +
+                      choose(test, "not more than in the paper.", "these runs cannot tell it from the paper's.",
+                             "more than in the paper."));
       if (row.both_ok() && test != BoundTest::holds)
-        lines.push_back(who + "the check is one pass over the cells, labelling another; together they take " +
-                        rounded(check_cost(row)) +
-                        " microseconds a vertex. That is linear, but the Delaunay stage that it is compared with takes "
-                        "only " +
-                        rounded(delaunay_cost(row)) +
-                        " microseconds a vertex. (The paper's Delaunay took 26 to 36 s; it does not say for how many "
-                        "vertices.)");
+        lines.push_back(
+            who + "the check is one pass over the cells, and labeling another; together they take " +
+            rounded(check_cost(row)) +
+            " microseconds per vertex. That is linear, but the Delaunay stage with which it is compared takes only " +
+            rounded(delaunay_cost(row)) +
+            " microseconds per vertex. (The paper's Delaunay took 26 to 36 s; it does not say for how many vertices.)");
     } else if (ratio.title == all_ratios[1].title) {
       lines.push_back(who + "without the check, it takes " + times_delaunay(ratio) +
                       choose(is_at_least(ratio.value, least_gain), "at least ", "not surely ", "less than ") +
                       rounded(least_gain, 1) + ".");
       if (row.both_ok() && is_at_least(ratio.value, *ratio.paper) != BoundTest::holds)
         lines.push_back(who + "without the check, the front finds each apex in " + rounded(front_cost(row)) +
-                        " microseconds a tetrahedron; the cheaper that is, the less there is for the check to save.");
+                        " microseconds per tetrahedron; the cheaper that is, the less the check can save.");
     }
   }
 }
 
-/// The model with the interior vertices of our mesh, for those that are to tetrahedralize the same vertices and facets.
+/// The model with the interior vertices of our mesh, for meshers that tetrahedralize the same vertices and facets.
 void write_with_interior_vertices(InputPlc plc, const cases::Runner& runner, const cases::MeasuredCase& ours,
                                   const std::filesystem::path& file) {
   const TetMesh mesh = mesh_of(runner, ours);
@@ -243,7 +243,7 @@ Table1Model measure_model(const ExperimentOptions& options, const PaperModel& mo
                         : way.input == Way::Input::our_vertices ? vertices
                                                                 : with_interior_vertices;
     cases::Case single = single_case(options, result.name + ", " + way.name, way.mesher, input, words_of(way.words));
-    if (asked.empty()) {  // ours, of which others take the vertices
+    if (asked.empty()) {  // ours; others take its vertices
       single.mesh_ending = ".node";
       const cases::MeasuredCase ours = runner.run(single);
       vertices = options.folder / mesh_file(ours);
@@ -276,13 +276,12 @@ ExperimentResult table1_result(std::span<const Table1Model> models) {
     add_differences(size, of_model, result.findings);
     for (const auto& [way, measured] : model.cases) add_problem_of({measured}, result);
     if (size.both_ok() && !size.is_same_mesh())
-      add_problem(result,
-                  model.name + ": with and without the check, the tetrahedra differ, which is an error of ccdt");
+      add_problem(result, model.name + ": the tetrahedra differ with and without the check, which is an error of ccdt");
   }
   result.tables = {table_of_rows("ratios", "Ratios", ratio_columns, ratios),
                    table_of_rows("times", "Seconds", time_columns, times),
                    table_of_rows("sizes", "The meshes", size_columns, sizes),
-                   table_of_rows("costs", "What a unit of work costs", cost_columns, costs)};
+                   table_of_rows("costs", "Cost per unit of work", cost_columns, costs)};
   return result;
 }
 

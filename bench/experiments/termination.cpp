@@ -21,7 +21,7 @@ bool is_star(const TerminationRow& row) {
   return row.group != "solid" && row.group != "file";
 }
 
-/// Unknown if the run failed for another reason than the engine's limit.
+/// Unknown if the run failed for a reason other than the engine's limit.
 std::optional<bool> has_ended(const TerminationRow& row) {
   if (row.ok()) return true;
   if (row.measured.first.kind == baselines::FailureKind::limit) return false;
@@ -36,11 +36,11 @@ std::optional<double> smallest_angle_of(const std::filesystem::path& file) {
   try {
     return bench::smallest_segment_angle(plc::build_plc(io::read_plc(file), {}));
   } catch (const Error&) {
-    return {};  // the runs say why
+    return {};  // the records say why
   }
 }
 
-/// An input to be protected in both ways.
+/// An input that is protected in both ways.
 void add_input(const ExperimentOptions& options, const TerminationRow& input, const std::filesystem::path& file,
                std::vector<TerminationRow>& rows) {
   const std::string name = is_star(input) ? input.group + ", " + input.label : input.label;
@@ -55,7 +55,7 @@ void add_input(const ExperimentOptions& options, const TerminationRow& input, co
   }
 }
 
-/// More lengths of the segments where more effort is wanted.
+/// More variants of segment lengths at larger scales.
 std::uint64_t variants(const ExperimentOptions& options) {
   constexpr double tetrahedra_per_variant = 10000, most = 10;
   return static_cast<std::uint64_t>(std::clamp(std::round(options.tetrahedra / tetrahedra_per_variant), 1.0, most));
@@ -75,13 +75,13 @@ void add_star(const ExperimentOptions& options, const models::Star& star, std::v
 
 std::vector<std::string> definitions() {
   std::vector<std::string> all = {
-      "The paper, section 2: middle points of missing grazeable edges are inserted repeatedly until none is missing.",
-      "It does not say that this ends.",
+      "The paper, section 2: midpoints of missing grazeable edges are inserted repeatedly until none is missing.",
+      "It does not say that this terminates.",
       "Ended: all grazeable edges of the input are chains of Delaunay edges.",
-      "Not ended: the engine stopped, for a piece would have been smaller than 2^-20 of its segment,",
+      "Not ended: the engine stopped, because a piece would have been smaller than 2^-20 of its segment,",
       "or there were a hundred times as many pieces as vertices.",
-      "Level: how many splits led to a piece, and one more.",
-      "Midpoint is the paper's way (--protection midpoint), shell ours (--protection shell).",
+      "Level: one more than the number of splits that led to a piece.",
+      "Midpoint is the paper's method (--protection midpoint), shell is ours (--protection shell).",
       "Nothing is placed inside (--lattice none), and the meshes are not improved.",
       "In a star, segments or facets meet at one point in the middle of a cube.",
       "Variant 0 has lengths that alternate between 1 and 1 / sqrt 2, the others random ones from 0.4 to 1.6.",
@@ -100,7 +100,7 @@ Cell deepest_level(const RunRecord& run) {
   return results::cell_of(std::uint64_t{run.counts.splits_by_level.size()});
 }
 
-/// One row a run on a star, or on a solid or file.
+/// One row per run on a star, a solid or a file.
 ResultTable runs_table(std::string name, std::string title, std::span<const TerminationRow> rows, bool of_stars) {
   const RowColumns<TerminationRow> columns = {
       {label_column("group", "input"), &TerminationRow::group},
@@ -118,7 +118,7 @@ ResultTable runs_table(std::string name, std::string title, std::span<const Term
   return table_of_rows(std::move(name), std::move(title), columns, chosen, of_stars);
 }
 
-/// All variants of a star at one angle: in how many each way ended, and what it took at most.
+/// All variants of a star at one angle: the number for which each method terminated, and the largest effort.
 ResultTable stars_table(std::span<const TerminationRow> rows) {
   ResultTable table = table_of(
       "stars", "Segments that meet at small angles",
@@ -150,7 +150,7 @@ ResultTable stars_table(std::span<const TerminationRow> rows) {
   return table;
 }
 
-/// Where the midpoints of a star ended, and where not; of its rows, from large angles to small ones.
+/// The angles at which midpoint splitting of a star terminated, from its rows in order of decreasing angle.
 std::string midpoint_finding(const std::string& star, const RowViews& rows) {
   const auto has_stopped = [](const RowView& row) { return row.number("midpoint_ended") < row.number("cases"); };
   const auto angle = [](const RowView& row) { return in_words(row.number("degrees")); };
@@ -159,12 +159,12 @@ std::string midpoint_finding(const std::string& star, const RowViews& rows) {
   const auto largest = std::ranges::find_if(rows, has_stopped);
   if (largest == rows.end()) return share + ", down to " + angle(rows.back());
   const auto least = std::ranges::find_if(rows.rbegin(), rows.rend(), has_stopped);
-  const std::string safe =
-      largest == rows.begin() ? "it was safe at no angle" : "from " + angle(*(largest - 1)) + " up it always ended";
+  const std::string safe = largest == rows.begin() ? "it did not always terminate at any angle"
+                                                   : "from " + angle(*(largest - 1)) + " up, it always terminated";
   return share + "; " + safe + "; it did not at " + std::to_string(largest->count("degrees")) + " to " + angle(*least);
 }
 
-/// In how many of these runs one way ended.
+/// The number of these runs in which one method terminated.
 void add_share(const std::string& what, const ResultTable& runs, Protection way, std::vector<std::string>& findings) {
   const std::string name(name_of(way));
   const std::size_t cases = rows_with(runs, {{"protection", name}}).size(),

@@ -7,10 +7,10 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr double tetrahedra_per_case = 20;  ///< that a model is to get, for one PLC of each family
+constexpr double tetrahedra_per_case = 20;  ///< wanted tetrahedra per model, for one PLC of each family
 constexpr std::uint64_t seed = 20050901;
 
-/// What is counted of the trials of a family.
+/// A count of the trials of a family.
 struct TrialCount {
   const char* name;
   const char* title;
@@ -47,11 +47,11 @@ std::vector<std::string> definitions() {
       "Theorem 1: \"If and only if a model X is grazeable edge protected and face protected, X has a DT.\"",
       "A DT is a constrained Delaunay tetrahedralization (CDT) whose tetrahedra are all Delaunay.",
       "Premise: a sphere through each grazeable edge, and through each facet triangle, has all other vertices outside.",
-      "Of a facet with four corners the triangles are those that its Delaunay triangulation has.",
+      "The triangles of a facet with four corners are those of its Delaunay triangulation.",
       "A PLC has a DT if the Delaunay tetrahedra in the domain fill it exactly and no facet or segment crosses them.",
-      "Besides, all tetrahedralizations are searched for CDTs, and the two answers have to agree.",
-      "All of this is exact and brute force, and shares nothing with the engine.",
-      "In general position no five vertices are on a sphere, and no four in a plane but corners of a facet.",
+      "In addition, all tetrahedralizations are searched for CDTs, and the two answers must agree.",
+      "All of this is exact brute force, and shares no code with the engine.",
+      "In general position, no five vertices are on a sphere, and no four are in a plane except corners of a facet.",
       "The engine agrees if it adds no Steiner vertex and finds all faces Delaunay exactly where the premise holds,",
       "and if its mesh is the CDT wherever it adds no Steiner vertex.",
   };
@@ -61,7 +61,7 @@ std::vector<std::string> definitions() {
 }
 
 ResultTable families_table(std::span<const FamilyTrials> families) {
-  ResultTable table = table_of("families", "Small random PLCs held against Theorem 1",
+  ResultTable table = table_of("families", "Small random PLCs compared with Theorem 1",
                                {label_column("family"), label_column("position")});
   for (const TrialCount& count : trial_counts) table.columns.push_back(figure_column(count.name, count.title));
   table.columns.push_back(note_column("counterexample", "the smallest counterexample"));
@@ -69,7 +69,7 @@ ResultTable families_table(std::span<const FamilyTrials> families) {
     const bool is_cospherical = trials.family.is_cospherical;
     std::vector<Cell> values = cells(trials.family.name, is_cospherical ? "one sphere" : "general");
     for (const std::uint64_t count : trials.counts) values.push_back(as_cell(count));
-    if (is_cospherical) values.back() = {};  // the engine takes another PLC
+    if (is_cospherical) values.back() = {};  // the engine handles a different PLC
     values.push_back(cell_if(trials.has_counterexample(),
                              model_file(trials.family) + ": " + small_plcs::in_words(trials.counterexample)));
     table.rows.push_back({std::move(values)});
@@ -83,7 +83,7 @@ std::vector<std::string> findings_of(const ResultTable& table) {
   const auto share = [](const RowViews& families, const char* part, const char* whole) {
     return share_words(sum(families, part), sum(families, whole));
   };
-  /// In general position, those of `whole` without those of `exceptions`.
+  /// Counts for general position: those of `whole` without those of `exceptions`.
   const auto all_but = [&](const char* exceptions, const char* whole) {
     return share_words(sum(general, whole) - sum(general, exceptions), sum(general, whole));
   };
@@ -95,7 +95,7 @@ std::vector<std::string> findings_of(const ResultTable& table) {
       "The theorem's proviso: with all vertices on one sphere, " + share(sphere, "against_only_if", "dt") +
           " PLCs with a DT are not protected, and " + share(sphere, "against_if", "premise") +
           " that are protected have no DT",
-      "Where all faces were protected but an edge was not, the edge was of no facet in " +
+      "If all faces were protected but an edge was not, the edge belonged to no facet in " +
           share(general, "edges_alone_loose", "edges_alone") + " PLCs",
       "Section 2: " + all_but("edge_protected_without_cdt", "edge_protected") +
           " PLCs in general position that are grazeable edge protected have a CDT",

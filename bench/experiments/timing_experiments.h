@@ -13,25 +13,25 @@
 
 namespace ccdt::experiments {
 
-/// What was measured of a model for the paper's Table 1: with_check, without_check, cgal_delaunay, tetgen_cdt, ...
+/// The measurements of a model for the paper's Table 1: with_check, without_check, cgal_delaunay, tetgen_cdt, ...
 struct Table1Model {
   std::string name;
   double edge_length = 0;  ///< units of the model
   std::map<std::string, cases::MeasuredCase> cases = {};
 };
 
-/// The paper lets every face go through the front at more than this many times the cost of Delaunay; so should we.
+/// In the paper, sending every face through the front costs more than this many times as much as Delaunay.
 inline constexpr double least_gain = 8;
 
-/// Measures the CDT on the paper's three models with and without the check, and other meshers beside it.
+/// Measures the CDT on the paper's three models with and without the check, and other meshers for comparison.
 ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult table1_result(std::span<const Table1Model> models);
 
-/// Fig. 7 of the paper: the meshes of its three models, kept for pictures that show them cut open. As many tetrahedra
-/// as are wanted, but not more than a picture can show.
+/// Fig. 7 of the paper: the meshes of its three models, kept for pictures that show them cut open. They have the wanted
+/// number of tetrahedra, but not more than a picture can show.
 ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner);
 
-/// The exponent that we claim for the growth of the time with the number of vertices; 1 is linear.
+/// The claimed exponent of the growth of the time with the number of vertices; 1 is linear.
 inline constexpr double claimed_exponent = 1.10;
 
 /// A model at one size, meshed with one strategy.
@@ -41,11 +41,11 @@ struct Fig8Row : CaseRow {
 };
 
 /// Measures time against size at uniform density (paper, Fig. 8): the paper's models in eight sizes over two decades,
-/// from a tenth of the wanted number of tetrahedra to ten times as many; what is slow, at the coarser of these only.
-/// The strategies take turns at each size. Sizes that a model cannot have are left out.
+/// from a tenth of the wanted number of tetrahedra to ten times as many; slow meshers only at the coarser ones. The
+/// strategies take turns at each size. Sizes that a model cannot have are left out.
 ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner);
 
-/// \param rows  those of a model and a strategy side by side, from the coarsest size
+/// \param rows  grouped by model and strategy, from the coarsest size
 ExperimentResult fig8_result(std::span<const Fig8Row> rows);
 
 enum class SurfaceKind {
@@ -71,13 +71,13 @@ struct LocatorsRow : CaseRow {
   LocatorKind locator = LocatorKind::grid;
 };
 
-/// Measures the front of the three locators: without the check on the paper's models at uniform density and on a graded
-/// cube, with and without it on a rough sphere and on the files of the user.
+/// Measures the front with the three locators: without the check on the paper's models at uniform density and on a
+/// graded cube; with and without it on a rough sphere and on the user's files.
 ///
 /// \throw InputError  a file cannot be read
 ExperimentResult measure_locators(const ExperimentOptions& options, cases::Runner& runner);
 
-/// \param rows  those of a surface and a check side by side: grid, octree, cavity
+/// \param rows  grouped by surface and check: grid, octree, cavity
 ExperimentResult locators_result(std::span<const LocatorsRow> rows);
 
 /// The Delaunay tetrahedralization of the same points by insertion, wrapping (paper, section 5), CGAL and TetGen, over
@@ -87,23 +87,23 @@ ExperimentResult locators_result(std::span<const LocatorsRow> rows);
 ///   times   points, size, method, status | vertices, tetrahedra | seconds, microseconds_per_vertex | reason
 ///   ratios  points, size | vertices | insert_over_cgal, wrap_over_insert, tetgen_over_insert
 ///
-/// Points are uniformly random, a face-centred lattice, vertices of meshes of the models (if none is asked for, of the
-/// piston) and of `options.inputs`. A number that two methods must have alike and have not is a problem. Without the
-/// program the result has no rows, and a problem that says how to get it.
+/// Points are uniformly random, a face-centered lattice, vertices of meshes of the models (if none is asked for, of the
+/// piston) and of `options.inputs`. If two methods differ in a number that must be equal, that is a problem. Without
+/// the program, the result has no rows, and a problem that says how to get it.
 ///
 /// \throw OutputError  the folder cannot be written
 /// \throw InputError   there is nothing to measure
 ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runner& runner);
 
-/// Where `bench_delaunay` is, beside `ccdt` or in its build tree; empty if it is not there.
+/// The path of `bench_delaunay`, beside `ccdt` or in its build tree; empty if it is missing.
 std::filesystem::path find_bench_delaunay(const std::filesystem::path& ccdt);
 
 /// The command that measures, as an experiment with these options does.
 std::vector<std::string> bench_delaunay_command(const std::filesystem::path& program, const ExperimentOptions& options,
                                                 const std::filesystem::path& output);
 
-/// Makes tables, findings and problems of the JSON that Google Benchmark wrote.
-/// \throw InputError  it is no such JSON
+/// Makes tables, findings and problems from the JSON that Google Benchmark wrote.
+/// \throw InputError  it is not such JSON
 void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& result);
 
 }  // namespace ccdt::experiments

@@ -31,8 +31,8 @@ using bench::Json;
 constexpr baselines::UserFile baseline_file = {
     "a baseline", baseline_schema, "; or write a new one: `ccdt gate CURRENT --against FILE --update --reason TEXT`"};
 constexpr const char* ungrouped = "mesh";      ///< the group of figures without one, such as "status"
-constexpr std::size_t updates_of_a_trend = 3;  ///< that get worse one after the other
-constexpr double largest_drift = 1.1;          ///< of all updates together
+constexpr std::size_t updates_of_a_trend = 3;  ///< updates in a row that make it worse
+constexpr double largest_drift = 1.1;          ///< total loss of all updates
 
 /// Sorted by name.
 using Groups = std::map<std::string, std::map<std::string, Json>>;
@@ -83,7 +83,7 @@ std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Items of a list or an object, a line each, with commas between them.
+/// Items of a list or an object, one per line, with commas between them.
 std::string in_lines(const std::vector<std::string>& items, const std::string& indent) {
   std::string text;
   for (const std::string& item : items) text.append(text.empty() ? "\n" : ",\n").append(indent).append(item);
@@ -96,7 +96,7 @@ bool has_layer(const Recording& recording, Layer layer) {
   });
 }
 
-/// Adds the figures of a layer that the rules gate; all of one that they leave out.
+/// Adds the figures of a layer that the rules gate, or all if the rules leave out the layer.
 void add_layer(const Recording& from, Layer layer, const Rules& rules, Recording& to) {
   const bool is_left_out = !rules.layers.contains(layer);
   for (const CaseFigures& one : from.cases)
@@ -116,7 +116,7 @@ std::string today() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d", &day)};
 }
 
-/// New over old cost; 0 where there is none.
+/// The ratio of new to old cost; 0 if there is none.
 double cost_ratio(const JudgedFigure& figure, const Rules& rules) {
   if (!figure.changed || !figure.ratio || !(*figure.ratio > 0) || !std::isfinite(*figure.ratio)) return 0;
   const Better better = figure.layer == Layer::exact ? better_of(rules.exact, figure.name) : Better::fewer;

@@ -16,9 +16,9 @@ namespace ccdt::gate {
 struct BaselineUpdate {
   std::string date;      ///< "2005-09-01"
   std::string reason;    ///< not empty
-  std::string revision;  ///< of the source that was measured
-  int changed = 0;       ///< how many figures did
-  /// By the name of the layer: the geometric mean of new over old cost of the figures that changed; above 1 is worse.
+  std::string revision;  ///< revision of the measured source
+  int changed = 0;       ///< number of figures that changed
+  /// By layer: the geometric mean of the ratios of new to old cost of the changed figures; above 1 is worse.
   std::map<std::string, double> ratios;
 };
 
@@ -30,20 +30,20 @@ struct Baseline {
 
 bool is_baseline(const bench::Json& json);
 
-/// \throw InputError  it cannot be read or is wrong; names the JSON pointer
+/// \throw InputError  it cannot be read or is invalid; names the JSON pointer
 Baseline read_baseline(const std::filesystem::path& file);
 
-/// Writes it with a line for each group of figures, sorted, so that a change of it can be reviewed.
+/// Writes it with one sorted line for each group of figures, so that changes can be reviewed.
 /// \throw OutputError
 void write_baseline(const Baseline& baseline, const std::filesystem::path& file);
 
 /// The baseline with the figures of `head` that the rules gate. Instruction counts stay if `head` has none.
 ///
-/// \param figures  what comparing `old` with `head` gave
+/// \param figures  the result of comparing `old` with `head`
 Baseline updated(const Baseline& old, const Recording& head, const Rules& rules,
                  const std::vector<JudgedFigure>& figures, const std::string& reason);
 
-/// What a reader has to know of a history that only ever gets worse, with the reasons; empty: it does not.
+/// Notes on a history that only gets worse, with the reasons; empty if it does not.
 std::vector<std::string> history_notes(const std::vector<BaselineUpdate>& history);
 
 }  // namespace ccdt::gate

@@ -44,10 +44,10 @@ namespace {
 constexpr bench::DocumentKind calibration_kind = {"ccdt.calibration/1", "not the calibration of a gate",
                                                   "give the calibration.json that `ccdt gate --calibrate` wrote"};
 
-constexpr int simulated_resamples = 300;  ///< of a bootstrap in a simulated gate
+constexpr int simulated_resamples = 300;  ///< resamples of a bootstrap in a simulated gate
 
-/// Draws log ratios as an unchanged program would have them: blocks of consecutive pairs, so that what lasts longer
-/// than a pair stays together (Künsch 1989). Base and head of a block change places at random: they are the same.
+/// Draws log ratios of an unchanged program: blocks of consecutive pairs, so that disturbances longer than a pair stay
+/// together (Künsch 1989). Base and head of a block are swapped at random, since they are the same program.
 class BlockDraw {
  public:
   BlockDraw(std::span<const double> measured, std::uint64_t seed)
@@ -55,7 +55,7 @@ class BlockDraw {
         block_(static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(measured.size()))))),
         random_(seed) {}
 
-  /// Adds to the drawn ones until there are so many.
+  /// Draws more until there are this many.
   void extend(std::vector<double>& drawn, std::size_t count, double shift) {
     while (drawn.size() < count) {
       const std::size_t begin = draw(measured_.size() - block_ + 1);
@@ -75,7 +75,7 @@ class BlockDraw {
   std::mt19937_64 random_;
 };
 
-/// A case as a simulated gate knows it.
+/// A case in a simulated gate.
 struct SimulatedCase {
   const CaseNoise& noise;
   const TimeRules& rules;
@@ -135,7 +135,7 @@ GateRates simulate_gates(std::span<const SimulatedCase> cases, std::uint64_t see
   return {gates, bench::share_of(counts.worse, gates), bench::share_of(counts.undecided, gates)};
 }
 
-/// How often a slowdown of one case is found. The draws are the same for every slowdown.
+/// The share of gates that find a slowdown of one case. The draws are the same for every slowdown.
 double share_found(const SimulatedCase& c, double slowdown, std::uint64_t seed) {
   constexpr int gates = 200;
   BlockDraw draw(c.noise.log_ratios, seed);
@@ -159,7 +159,7 @@ std::optional<double> smallest_found(const SimulatedCase& c, std::uint64_t seed)
   return high;
 }
 
-/// In 99% of the gates with an unchanged program, the interval begins below this.
+/// The log ratio below which the interval begins in 99% of the gates with an unchanged program.
 double noise_floor(const SimulatedCase& c, std::uint64_t seed) {
   constexpr int gates = 400;
   BlockDraw draw(c.noise.log_ratios, seed);
@@ -168,8 +168,8 @@ double noise_floor(const SimulatedCase& c, std::uint64_t seed) {
   return std::max(0.0, bench::quantile(lows, 0.99));
 }
 
-/// An interval narrows as the root of the number of pairs; half of `largest_noise` excludes either the threshold or the
-/// slowdown that is looked for. Pairs that resemble their neighbors say less.
+/// An interval narrows with the square root of the number of pairs. A half-width of half of `largest_noise` excludes
+/// either the threshold or the slowdown to find. Pairs that resemble their neighbors carry less information.
 int pairs_needed(const CaseNoise& noise, const TimeRules& rules, std::uint64_t seed) {
   const Look look = look_at(noise.log_ratios, 0, rules, bootstrap_for(rules.confidence, seed));
   const double correlation = std::clamp(noise.autocorrelation, 0.0, 0.9);
@@ -192,7 +192,7 @@ CaseNoise noise_of(const PairedSamples& samples, const TimeRules& rules, std::ui
   return noise;
 }
 
-/// A simulated gate draws from the measured pairs as many as a real one takes. It cannot know what fewer did not show.
+/// A simulated gate draws as many pairs as a real one takes. It cannot know about noise that fewer pairs did not show.
 void require_enough(const CaseNoise& noise, const TimeRules& rules) {
   const int needed = std::max(2 * rules.at_least, std::min(noise.pairs_needed, rules.at_most));
   const auto there = static_cast<int>(noise.log_ratios.size());

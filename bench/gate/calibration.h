@@ -16,21 +16,21 @@
 
 namespace ccdt::gate {
 
-/// How noisy a case is: from pairs of runs of one program.
+/// The noise of a case, from pairs of runs of one program.
 struct CaseNoise {
   std::string case_name, figure;
   double seconds = 0;           ///< median
   double deviation = 0;         ///< standard deviation of log(second run / first run)
   double robust_deviation = 0;  ///< the same from the median absolute deviation
-  double autocorrelation = 0;   ///< of consecutive log ratios
+  double autocorrelation = 0;   ///< correlation of consecutive log ratios
   double noise_floor = 0;       ///< log ratio below which the interval of an unchanged program begins, in 99% of gates
-  int pairs_needed = 0;         ///< until an interval is as narrow as the rules want it
+  int pairs_needed = 0;         ///< pairs needed for an interval as narrow as the rules want
   std::optional<double> smallest_found = {};  ///< slowdown that a gate finds with 95% probability: 0.03 is 3%; none if
-                                              ///< it does not even find twice the time
+                                              ///< it does not even find a doubled time
   std::vector<double> log_ratios;             ///< of all pairs, in order
 };
 
-/// What a whole gate does with an unchanged program. Simulated with the measured pairs; the intervals are those of
+/// The verdicts of a whole gate for an unchanged program, simulated with the measured pairs. The intervals are those of
 /// Clopper and Pearson.
 struct GateRates {
   int gates = 0;                 ///< simulated
@@ -47,7 +47,7 @@ struct Calibration {
   GateRates rates;
 };
 
-/// What is known of a case; null if it is not in the calibration.
+/// The noise of a case; null if it is not in the calibration.
 const CaseNoise* find_noise(const Calibration& calibration, const std::string& case_name);
 
 /// Too few pairs for a calibration.
@@ -67,14 +67,14 @@ class TooFewSamples : public InputError {
 /// \throw baselines::Stopped
 SampleSet measure_noise(std::span<const TimedTarget> targets, int pairs, std::uint64_t seed, const Progress& progress);
 
-/// What follows from the pairs; program and identity are left empty.
+/// The calibration from the pairs; program and identity are left empty.
 /// \throw TooFewSamples  says how many are needed
 Calibration calibrate(const SampleSet& samples, const Rules& rules);
 
-/// For people: each case's noise, the false-alarm rate of the whole gate, and the smallest slowdown that it finds.
+/// For people: the noise of each case, the false-alarm rate of the whole gate, and the smallest slowdown that it finds.
 std::string to_text(const Calibration& calibration);
 
-/// Writes the file whole or not at all. \throw OutputError
+/// Writes the file completely or not at all. \throw OutputError
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file);
 
 /// \throw InputError  cannot be read, or no JSON of that schema

@@ -12,7 +12,7 @@ namespace ccdt::gate {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, long long line) {
-  throw InputError("this is no profile of callgrind: " + what, {.line = line},
+  throw InputError("this is not a profile of callgrind: " + what, {.line = line},
                    "make one with valgrind --tool=callgrind, without --dump-instr, --cache-sim and --branch-sim");
 }
 
@@ -48,7 +48,7 @@ class Names {
   std::unordered_map<std::string, std::string> names_;
 };
 
-/// The lines of a profile that tell of calls, one by one.
+/// Reads the lines of a profile that describe calls.
 class Reader {
  public:
   CallGraph read(std::string_view profile) {
@@ -58,7 +58,7 @@ class Reader {
       take(profile.substr(0, profile[end] == '\n' ? end : end + 1));
       profile.remove_prefix(end + 1);
     }
-    if (!counts_instructions_ || !is_by_line_) fail("it does not say that it counts instructions by line", line_);
+    if (!counts_instructions_ || !is_by_line_) fail("it does not count instructions by line", line_);
     return std::move(graph_);
   }
 
@@ -85,7 +85,7 @@ class Reader {
     return *name;
   }
 
-  /// The line after "calls=" has where the call is, and what it costs.
+  /// The line after "calls=" has the place and the cost of the call.
   void add_call(std::string_view line) {
     after_calls_ = false;
     const auto space = line.find(' ');

@@ -8,21 +8,21 @@
 
 namespace ccdt::gate {
 
-/// Who calls whom, and what that costs.
+/// A call between two functions, and its cost.
 struct CallGraph {
   struct Callee {
     std::string name;                ///< demangled, without the marks of clones and of recursion
-    std::uint64_t instructions = 0;  ///< of all calls from this caller, with all that they call in turn
+    std::uint64_t instructions = 0;  ///< inclusive cost of all calls from this caller
   };
   std::multimap<std::string, Callee, std::less<>> calls;  ///< by the name of the caller
 };
 
-/// Reads what callgrind writes for one process: https://valgrind.org/docs/manual/cl-format.html
-/// \throw InputError  it is none, or counts something other than instructions; names the line
+/// Reads the profile that callgrind writes for one process: https://valgrind.org/docs/manual/cl-format.html
+/// \throw InputError  it is not a profile, or counts something other than instructions; names the line
 CallGraph read_callgrind(std::string_view profile);
 
-/// The qualified name of a function without its parameters: "ccdt::plc::build_plc". All of the name if it is that of
-/// something inside a function (a lambda), of a template, or of something in an unnamed namespace.
+/// The qualified name of a function without its parameters: "ccdt::plc::build_plc". The full name for something inside
+/// a function (a lambda), for a template, or in an unnamed namespace.
 std::string_view bare_name(std::string_view function);
 
 }  // namespace ccdt::gate

@@ -10,14 +10,15 @@
 namespace ccdt::gate {
 namespace {
 
-constexpr double lost_badness = std::numeric_limits<double>::max();  ///< before all that has a size
-constexpr std::size_t fewest_runs = 6;  ///< with fewer, no interval of a median has 95% (2 * 0.5^5 is more than 5%)
+constexpr double lost_badness = std::numeric_limits<double>::max();  ///< before all figures with a size
+constexpr std::size_t fewest_runs =
+    6;  ///< with fewer, no interval of a median has 95% confidence (2 * 0.5^5 is more than 5%)
 
 bool is_whole(double value) {
   return value == std::floor(value);
 }
 
-/// Up to the last bits, where a figure is no whole number.
+/// Are they equal, up to the last bits if a figure is not a whole number?
 bool are_equal(double a, double b, double relative) {
   if (a == b) return true;
   if ((is_whole(a) && is_whole(b)) || !std::isfinite(a) || !std::isfinite(b)) return false;
@@ -61,7 +62,7 @@ bool agree_among_runs(const Figure& figure, double relative) {
          figure.text.find(" or ") == std::string::npos;
 }
 
-/// How much worse the head is, as the logarithm of a ratio; infinite from 0.
+/// The loss of the head as the logarithm of a ratio; infinite if the base is 0.
 double badness_of(double base, double head) {
   if (base == 0 || head == 0 || !std::isfinite(base) || !std::isfinite(head) || (base < 0) != (head < 0))
     return std::numeric_limits<double>::infinity();
@@ -110,7 +111,7 @@ JudgedFigure judge_exact(const Figure& base, const Figure& head, const CaseFigur
   return judged;
 }
 
-/// A case that failed has no other figures. Empty: both are measured, or both failed.
+/// A failed case has no other figures. Empty: both succeeded, or both failed.
 std::optional<JudgedFigure> judge_status(const CaseFigures& base, const CaseFigures& head) {
   const Figure *then = find_figure(base, "status"), *now = find_figure(head, "status");
   if (then == nullptr || now == nullptr || (then->text == "ok") == (now->text == "ok")) return {};
@@ -127,7 +128,7 @@ std::optional<JudgedFigure> judge_status(const CaseFigures& base, const CaseFigu
   return judged;
 }
 
-/// A report leaves out the counts of work that are 0, but one of an older program has none at all.
+/// A report leaves out counts of work that are 0. The report of an older program has none at all.
 bool is_zero_work(const std::string& figure, const CaseFigures& one) {
   const auto is_work = [](const std::string& name) { return name.starts_with("work."); };
   return is_work(figure) && std::ranges::any_of(one.figures, is_work, &Figure::name);
@@ -185,7 +186,7 @@ JudgedFigure judge_instructions(const Figure& base, const Figure& head, const Ca
   return judged;
 }
 
-/// Times that were recorded earlier are no base for a verdict.
+/// Times that were recorded earlier do not allow a verdict.
 std::vector<JudgedFigure> list_times(const Recording& base, const Recording& head, const Rules& rules) {
   std::vector<JudgedFigure> all;
   for (const CaseFigures& one : head.cases) {
@@ -204,7 +205,7 @@ std::vector<JudgedFigure> list_times(const Recording& base, const Recording& hea
   return all;
 }
 
-/// Two commands that were recorded alone are compared whatever they are called: "old/run" and "new/run".
+/// Two recordings of one command each are compared whatever their names: "old/run" and "new/run".
 Recording with_name_of(const Recording& head, const Recording& base) {
   Recording named = base;
   const bool are_commands = base.kind == Source::hyperfine && head.kind == Source::hyperfine;
@@ -216,7 +217,7 @@ bool have_common_case(const Recording& base, const Recording& head) {
   return std::ranges::any_of(base.cases, [&](const CaseFigures& one) { return find_case(head, one.name) != nullptr; });
 }
 
-/// Of one command of hyperfine against the first.
+/// Compares one command of hyperfine with the first.
 JudgedFigure judge_command(const Figure& base, const Figure& head, const CaseFigures& one, const TimeRules& rules,
                            double confidence) {
   JudgedFigure judged = start(base, head, one);
@@ -234,7 +235,7 @@ JudgedFigure judge_command(const Figure& base, const Figure& head, const CaseFig
     judged.verdict = Judgment::worse;
     judged.changed = true;
     judged.badness = std::log(ratio.value);
-    judged.words = "all of the interval is beyond " + results::rounded(100 * threshold) + "%";
+    judged.words = "the whole interval is beyond " + results::rounded(100 * threshold) + "%";
   } else if (ratio.high > 1 + threshold && noise > rules.largest_noise) {
     judged.verdict = Judgment::undecided;
     judged.words = "noise of " + results::rounded(100 * noise, 2) + "% either way; " +

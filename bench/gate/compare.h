@@ -8,11 +8,11 @@
 
 namespace ccdt::gate {
 
-/// Compares what was recorded of two programs, as far as that can be: exact figures always, instruction counts if they
-/// were made under the same conditions, times never.
+/// Compares the recordings of two programs as far as possible: exact figures always, instruction counts if they were
+/// made under the same conditions, times never.
 ///
 /// \param recorded  the base
-/// Of two recordings that have no case in common nothing is compared: they are not of the same thing.
+/// If two recordings have no case in common, nothing is compared.
 std::vector<JudgedFigure> compare_recordings(const Recording& recorded, const Recording& head, const Rules& rules);
 
 /// Compares the exact figures only.

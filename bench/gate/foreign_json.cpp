@@ -19,7 +19,7 @@ double seconds_of_unit(const std::string& unit) {
   return unit == "us" ? 1e-6 : 1e-9;
 }
 
-/// What Google Benchmark itself says of a run; all other numbers are the benchmark's own counters.
+/// The members that Google Benchmark itself writes; all other numbers are counters of the benchmark.
 bool is_counter(const std::string& name, const Json& value) {
   static const std::set<std::string> own = {"family_index", "per_family_instance_index",
                                             "repetitions",  "repetition_index",
@@ -35,7 +35,7 @@ Figure& add_sample(const std::string& name, Layer layer, double value, CaseFigur
   return *known;
 }
 
-/// Rates are hardly ever whole numbers, unless they are so large that all are.
+/// Rates are hardly ever whole numbers, unless they are so large that all doubles are.
 bool is_count(double value) {
   constexpr double most_exact = 9007199254740992.0;  // 2^53
   return value == std::floor(value) && std::abs(value) < most_exact;
@@ -94,7 +94,7 @@ void add_google_benchmark(const Json& json, Recording& recording) {
     }
   }
   if (!rates.empty())
-    recording.notes.push_back("counters that are no whole numbers are taken for rates and not compared: " +
+    recording.notes.push_back("counters that are not whole numbers count as rates and are not compared: " +
                               results::joined({rates.begin(), rates.end()}));
 }
 

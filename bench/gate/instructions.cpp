@@ -21,16 +21,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The C library chooses string functions and thresholds by the processor. These do for all of them; a name that a
-/// version of the library does not know is ignored. Without fast bins, the stage that frees memory pays for it: else
-/// all of them are merged in whichever stage first asks for a large block, and a few bytes more or less decide which.
+/// The C library chooses string functions and thresholds by the processor. These settings work on all processors; names
+/// that a version of the library does not know are ignored. Without fast bins, the stage that frees memory pays for it.
+/// With them, all are merged in the stage that first requests a large block, and a few bytes decide which stage that
+/// is.
 constexpr const char* tunables =
     "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX2,-AVX2_Usable,-ERMS,-FSRM:"
     "glibc.cpu.x86_data_cache_size=32768:glibc.cpu.x86_shared_cache_size=1048576:"
     "glibc.cpu.x86_non_temporal_threshold=786432:glibc.malloc.mxfast=0";
 constexpr std::size_t shown_digits = 12;
 
-/// The files of a run have the same names in every run: a longer path moves what is on the heap, which changes counts.
+/// The files have the same names in every run: a longer path moves objects on the heap, which changes counts.
 constexpr const char* program_name = "program";
 constexpr const char* profile_name = "profile";
 constexpr const char* report_name = "report.json";
@@ -38,8 +39,8 @@ constexpr const char* report_name = "report.json";
 fs::path find_valgrind() {
   const auto found = baselines::find_on_path("valgrind");
   if (!found)
-    throw InputError("there is no valgrind here to count instructions with", {},
-                     "install it (Debian: apt-get install valgrind), or leave the layer instructions out of the rules");
+    throw InputError("instructions cannot be counted: there is no valgrind", {},
+                     "install it (Debian: apt-get install valgrind), or remove the layer instructions from the rules");
   return *found;
 }
 
@@ -65,7 +66,7 @@ void link_to(const fs::path& file, const fs::path& name) {
   fs::create_symlink(fs::canonical(file), name);
 }
 
-/// The input by a name that is as long for all, with the file that a list of facets may take its vertices from.
+/// Links the input under a name of fixed length, with the file from which a list of facets may take its vertices.
 std::string link_input(const fs::path& input, const fs::path& folder) {
   std::string name = "input" + input.extension().string();
   link_to(input, folder / name);
@@ -75,23 +76,23 @@ std::string link_input(const fs::path& input, const fs::path& folder) {
   return name;
 }
 
-/// `ccdt mesh` under callgrind, in an environment that is the same for all. All symbols are looked up before it begins:
-/// else the first stage to call a function pays for the search, which is longer in a program with more libraries.
+/// Runs `ccdt mesh` under callgrind in a fixed environment. All symbols are resolved at the start. Otherwise the first
+/// stage that calls a function pays for the lookup, which takes longer in a program with more libraries.
 std::vector<std::string> command_of(const fs::path& valgrind, const std::string& input,
                                     const std::vector<std::string>& options) {
   std::vector<std::string> command = {"/usr/bin/env", "-i",       "PATH=/usr/bin:/bin",
                                       "LC_ALL=C",     "TMPDIR=.", "LD_BIND_NOW=1"};
   command.insert(command.end(), {tunables, valgrind.string(), "-q", "--tool=callgrind",
                                  std::string("--callgrind-out-file=") + profile_name, std::string("./") + program_name,
-                                 "mesh", input, "-o", "mesh.vtu", "--report", report_name});
+                                 "mesh", input, "-o", "mesh.vtu", "--report", report_name, "--threads", "1"});
   command.insert(command.end(), options.begin(), options.end());
   return command;
 }
 
-/// What repeats it without a gate.
+/// The command that repeats it without a gate.
 std::string repeating_command(const fs::path& program, const cases::Case& asked) {
   std::vector<std::string> command = {"valgrind", "--tool=callgrind", program.string(), "mesh", asked.input.string(),
-                                      "-o",       "again.vtu"};
+                                      "-o",       "again.vtu",        "--threads",      "1"};
   command.insert(command.end(), asked.options.begin(), asked.options.end());
   return baselines::command_line(command);
 }
@@ -140,8 +141,8 @@ cases::Identity instruction_identity(const fs::path& program) {
   baselines::run_program({path, "mesh", input.string(), "-o", "cube.vtu", "--report", report.string()}, options);
   const auto record = bench::find_run_record(report);
   if (!record)
-    throw InputError("this program is no ccdt that works", {.file = program.string()},
-                     "name one that was built: build/release/ccdt");
+    throw InputError("this program is not a working ccdt", {.file = program.string()},
+                     "name a built one, such as build/release/ccdt");
   return {{"instructions.cpu", bench::capture_environment().cpu},
           {"instructions.valgrind", baselines::version_of_program({valgrind.string(), "--version"}, "")},
           {"instructions.libc", library(gnu_get_libc_version(), "libc.so")},

@@ -12,31 +12,31 @@
 #include "bench/gate/rules.h"
 #include "engine/base/progress.h"
 
-/// What a program executes, counted by callgrind: the same number in every run of one program on machines with one CPU
-/// model and one set of libraries.
+/// The instructions that a program executes, counted by callgrind: the same number in every run of one program on
+/// machines with the same CPU model and libraries.
 namespace ccdt::gate {
 
-/// Instructions of each stage, by its name: "delaunay", and of meshing as a whole, "mesh".
+/// The instructions of each stage by its name, "delaunay", and of meshing as a whole, "mesh".
 using StageInstructions = std::map<std::string, std::uint64_t>;
 
-/// The stages' instructions from what callgrind has written, with those of all functions that they call. A stage that
-/// did not run is 0. What `mesh_plc` does between stages is "rest".
+/// The instructions of the stages from a profile of callgrind, including all functions that they call. A stage that did
+/// not run has 0. "rest" is the work of `mesh_plc` between stages.
 ///
 /// \param profile  of one process (callgrind.out.PID)
-/// \throw InputError  it is none; or a stage cannot be found in it, because its function was inlined or the program is
-///                    stripped
+/// \throw InputError  it is not a profile, or a stage is missing because its function was inlined or the program is
+/// stripped
 StageInstructions stage_instructions(std::string_view profile);
 
-/// What instruction counts depend on besides the program: "instructions.cpu", "instructions.valgrind",
+/// The conditions on which instruction counts depend besides the program: "instructions.cpu", "instructions.valgrind",
 /// "instructions.libc", "instructions.libstdc++", and how the program was compiled, "instructions.compiler" and
 /// "instructions.flags".
 ///
 /// \throw InputError  there is no valgrind, or the program is no `ccdt`; says what to do
 cases::Identity instruction_identity(const std::filesystem::path& program);
 
-/// Runs `ccdt mesh` of a program once under callgrind for each case of ours that the rules name, and adds the stages'
-/// counts to the case of that name in the recording (to a new one if there is none), as figures "instructions.STAGE".
-/// The identity gains `instruction_identity`.
+/// Runs `ccdt mesh` of a program once under callgrind for each case of our mesher that the rules name. Adds the counts
+/// of the stages to the case of that name in the recording, or to a new one, as figures "instructions.STAGE". The
+/// identity gains `instruction_identity`.
 ///
 /// \param folder    exists; gets the profiles, as instructions/NUMBER.callgrind in the order of the cases
 /// \param progress  counts cases

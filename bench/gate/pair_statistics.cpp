@@ -50,8 +50,7 @@ double confirmation_confidence(const TimeRules& rules, int suspects) {
 }
 
 double wanted_half_width(const Look& screening, const TimeRules& rules) {
-  // Half the way to the threshold: the first estimate is too large rather than too small, as that is what made the case
-  // a suspect.
+  // Half the distance to the threshold: the first estimate tends to be too large, because that made the case a suspect.
   const double half_way = (screening.log_ratio.value - screening.threshold) / 2;
   return std::clamp(half_way, rules.largest_noise / 2, rules.largest_noise);
 }

@@ -8,22 +8,23 @@
 
 namespace ccdt::gate {
 
-/// What pairs say of one case.
+/// The verdict of pairs on one case.
 enum class Call {
-  worse,      ///< all of the interval is beyond the threshold
-  not_worse,  ///< all of it is below, or it is narrow and excludes a slowdown of threshold and `largest_noise` together
+  worse,      ///< the whole interval is beyond the threshold
+  not_worse,  ///< the whole interval is below the threshold, or it is narrow and excludes a slowdown of the threshold
+              ///< plus `largest_noise`
   open        ///< neither
 };
 
-/// The log ratios of the pairs of a case, looked at once.
+/// One look at the log ratios of the pairs of a case.
 struct Look {
   bench::Estimate log_ratio;  ///< 20% trimmed mean of log(head / base)
-  double threshold = 0;       ///< that it is compared with, a log ratio too
+  double threshold = 0;       ///< the threshold, also a log ratio
   Call call = Call::open;
 };
 
-/// Is the interval too wide for a verdict? One that contains the threshold still says that nothing large has changed,
-/// if it is narrow.
+/// Is the interval too wide for a verdict? A narrow interval that contains the threshold still says that nothing large
+/// has changed.
 bool is_too_wide(const Look& look, const TimeRules& rules);
 
 /// Half the width of an interval.
@@ -36,21 +37,22 @@ double half_width(const bench::Estimate& estimate);
 /// \param noise_floor   log ratio from a calibration, or 0
 double threshold_of(const TimeRules& rules, double base_seconds, double noise_floor);
 
-/// \param bootstrap  its confidence is that of the interval
+/// \param bootstrap  gives the confidence of the interval
 Look look_at(std::span<const double> log_ratios, double threshold, const TimeRules& rules,
              const bench::Bootstrap& bootstrap);
 
-/// Enough resamples for a confidence: a few dozen lie outside the interval on each side.
+/// The number of resamples for a confidence: a few dozen lie outside the interval on each side.
 bench::Bootstrap bootstrap_for(double confidence, std::uint64_t seed, int at_least = 2000);
 
-/// How many pairs there are at the next look: half as many more.
+/// The number of pairs at the next look: half as many again.
 int next_look(int pairs, const TimeRules& rules);
 
-/// Bonferroni's: of as many intervals of fresh pairs as there are suspects, all hold with the confidence of the rules.
+/// Bonferroni's correction: with one interval of fresh pairs for each suspect, all hold together with the confidence of
+/// the rules.
 double confirmation_confidence(const TimeRules& rules, int suspects);
 
-/// Half the width of the interval at which a confirmation ends. It follows from the screening and not from the
-/// confirmation's own estimate: looking at that repeatedly would make it lean towards what it is to confirm.
+/// The half-width of the interval at which a confirmation ends. It follows from the screening, not from the
+/// confirmation's own estimate: repeated looks at that would bias it toward the result to confirm.
 double wanted_half_width(const Look& screening, const TimeRules& rules);
 
 }  // namespace ccdt::gate

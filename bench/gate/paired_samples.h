@@ -29,16 +29,16 @@ struct Pair {
 struct PairedSamples {
   std::string case_name;
   std::string figure;        ///< "seconds.mesh", "real_time", "wall"
-  std::string base_command;  ///< that repeats one run
+  std::string base_command;  ///< the command that repeats one run
   std::string head_command;
   std::vector<Pair> screening;
-  std::vector<Pair> confirmation;                   ///< empty if the case was no suspect
-  bool in_base_only = false, in_head_only = false;  ///< there are no pairs then
+  std::vector<Pair> confirmation;                   ///< empty if the case was not a suspect
+  bool in_base_only = false, in_head_only = false;  ///< then there are no pairs
 };
 
 /// The raw times of a gate, from which its verdict can be computed again: schema ccdt.samples/1.
 struct SampleSet {
-  std::uint64_t seed = 0;  ///< of the order in pairs, the padding, and the bootstrap
+  std::uint64_t seed = 0;  ///< seed of the order in pairs, the padding, and the bootstrap
   std::vector<PairedSamples> cases;
 };
 

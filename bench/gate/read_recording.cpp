@@ -25,7 +25,7 @@ constexpr const char* what_can_be_read =
     "give the folder of a sweep, reports of `ccdt mesh --report`, the JSON of Google Benchmark or of hyperfine, or a "
     "baseline";
 
-/// A report of `ccdt mesh` as it is in its file.
+/// A report of `ccdt mesh` as read from its file.
 struct RunFile {
   std::filesystem::path file;
   Json json;
@@ -44,8 +44,8 @@ bool is_run(const Json& json) {
   return json.is_object() && json.contains("schema") && json["schema"] == "ccdt.run/1";
 }
 
-/// Adds the numbers of a part of the report, by their paths. Texts and lists (but no histograms) are only compared as a
-/// whole. What was infinite is null.
+/// Adds the numbers of a part of the report by their paths. Texts and lists other than histograms are only compared as
+/// a whole. Infinite values are null.
 void add_figures(const std::string& name, const Json& json, std::vector<Figure>& figures) {
   const Layer layer = name.starts_with("seconds") ? Layer::time : Layer::exact;
   if (json.is_object()) {
@@ -69,7 +69,7 @@ std::vector<Figure> figures_of(const Json& run) {
   return figures;
 }
 
-/// The command that was recorded, where it can be repeated.
+/// The recorded command, if it can be repeated.
 std::string command_of(const RunFile& run) {
   if (!run.json.contains("command")) return "";
   const auto words = run.json["command"].get<std::vector<std::string>>();
@@ -102,8 +102,8 @@ void add_identity(const Json& run, cases::Identity& identity) {
   for (const char* field : {"compiler", "flags", "revision"}) identity[field] = environment.value(field, "");
 }
 
-/// The options of a report that are not the usual ones of its mesher, so that equal cases have equal names in all
-/// recordings: "part.off, ccdt, lattice bcc".
+/// The options of a report that are not defaults of its mesher, so that equal cases have equal names in all recordings:
+/// "part.off, ccdt, lattice bcc".
 std::string name_of_case(const Json& run, const std::string& input) {
   static const bench::RunRecord usual = bench::start_record(baselines::mesher("ccdt"), {}, {});
   std::vector<std::string> parts = {input, run.at("mesher").at("name").get<std::string>()};
@@ -138,8 +138,8 @@ void add_runs(const std::vector<RunFile>& runs, Recording& recording) {
   }
 }
 
-/// Calls `read` with what is in a file.
-/// \throw InputError  `read` misses a name or a type in it
+/// Calls `read` with the contents of a file.
+/// \throw InputError  a name is missing or has the wrong type
 template <class Read>
 void read_from(const std::filesystem::path& file, const Read& read) {
   try {
@@ -175,7 +175,7 @@ Recording read_sweep(const std::filesystem::path& folder) {
   return recording;
 }
 
-/// \return  whether it is a kind of file that is known
+/// \return  is it a known kind of file?
 bool add_file(const std::filesystem::path& file, Json json, std::vector<RunFile>& runs, Recording& recording) {
   if (is_run(json)) {
     runs.push_back({file, std::move(json)});
@@ -211,7 +211,7 @@ Recording read_file(const std::filesystem::path& file) {
   Recording recording{file};
   std::vector<RunFile> runs;
   if (!add_file(file, std::move(json), runs, recording))
-    throw InputError("this is no recording", io::place_in(file.string()), what_can_be_read);
+    throw InputError("this is not a recording", io::place_in(file.string()), what_can_be_read);
   if (!runs.empty()) read_from(file, [&] { add_runs(runs, recording); });
   return recording;
 }
@@ -244,7 +244,7 @@ Recording read_recording(const std::filesystem::path& path) {
   else
     recording = read_folder(path);
   if (recording.cases.empty() && recording.kind != Source::baseline)
-    throw InputError("there are no runs in it", io::place_in(path.string()), what_can_be_read);
+    throw InputError("it contains no runs", io::place_in(path.string()), what_can_be_read);
   return recording;
 }
 

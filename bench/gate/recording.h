@@ -9,11 +9,11 @@
 
 namespace ccdt::gate {
 
-/// What kind of figure it is, and so what it may be compared with.
+/// The kind of a figure, which decides with what it may be compared.
 enum class Layer {
   exact,         ///< counts, quality and work: the same on every machine
-  instructions,  ///< the same on machines with one CPU model and one set of libraries
-  time           ///< only within one measurement, in turns
+  instructions,  ///< the same on machines with the same CPU model and libraries
+  time           ///< comparable only within one measurement, in turns
 };
 
 constexpr auto names_of(Layer) {
@@ -24,29 +24,29 @@ constexpr auto names_of(Layer) {
 
 /// One quantity of a case.
 struct Figure {
-  std::string name;  ///< path in the JSON that it is from: "work.delaunay.walk_steps", "seconds.mesh"
+  std::string name;  ///< path in its JSON: "work.delaunay.walk_steps", "seconds.mesh"
   Layer layer = Layer::exact;
-  std::vector<double> samples;  ///< one of each run; seconds for times
-  std::string text = {};  ///< instead of samples, where equality is all that matters: "mesh_fingerprint", "status"
+  std::vector<double> samples;  ///< one sample per run; seconds for times
+  std::string text = {};        ///< instead of samples if only equality matters: "mesh_fingerprint", "status"
 };
 
-/// What is known of one case.
+/// The figures of one case.
 struct CaseFigures {
-  std::string name;     ///< by which base and head find each other
+  std::string name;     ///< by which base and head are matched
   std::string command;  ///< that repeats it
   std::vector<Figure> figures;
 };
 
-/// Where a recording is from.
+/// The source of a recording.
 enum class Source { runs, google_benchmark, hyperfine, baseline };
 
-/// What was measured of one program.
+/// The measurements of one program.
 struct Recording {
   std::filesystem::path source;
   Source kind = Source::runs;
-  cases::Identity identity = {};  ///< field and value, such as "machine.cpu"; what instructions depend on
+  cases::Identity identity = {};  ///< conditions of instruction counts, as field and value, such as "machine.cpu"
   std::vector<CaseFigures> cases = {};
-  std::vector<std::string> notes = {};  ///< what of the source is not in the figures, and why
+  std::vector<std::string> notes = {};  ///< which parts of the source are not in the figures, and why
 };
 
 /// The figure of this name; null if the case has none.
@@ -57,14 +57,14 @@ const CaseFigures* find_case(const Recording& recording, const std::string& name
 /// The case of this name, a new one if the recording has none.
 CaseFigures& case_named(const std::string& name, Recording& recording);
 
-/// Reads what was recorded: the folder of a sweep, a folder or a file of ccdt.run/1, the JSON of Google Benchmark or of
+/// Reads a recording: the folder of a sweep, a folder or a file of ccdt.run/1, the JSON of Google Benchmark or of
 /// hyperfine, or a ccdt.baseline/1.
 ///
 /// Several runs of a case are the samples of its figures. Their names are the paths in the JSON; those of a Google
 /// Benchmark are "seconds.real_time", "seconds.cpu_time" and its counters' own, those of hyperfine "seconds.elapsed"
 /// and "exit_codes".
 ///
-/// 	hrow InputError  it cannot be read, is none of these or has no cases; names the file and the place in it
+/// 	hrow InputError  it cannot be read, is none of these, or has no cases; names the file and the place in it
 Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace ccdt::gate

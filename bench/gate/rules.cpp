@@ -44,7 +44,7 @@ bool is_like(const std::string& pattern, const std::string& name) {
   return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-/// What is better of the names of ccdt.run/1; the first that matches counts.
+/// The better direction for the names of ccdt.run/1; the first match counts.
 const std::vector<std::pair<std::string, Better>>& usual_directions() {
   static const std::vector<std::pair<std::string, Better>> all = {
       {"work.*", Better::fewer},
@@ -52,6 +52,10 @@ const std::vector<std::pair<std::string, Better>>& usual_directions() {
       {"counts.undelaunay_faces", Better::fewer},
       {"counts.front_tetrahedra", Better::fewer},
       {"counts.front_faces", Better::fewer},
+      {"counts.segments.split", Better::fewer},
+      {"counts.segments.pieces", Better::fewer},
+      {"counts.segments.front", Better::fewer},
+      {"counts.segments.delaunay", Better::more},
       {"counts.dropped_interior_vertices", Better::fewer},
       {"counts.improve.bad_cells_left", Better::fewer},
       {"quality.dihedral_degrees.min", Better::more},

@@ -14,39 +14,40 @@ namespace ccdt::gate {
 enum class Better {
   fewer,  ///< more is worse: work, Steiner vertices
   more,   ///< less is worse: the smallest dihedral angle
-  same    ///< every change is, until the baseline is updated: the mesh itself
+  same    ///< every change is a loss until the baseline is updated: the mesh itself
 };
 
 constexpr auto names_of(Better) {
   return std::to_array<NamedValue<Better>>({{Better::fewer, "fewer"}, {Better::more, "more"}, {Better::same, "same"}});
 }
 
-/// Of counts, quality and work.
+/// Rules for counts, quality and work.
 struct ExactRules {
   std::vector<std::string> cases = {"*"};    ///< patterns of names
   std::vector<std::string> figures = {"*"};  ///< patterns of names (fnmatch)
   std::vector<std::string> ignore = {};
-  double relative = 1e-9;  ///< of figures that are no integers: libraries differ in the last bits of a logarithm
-  std::vector<std::pair<std::string, double>> tolerances = {};  ///< pattern, and the share of loss that passes
-  std::vector<std::pair<std::string, Better>> better = {};      ///< pattern of names; before what is usual
+  double relative =
+      1e-9;  ///< tolerance for figures that are not integers: libraries differ in the last bits of a logarithm
+  std::vector<std::pair<std::string, double>> tolerances = {};  ///< pattern, and the relative loss that passes
+  std::vector<std::pair<std::string, Better>> better = {};      ///< pattern of names; overrides the default
 };
 
-/// Of the stages' instruction counts. Worse means beyond both.
+/// Rules for the instruction counts of stages. Worse means beyond both thresholds.
 struct InstructionRules {
   std::vector<std::string> cases = {"*"};  ///< patterns of names
   double relative = 0.005;
   double absolute = 100000;
 };
 
-/// Of times. Worse means: all of the interval beyond both thresholds, twice.
+/// Rules for times. Worse means: the whole interval is beyond both thresholds, twice.
 struct TimeRules {
   std::vector<std::string> cases = {"*"};  ///< patterns of names
   std::string figure = "seconds.mesh";     ///< of the report of `ccdt mesh`; "wall": the time of the whole process
   double relative = 0.01;
   double absolute_seconds = 0.0002;
   double confidence = 0.95;
-  double largest_noise = 0.02;       ///< half the width of an interval, as a share, that still allows a verdict; a
-                                     ///< slowdown of both thresholds together is looked for
+  double largest_noise = 0.02;  ///< largest relative half-width of an interval that allows a verdict; the slowdown to
+                                ///< find is the threshold plus this
   int at_least = 20, at_most = 200;  ///< pairs
 };
 
@@ -62,7 +63,7 @@ struct Rules {
   ExactRules exact;
   InstructionRules instructions;
   TimeRules time;
-  std::vector<CaseRules> special;  ///< the first that matches a case counts
+  std::vector<CaseRules> special;  ///< the first match counts
   bool shadow = false;
 };
 
@@ -72,17 +73,17 @@ bool matches(const std::vector<std::string>& patterns, const std::string& name);
 /// Does the layer compare this figure of this case?
 bool is_gated(const Rules& rules, Layer layer, const std::string& case_name, const std::string& figure);
 
-/// Which change of an exact figure is a loss: the first rule that matches, else what is usual for the names of
-/// ccdt.run/1, else `same`.
+/// Which change of an exact figure is a loss: by the first matching rule, otherwise by the default for the names of
+/// ccdt.run/1, otherwise `same`.
 Better better_of(const ExactRules& rules, const std::string& figure);
 
-/// The share of loss of an exact figure that passes.
+/// The relative loss of an exact figure that passes.
 double tolerance_of(const ExactRules& rules, const std::string& figure);
 
 /// The thresholds of a case.
 const TimeRules& time_rules_of(const Rules& rules, const std::string& case_name);
 
-/// \throw InputError  the file cannot be read or is wrong; names the JSON pointer
+/// \throw InputError  the file cannot be read or is invalid; names the JSON pointer
 Rules read_rules(const std::filesystem::path& file);
 
 }  // namespace ccdt::gate

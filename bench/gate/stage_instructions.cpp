@@ -11,7 +11,7 @@
 namespace ccdt::gate {
 namespace {
 
-/// What `mesh_plc` calls, and the name under which the seconds of it are reported.
+/// A function that `mesh_plc` calls, and the name of its stage in reports.
 struct StageFunction {
   std::string_view function, stage;
 };
@@ -22,10 +22,11 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::buil
                                                                {"ccdt::protection::protect_edges", "protect"},
                                                                {"ccdt::facets::triangulate_facets", "facets"},
                                                                {"ccdt::lattice::place_lattice_points", "lattice"},
+                                                               {"ccdt::protection::harmless_points", "lattice"},
                                                                {"ccdt::delaunay::build_delaunay", "delaunay"},
-                                                               {"ccdt::protection::insert_interior", "delaunay"},
-                                                               {"ccdt::protection::core_interior", "delaunay"},
-                                                               {"ccdt::protection::wrap_interior", "delaunay"},
+                                                               {"ccdt::delaunay::insert_points", "delaunay"},
+                                                               {"ccdt::delaunay::wrap_delaunay", "delaunay"},
+                                                               {"ccdt::cores::insert_points", "delaunay"},
                                                                {"ccdt::front::find_delaunay_faces", "face_check"},
                                                                {"ccdt::facets::follow_interior_vertices", "face_check"},
                                                                {"ccdt::front::advance_front", "front"},
@@ -38,7 +39,7 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::buil
 constexpr std::string_view whole = "ccdt::mesh_plc";
 constexpr std::string_view remesh = "ccdt::surface::remesh_surface";
 
-/// What a caller may do itself, beside its stages. More means that a stage was inlined into it.
+/// The share that a caller may execute itself, outside its stages. More means that a stage was inlined into it.
 constexpr double largest_rest = 0.1;
 
 const StageFunction* stage_function(std::string_view name) {
@@ -46,7 +47,7 @@ const StageFunction* stage_function(std::string_view name) {
   return found == stage_functions.end() ? nullptr : found;
 }
 
-/// Of all calls of a function from others.
+/// The cost of all calls of a function by others.
 std::uint64_t instructions_of(const CallGraph& graph, std::string_view function) {
   std::uint64_t sum = 0;
   for (const auto& [caller, callee] : graph.calls)
@@ -62,8 +63,8 @@ std::vector<std::string> all_names_of(const CallGraph& graph, std::string_view f
   return {names.begin(), names.end()};
 }
 
-/// Adds the stages that are called by `mesh_plc` itself, or on the way to them, but not by another stage: a new surface
-/// needs a PLC as well, and the paper's Delaunay method begins with insertion.
+/// Adds the stages that `mesh_plc` calls directly or indirectly, but not those within another stage: a new surface also
+/// needs a PLC, and the paper's Delaunay method begins with insertion.
 void add_stages(const CallGraph& graph, StageInstructions& stages, std::set<std::string_view>& found) {
   std::vector<std::string> pending = all_names_of(graph, whole);
   std::set<std::string> seen(pending.begin(), pending.end());

@@ -12,7 +12,7 @@
 namespace ccdt::gate {
 namespace {
 
-constexpr std::size_t most_padding = 4096;  ///< bytes; a page, since the stack begins at a random one anyway
+constexpr std::size_t most_padding = 4096;  ///< bytes; one page, since the stack begins at a random page anyway
 
 using results::percent;
 
@@ -42,7 +42,7 @@ class PairTaker {
   std::mt19937_64 random_;
 };
 
-/// The cases of one target: which of the samples they are, and what pairs are still wanted of them.
+/// The cases of one target: the indices of their samples, and the pairs that are still wanted.
 struct TargetCases {
   const TimedTarget& target;
   std::vector<std::size_t> samples;
@@ -52,7 +52,7 @@ double median_of_base(std::span<const Pair> pairs) {
   return bench::median(seconds_of(pairs, Side::base));
 }
 
-/// How a case is judged.
+/// How to judge a case.
 struct CaseThresholds {
   const TimeRules& rules;
   double noise_floor = 0;
@@ -87,7 +87,7 @@ PairedSamples samples_for(const TimedTarget& target, const std::string& case_nam
   return samples;
 }
 
-/// Measures until the verdicts are there.
+/// Measures until all cases are decided.
 class Measurement {
  public:
   Measurement(const Rules& rules, const Calibration* calibration, std::uint64_t seed, const Progress& progress)
@@ -95,7 +95,7 @@ class Measurement {
     all_.seed = seed;
   }
 
-  /// Runs a target once in pairs, to warm up and to see which cases there are.
+  /// Runs a target once in pairs, to warm up and to find its cases.
   void begin(const TimedTarget& target) {
     const PairTaker::Both both = taker_.take(target, {});
     Seconds either = both.base;
@@ -150,7 +150,7 @@ class Measurement {
  private:
   static bool comparable(const PairedSamples& samples) { return !samples.in_base_only && !samples.in_head_only; }
 
-  /// As many pairs of each of these cases as the next look wants.
+  /// Measures as many pairs of each of these cases as the next look needs.
   void take_more(const std::vector<std::size_t>& wanted, std::vector<Pair> PairedSamples::*pairs) {
     for (const auto& [target, samples] : targets_) {
       std::map<std::string, std::size_t> cases;
@@ -188,7 +188,7 @@ std::string times(int pairs) {
   return std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs");
 }
 
-/// Of a case that exists in one program only.
+/// The verdict on a case that exists in only one program.
 JudgedFigure judge_missing(const PairedSamples& samples) {
   JudgedFigure judged;
   judged.name = samples.figure;
@@ -217,7 +217,7 @@ JudgedFigure judge_look(const PairedSamples& samples, std::span<const Pair> pair
 
 std::string noise_words(const Look& look, std::size_t pairs, const TimeRules& rules) {
   return "noise: the interval is " + percent(half_width(look.log_ratio)) + " wide on either side after " +
-         times(static_cast<int>(pairs)) + ", and " + percent(rules.largest_noise) + " is the most for a verdict";
+         times(static_cast<int>(pairs)) + ", and " + percent(rules.largest_noise) + " is the largest for a verdict";
 }
 
 JudgedFigure judge_screened(const PairedSamples& samples, const Look& look, const TimeRules& rules) {
@@ -289,7 +289,7 @@ std::vector<JudgedFigure> judge_times(const SampleSet& samples, const Rules& rul
 }
 
 SampleSet measure_noise(std::span<const TimedTarget> targets, int pairs, std::uint64_t seed, const Progress& progress) {
-  // Rules whose only look is the last one: no case is ever decided before.
+  // Rules whose only look is the last one: no case is decided earlier.
   Rules rules;
   rules.time = {.at_least = pairs, .at_most = pairs};
   std::vector<TimedTarget> unchanged(targets.begin(), targets.end());

@@ -14,24 +14,24 @@
 
 namespace ccdt::gate {
 
-/// How the number of cases is accounted for, in words for `Verdict::correction`.
+/// Describes the correction for the number of cases, for `Verdict::correction`.
 std::string correction_words();
 
 /// Measures base and head in turns, as long as the rules need.
 ///
-/// Each pair has a random order, and each run an environment of random size, so that what depends on where the stack
-/// begins becomes noise instead of bias (Mytkowicz et al. 2009, "Producing wrong data without doing anything obviously
-/// wrong"). The cases take turns in batches of pairs. First every case is screened; the suspects are then measured
-/// afresh, since the first times were what made them suspects.
+/// Each pair has a random order, and each run an environment of random size, so that the effect of the start of the
+/// stack becomes noise instead of bias (Mytkowicz et al. 2009, "Producing wrong data without doing anything obviously
+/// wrong"). The cases take turns in batches of pairs. First every case is screened. Suspects are then measured again,
+/// because their first times made them suspects.
 ///
-/// \param calibration  may be null: no case's threshold is raised
-/// \param progress     counts pairs; nobody knows how many there will be
+/// \param calibration  may be null: then no threshold is raised
+/// \param progress     counts pairs; their total is not known
 /// \throw ProgramFailed
 /// \throw baselines::Stopped
 SampleSet measure_times(std::span<const TimedTarget> targets, const Rules& rules, const Calibration* calibration,
                         std::uint64_t seed, const Progress& progress);
 
-/// The verdicts, which follow from the samples alone: of equal samples always the same.
+/// The verdicts. They depend on the samples alone.
 std::vector<JudgedFigure> judge_times(const SampleSet& samples, const Rules& rules, const Calibration* calibration);
 
 }  // namespace ccdt::gate

@@ -29,7 +29,7 @@ Command command_of(const Programs& programs, Side side, const Command& arguments
                       baselines::command_line(command));
 }
 
-/// Runs a command whose environment is larger by so many bytes.
+/// Runs a command with an environment that is larger by this many bytes.
 /// \param folder  where it runs; empty: where this process runs
 baselines::ProcessResult try_run(const RunRequest& request, const Command& command, const baselines::Limits& limits,
                                  const std::filesystem::path& folder = {}) {
@@ -71,7 +71,7 @@ double figure_of(const std::filesystem::path& report, const std::string& figure)
 
 /// The times of each benchmark's repetitions.
 /// \throw ProgramFailed
-/// \throw nlohmann::json::exception  this is not what Google Benchmark writes
+/// \throw nlohmann::json::exception  this is not output of Google Benchmark
 std::map<std::string, std::vector<double>> times_in(const bench::Json& json, Side side, const Command& command) {
   static const std::map<std::string, double> units = {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}};
   std::map<std::string, std::vector<double>> times;
@@ -80,14 +80,14 @@ std::map<std::string, std::vector<double>> times_in(const bench::Json& json, Sid
     if (run.value("error_occurred", false)) fail(side, command, name + ": " + run.value("error_message", ""));
     if (run.value("run_type", "iteration") != "iteration") continue;
     const auto unit = units.find(run.value("time_unit", "ns"));
-    if (unit == units.end()) fail(side, command, name + ": its time is in a unit that nobody knows");
+    if (unit == units.end()) fail(side, command, name + ": its time has an unknown unit");
     times[run.value("run_name", name)].push_back(run.at("real_time").get<double>() * unit->second);
   }
   return times;
 }
 
-/// What a program on Google Benchmark has measured. Benchmarks that report an error are a better reason than the exit
-/// code that some programs have then.
+/// The measurements of a program on Google Benchmark. The error of a benchmark is a better reason than the exit code
+/// that some programs then have.
 /// \throw ProgramFailed
 std::map<std::string, std::vector<double>> times_of_benchmarks(const std::filesystem::path& file,
                                                                const baselines::ProcessResult& ended, Side side,
@@ -98,7 +98,7 @@ std::map<std::string, std::vector<double>> times_of_benchmarks(const std::filesy
     try {
       times = times_in(bench::Json::parse(io::read_whole_file(file).bytes), side, command);
     } catch (const nlohmann::json::exception& error) {
-      fault = std::string("what --benchmark_out wrote cannot be read: ") + error.what();
+      fault = std::string("the output of --benchmark_out cannot be read: ") + error.what();
     }
   }
   check_end(ended, side, command);
@@ -142,7 +142,7 @@ TimedTarget sweep_target(const Programs& programs, const cases::Case& asked, con
 
 std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const cases::Case> cases, const Rules& rules,
                                        const std::filesystem::path& folder) {
-  // In a folder of their own, below which there are no inputs, inputs have their whole paths in the commands.
+  // In a separate folder without inputs, the commands contain the full paths of the inputs.
   const auto scratch = std::filesystem::absolute(folder) / "timed";
   std::filesystem::create_directories(scratch);
   std::vector<TimedTarget> targets;

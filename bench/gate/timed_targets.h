@@ -17,7 +17,7 @@
 
 namespace ccdt::gate {
 
-/// A program failed where its time was to be taken.
+/// A program failed while its time was measured.
 class ProgramFailed : public MeshError {
  public:
   ProgramFailed(Side side, const std::string& what, Place place, std::string command)
@@ -35,14 +35,14 @@ class ProgramFailed : public MeshError {
 struct RunRequest {
   Side side = Side::base;
   std::size_t padding = 0;           ///< bytes of a variable that shifts the stack of the process
-  std::set<std::string> cases = {};  ///< that are wanted; empty: all
+  std::set<std::string> cases = {};  ///< wanted cases; empty: all
 };
 
-/// Something that runs as one process and times one case or several.
+/// A process that times one or several cases.
 struct TimedTarget {
   std::string name;    ///< for people
   std::string figure;  ///< what is timed: "seconds.mesh"
-  /// Seconds by case. Cases that were not asked for may be missing.
+  /// Seconds by case. Cases that are not wanted may be missing.
   /// \throw ProgramFailed
   /// \throw baselines::Stopped
   std::function<std::map<std::string, double>(const RunRequest&)> run = {};
@@ -64,7 +64,7 @@ std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const
 
 /// Two programs on Google Benchmark. Each benchmark name is a case, and its real time the figure.
 ///
-/// \param arguments  of both; they win over those that keep a run short: one repetition of 0.05 s
+/// \param arguments  for both programs; they override the defaults, one repetition of 0.05 s
 TimedTarget benchmark_target(const Programs& programs, const std::vector<std::string>& arguments,
                              const baselines::Limits& limits, const std::filesystem::path& folder);
 

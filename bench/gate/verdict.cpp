@@ -54,7 +54,7 @@ Judgment judgment_of(const std::vector<JudgedFigure>& figures) {
     return std::ranges::any_of(figures, [&](const JudgedFigure& figure) { return figure.verdict == judgment; });
   };
   if (has(Judgment::worse)) return Judgment::worse;
-  // That both ran says little where nothing of what they did can be compared.
+  // It means little that both ran if none of their results can be compared.
   const bool is_compared = std::ranges::any_of(figures, [&](const JudgedFigure& figure) {
     const bool is_end = figure.name == "status" || figure.name == "exit_codes";
     return figure.verdict == Judgment::undecided ||

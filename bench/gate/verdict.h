@@ -10,7 +10,7 @@
 
 namespace ccdt::gate {
 
-/// What came out, of one figure or of all.
+/// The verdict on one figure or on all.
 enum class Judgment {
   passed,  ///< not worse
   worse,
@@ -29,29 +29,29 @@ constexpr auto names_of(Judgment) {
 struct JudgedFigure {
   std::string name, case_name;
   Layer layer = Layer::exact;
-  std::optional<double> base, head;         ///< medians of samples; none where it is a text or missing
-  std::string base_text, head_text;         ///< of a text
-  std::optional<double> ratio;              ///< head / base; none where base is 0 or there are no numbers
-  std::optional<bench::Estimate> interval;  ///< of the ratio, of what was sampled
+  std::optional<double> base, head;         ///< medians of samples; none if it is a text or missing
+  std::string base_text, head_text;         ///< value of a text
+  std::optional<double> ratio;              ///< head / base; none if base is 0 or there are no numbers
+  std::optional<bench::Estimate> interval;  ///< interval of the ratio, for sampled figures
   Judgment verdict = Judgment::passed;
   bool changed = false;  ///< base and head differ by more than the rules allow
-  double badness = 0;    ///< orders what is listed, the worst first
+  double badness = 0;    ///< order of the list, the worst first
   std::string words;     ///< why: threshold, noise, the field that differs
   std::string command;   ///< that repeats it
 };
 
-/// What a gate says: JSON of schema ccdt.verdict/1.
+/// The verdict of a gate: JSON of schema ccdt.verdict/1.
 struct Verdict {
   Judgment verdict = Judgment::passed;
   bool shadow = false;                ///< reports, but always passes
   std::string base, head;             ///< programs or recordings
   std::vector<JudgedFigure> figures;  ///< all that were compared
-  std::vector<std::string> notes;     ///< what a reader has to know: a history that only gets worse, layers left out
-  std::string correction;             ///< how the number of cases was accounted for; empty without times
+  std::vector<std::string> notes;     ///< what a reader must know: a history that only gets worse, layers left out
+  std::string correction;             ///< the correction for the number of cases; empty without times
 };
 
-/// Of all figures: worse if one is; else incomparable if nothing could be compared; else undecided if one is; else
-/// passed.
+/// The verdict on all figures: worse if one is worse; otherwise incomparable if nothing could be compared; otherwise
+/// undecided if one is undecided; otherwise passed.
 Judgment judgment_of(const std::vector<JudgedFigure>& figures);
 
 /// Sets the verdict from the figures, and sorts them: the worst first, then undecided ones, those that got better or

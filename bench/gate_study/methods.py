@@ -36,7 +36,7 @@ def compare_py():
         from gbench.report import calc_utest
     except ImportError:
         return normal_u_test, "own U test"
-    # It wants CPU times as well; we have none, and the verdict is that of the real time.
+    # It also expects CPU times; there are none here, and its verdict uses the real time.
     return lambda a, b: calc_utest((a, b), (a, b))[2], "compare.py"
 
 

@@ -27,7 +27,7 @@ import methods
 
 HERE = Path(__file__).resolve().parent
 
-# What is judged: its name, what it is, the programs of base and head, and a load on the last core half of the time.
+# A kind of gate: its name, a description, the programs of base and head, and whether there is a load half of the time.
 KINDS = [
     {"name": "A/A", "what": "one program, a load half of the time", "head": "base", "load": True},
     {"name": "copies", "what": "copies in other folders, environments of other sizes", "head": "copy", "wrapped": True},
@@ -71,7 +71,7 @@ def make_programs(repository, folder):
     (folder / "revision").write_text(revision.stdout)
     run("cmake", "--preset", "release", *CMAKE_OPTIONS, cwd=source, stdout=subprocess.DEVNULL)
     build(source, folder, "base")
-    # The copy of the source is no repository, even if it lies in one.
+    # The copy of the source is not a repository, even if it is inside one.
     run("git", "apply", HERE / "slowdown.patch", cwd=source, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(folder)})
     header = source / "engine" / "test_slowdown.h"
     for name, share in SLOWDOWNS.items():
@@ -264,7 +264,7 @@ def main():
     if not arguments.no_calibration:
         calibrate(folder, ccdt)
 
-    # In turns, so that whatever changes with the time of the day does so for all.
+    # In turns, so that changes over the day affect all kinds alike.
     plan = sorted(((n + 0.5) / count, i, n) for i, count in enumerate(arguments.gates) for n in range(count))
     deadline = time.monotonic() + 60 * arguments.minutes
     gates = []

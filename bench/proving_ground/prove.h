@@ -10,32 +10,32 @@
 namespace ccdt::proving_ground {
 
 struct ProofOptions {
-  double seconds = 20;                             ///< of one mesh; it counts as endless then
+  double seconds = 20;                             ///< seconds for one mesh; a longer one counts as endless
   std::vector<Lattice> lattices = {Lattice::fcc};  ///< beside none
 };
 
-/// What came of one PLC.
+/// The outcome for one PLC.
 struct Proof {
   enum class Outcome {
     right,    ///< all strategies agree, and all meshes are right
     invalid,  ///< the engine refuses the input
     endless,  ///< a mesh took too long, or a limit was reached
-    wrong     ///< strategies disagree, a mesh is wrong, or there is none
+    wrong     ///< strategies disagree, or a mesh is wrong or missing
   };
   Outcome outcome = Outcome::right;
-  std::string what = {};       ///< what is wrong with which mesh
+  std::string what = {};       ///< the error, and the mesh that has it
   std::uint64_t meshes = 0;    ///< how many were made
   std::uint64_t verified = 0;  ///< how many of them were verified
 };
 
-/// Meshes a PLC with all strategies, compares their tetrahedra as sorted lists, and verifies what they agree on: with
+/// Meshes a PLC with all strategies, compares their tetrahedra as sorted lists, and verifies the common result: with
 /// both protections of edges, with and without face protection, with all locators and both ways to the Delaunay
 /// tetrahedralization (each pair of values at least once), with lattices, and improved.
 ///
 /// With `Protection::midpoint`, splitting need not end; then there is nothing to compare.
 Proof prove(const InputPlc& input, const ProofOptions& options = {});
 
-/// Takes away facets, segments, vertices and seeds as long as the rest is still interesting.
+/// Removes facets, segments, vertices and seeds as long as the rest is still interesting.
 ///
 /// \pre `is_interesting(input)`
 InputPlc reduce(InputPlc input, const std::function<bool(const InputPlc&)>& is_interesting);

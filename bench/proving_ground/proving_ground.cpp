@@ -26,7 +26,7 @@ void keep(const std::filesystem::path& folder, std::uint64_t seed, const InputPl
           Outcome outcome) {
   std::filesystem::create_directories(folder);
   io::write_plc(plc, folder / (std::to_string(seed) + ".poly"));
-  if (outcome == Outcome::endless) return;  // reducing it would take as long again and again
+  if (outcome == Outcome::endless) return;  // reducing it would repeat this time again and again
   const InputPlc least =
       reduce(plc, [&](const InputPlc& smaller) { return prove(smaller, options).outcome == outcome; });
   io::write_plc(least, folder / (std::to_string(seed) + "-reduced.poly"));

@@ -17,7 +17,7 @@ InputPlc without(InputPlc input, List InputPlc::*list, std::size_t first, std::s
   return input;
 }
 
-/// Takes away halves of a list, then smaller and smaller parts.
+/// Removes halves of a list, then smaller and smaller parts.
 template <class List>
 bool shorten(List InputPlc::*list, const IsInteresting& is_interesting, InputPlc& input) {
   bool shortened = false;
@@ -60,7 +60,7 @@ void for_each_corner(InputPlc& input, const Visit& visit) {
     for (std::uint32_t& v : segment) visit(v);
 }
 
-/// Vertices that nothing has, one by one.
+/// Removes unused vertices one by one.
 bool drop_vertices(const IsInteresting& is_interesting, InputPlc& input) {
   bool dropped = false;
   for (std::uint32_t v = static_cast<std::uint32_t>(input.vertices.size()); v-- > 0;) {

@@ -12,13 +12,13 @@ namespace ccdt::proving_ground {
 
 using small_plcs::Random;
 
-/// A piecewise linear complex that is put together piece by piece, in the cube from 0 to 16 or near it. Each axis has
-/// few levels, where most coordinates are, so that things touch, line up and share planes.
+/// A piecewise linear complex that is built piece by piece, in or near the cube from 0 to 16. Most coordinates are at a
+/// few levels of each axis, so that things touch, line up and share planes.
 class Scene {
  public:
   explicit Scene(Random& random);
 
-  /// A body or a thing within it, made of calls to the functions below.
+  /// A body or a thing within it, built by calls of the functions below.
   using Thing = void (*)(Scene&);
 
   /// Adds a thing, unless the engine's check of its input objects to the result.

@@ -1,7 +1,7 @@
-// The walk. Tetrahedra are numbered as they are met, and so are vertices. A tetrahedron that is met first of all (of
-// its part of the mesh) is a seed: its four vertices are written down. All others are met across a face of one that was
-// met before. For each tetrahedron, in the order in which they were met, one step is written for each face that it was
-// not met across:
+// The walk. Tetrahedra and vertices are numbered in the order in which they are met. A tetrahedron that is met first of
+// all (of its part of the mesh) is a seed: its four vertices are written down. All others are met across a face of one
+// that was met before. For each tetrahedron, in the order in which they were met, one step is written for each face
+// that it was not met across:
 //   0  nothing new is there: no tetrahedron, or one that was met already;
 //   1  a new tetrahedron with a new vertex;
 //   2  a new tetrahedron with a vertex that was met already, which follows among the codes.
@@ -37,10 +37,10 @@ enum Step : std::uint8_t { nothing_new, new_vertex, known_vertex };
 
 using Cell = std::array<std::uint32_t, 4>;
 
-/// What is written down.
+/// The output.
 struct Walk {
   std::vector<std::uint8_t> steps, codes;
-  std::vector<std::uint32_t> vertices, cells;  ///< as the mesh numbers them, in the order in which they were met
+  std::vector<std::uint32_t> vertices, cells;  ///< their numbers in the mesh, in the order in which they were met
 };
 
 /// Across each face of each cell, the cell beyond it; `none` on the boundary.
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> neighbors_of(std::span<const Cell> cells) {
   return neighbors;
 }
 
-/// Which vertices, by the order in which they were met, are joined by an edge so far.
+/// The vertices, in the order in which they were met, that are joined by an edge so far.
 class Edges {
  public:
   explicit Edges(std::size_t vertices) : joined_(vertices), corners_(vertices, 0) {}
@@ -129,7 +129,7 @@ class Walker {
  private:
   struct Met {
     std::uint32_t cell, from;
-    Cell corners;  ///< as the mesh numbers them, in our order
+    Cell corners;  ///< their numbers in the mesh, in our order
   };
 
   bool meet_vertex(std::uint32_t vertex) {
@@ -159,7 +159,7 @@ class Walker {
   }
 
   void leave(const Met met) {  // a copy: more are met
-    // One that is no seed was met across the face opposite its last corner.
+    // A cell that is not a seed was met across the face opposite its last corner.
     for (std::size_t i = 0; i < (met.from == none ? 4 : 3); ++i) {
       const std::uint32_t cell = beyond(met, met.corners[i]);
       if (cell == none || is_met_[cell]) {
@@ -200,8 +200,8 @@ std::string packed_bytes(const std::vector<std::uint8_t>& bytes) {
   return packed(bytes.data(), bytes.size());
 }
 
-/// Differences of each number to the one before, the sign in the lowest bit, their bytes of one place together: these
-/// are alike, and so are deflated well.
+/// The differences between consecutive numbers, with the sign in the lowest bit. Bytes of the same place are stored
+/// together: they are similar, so they compress well.
 std::string packed_differences(const std::vector<std::int64_t>& numbers) {
   constexpr std::size_t places = 4;
   std::vector<std::uint8_t> bytes(places * numbers.size());
@@ -217,7 +217,7 @@ std::string packed_differences(const std::vector<std::int64_t>& numbers) {
   return packed_bytes(bytes);
 }
 
-/// Five steps a byte.
+/// Five steps per byte.
 std::string packed_steps(const std::vector<std::uint8_t>& steps) {
   std::vector<std::uint8_t> bytes;
   for (std::size_t i = 0; i < steps.size(); i += 5) {

@@ -11,7 +11,7 @@ namespace ccdt::results {
 /// over the mesh, in which most tetrahedra need no more than a few bits; the numbers of the vertices are kept. The walk
 /// and what it writes down are described in `compact_mesh.cpp`.
 ///
-/// \throw nlohmann::json::exception, std::runtime_error  it is no kept mesh
+/// \throw nlohmann::json::exception, std::runtime_error  it is not a kept mesh
 bench::Json compact_mesh(const bench::Json& kept);
 
 }  // namespace ccdt::results

@@ -24,7 +24,8 @@ inline constexpr auto fields<results::Column> = std::tuple(field("name", &result
 namespace ccdt::results {
 namespace {
 
-constexpr bench::DocumentKind experiment_document = {"ccdt.experiment/1", "no experiment of schema ccdt.experiment/1",
+constexpr bench::DocumentKind experiment_document = {"ccdt.experiment/1",
+                                                     "not an experiment of schema ccdt.experiment/1",
                                                      "give a folder that `ccdt reproduce` has filled"};
 
 constexpr auto fields_of_mesh =
@@ -55,7 +56,7 @@ bench::Json number_json(double value) {
   return std::isfinite(value) ? bench::Json(value) : bench::Json(nullptr);
 }
 
-/// Whole numbers as such: 12, not 12.0.
+/// Whole numbers without a fraction: 12, not 12.0.
 bench::Json plain_number_json(double value) {
   constexpr double largest = 9007199254740992;  // beyond it doubles skip integers
   const bool is_whole = std::abs(value) < largest && value == std::floor(value);

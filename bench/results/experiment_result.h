@@ -12,14 +12,14 @@
 
 namespace ccdt::results {
 
-/// Under which circumstances an experiment was made; part of its result.
+/// The circumstances of an experiment; part of its result.
 struct Circumstances {
   bench::Environment environment;
-  int runs = 0;  ///< counted runs a case, after one that is not counted
+  int runs = 0;  ///< counted runs per case, after one warm-up run
   double confidence = 0.95;
   baselines::Limits limits;  ///< of each run
-  double tetrahedra = 0;     ///< about how many a model was given
-  std::string scale;         ///< as it was asked for: "quick", "paper", "large", or that number
+  double tetrahedra = 0;     ///< approximate number of tetrahedra per model
+  std::string scale;         ///< as on the command line: "quick", "paper", "large", or a number
   std::string command;       ///< that repeats the experiment
 };
 
@@ -28,10 +28,10 @@ struct KeptMesh {
   std::string file;        ///< of schema `ccdt.mesh/1`, relative to the folder
   std::string title;       ///< for people
   std::string run;         ///< the file of the run that made it
-  bool is_figure = false;  ///< drawn as a picture of its own, cut open
+  bool is_figure = false;  ///< drawn as a separate picture, cut open
 };
 
-/// What an experiment found: what is written as JSON of schema `ccdt.experiment/1`. Reports are made of it alone.
+/// The result of an experiment, written as JSON of schema `ccdt.experiment/1`. Reports are made from it alone.
 struct ExperimentResult {
   std::string name = {};     ///< as on the command line
   std::string title = {};    ///< for people
@@ -39,17 +39,17 @@ struct ExperimentResult {
   Circumstances how = {};
   std::vector<std::string> definitions = {};  ///< what the rows mean, one sentence each
   std::vector<ResultTable> tables = {};
-  std::vector<std::string> findings = {};  ///< what the tables say, one sentence each; computed
-  std::vector<std::string> problems = {};  ///< what went wrong, one sentence each
+  std::vector<std::string> findings = {};  ///< findings from the tables, one sentence each; computed
+  std::vector<std::string> problems = {};  ///< problems, one sentence each
   std::vector<KeptMesh> meshes = {};
   std::vector<std::string> raw_files = {};  ///< JSON of other programs, kept as they wrote it; relative to the folder
-  bool is_good = true;  ///< nothing of our own failed or gave what it must not; others' failures are rows and no more
+  bool is_good = true;  ///< ccdt did not fail and gave no wrong result; failures of other meshers are only rows
 };
 
 /// Null if there is no such table.
 const ResultTable* find_table(const ExperimentResult& result, std::string_view name);
 
-/// The parts that other documents have as well.
+/// Parts that other documents share.
 bench::Json cell_json(const Cell& cell);
 void to_json(bench::Json& json, const ResultTable& table);
 void from_json(const bench::Json& json, ResultTable& table);

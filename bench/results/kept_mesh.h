@@ -8,9 +8,9 @@
 
 namespace ccdt::results {
 
-/// Bytes deflated (zlib format), in base64.
+/// Bytes compressed in zlib format, in base64.
 std::string packed(const void* data, std::size_t size);
-/// The bytes that were packed so. \throw std::runtime_error  they were not
+/// The bytes that were packed in this way. \throw std::runtime_error  they were not
 std::string unpacked(const std::string& text);
 
 /// Writes a mesh as JSON of schema `ccdt.mesh/1`, small enough for a page: single precision, deflated, in base64.

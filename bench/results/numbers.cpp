@@ -8,14 +8,14 @@
 namespace ccdt::results {
 namespace {
 
-/// With that many digits after the point.
+/// The number with this many digits after the point.
 std::string with_decimals(double value, int decimals) {
   std::array<char, 400> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
   return text.data();
 }
 
-/// How many digits after the point the number needs for this many significant ones.
+/// The number of digits after the point for this many significant digits.
 int decimals_for(double value, int digits) {
   const double size = std::abs(value);
   if (!(size > 0) || !std::isfinite(size)) return 0;

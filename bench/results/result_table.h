@@ -12,12 +12,12 @@
 
 namespace ccdt::results {
 
-/// What the values of a column are: how they are shown, filtered and compared with those of another time.
+/// The kind of a column: how its values are shown, filtered and compared with other results.
 enum class ColumnKind {
-  label,   ///< says what a row is of: model, mesher, strategy; texts
-  figure,  ///< the same in every repetition, bit for bit, of meshers that repeat themselves; texts or numbers
-  time,    ///< seconds and what is made of them; numbers, or estimates with their intervals
-  paper,   ///< what the paper says; numbers
+  label,   ///< labels of a row: model, mesher, strategy; texts
+  figure,  ///< equal bit for bit in every repetition of a deterministic mesher; texts or numbers
+  time,    ///< seconds and derived values; numbers, or estimates with their intervals
+  paper,   ///< values from the paper; numbers
   note     ///< why a value is missing; texts
 };
 
@@ -64,16 +64,16 @@ inline Cell cell_of(std::string_view text) {
 
 struct ResultRow {
   std::vector<Cell> cells;             ///< one a column
-  std::vector<std::string> runs = {};  ///< files with the runs that the row stands on, relative to the result's folder
+  std::vector<std::string> runs = {};  ///< files of the runs behind the row, relative to the folder of the result
 };
 
-/// What an experiment found, as a reader gets it. Tables, charts and verdicts take their numbers from here alone.
+/// A table of results. Tables, charts and verdicts take their numbers from here alone.
 struct ResultTable {
   std::string name;   ///< unique within the experiment
   std::string title;  ///< for people
   std::vector<Column> columns;
   std::vector<ResultRow> rows = {};
-  bool is_data = false;  ///< for charts and machines: too long to be read
+  bool is_data = false;  ///< for charts and programs: too long to be read by people
 };
 
 /// \throw std::out_of_range  there is no such column

@@ -44,16 +44,16 @@ inline Column note_column(std::string name, std::string title = {}) {
   return column(ColumnKind::note, std::move(name), std::move(title));
 }
 
-/// A column as data: its heading, and its cell as a function of what a row stands for.
+/// A column as data: its heading, and its cell as a function of the object of the row.
 template <class Row>
 struct RowColumn {
-  /// \param value  a function of the row, or a pointer to a member of it; what it gives is made a cell by `as_cell`
+  /// \param value  a function of the row, or a pointer to a member of it; `as_cell` makes the value a cell
   template <std::invocable<const Row&> Value>
   RowColumn(Column heading, Value value)
       : column(std::move(heading)),
         cell([value = std::move(value)](const Row& row) { return as_cell(std::invoke(value, row)); }) {}
 
-  /// A column of a base is one of what is derived from it.
+  /// A column of a base class is a column of a derived class.
   template <class Base>
   requires(std::derived_from<Row, Base> && !std::same_as<Row, Base>) RowColumn(const RowColumn<Base>& of_base)
       : column(of_base.column), cell(of_base.cell) {}
@@ -65,8 +65,8 @@ struct RowColumn {
 template <class Row>
 using RowColumns = std::vector<RowColumn<Row>>;
 
-/// A table with a row for each of `rows`. If there is a function `runs_of(row)`, it tells the files of the runs that a
-/// row stands on.
+/// A table with a row for each of `rows`. If there is a function `runs_of(row)`, it returns the files of the runs
+/// behind the row.
 template <class Row>
 ResultTable table_of_rows(std::string name, std::string title, const RowColumns<Row>& columns,
                           const std::ranges::range auto& rows, bool is_data = false) {
@@ -80,12 +80,12 @@ ResultTable table_of_rows(std::string name, std::string title, const RowColumns<
   return table;
 }
 
-/// A table that has no rows yet.
+/// A table without rows.
 inline ResultTable table_of(std::string name, std::string title, std::vector<Column> columns, bool is_data = false) {
   return {std::move(name), std::move(title), std::move(columns), {}, is_data};
 }
 
-/// The value, if it is known; else an empty cell.
+/// The value if it is known, otherwise an empty cell.
 template <class Value>
 Cell cell_if(bool is_known, const Value& value) {
   return is_known ? as_cell(value) : Cell();
@@ -99,13 +99,13 @@ std::vector<Cell> cells(const Values&... values) {
 
 /// Appends a row with a cell for each value.
 ///
-/// \param runs  the files of the runs that the row stands on
+/// \param runs  the files of the runs behind the row
 template <class... Values>
 void add_row(ResultTable& table, const std::vector<std::string>& runs, const Values&... values) {
   table.rows.push_back({cells(values...), runs});
 }
 
-/// Neighbors that belong together.
+/// A group of adjacent rows.
 template <class Row, class Same>
 std::vector<std::span<const Row>> neighbors(std::span<const Row> rows, Same belong_together) {
   std::vector<std::span<const Row>> groups;

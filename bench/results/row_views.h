@@ -11,7 +11,7 @@
 
 namespace ccdt::results {
 
-/// A row of a table, whose cells are asked for by the names of their columns. The table must outlive it.
+/// A row of a table with access to cells by the names of columns. The table must outlive it.
 struct RowView {
   const ResultTable* table;
   const ResultRow* row;
@@ -32,7 +32,7 @@ inline RowViews rows_with(const ResultTable& table, const std::map<std::string, 
   return rows;
 }
 
-/// Of a column of counts.
+/// The sum of a column of counts.
 inline std::uint64_t sum(const RowViews& rows, std::string_view column) {
   std::uint64_t total = 0;
   for (const RowView& row : rows) total += row.count(column);

@@ -12,7 +12,7 @@
 #include "engine/plc/input.h"
 
 /// Exact geometry of a few points with small whole coordinates, and of plain piecewise linear complexes of these. It
-/// shares nothing with the engine, so that one can be held against the other.
+/// shares nothing with the engine, so that one can be checked against the other.
 namespace ccdt::small_plcs {
 
 /// A point or a vector. No determinant overflows as long as coordinates are at most `largest_coordinate` in magnitude.
@@ -74,7 +74,7 @@ struct SmallPlc {
   std::vector<Point> vertices;
   std::vector<Polygon> boundary;       ///< counterclockwise seen from outside
   std::vector<Polygon> interior = {};  ///< facets with the domain on both sides
-  std::vector<Edge> segments = {};     ///< that are no edges of facets
+  std::vector<Edge> segments = {};     ///< that are not edges of facets
 };
 
 /// Is the value one of these?
@@ -114,7 +114,7 @@ bool is_valid(const SmallPlc& plc);
 
 plc::InputPlc as_input(const SmallPlc& plc);
 
-/// All of it on one line, for a person who wants to build it again.
+/// The whole PLC on one line, so that a person can rebuild it.
 std::string in_words(const SmallPlc& plc);
 
 /// Numbers that are the same on every machine. (The distributions of the standard library are not.)
@@ -141,7 +141,7 @@ struct Family {
 };
 std::span<const Family> families();
 
-/// The next one of a family that is valid and, as far as the family is to be, generic.
+/// The next PLC of a family that is valid and, unless the family is not meant to be, generic.
 SmallPlc next_plc(const Family& family, Random& random);
 
 Point random_point(Random& random);

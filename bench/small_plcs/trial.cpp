@@ -46,7 +46,7 @@ std::int64_t total_volume(const SmallPlc& plc, const std::vector<Tetrahedron>& t
   return sum;
 }
 
-/// Are they as large together as the domain, with all segments among their edges and all vertices among their corners?
+/// Is their total volume that of the domain, and do they have all segments as edges and all vertices as corners?
 bool fill_domain(const SmallPlc& plc, const std::vector<Tetrahedron>& tetrahedra) {
   return total_volume(plc, tetrahedra) == small_plcs::six_volumes(plc) && has_all_segments(plc, tetrahedra) &&
          uses_all_vertices(plc, tetrahedra);
@@ -372,6 +372,7 @@ ProtectionState protection_of(const SmallPlc& plc) {
 EngineAnswer ask_engine(const SmallPlc& plc) {
   MeshOptions options;
   options.lattice = Lattice::none;
+  options.threads = 1;  // for ten vertices
   options.improve.improvement = Improvement::none;
   try {
     const MeshResult result = mesh_plc(as_input(plc), options);

@@ -29,7 +29,7 @@ std::vector<Tetrahedron> possible_tetrahedra(const SmallPlc& plc);
 /// paper's Theorem 1. \pre generic, so that Delaunay tetrahedra do not overlap
 bool has_delaunay_tetrahedralization(const SmallPlc& plc);
 
-/// What an exhaustive search for constrained Delaunay tetrahedralizations has found.
+/// The result of an exhaustive search for constrained Delaunay tetrahedralizations.
 struct SearchResult {
   std::size_t constrained_delaunay = 0;  ///< how many there are; a generic PLC has at most one
   bool some_is_delaunay = false;         ///< there is one whose tetrahedra are all Delaunay
@@ -38,7 +38,7 @@ struct SearchResult {
 
 /// Tries all ways to fill the domain with possible tetrahedra such that all segments are edges, all vertices are used,
 /// and each face that is on no facet is locally Delaunay; these are the constrained Delaunay tetrahedralizations
-/// (Shewchuk 2008, the Delaunay lemma). That the tetrahedra of a DT are Delaunay is not made use of.
+/// (Shewchuk 2008, the Delaunay lemma). The search does not use that the tetrahedra of a DT are Delaunay.
 SearchResult search_constrained_delaunay(const SmallPlc& plc);
 
 /// The premise of the paper's Theorem 1 (section 5.2), part by part, and what explains it.
@@ -65,7 +65,7 @@ bool is_strongly_delaunay(const std::vector<Point>& vertices, const Triangle& tr
 /// Do the strongly Delaunay triangles of the corners of a facet fill it?
 bool is_protected(const SmallPlc& plc, const Polygon& facet);
 
-/// What the engine made of a small PLC, without a lattice and without improvement.
+/// The result of the engine for a small PLC, without a lattice and without improvement.
 struct EngineAnswer {
   bool is_protected = false;  ///< no Steiner vertex, and no face that is not Delaunay
   bool has_steiner_vertices = false;
@@ -74,7 +74,7 @@ struct EngineAnswer {
 };
 EngineAnswer ask_engine(const SmallPlc& plc);
 
-/// One PLC, seen from all sides.
+/// All results for one PLC.
 struct Trial {
   SmallPlc plc;
   ProtectionState protection = {};
@@ -82,12 +82,13 @@ struct Trial {
                         ///< tetrahedra
   SearchResult search = {};
   EngineAnswer engine = {};
-  /// What our own parts disagree about among themselves, which would make the trial worthless; empty: nothing.
+  /// A disagreement between our own methods, which would make the trial worthless; empty: none.
   std::string disagreement = {};
 };
 Trial try_plc(SmallPlc plc, bool is_cospherical);
 
-/// What one interior point did to small random PLCs of a family that have a constrained Delaunay tetrahedralization.
+/// The effect of one interior point on small random PLCs of a family that have a constrained Delaunay
+/// tetrahedralization.
 struct ExistenceTrials {
   std::string family;
   std::uint64_t cases = 0;
@@ -99,7 +100,8 @@ struct ExistenceTrials {
 /// \param seed  of the draws
 SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed);
 
-/// Looks for existence by exhaustion, without and with the point, in so many PLCs of each family in general position.
+/// Tests existence by exhaustive search, without and with the point, for this many PLCs of each family in general
+/// position.
 std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family);
 
 }  // namespace ccdt::small_plcs

@@ -32,7 +32,7 @@ namespace {
 constexpr bench::DocumentKind chunk_kind = {"ccdt.chunk/1", "this is no chunk of a sweep",
                                             "remove the folder chunks, and call ccdt sweep again"};
 
-/// Beyond the limit of a run: this program, and what a run allocates between two looks at it.
+/// Memory beyond the limit of a run: for this program, and for what a run allocates between two checks.
 constexpr double memory_factor = 1.1, memory_margin = 256 << 20;
 
 std::filesystem::path chunk_folder(const std::filesystem::path& folder) {
@@ -47,7 +47,7 @@ std::vector<std::vector<const MissingCase*>> groups_of(std::span<const MissingCa
   std::vector<std::vector<const MissingCase*>> groups;
   std::map<std::string, std::size_t> known;
   for (const MissingCase& c : cases) {
-    // A case without a group is compared with no other.
+    // A case without a group is not compared with others.
     const auto [found, is_new] = known.try_emplace(c.group.empty() ? c.id : c.group, groups.size());
     if (is_new) groups.emplace_back();
     groups[found->second].push_back(&c);
@@ -67,7 +67,7 @@ void add(Chunk& chunk, const MissingCase& c) {
   chunk.threads = std::max(chunk.threads, c.threads);
 }
 
-/// The number of a chunk's file; none if the file is another.
+/// The number of a chunk's file; none for other files.
 std::optional<int> number_of(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
   int number = -1;
@@ -135,7 +135,7 @@ std::vector<Chunk> read_chunks(const std::filesystem::path& folder) {
 
 ChunkLock::ChunkLock(const std::filesystem::path& folder, int number) {
   const std::string name = chunk_file(folder, number).string();
-  file_ = open(name.c_str(), O_RDWR | O_CLOEXEC);  // NFS locks only what can be written
+  file_ = open(name.c_str(), O_RDWR | O_CLOEXEC);  // NFS locks only writable files
   if (file_ >= 0 && flock(file_, LOCK_EX) == 0) return;
   const std::string fault = std::generic_category().message(errno);
   if (file_ >= 0) close(file_);

@@ -8,39 +8,40 @@
 
 namespace ccdt::sweep {
 
-/// What is missing of a case, as far as its place on a cluster matters.
+/// A case with missing runs, as far as it matters for a cluster.
 struct MissingCase {
   std::string id;
   std::string group;   ///< cases of one group take turns, so they belong on one machine
-  double seconds = 0;  ///< of all its missing runs, estimated
-  int threads = 1;     ///< that a run uses
+  double seconds = 0;  ///< estimated seconds of all its missing runs
+  int threads = 1;     ///< threads of a run
 };
 
-/// Cases that one task of a cluster runs. Thousands of tasks of a second each would keep the cluster busy with itself.
+/// The cases that one task on a cluster runs. Thousands of tasks of one second each would keep the cluster busy with
+/// scheduling.
 struct Chunk {
-  int number = -1;                      ///< its file is chunks/NUMBER.json; -1: it has none yet
+  int number = -1;                      ///< its file is chunks/NUMBER.json; -1: no file yet
   std::vector<std::string> cases = {};  ///< ids
   double seconds = 0;                   ///< estimated
   int threads = 1;                      ///< the most that any of its cases uses
 };
 
-/// Cuts cases into chunks that take about so many seconds. A group stays in one chunk unless it is longer than a chunk
-/// by itself. The order of the cases is kept within a group, and that of the groups is that of their first cases.
+/// Cuts cases into chunks that take about this many seconds. A group stays in one chunk unless it alone is longer than
+/// a chunk. Cases keep their order within a group, and groups are in the order of their first cases.
 std::vector<Chunk> cut_into_chunks(std::span<const MissingCase> cases, double seconds);
 
-/// Numbers the chunks and writes their files. A chunk with the same cases as an older one has the number of that, so a
-/// second call with the same cases changes nothing; files are never changed, since tasks may be about to read them.
+/// Numbers the chunks and writes their files. A chunk with the same cases as an older one keeps its number, so a second
+/// call with the same cases changes nothing. Files are never changed, because tasks may be about to read them.
 /// \throw OutputError
 void write_chunks(const std::filesystem::path& folder, std::vector<Chunk>& chunks);
 
-/// \throw InputError  there is no such chunk, or its file is none
+/// \throw InputError  there is no such chunk, or its file is invalid
 Chunk read_chunk(const std::filesystem::path& folder, int number);
 
 /// All chunks that have files, by number. \throw InputError
 std::vector<Chunk> read_chunks(const std::filesystem::path& folder);
 
-/// While it lives, others that want the same chunk wait. Where only the daemon of a node has died, its tasks run on
-/// while others are started in their place.
+/// As long as it lives, others that want the same chunk wait. If only the daemon of a node has died, its tasks keep
+/// running while others are started in their place.
 class ChunkLock {
  public:
   /// \throw OutputError  there is no such chunk, or its file system cannot lock
@@ -53,10 +54,10 @@ class ChunkLock {
   int file_ = -1;
 };
 
-/// What a task has to ask for, in MiB, if its runs have this limit; 0 if they have none.
+/// The memory that a task must request, in MiB, if its runs have this limit; 0 if they have none.
 std::uint64_t task_megabytes(std::uint64_t limit_bytes);
 
-/// The file that says that a workflow manager has seen the end of a chunk, relative to the folder.
+/// The file that tells a workflow manager that a chunk is done, relative to the folder.
 std::string chunk_marker(int number);
 
 }  // namespace ccdt::sweep

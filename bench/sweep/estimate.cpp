@@ -13,12 +13,12 @@
 namespace ccdt::sweep {
 namespace {
 
-// Of a mesher without any finished case; measured with ours and TetGen on one core of a usual machine.
+// Figures for a mesher without finished cases; measured with ours and TetGen on one core of an ordinary machine.
 constexpr double usual_seconds = 12e-6;  ///< per tetrahedron
 constexpr double usual_check_seconds = 6e-6;
 constexpr double usual_bytes = 400;
 
-// Besides what depends on the size.
+// The part that does not depend on the size.
 constexpr double seconds_of_process = 0.02;
 constexpr double bytes_of_process = 15e6;
 constexpr double bytes_of_record = 12e3;
@@ -26,10 +26,10 @@ constexpr double bytes_of_record = 12e3;
 constexpr double mesh_bytes = 77;   ///< of a mesh, per tetrahedron
 constexpr double model_bytes = 50;  ///< of a model, per triangle
 
-constexpr double least_exponent = 0.3, largest_exponent = 2;  ///< others are noise
+constexpr double least_exponent = 0.3, largest_exponent = 2;  ///< shorter ones are noise
 constexpr std::size_t fewest_for_fit = 3;
 
-/// A quantity of finished cases over their estimated sizes.
+/// A quantity of finished cases by estimated size.
 struct Samples {
   std::vector<double> size, value;
 
@@ -38,7 +38,7 @@ struct Samples {
     value.push_back(std::max(what, 1e-9));
   }
 
-  /// By a power law, or with few samples in proportion to the size.
+  /// Estimates by a power law, or with few samples in proportion to the size.
   double at(double wanted) const {
     const auto [least, most] = std::ranges::minmax(size);
     if (size.size() >= fewest_for_fit && most > 1.5 * least) {
@@ -63,7 +63,7 @@ double seconds_of(const cases::RunRecord& record) {
 void add_case(Neighbors& neighbors, double tetrahedra, const cases::MeasuredCase& measured) {
   neighbors.seconds.add(tetrahedra, seconds_of(measured.first));
   const double bytes = static_cast<double>(measured.first.peak_rss_bytes) - bytes_of_process;
-  if (bytes > 0) neighbors.bytes.add(tetrahedra, bytes);  // a small one tells nothing of larger ones
+  if (bytes > 0) neighbors.bytes.add(tetrahedra, bytes);  // a small case says nothing about larger ones
   if (measured.first.verification) neighbors.check.add(tetrahedra, measured.first.verification->seconds);
 }
 

@@ -28,13 +28,13 @@ using baselines::NamedOptions;
   baselines::fail_at_pointer(spec.file.string(), pointer, what, remedy);
 }
 
-/// An input with the options that are tried on it.
+/// An input with its options.
 struct ExpandedInput {
   CaseInput input;
   std::vector<OptionAxis> options;
 };
 
-/// The spec's options, and of those of the same name the input's own.
+/// The options of the spec; options of the input override those of the same name.
 std::vector<OptionAxis> options_of(const SweepSpec& spec, const SweepInput& input) {
   std::vector<OptionAxis> axes = spec.options;
   for (const OptionAxis& own : input.options) {
@@ -47,7 +47,7 @@ std::vector<OptionAxis> options_of(const SweepSpec& spec, const SweepInput& inpu
   return axes;
 }
 
-/// The files that a name with wildcards means, by name.
+/// The files that match a name with wildcards, sorted by name.
 std::vector<std::filesystem::path> files_like(const std::string& pattern) {
   glob_t found{};
   std::vector<std::filesystem::path> files;
@@ -93,7 +93,7 @@ double default_edge_length(const std::string& model) {
   return std::ranges::find(models::solids(), model, &models::Solid::name)->default_edge_length;
 }
 
-/// Files of one name are told apart by their folders.
+/// Files of the same name are distinguished by their folders.
 void tell_apart(const SweepSpec& spec, std::vector<ExpandedInput>& inputs) {
   std::map<std::string, std::set<std::filesystem::path>> files;
   for (const ExpandedInput& one : inputs) files[one.input.name].insert(one.input.file);
@@ -124,7 +124,7 @@ bool is_like(const std::string& text, const std::string& pattern) {
   return text == pattern || fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
 }
 
-/// The texts by which a spec may mean a property of a case.
+/// The texts that a spec may use for a property of a case.
 std::vector<std::string> property(const std::string& name, const CaseInput& input, const std::string& mesher,
                                   const Values& options) {
   if (name == "mesher") return {mesher, baselines::mesher(mesher).name};
@@ -165,8 +165,8 @@ NamedOptions effective(const std::string& mesher, const Values& options) {
   return baselines::effective_options(baselines::mesher(mesher), NamedOptions(options.begin(), options.end()));
 }
 
-/// Those of the options that make a difference to the mesher here, by name: a usual value too, if another one of its
-/// axis would.
+/// The options that make a difference to the mesher here, by name; also a default value, if another value of its axis
+/// makes a difference.
 Values shown_options(const std::string& mesher, const Values& asked, const std::vector<OptionAxis>& axes) {
   const NamedOptions used = effective(mesher, asked);
   const auto matters = [&](std::size_t axis) {

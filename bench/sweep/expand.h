@@ -15,11 +15,11 @@ namespace ccdt::sweep {
 /// The format in which meshes are kept.
 inline constexpr const char* kept_mesh_ending = ".vtu";
 
-/// What a case meshes.
+/// The input of a case.
 struct CaseInput {
-  std::string name;            ///< of one input only: "piston-2.32", "part.off"
+  std::string name;            ///< unique name: "piston-2.32", "part.off"
   std::filesystem::path file;  ///< absolute
-  std::string model;           ///< empty: a file of the user's
+  std::string model;           ///< empty: a user's file
   double edge_length = 0;      ///< of the model's triangles
 };
 
@@ -27,17 +27,17 @@ struct CaseInput {
 struct SweepCase {
   cases::Case asked;
   CaseInput input;
-  std::vector<std::pair<std::string, std::string>> options;  ///< that make a difference to its mesher, by name
-  std::string id = {};                                       ///< known once its input is there
+  std::vector<std::pair<std::string, std::string>> options;  ///< options that make a difference to its mesher, by name
+  std::string id = {};                                       ///< known once its input exists
 
-  /// As reports call it.
+  /// The name in reports.
   std::string mesher() const;
 };
 
-/// All cases of a spec: inputs times meshers times options, less what is excluded. An option that a mesher does not
-/// have makes one case, not several. The order is that of the spec.
+/// All cases of a spec: inputs times meshers times options, minus excluded ones. An option that a mesher does not have
+/// makes one case, not several. The order is that of the spec.
 ///
-/// \param folder  of the sweep; models are files in its folder models, which need not be there yet
+/// \param folder  of the sweep; models are files in its folder models, which need not exist yet
 /// \throw InputError  no file matches, nothing is left, or options contradict each other; names the JSON pointer
 std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path& folder, const MeshOptionRules& rules);
 
@@ -46,13 +46,12 @@ std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path
 std::vector<std::string> words_for(const std::string& mesher,
                                    const std::vector<std::pair<std::string, std::string>>& options);
 
-/// Writes the models that are not there yet.
-/// \param anew  also those that are
+/// Writes the missing models. \param anew  writes existing ones again
 /// \throw OutputError
 /// \throw baselines::Stopped
 void write_models(std::span<const SweepCase> cases, bool anew, const Progress& progress);
 
-/// What is to be run, for `cases::Runner`.
+/// The cases for `cases::Runner`.
 std::vector<cases::Case> asked_of(std::span<const SweepCase> cases);
 
 }  // namespace ccdt::sweep

@@ -14,13 +14,14 @@
 namespace ccdt::sweep {
 namespace {
 
-constexpr double coarser = 3;  ///< models are measured with longer edges than usual: that is quick, and changes little
+constexpr double coarser =
+    3;  ///< models are measured with longer edges than the default: that is fast, and changes little
 
-/// Of the regular triangle and tetrahedron with edges of one.
+/// The area of the regular triangle and the volume of the regular tetrahedron with edges of length 1.
 const double triangle_area = std::sqrt(3) / 4;
 const double tetrahedron_volume = std::sqrt(2) / 12;
 
-/// Of the tetrahedralization of a surface without vertices inside, as measured.
+/// Tetrahedra per vertex of a surface without interior vertices, as measured.
 constexpr double tetrahedra_per_triangle = 1.5;
 
 ShapeSize measure(const plc::InputPlc& input) {
@@ -45,7 +46,7 @@ ShapeSize size_of_file(const std::filesystem::path& file) {
   try {
     return measure(io::read_plc(file));
   } catch (const Error&) {
-    return {};  // the run will say what is wrong with it
+    return {};  // the run will report the error
   }
 }
 

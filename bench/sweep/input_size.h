@@ -4,18 +4,18 @@
 
 namespace ccdt::sweep {
 
-/// What is known of a shape before it is meshed.
+/// The size of a shape before it is meshed.
 struct ShapeSize {
   double volume = 0;     ///< enclosed
   double area = 0;       ///< of all facets
   double triangles = 0;  ///< of the surface
 };
 
-/// Of a file, or of a model with the triangles that it has in the case. Each shape is read once. Nothing is known of
-/// what cannot be read.
+/// The size of a file, or of a model with the triangles of the case. Each shape is read once. None if it cannot be
+/// read.
 ShapeSize size_of(const CaseInput& input);
 
-/// About how many tetrahedra fill a shape.
+/// The approximate number of tetrahedra that fill a shape.
 ///
 /// \param options  of the case: lattice, edge-length and surface matter
 double estimated_tetrahedra(const ShapeSize& size, const std::vector<std::pair<std::string, std::string>>& options);

@@ -21,10 +21,10 @@
 namespace ccdt::sweep {
 namespace {
 
-/// One job array. Task i of it runs the i-th of the chunks.
+/// A job array. Task i runs the i-th chunk.
 struct SlurmJob {
-  std::string name;  ///< no other job has it
-  std::string id;    ///< Slurm's number; empty: Slurm has not been heard of yet
+  std::string name;  ///< unique among jobs
+  std::string id;    ///< the number from Slurm; empty: Slurm has not answered yet
   std::vector<int> chunks;
 };
 
@@ -43,8 +43,8 @@ namespace {
 
 constexpr bench::DocumentKind jobs_kind = {"ccdt.slurm/1", "this is no list of the jobs of a sweep",
                                            "cancel the sweep's jobs with scancel, and remove the file"};
-constexpr double seconds_for_slurm = 120;  ///< a controller that is being restarted takes a while
-constexpr double time_factor = 3;          ///< estimates are no better
+constexpr double seconds_for_slurm = 120;  ///< a controller that restarts takes a while
+constexpr double time_factor = 3;          ///< estimates are not more precise
 constexpr double margin_seconds = 600;
 
 std::filesystem::path slurm_folder(const std::filesystem::path& folder) {
@@ -66,13 +66,13 @@ void write_jobs(const std::filesystem::path& folder, const std::vector<SlurmJob>
   bench::write_json({{"schema", jobs_kind.schema}, {"jobs", jobs}}, jobs_file(folder));
 }
 
-/// What a program of Slurm printed. \throw Error  it is not there, or failed
+/// The output of a program of Slurm. \throw Error  it is missing or failed
 std::string call_slurm(std::vector<std::string> command) {
   const std::string name = command.front();
   const auto program = baselines::find_on_path(name);
   if (!program)
     throw InputError("there is no program '" + name + "' on PATH", {},
-                     "log in where jobs are submitted; or leave out --slurm to run the sweep here");
+                     "log in to a machine that submits jobs; or omit --slurm to run the sweep here");
   command.front() = program->string();
   const baselines::TemporaryFolder scratch;
   const auto log = scratch.path() / "log";
@@ -82,17 +82,17 @@ std::string call_slurm(std::vector<std::string> command) {
   if (result.status == baselines::RunStatus::ok) return printed;
   printed.erase(printed.find_last_not_of(" \n") + 1);
   throw InputError("'" + name + "' failed: " + (printed.empty() ? result.reason : printed), {},
-                   "nothing was submitted by this call; call it again when Slurm answers");
+                   "nothing was submitted; repeat the command when Slurm answers");
 }
 
-/// A word of a shell script that is exactly this text.
+/// The text as one quoted word of a shell script.
 std::string quoted(const std::string& text) {
   std::string word = "'";
   for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return word + "'";
 }
 
-/// A name that no other job has, and that a person recognizes.
+/// A unique name that people recognize.
 std::string new_name(const std::filesystem::path& folder) {
   std::random_device random;
   std::ostringstream name;
@@ -168,7 +168,7 @@ std::vector<QueuedTask> queued_tasks() {
   return tasks;
 }
 
-/// Cases that wait or run.
+/// The cases that are waiting or running.
 std::set<std::string> cases_of(const std::vector<Chunk>& chunks, const SlurmQueue& queue) {
   std::set<std::string> cases;
   for (const Chunk& chunk : chunks)
@@ -176,7 +176,7 @@ std::set<std::string> cases_of(const std::vector<Chunk>& chunks, const SlurmQueu
   return cases;
 }
 
-/// Gives chunks, whose files are written, to Slurm. Returns the job's id.
+/// Submits chunks, whose files exist, to Slurm. Returns the id of the job.
 std::string submit(const std::filesystem::path& folder, std::span<const Chunk> chunks, const SlurmOptions& options) {
   const std::vector<SlurmJob> before = read_jobs(folder);
   SlurmJob job{new_name(folder), "", {}};

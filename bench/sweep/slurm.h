@@ -16,47 +16,47 @@ namespace ccdt::sweep {
 
 /// How the chunks of a sweep are cut and run on a cluster.
 struct SlurmOptions {
-  std::filesystem::path program;     ///< the `ccdt` that is run; every node finds it there
+  std::filesystem::path program;     ///< the `ccdt` to run; every node finds it at this path
   std::vector<std::string> options;  ///< more words of `ccdt sweep FOLDER --chunk N`
-  double chunk_seconds = 1800;       ///< what a chunk is worth
+  double chunk_seconds = 1800;       ///< target duration of a chunk
   std::uint64_t memory_bytes = 0;    ///< limit of a run; 0: none
   double seconds = 0;                ///< limit of a run; 0: none
 };
 
-/// Where Slurm has the chunks of a folder; numbers of chunks.
+/// The state of the chunks of a folder in Slurm; numbers of chunks.
 struct SlurmQueue {
   std::set<int> queued, running;
 
   bool has(int chunk) const { return queued.contains(chunk) || running.contains(chunk); }
 };
 
-/// Have chunks of this folder been given to Slurm?
+/// Have chunks of this folder been submitted to Slurm?
 bool has_slurm_jobs(const std::filesystem::path& folder);
 
-/// Asks Slurm for the chunks of this folder that wait or run.
+/// Asks Slurm which chunks of this folder are waiting or running.
 ///
-/// \throw Error  Slurm cannot be asked, so nobody knows
+/// \throw Error  Slurm does not answer
 SlurmQueue ask_slurm(const std::filesystem::path& folder);
 
-/// What a call has given to Slurm.
+/// The jobs submitted by a call.
 struct Submission {
   std::string job;                 ///< Slurm's number; empty: there was nothing to submit
   std::vector<Chunk> chunks = {};  ///< of this job
-  SlurmQueue before = {};          ///< what was waiting or running already
+  SlurmQueue before = {};          ///< the chunks that were already waiting or running
 };
 
-/// Gives the missing cases that no task waits for or runs to Slurm, as one job array. So it can be called again while
-/// jobs run, or after some of them have died, but not twice at the same time.
+/// Submits the missing cases that are neither waiting nor running to Slurm, as one job array. It can be called again
+/// while jobs run, or after some of them died, but not twice at the same time.
 ///
-/// What is submitted is noted in slurm/jobs.json under a name of its own before it is, so that jobs are found again
-/// even if this program is killed before Slurm has answered.
+/// Each submission is noted in slurm/jobs.json under a unique name beforehand, so that jobs are found again even if
+/// this program is killed before Slurm answers.
 ///
-/// \param missing  says what is missing; called after Slurm has been asked, since a task may end at any time
+/// \param missing  returns the missing cases; called after Slurm has answered, because a task may end at any time
 /// \throw Error    Slurm is not installed, does not answer, or refuses; then nothing is submitted
 Submission submit_to_slurm(const std::filesystem::path& folder, const SlurmOptions& options,
                            const std::function<std::vector<MissingCase>()>& missing);
 
-/// How many chunks are where. A case that is in several chunks counts in the newest.
+/// The numbers of chunks by state. A case that is in several chunks counts in the newest one.
 struct ChunkCounts {
   int finished = 0, queued = 0, running = 0, missing = 0;
 };

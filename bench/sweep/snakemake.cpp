@@ -25,7 +25,7 @@ rule chunk:
     shell: "{program:q} sweep . --chunk {wildcards.number} {more_words}"
 )";
 
-/// A value as Python writes it, which is as JSON does.
+/// A value in Python syntax, which is that of JSON.
 std::string literal(const bench::Json& value) {
   return value.dump(-1, ' ', true, bench::Json::error_handler_t::replace);
 }
@@ -37,7 +37,7 @@ void write_snakefile(const std::filesystem::path& folder, std::span<const Chunk>
   for (const Chunk& chunk : chunks) std::filesystem::remove(folder / chunk_marker(chunk.number));
   const auto megabytes = task_megabytes(options.memory_bytes);
   io::OutputFile file(folder / "Snakefile");
-  file << "# Runs what is missing of a sweep, in chunks: snakemake -s Snakefile --cores 2\n"
+  file << "# Runs the missing cases of a sweep in chunks: snakemake -s Snakefile --cores 2\n"
        << "program = " << literal(std::filesystem::absolute(options.program).string()) << '\n'
        << "more_words = " << literal(results::joined(options.options, " ")) << '\n'
        << "memory = {" << (megabytes > 0 ? "\"mem_mb\": " + std::to_string(megabytes) : "") << "}\n"

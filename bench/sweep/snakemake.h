@@ -10,15 +10,15 @@
 
 namespace ccdt::sweep {
 
-/// What the rules of a Snakefile say about their jobs.
+/// The settings of the jobs in a Snakefile.
 struct SnakemakeOptions {
   std::filesystem::path program;     ///< the `ccdt` that is run
   std::vector<std::string> options;  ///< more words of `ccdt sweep FOLDER --chunk N`, without spaces
   std::uint64_t memory_bytes = 0;    ///< limit of a run; 0: none
 };
 
-/// Writes FOLDER/Snakefile: one rule, and a job of it for each of these chunks, whose files are written. A chunk is
-/// done when its marker is there (`chunk_marker`); older markers of these chunks are removed.
+/// Writes FOLDER/Snakefile: one rule, with one job for each of these chunks, whose files exist. A chunk is done when
+/// its marker exists (`chunk_marker`); older markers of these chunks are removed.
 ///
 ///     snakemake -s FOLDER/Snakefile --cores 2
 ///

@@ -22,7 +22,7 @@ using Pointer = Json::json_pointer;
 
 constexpr baselines::UserFile spec_file = {"the spec of a sweep", sweep_schema, "; bench/sweeps has examples"};
 
-/// A spec that is being read.
+/// A spec while it is read.
 struct Reader {
   const Json& json;
   std::filesystem::path file;
@@ -40,7 +40,7 @@ std::string text_of(const Json& value) {
   return value.get<std::string>();
 }
 
-/// To as many digits as people like to read, and the same on every machine.
+/// With a readable number of digits, the same on every machine.
 double rounded_to_four_digits(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 3).ptr;
@@ -53,8 +53,8 @@ std::vector<double> range_of(const Reader& reader, const Json& range, const Poin
   const bool is_log = range.value("scale", "log") == "log";
   const int last = range.at("steps").get<int>() - 1;
   if (is_log && (from <= 0 || to <= 0))
-    reader.fail(at, "equal ratios lead from no number to 0 or below",
-                "let both ends be greater than 0, or write "
+    reader.fail(at, "a log scale cannot reach 0 or a negative number",
+                "make both ends greater than 0, or write "
                 "\"scale\": \"linear\"");
   std::vector<double> values = {from};
   for (int i = 1; i < last; ++i) {
@@ -78,7 +78,7 @@ std::vector<std::string> values_of(const Reader& reader, const Json& json, const
   return values;
 }
 
-/// A path as the spec says it: from its folder, or if nothing is there, from the current one.
+/// A path in the spec: relative to its folder or, if nothing is there, to the current folder.
 std::filesystem::path found(const Reader& reader, const std::filesystem::path& path) {
   const auto beside = reader.file.parent_path() / path;
   return std::filesystem::exists(beside) || !std::filesystem::exists(path)
@@ -92,7 +92,7 @@ std::vector<OptionAxis> options_of(const Reader& reader, const Json& parent, con
   for (const auto& [name, json] : parent["options"].items()) {
     const Pointer at = parent_at / "options" / name;
     if (std::ranges::find(reader.rules.names, name) == reader.rules.names.end())
-      reader.fail(at, "a sweep cannot vary an option of this name", baselines::suggestion(name, reader.rules.names));
+      reader.fail(at, "a sweep cannot vary this option", baselines::suggestion(name, reader.rules.names));
     OptionAxis axis = {name, values_of(reader, json, at)};
     for (std::size_t i = 0; i < axis.values.size(); ++i) {
       if (name == "sizes") axis.values[i] = found(reader, axis.values[i]).string();
@@ -149,7 +149,7 @@ void add_mesher(const Reader& reader, const std::string& written, const Pointer&
   const std::string mesher = is_file ? found(reader, written).string() : written;
   try {
     if (!names.insert(baselines::mesher(mesher).name).second)
-      reader.fail(at, "two meshers have the same name", "rename one of them, or reports could not tell them apart");
+      reader.fail(at, "two meshers have the same name", "rename one of them, so that reports can tell them apart");
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {

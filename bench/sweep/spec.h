@@ -15,14 +15,14 @@ namespace ccdt::sweep {
 
 /// The command line of `ccdt mesh`, which only the program knows.
 struct MeshOptionRules {
-  std::vector<std::string> names;  ///< of the options that a sweep may vary, without dashes
-  /// What is wrong with the value of one option; empty: nothing.
+  std::vector<std::string> names;  ///< options that a sweep may vary, without dashes
+  /// The error in the value of one option; empty: none.
   std::function<std::string(const std::string& name, const std::string& value)> fault_of_value;
-  /// The same of all options of a call.
+  /// The same for all options of a call.
   std::function<std::string(const std::vector<std::string>& words)> fault_of_words;
 };
 
-/// An option with the values that are tried, as on the command line.
+/// An option with its values, as on the command line.
 struct OptionAxis {
   std::string name;  ///< without dashes
   std::vector<std::string> values;
@@ -33,13 +33,14 @@ struct SweepInput {
   std::string model;                     ///< empty: files
   std::vector<double> edge_lengths;      ///< of the model's triangles; empty: the model's default
   std::vector<std::string> files;        ///< names of files or folders, or with wildcards
-  std::vector<OptionAxis> options = {};  ///< for this input instead of the spec's
+  std::vector<OptionAxis> options = {};  ///< override the options of the spec for this input
 };
 
-/// What a case that is left out has: names of its properties, and for each the texts one of which it has.
+/// A rule that excludes cases: names of properties, each with texts. A case is excluded if every property has one of
+/// its texts.
 using Exclusion = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// What is measured: schema ccdt.sweep/1.
+/// A spec: schema ccdt.sweep/1.
 struct SweepSpec {
   std::filesystem::path file;  ///< where it was read
   std::string name, what, expects;
@@ -55,19 +56,19 @@ struct SweepSpec {
 };
 
 /// Reads a spec, and checks it as far as that is possible without reading inputs.
-/// \throw InputError  it cannot be read or is wrong; names the file and the JSON pointer
+/// \throw InputError  it cannot be read or is invalid; names the file and the JSON pointer
 SweepSpec read_spec(const std::filesystem::path& file, const MeshOptionRules& rules);
 
-/// The same from a document that is one; the file says where paths begin.
+/// The same from a parsed document; the file gives the base of relative paths.
 SweepSpec spec_from(const bench::Json& json, const std::filesystem::path& file, const MeshOptionRules& rules);
 
-/// With defaults filled in.
+/// The spec as JSON, with defaults filled in.
 bench::Json to_json(const SweepSpec& spec);
 
-/// Of the member "limits" of a spec, which may be missing.
+/// The member "limits" of a spec, which may be missing.
 baselines::Limits limits_from(const bench::Json& json);
 
-/// The user's files instead of those that the spec names; the models stay. Names begin in the current folder.
+/// Replaces the files of the spec by the user's files; models stay. Names are relative to the current folder.
 void replace_files(SweepSpec& spec, const std::vector<std::string>& files);
 
 }  // namespace ccdt::sweep

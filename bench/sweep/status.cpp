@@ -8,7 +8,7 @@
 namespace ccdt::sweep {
 namespace {
 
-/// The ids that the names of the record files begin with, one for each file.
+/// The ids at the beginning of the names of record files, one for each file.
 std::multiset<std::string> recorded_ids(const std::filesystem::path& folder) {
   std::multiset<std::string> ids;
   std::error_code error;  // no folder: no records
@@ -59,7 +59,7 @@ std::string in_words(const SweepStatus& status) {
                      with_separators(status.failed) + " failed, " + with_separators(status.missing) + " missing\n";
   for (const auto& [kind, count] : status.failures) text += "  failed: " + kind + " " + with_separators(count) + "\n";
   text += with_separators(status.runs) + " records of runs";
-  if (status.obsolete > 0) text += ", " + with_separators(status.obsolete) + " of them of no case (obsolete)";
+  if (status.obsolete > 0) text += ", " + with_separators(status.obsolete) + " of them obsolete";
   return text + "\n";
 }
 

@@ -11,7 +11,7 @@
 
 namespace ccdt::sweep {
 
-/// How far a sweep is. Each case is finished, failed or missing.
+/// The progress of a sweep. Each case is finished, failed or missing.
 struct SweepStatus {
   std::size_t cases = 0;
   std::size_t runs = 0;                         ///< record files in the folder
@@ -22,16 +22,16 @@ struct SweepStatus {
   std::map<std::string, std::size_t> failures;  ///< failed cases by the kind of the failure
 };
 
-/// Why a case failed, in a word: the kind of its failure, or what records of older programs say.
+/// The kind of a case's failure, or the status from records of older programs.
 std::string failure_of(const cases::MeasuredCase& measured);
 
-/// \param cases   as `cases::Runner` loads them
+/// \param cases   as loaded by `cases::Runner`
 /// \param folder  of the sweep
 SweepStatus status_of(std::span<const cases::MeasuredCase> cases, const std::filesystem::path& folder);
 
 bench::Json to_json(const SweepStatus& status);
 
-/// A few lines for people.
+/// The status in a few lines.
 std::string in_words(const SweepStatus& status);
 
 }  // namespace ccdt::sweep

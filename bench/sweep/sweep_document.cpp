@@ -14,7 +14,7 @@ using bench::Json;
 constexpr bench::DocumentKind sweep_document = {"ccdt.sweep/1", "not the document of a sweep",
                                                 "give a folder that `ccdt sweep SPEC.json -o DIR` has made"};
 
-/// A file as it is called in the folder, so that the folder can be moved; elsewhere by its whole path.
+/// A file by its name relative to the folder, so that the folder can be moved; outside it, by its full path.
 std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
   const auto name = file.lexically_relative(folder);
   return name.empty() || *name.begin() == ".." ? file.string() : name.string();

@@ -11,10 +11,10 @@
 
 namespace ccdt::sweep {
 
-/// What a sweep's folder says of itself: DIR/sweep.json, schema ccdt.sweep/1.
+/// The document of a sweep's folder: DIR/sweep.json, schema ccdt.sweep/1.
 struct SweepDocument {
   std::uint64_t seed = 1;                   ///< of the spec
-  std::vector<cases::Identity> identities;  ///< whose records count; the first is the one of the last call
+  std::vector<cases::Identity> identities;  ///< identities whose records count; the first is that of the last call
   std::vector<SweepCase> cases;             ///< ready for `cases::Runner`
 };
 
@@ -25,10 +25,10 @@ std::filesystem::path sweep_file(const std::filesystem::path& folder);
 void write_sweep(const std::filesystem::path& folder, const SweepSpec& spec,
                  const std::vector<cases::Identity>& identities, std::span<const SweepCase> cases);
 
-/// \throw InputError  there is none, or it is none
+/// \throw InputError  it is missing or invalid
 SweepDocument read_sweep(const std::filesystem::path& folder);
 
-/// What has changed since the folder's last call.
+/// The changes since the last call in the folder.
 struct SweepChanges {
   std::vector<std::string> added, obsolete;  ///< names of cases
 

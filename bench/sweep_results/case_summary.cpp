@@ -12,21 +12,21 @@
 namespace ccdt::sweep_results {
 namespace {
 
-/// Records of older programs say only the status.
+/// Records of older programs contain only the status.
 std::string kind_of(const RunValues& run) {
   if (const std::string_view kind = text_of(run, "kind"); !kind.empty()) return std::string(kind);
   const std::string_view status = text_of(run, "status");
   return status == "failed" ? "refused" : std::string(status);
 }
 
-/// "off" alone says nothing: "face-protection off".
+/// "off" alone means nothing: "face-protection off".
 std::string option_words(const std::string& option, const std::string& value) {
   const bool speaks = value != "on" && value != "off" && (value.empty() || std::isalpha(value.front()) != 0) &&
                       value != "none" && value != "all";
   return speaks ? value : option + " " + value;
 }
 
-/// Of the runs that went well.
+/// Figures of the successful runs.
 void add_times(CaseSummary& summary) {
   std::vector<double> samples;
   for (const RunValues* run : summary.counted) {
@@ -82,7 +82,7 @@ std::vector<std::size_t> varying_options(const Sweep& sweep) {
   return varying;
 }
 
-/// How many series a chart can tell apart.
+/// The number of series that a chart can distinguish.
 constexpr std::size_t most_in_legend = 8;
 
 /// The mesher of a case and some of its options.
@@ -94,7 +94,7 @@ std::string series_of(const Sweep& sweep, const SweepCase& one, std::span<const 
   return series;
 }
 
-/// As many of the options as charts can show.
+/// As many options as charts can show.
 std::span<const std::size_t> options_of_legend(const Sweep& sweep, std::span<const std::size_t> options) {
   std::set<std::string> series;
   for (const SweepCase& one : sweep.cases) series.insert(series_of(sweep, one, options));

@@ -9,7 +9,7 @@ namespace {
 using results::Column;
 using results::ColumnKind;
 
-/// Options of these names would be taken for columns of every sweep.
+/// Options of these names would be mistaken for columns of every sweep.
 constexpr auto taken = std::to_array<std::string_view>(
     {"input", "model", "edge_length", "mesher", "status", "failure", "reason", "seconds", "vertices", "tetrahedra"});
 

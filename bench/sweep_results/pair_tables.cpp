@@ -18,20 +18,20 @@ using results::cell_of;
 using results::ColumnKind;
 using results::ResultRow;
 
-/// Ours if it takes part, else the first.
+/// Our mesher if it takes part, otherwise the first one.
 std::string reference_of(const Sweep& sweep) {
   const bool has_ours = std::ranges::any_of(sweep.cases, [](const SweepCase& c) { return c.mesher == "ccdt"; });
   return has_ours || sweep.cases.empty() ? "ccdt" : sweep.cases.front().mesher;
 }
 
-/// Are the options equal that both meshers have?
+/// Are the options that both meshers have equal?
 bool have_same_options(const SweepCase& a, const SweepCase& b) {
   for (std::size_t i = 0; i < a.options.size(); ++i)
     if (!a.options[i].empty() && !b.options[i].empty() && a.options[i] != b.options[i]) return false;
   return true;
 }
 
-/// What is known of all pairs with one other mesher.
+/// All pairs with one other mesher.
 struct PairCounts {
   std::vector<double> ratios = {};
   std::uint64_t first_alone = 0, second_alone = 0, neither = 0;
@@ -49,10 +49,10 @@ void count(const CaseSummary& first, const CaseSummary& second, PairCounts& coun
   counts.high = std::max({counts.high, a, b});
 }
 
-/// A picture of more points than this shows no more, and takes long.
+/// A picture of more points takes long and shows nothing new.
 constexpr std::size_t most_pairs = 3000;
 
-/// Draws so many pairs, the same each time.
+/// Draws this many pairs, the same each time.
 void thin_out(ResultTable& pairs) {
   if (pairs.rows.size() <= most_pairs) return;
   const double share = static_cast<double>(most_pairs) / static_cast<double>(pairs.rows.size());
@@ -84,8 +84,8 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
                      {{"first", "first", ColumnKind::label},
                       {"second", "second", ColumnKind::label},
                       {"both", "solved by both", ColumnKind::time},
-                      {"first_alone", "by the first alone", ColumnKind::time},
-                      {"second_alone", "by the second alone", ColumnKind::time},
+                      {"first_alone", "by the first only", ColumnKind::time},
+                      {"second_alone", "by the second only", ColumnKind::time},
                       {"neither", "by neither", ColumnKind::time},
                       {"faster", "first is faster", ColumnKind::time},
                       {"ratio", "seconds of the first / second, median", ColumnKind::time}}},

@@ -13,13 +13,13 @@ using results::cell_of;
 using results::ColumnKind;
 using results::ResultRow;
 
-/// A series is left out of a comparison if it solves less than this share of the inputs: few would be left for all.
+/// A series is left out if it solves less than this share of the inputs; otherwise few inputs would remain for all.
 constexpr double least_solved = 0.5;
 
 /// The cases of one series, by their inputs.
 using CasesByInput = std::map<std::string, const CaseSummary*>;
 
-/// What is drawn for one series.
+/// The data of one series in the chart.
 struct Point {
   const CaseSummary* example = nullptr;
   std::vector<std::string> runs = {};
@@ -91,7 +91,7 @@ ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases)
                                              {"worst_r", "worst r", ColumnKind::figure},
                                              {"mean_r", "mean r", ColumnKind::figure},
                                              {"min_dihedral", "smallest dihedral angle", ColumnKind::figure, "degrees"},
-                                             {"front", "none is faster and better", ColumnKind::time}};
+                                             {"front", "no other is faster and better", ColumnKind::time}};
   table.columns.insert(table.columns.end(), more.begin(), more.end());
   for (auto& [group, series] : groups) {
     const std::set<std::string> common = common_inputs(series, inputs[group].size());

@@ -11,7 +11,7 @@ namespace {
 
 using results::Cell;
 
-/// The columns before those of the record: what the sweep says of a run.
+/// The columns before those of the record: the data of the sweep.
 constexpr auto case_columns = std::to_array<std::string_view>(
     {"case", "number", "counted", "file", "name", "input", "input_file", "model", "edge_length"});
 

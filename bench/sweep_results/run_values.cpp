@@ -82,7 +82,7 @@ class RunReader : public nlohmann::json_sax<nlohmann::json> {
   }
 
   std::string path_;                  ///< of the value that comes next
-  std::vector<std::size_t> lengths_;  ///< of the paths of the objects that are open
+  std::vector<std::size_t> lengths_;  ///< lengths of the paths of open objects
   int arrays_ = 0;                    ///< that are open: histograms, and the command
 };
 

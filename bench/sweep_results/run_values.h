@@ -20,7 +20,7 @@ struct RunColumn {
   std::string_view path;  ///< names, joined by slashes
 };
 
-/// In the order of the file. Names are a contract: add some, change none.
+/// The values in the order of the file. Names are a contract: add names, never change them.
 inline constexpr auto run_columns = std::to_array<RunColumn>({
     {"mesher", "mesher/name"},
     {"version", "mesher/version"},
@@ -72,19 +72,19 @@ inline constexpr auto run_columns = std::to_array<RunColumn>({
     {"jobs", "environment/jobs"},
 });
 
-/// One of the columns; that its name is right is checked when this is compiled.
+/// One of the columns; its name is checked at compile time.
 struct RunField {
-  consteval RunField(const char* name) {  // NOLINT(google-explicit-constructor): it is written as its name
+  consteval RunField(const char* name) {  // NOLINT(google-explicit-constructor): written as its name
     while (run_columns.at(index).name != name) ++index;
   }
   std::size_t index = 0;
 };
 
-/// What a report needs of a run.
+/// The part of a run that a report needs.
 struct RunValues {
-  std::array<results::Cell, run_columns.size()> cells;  ///< empty: the record does not say
+  std::array<results::Cell, run_columns.size()> cells;  ///< empty: not in the record
   std::vector<std::string> command;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< in the mesher's own words
+  std::vector<std::pair<std::string, std::string>> settings;  ///< in the terms of the mesher
 };
 
 /// Nothing, if the record does not say.
@@ -92,9 +92,9 @@ std::optional<double> number_of(const RunValues& run, RunField field);
 /// Empty, if the record does not say.
 std::string_view text_of(const RunValues& run, RunField field);
 
-/// Reads these values alone: a sweep has tens of thousands of records, and needs little of each.
+/// Reads only these values: a sweep has tens of thousands of records, and needs little of each.
 ///
-/// \return  nothing if the file is no record of schema `ccdt.run/1` (missing, or torn by a full disk)
+/// \return  nothing if the file is not a record of schema `ccdt.run/1` (missing, or truncated by a full disk)
 std::optional<RunValues> read_run_values(const std::filesystem::path& file);
 
 }  // namespace ccdt::sweep_results

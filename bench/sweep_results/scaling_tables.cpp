@@ -17,13 +17,13 @@ constexpr std::size_t fewest_sizes = 3;
 constexpr std::size_t most_facets = 6;
 constexpr double least_span = 10;  ///< the largest over the smallest number of tetrahedra
 
-/// Cases that differ in size alone.
+/// Cases that differ only in size.
 struct Family {
   std::vector<const CaseSummary*> cases = {};
   std::vector<double> sizes = {}, seconds = {};  ///< tetrahedra, and the median times
 };
 
-/// What a family is of: a model, or the same file with several edge lengths.
+/// The shape of a family: a model, or the same file with several edge lengths.
 std::string family_name(const SweepCase& one) {
   return one.model.empty() ? one.input : one.model;
 }
@@ -47,7 +47,7 @@ std::vector<Family> families_of(const Sweep& sweep, std::span<const CaseSummary>
   return large;
 }
 
-/// The labels of all members of a family: nothing where they differ.
+/// The common labels of a family; empty where its members differ.
 std::vector<Cell> common_labels(const Family& family) {
   std::vector<Cell> common = label_cells(*family.cases.front());
   for (const CaseSummary* one : family.cases) {
@@ -78,7 +78,7 @@ ScalingTables scaling_tables(const Sweep& sweep, std::span<const CaseSummary> ca
                               {"largest", "largest, tetrahedra", ColumnKind::figure},
                               {"exponent", "exponent", ColumnKind::time},
                               {"explained", "variance explained", ColumnKind::time},
-                              {"speed", "tetrahedra a second, at the largest", ColumnKind::time}},
+                              {"speed", "tetrahedra per second, at the largest size", ColumnKind::time}},
                              false),
                        begin("scaling_points", "Times and sizes", of_point, true),
                        begin("scaling_lines", "Fitted lines", of_point, true)};

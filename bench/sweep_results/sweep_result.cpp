@@ -28,12 +28,12 @@ std::size_t count_of(std::span<const CaseSummary> cases, Test test) {
   return static_cast<std::size_t>(std::ranges::count_if(cases, test));
 }
 
-/// Of the first run that can be read.
+/// The environment of the first readable run.
 bench::Environment environment_of(const Sweep& sweep, const std::filesystem::path& folder) {
   for (const SweepCase& one : sweep.cases)
     for (const NumberedRun& run : one.runs) try {
         return bench::read_run_record(folder / run.file).environment;
-      } catch (const InputError&) {  // an older program's; the next may do
+      } catch (const InputError&) {  // from an older program; try the next one
       }
   return {};
 }
@@ -49,17 +49,17 @@ void add_case_findings(std::span<const CaseSummary> cases, ExperimentResult& res
   const std::size_t run = count_of(cases, &CaseSummary::is_run), solved = count_of(cases, &CaseSummary::is_solved);
   result.findings.push_back(share(solved, cases.size()) + " cases are solved.");
   const std::size_t verified = count_of(cases, [](const auto& s) { return text_of(s, "verified") == "yes"; });
-  if (verified > 0) result.findings.push_back(share(verified, solved) + " meshes are verified to be right.");
+  if (verified > 0) result.findings.push_back(share(verified, solved) + " meshes are verified and right.");
   const std::size_t wide = count_of(cases, [](const auto& s) { return !s.spread.empty(); });
   if (wide > 0)
-    result.findings.push_back("The times of " + counted(wide, "case") + " spread wider than was asked for, or than " +
+    result.findings.push_back("The times of " + counted(wide, "case") + " spread more than requested, or than " +
                               results::rounded(100 * widest_spread, 2) + "%; their rows say so.");
   if (run < cases.size())
     result.problems.push_back(counted(cases.size() - run, "case") +
-                              " of the sweep have no run yet; call `ccdt sweep` again to go on");
+                              " of the sweep have no run yet; call `ccdt sweep` again to continue");
 }
 
-/// Of so many fits each is a finding; of more, the range of each mesher's.
+/// Up to this many fits are findings of their own; otherwise the range of each mesher is one.
 constexpr std::size_t most_single_fits = 6;
 
 void add_fit_findings(const ResultTable& fits, std::vector<std::string>& findings) {
@@ -93,7 +93,7 @@ void add_pair_findings(const ResultTable& pairs, std::vector<std::string>& findi
   }
 }
 
-/// Nothing of our own may be wrong.
+/// Finds errors of ccdt itself.
 void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentResult& result) {
   std::size_t wrong = 0, crashed = 0;
   for (const CaseSummary& s : cases) {
@@ -113,7 +113,8 @@ void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentRes
                               counted(same.rows.size(), "group") + ".");
   result.is_good = wrong + crashed + different == 0;
   if (sweep.broken_records > 0)
-    result.problems.push_back(counted(sweep.broken_records, "file") + " in runs are no records; they count as missing");
+    result.problems.push_back(counted(sweep.broken_records, "file") +
+                              " in runs are not records; they count as missing");
   std::set<std::string_view> machines;
   for (const SweepCase& one : sweep.cases)
     for (const NumberedRun& run : one.runs) machines.insert(text_of(run.values, "cpu"));
@@ -144,9 +145,9 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
   result.definitions = {
       "A case is one mesher on one input with one set of options.",
       "Seconds: the median of the counted runs of a case, of meshing alone, with the interval of a bootstrap.",
-      "spread: the interval is wider than was asked for, or than 10% of the median on either side.",
+      "spread: the half-width of the interval is more than requested, or more than 10% of the median.",
       "r is 1 for the regular tetrahedron and larger for all others.",
-      "Of very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",
+      "If there are very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",
       "A failure's kind is one of invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong.",
       "Quality against time: over the inputs that all meshers with these options solve.",
       "A mesher that solves less than half of them is left out there."};

@@ -11,7 +11,7 @@ namespace ccdt::sweep_results {
 /// The name of the result of a sweep, among those of the experiments.
 inline constexpr const char* sweep_name = "sweep";
 
-/// What a sweep found, in the form of an experiment.
+/// The result of a sweep, in the form of an experiment.
 results::ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& folder);
 
 /// \name One line for each run, with the same flat columns in both: for pandas and R. Figures have all their digits.
@@ -20,7 +20,7 @@ std::string runs_as_csv(const Sweep& sweep);
 std::string runs_as_json_lines(const Sweep& sweep);
 /// @}
 
-/// What the columns of these files are, for people.
+/// The names of the columns of these files, for help texts.
 std::string run_columns_help();
 
 }  // namespace ccdt::sweep_results

@@ -13,10 +13,10 @@
 namespace ccdt::sweep_results {
 namespace {
 
-constexpr bench::DocumentKind sweep_document = {"ccdt.sweep/1", "no sweep of schema ccdt.sweep/1",
+constexpr bench::DocumentKind sweep_document = {"ccdt.sweep/1", "not a sweep of schema ccdt.sweep/1",
                                                 "give a folder that `ccdt sweep` has filled"};
 
-/// A value of an option as it is typed.
+/// A value of an option as typed.
 std::string option_text(const bench::Json& value) {
   if (value.is_string()) return value;
   if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
@@ -67,13 +67,13 @@ Sweep sweep_from(const bench::Json& json) {
   return sweep;
 }
 
-/// Which case a record is of, by the first part of its file's name, and how old its identity is: 0 is that of now.
+/// The case of a record, by the first part of its file name, and the age of its identity: 0 is the current one.
 struct Owner {
   std::size_t of = 0, age = 0;
 };
 using Owners = std::unordered_map<std::string, Owner>;
 
-/// With the identities that the sweep is mixed with, cases have other ids as well.
+/// With mixed identities, cases also have other ids.
 Owners owners_of(const std::filesystem::path& folder, const Sweep& sweep) {
   Owners owners;
   for (std::size_t i = 0; i < sweep.cases.size(); ++i) owners.emplace(sweep.cases[i].id, Owner{i, 0});
@@ -86,15 +86,15 @@ Owners owners_of(const std::filesystem::path& folder, const Sweep& sweep) {
   return owners;
 }
 
-/// A record that is there, and the case that it is of.
+/// An existing record and its case.
 struct Record {
   Owner owner;
   NumberedRun run;
   bool is_broken = false;
 };
 
-/// The records of the cases, by the names ID-NUMBER.json of their files. A case that has been run with the identity of
-/// now has these alone.
+/// The records of the cases, by their file names ID-NUMBER.json. A case that was run with the current identity has only
+/// these records.
 std::vector<Record> find_records(const std::filesystem::path& folder, const Sweep& sweep) {
   std::vector<Record> records;
   if (!std::filesystem::exists(folder / "runs")) return records;

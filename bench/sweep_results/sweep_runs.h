@@ -24,20 +24,20 @@ struct SweepCase {
   std::string model;                  ///< empty: the input is a file of the user's
   std::optional<double> edge_length;  ///< of a model
   std::string mesher;
-  std::vector<std::string> options;  ///< one for each of `Sweep::options`; empty: not given to this mesher
+  std::vector<std::string> options;  ///< one for each of `Sweep::options`; empty: not used by this mesher
   cases::Repetitions wanted;
-  std::vector<NumberedRun> runs = {};  ///< by number; none: the case has not been run yet
+  std::vector<NumberedRun> runs = {};  ///< by number; none: the case has not run yet
 };
 
 /// A folder that `ccdt sweep` has filled, or is filling.
 struct Sweep {
   std::string name;
-  std::vector<std::string> options;  ///< that any case has: "lattice", "face-protection"
+  std::vector<std::string> options;  ///< options of any case: "lattice", "face-protection"
   std::vector<SweepCase> cases;
-  double limit_seconds = 0;        ///< of a run; 0: none
-  double limit_bytes = 0;          ///< the same of memory
-  bool is_mixed = false;           ///< with records that were made with another identity
-  std::size_t broken_records = 0;  ///< files that are no record; they count as missing
+  double limit_seconds = 0;        ///< seconds of a run; 0: none
+  double limit_bytes = 0;          ///< bytes of memory of a run
+  bool is_mixed = false;           ///< contains records with other identities
+  std::size_t broken_records = 0;  ///< files that are not records; they count as missing
 };
 
 /// The description of a sweep in its folder.

@@ -11,13 +11,13 @@ namespace ccdt::sweep_results {
 
 using results::ResultTable;
 
-/// \name The tables of a sweep. Those without rows have nothing to say of it.
+/// \name The tables of a sweep. Tables that do not apply have no rows.
 /// @{
 
-/// A row for each case: what it is, how it ended, counts, seconds, memory and quality.
+/// A row for each case: labels, outcome, counts, seconds, memory and quality.
 ResultTable cases_table(const Sweep& sweep, std::span<const CaseSummary> cases);
 
-/// A row for each mesher: how many of its cases were solved, and how many failed by which kind.
+/// A row for each mesher: the numbers of solved cases, and of failures by kind.
 ResultTable failures_table(std::span<const CaseSummary> cases);
 
 /// Groups of cases of our mesher whose strategies must give the same mesh, and whether they do.
@@ -33,10 +33,10 @@ struct ScalingTables {
 };
 ScalingTables scaling_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
 
-/// Each solved case of one mesher beside that of another with the same input and, as far as both have them, the same
-/// options; and the diagonals of their charts.
+/// Pairs of solved cases of two meshers with the same input and, as far as both have them, the same options; and the
+/// diagonals of their charts.
 struct PairTables {
-  std::string reference;  ///< the mesher that all others are beside
+  std::string reference;  ///< the mesher with which all others are compared
   ResultTable summary, pairs, diagonals;
 };
 PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
@@ -46,7 +46,7 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
 ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases);
 /// @}
 
-/// The columns that say what a case is: input, model, edge length, mesher, options; and the cells of a case.
+/// The columns that identify a case: input, model, edge length, mesher, options; and the cells of a case.
 std::vector<results::Column> label_columns(const Sweep& sweep);
 std::vector<results::Cell> label_cells(const CaseSummary& summary);
 

@@ -59,7 +59,7 @@ TEST(DelaunayBesideCgal, RandomPointsHaveTheSameCells) {
   }
 }
 
-/// Octahedra of a face-centred lattice may be cut in several ways, but the spheres of its regular tetrahedra have no
+/// Octahedra of a face-centered lattice may be cut in several ways, but the spheres of its regular tetrahedra have no
 /// fifth point on them: these are in every Delaunay tetrahedralization.
 TEST(DelaunayBesideCgal, ALatticeHasTheSameRegularTetrahedra) {
   const auto points = benchmarks::lattice_points(4000, 1);

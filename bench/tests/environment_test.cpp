@@ -41,7 +41,7 @@ TEST(Environment, InJsonLacksWhatTheSystemDoesNotSay) {
   EXPECT_EQ(json.get<bench::Environment>().memory_bytes, 0u) << "of an older program";
 }
 
-/// A folder as the kernel's, in which files hold one value each.
+/// A folder like those of the kernel, whose files contain one value each.
 class Sensors : public testing::Test {
  protected:
   ~Sensors() override { std::filesystem::remove_all(folder_); }

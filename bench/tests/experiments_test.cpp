@@ -107,13 +107,14 @@ TEST(InteriorPoints, ResultCountsTheHarmAndAsideTheCasesThatFailed) {
   rows.back().measured.first.set_failure(baselines::FailureKind::invalid_input, "it is open");
   const small_plcs::ExistenceTrials existence{"segments", 40, 7, {}};
   const auto result = experiments::interior_points_result(rows, std::vector{existence});
-  EXPECT_EQ(result.findings,
-            (std::vector<std::string>{
-                "7 of 40 small PLCs with a CDT have none when one interior point is added",
-                "Rule \"paper\": no point did harm in 2 cases with 1,090 interior vertices",
-                "Rule \"no spheres\": points do harm: 3 points of 1,203 would have destroyed a protected edge, in 1 of "
-                "1 cases",
-                "Rule \"no distances\": no case to judge by"}));
+  EXPECT_EQ(
+      result.findings,
+      (std::vector<std::string>{
+          "7 of 40 small PLCs with a CDT have none when one interior point is added",
+          "Rule \"paper\": no point threatened an edge in 2 cases with 1,090 interior vertices",
+          "Rule \"no spheres\": points threaten edges: 3 points of 1,203 are in the sphere of a protected edge, in 1 "
+          "of 1 cases",
+          "Rule \"no distances\": no case to judge by"}));
   EXPECT_EQ(result.problems, std::vector<std::string>{"part.off, sc, paper: failed: it is open"});
   EXPECT_EQ(results::find_table(result, "cases")->rows.size(), 4u);
   const results::ResultTable& rules = *results::find_table(result, "rules");

@@ -90,7 +90,7 @@ std::string without(std::string text, const std::string& words) {
 }
 
 TEST(StageInstructionsTest, AnInlinedStageIsAnErrorAndNotZero) {
-  // The caller has taken in the function: the calls are gone, and what they cost is its own.
+  // The function is inlined into the caller: the calls are gone, and their cost belongs to the caller.
   std::string inlined = profile;
   const std::string calls = "cfn=(6)\ncalls=1 +3\n0 50\n";
   inlined = without(inlined, calls);

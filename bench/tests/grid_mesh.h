@@ -11,7 +11,7 @@
 
 namespace ccdt {
 
-/// A mesh with the input that it belongs to.
+/// A mesh and its input.
 struct MeshedInput {
   plc::InputPlc input;
   mesh::TetMesh mesh;
@@ -25,7 +25,7 @@ inline constexpr int outside = -1;
 /// Cubes of a grid, each cut into the six tetrahedra of Kuhn's subdivision. The input has the squares between cubes of
 /// different regions as two triangles each.
 ///
-/// \param turned_diagonals  the input's squares have the diagonals that the mesh has not
+/// \param turned_diagonals  the squares of the input have the other diagonals
 MeshedInput make_grid_mesh(const std::array<int, 3>& size, const CubeRegion& region, bool turned_diagonals,
                            const Transform& transform);
 

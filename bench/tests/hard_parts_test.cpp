@@ -2,13 +2,15 @@
 
 #include <cctype>
 
+#include "bench/proving_ground/prove.h"
+#include "bench/proving_ground/structured_plc.h"
 #include "bench/verify/verify.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/tests/real_parts.h"
 
-// Surfaces that have made the engine fail, meshed in every way and verified: `ctest -L hard`.
+// Surfaces that once made the engine fail, meshed with all strategies and verified: `ctest -L hard`.
 
 namespace ccdt {
 namespace {
@@ -36,6 +38,11 @@ INSTANTIATE_TEST_SUITE_P(Files, HardPart, testing::ValuesIn(surfaces_in(folder_o
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
 });
+
+TEST(ProvingGround, ABundleOfManyPiecesIsRight) {
+  const proving_ground::Proof proof = proving_ground::prove(proving_ground::structured_plc(4543), {.seconds = 600});
+  EXPECT_EQ(proof.outcome, proving_ground::Proof::Outcome::right) << proof.what;
+}
 
 }  // namespace
 }  // namespace ccdt

@@ -13,7 +13,7 @@ using experiments::QualityRow;
 using results::ExperimentResult;
 using results::ResultTable;
 
-/// Is a part of these words in one of the lines?
+/// Does one of the lines contain these words?
 bool say(const std::vector<std::string>& lines, const std::string& words) {
   return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
@@ -54,7 +54,7 @@ std::vector<std::string> texts(const ExperimentResult& result, const char* table
 
 using Texts = std::vector<std::string>;
 
-/// Our meshes beside two others, which stand for meshers that this build need not have.
+/// Our meshes and two others, which stand for meshers that this build may lack.
 class MesherQuality : public testing::Test {
  protected:
   MesherQuality() {
@@ -188,7 +188,7 @@ TEST_F(LatticeFit, RanksSettingsOverAllModels) {
   rows[plan_.variants.size()].measured.first.quality.r.max = 32;
   EXPECT_NEAR(numbers(result_of(rows), "settings", "worst_r")[0], 32, 1e-12);
   fail(rows.back());
-  EXPECT_TRUE(say(result_of(rows).findings, "no surface on which every setting went well"));
+  EXPECT_TRUE(numbers(result_of(rows), "settings", "rank").empty());
 }
 
 TEST_F(LatticeFit, NamesTheBestSettingAndWhetherItIsTheDefault) {

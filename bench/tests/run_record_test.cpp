@@ -23,6 +23,7 @@ bench::RunRecord example() {
   record.environment.cores = 4;
   record.environment.libraries = {{"tetgen", "1.5.0"}};
   record.counts = {10, 3, 1, 30, 12, 2, 3, {2, 1}, 4};
+  record.counts.segments = {18, 7, 12, 2, 5, 4};
   record.seconds.delaunay = 0.5;
   record.seconds.mesh = 0.75;
   record.work.delaunay.cells_created = 17;
@@ -68,6 +69,12 @@ TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
                               "/counts/front_tetrahedra",
                               "/counts/splits_by_level",
                               "/counts/dropped_interior_vertices",
+                              "/counts/segments/all",
+                              "/counts/segments/grazeable",
+                              "/counts/segments/delaunay",
+                              "/counts/segments/split",
+                              "/counts/segments/pieces",
+                              "/counts/segments/front",
                               "/seconds/read",
                               "/seconds/protect",
                               "/seconds/lattice",
@@ -119,6 +126,14 @@ TEST(RunRecord, OfOlderProgramsMayLackTheCountsOfSplits) {
   json["counts"].erase("splits_by_level");
   json["counts"].erase("dropped_interior_vertices");
   EXPECT_TRUE(bench::run_record_from_json(json.dump()).counts.splits_by_level.empty());
+}
+
+TEST(RunRecord, OfAnotherMesherHasNoCountsOfSegments) {
+  bench::RunRecord record = example();
+  record.counts.segments.reset();
+  const Json json = Json::parse(bench::to_json(record));
+  EXPECT_FALSE(json["counts"].contains("segments"));
+  EXPECT_FALSE(bench::run_record_from_json(json.dump()).counts.segments.has_value());
 }
 
 TEST(RunRecord, HasTheWorkOfEachStageThatIsNotZero) {

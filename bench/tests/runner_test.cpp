@@ -15,8 +15,8 @@
 namespace ccdt::cases {
 namespace {
 
-/// Stands for `ccdt mesh`: writes the input's content as the seconds of its record, or fails if that is no number;
-/// writes an empty mesh, and lists its calls.
+/// Stands for `ccdt mesh`: writes the content of the input as the seconds of its record, or fails if that is not a
+/// number; writes an empty mesh, and lists its calls.
 constexpr const char* program_text = R"(#!/bin/sh
 folder=$(dirname "$0")
 echo "$2 $*" >> "$folder/calls"

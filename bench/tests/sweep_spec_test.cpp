@@ -245,7 +245,7 @@ TEST_F(SweepSpecs, MakeOneCaseOfOptionsThatAMesherDoesNotHave) {
   EXPECT_EQ(cases[6].mesher(), "other");
   EXPECT_EQ(cases[6].asked.options, (Texts{"--edge-length", "0.5"}));
   EXPECT_EQ(cases[7].asked.options, (Texts{"--edge-length", "0.25"}));
-  // A usual value is not said to the mesher, but in reports.
+  // A default value is not passed to the mesher, but it is in reports.
   EXPECT_EQ(cases[0].asked.options, (Texts{"--edge-length", "0.5"}));
   EXPECT_EQ(cases[0].options,
             (std::vector<std::pair<std::string, std::string>>{{"edge-length", "0.5"}, {"locator", "cavity"}}));

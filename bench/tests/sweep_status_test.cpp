@@ -62,7 +62,7 @@ TEST(SweepStatus, OfAFolderThatIsNotThereHasNoRuns) {
 
 class SweepEstimates : public testing::Test {
  protected:
-  /// A cube, and what a run took of it if it is finished.
+  /// A cube, and the cost of its run if it is finished.
   void add(const std::string& mesher, double edge_length, const std::vector<cases::RunRecord>& runs = {}) {
     sweep::SweepCase one;
     one.asked.mesher = mesher;

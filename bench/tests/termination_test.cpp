@@ -93,10 +93,9 @@ TEST(Termination, ResultSaysAtWhichAnglesMidpointsEnded) {
   const results::ExperimentResult result = experiments::termination_result(
       std::vector{ended, failed("wheel", 30, limit), failed("wheel", 20, limit), row("wheel", 30, Protection::shell),
                   failed("file", 0, invalid_input)});
-  EXPECT_EQ(
-      result.findings.at(0),
-      "Midpoint, wheel: ended in 1 of 3 cases; from 60 degrees up it always ended; it did not at 30 to 20 degrees");
-  EXPECT_EQ(result.findings.back(), "Shell on stars ended in 1 of 1 cases");
+  for (const char* data : {"wheel", "1 of 3", "60 degrees", "30 to 20 degrees"})
+    EXPECT_NE(result.findings.at(0).find(data), std::string::npos) << result.findings.at(0);
+  EXPECT_NE(result.findings.back().find("1 of 1"), std::string::npos) << result.findings.back();
   const results::ResultTable& table = *results::find_table(result, "stars");
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_EQ(results::number_in(table, table.rows[0], "midpoint_ended"), 1);

@@ -14,7 +14,7 @@ SmallPlc tetrahedron() {
   return {{{0, 0, 0}, {50, 3, 1}, {7, 60, 2}, {11, 13, 55}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-/// Two vertices on the two sides of a triangle 0 1 2, so near to it that a circumsphere of one of the two tetrahedra at
+/// Two vertices on the two sides of a triangle 0 1 2, so near it that a circumsphere of one of the two tetrahedra at
 /// the triangle holds the other vertex: the Delaunay tetrahedra are three, around the edge 3 4.
 SmallPlc flat_bipyramid() {
   SmallPlc plc{{{-50, -31, 1}, {53, -30, 0}, {2, 60, 3}, {1, 2, 20}, {-2, 1, -19}}, {}};

@@ -14,14 +14,14 @@
 namespace ccdt::gate {
 namespace {
 
-/// Noise as it was measured of `ccdt mesh`: 2% mostly, and one run in ten is disturbed.
+/// Noise as measured for `ccdt mesh`: mostly 2%, and one run in ten is disturbed.
 class FakeProgram {
  public:
   explicit FakeProgram(std::uint64_t seed, double noise = 0.02) : random_(seed), noise_(noise) {}
 
   double seconds() {
     const double disturbed = unit_(random_) < 0.1 ? 0.2 * unit_(random_) : 0;
-    // What lasts longer than a run: the clock of the processor, other programs.
+    // Disturbances longer than a run: the clock of the processor, other programs.
     drift_ = 0.9 * drift_ + 0.01 * normal_(random_);
     return 0.03 * std::exp(drift_ + noise_ * normal_(random_) + disturbed);
   }
@@ -33,7 +33,7 @@ class FakeProgram {
   double noise_, drift_ = 0;
 };
 
-/// A target with one case whose head takes so many times as long.
+/// A target with one case whose head takes this many times as long.
 TimedTarget target(const std::string& name, double factor, std::uint64_t seed, double noise = 0.02) {
   TimedTarget fake = {name, "seconds.mesh"};
   fake.run = [=, program = std::make_shared<FakeProgram>(seed, noise)](const RunRequest& request) {

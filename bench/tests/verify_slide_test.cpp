@@ -84,7 +84,7 @@ TEST(VerifySlide, OnACurvedSurfaceNoVertexMaySlide) {
   expect_no_slide(moved(m, {1, 0, 3}, {1.1, 0, 3}, bulge), must_stay);
 }
 
-/// So little bent that each edge alone would pass as flat.
+/// Bent so little that each edge alone would pass as flat.
 TEST(VerifySlide, OnASlightlyCurvedSurfaceNoVertexMaySlide) {
   const auto bulge = [](const Point3& p) {
     return Point3{p.x, p.y, p.z + 5e-8 * p.z * (p.x * (12 - p.x) + p.y * (12 - p.y))};
@@ -95,7 +95,7 @@ TEST(VerifySlide, OnASlightlyCurvedSurfaceNoVertexMaySlide) {
   expect_no_slide(moved(m, {5, 5, 1}, {5.2, 5.1, 1}, bulge), must_stay);
 }
 
-/// The top is flat in the middle and twisted at two sides, so little that no edge parts the two.
+/// The top is flat in the middle and twisted at two sides, so little that no edge separates the parts.
 TEST(VerifySlide, VerticesMaySlideInTheFlatPartOfASlightlyCurvedSurface) {
   const auto bend = [](const Point3& p) {
     const double beyond = std::fmax(0, std::fabs(p.x - 6) - 3);

@@ -1,10 +1,13 @@
 #include "bench/verify/check_delaunay.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
+#include "engine/base/shared_progress.h"
 
 namespace ccdt::verify {
 
@@ -57,11 +60,39 @@ Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
   return {value, change + norm1(of_origin), 2880 * largest * largest * largest};
 }
 
-std::string describe_face(const mesh::TetMesh& mesh, const Face& face, std::uint32_t before, std::uint32_t behind,
-                          double ratio) {
-  return "the face" + text(mesh.vertices, face) + " between " + text(mesh.vertices[before]) + " and " +
-         text(mesh.vertices[behind]) + ", " + std::to_string(ratio) + " times what rounding explains";
+/// An inner face between two tetrahedra.
+struct InnerFace {
+  Face face;                     ///< counterclockwise seen from `before`
+  std::uint32_t before, behind;  ///< the opposite vertices
+};
+
+InnerFace inner_face(const Topology& topology, std::size_t f) {
+  const auto [h, other] = topology.half_faces[f];
+  const auto [a, c, b] = outward(topology.mesh, h);
+  return {{a, b, c}, topology.mesh.tetrahedra[h / 4][h % 4], topology.mesh.tetrahedra[other / 4][other % 4]};
 }
+
+std::array<Point3, 5> points_of(const mesh::TetMesh& mesh, const InnerFace& inner) {
+  const auto& [a, b, c] = inner.face;
+  return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[inner.before],
+          mesh.vertices[inner.behind]};
+}
+
+bool is_locally_delaunay(const std::array<Point3, 5>& p) {
+  return side_of_sphere(p[0], p[1], p[2], p[3], p[4]) <= 0;
+}
+
+/// The ratio of the determinant to the rounding error that can be expected.
+double ratio_to_rounding(const std::array<Point3, 5>& points, double rounding) {
+  const Sensitivity sensitivity = in_sphere_sensitivity(points);
+  return std::fabs(sensitivity.value) / sensitivity.explained_by(rounding);
+}
+
+/// What is found among some of the faces.
+struct Found {
+  std::uint64_t checked = 0;
+  std::array<Failures, 2> failures = {};  ///< beyond what rounding explains, and within
+};
 
 }  // namespace
 
@@ -70,23 +101,31 @@ std::array<Check, 2> check_delaunay(const Topology& topology, const std::vector<
   std::array<Check, 2> checks{
       {{.name = required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", .required = required},
        {.name = "locally Delaunay without rounding", .required = false}}};
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
-    if (f % 65536 == 0) report(progress, "verify Delaunay", f, topology.faces.size());
-    if (constrained[f] || topology.on_boundary(f)) continue;
-    const std::uint32_t h = topology.half_faces[f][0], other = topology.half_faces[f][1];
-    const auto [a, c, b] = outward(topology.mesh, h);
-    const std::uint32_t before = topology.mesh.tetrahedra[h / 4][h % 4],
-                        behind = topology.mesh.tetrahedra[other / 4][other % 4];
-    const std::array<Point3, 5> points = {topology.mesh.vertices[a], topology.mesh.vertices[b],
-                                          topology.mesh.vertices[c], topology.mesh.vertices[before],
-                                          topology.mesh.vertices[behind]};
-    for (Check& check : checks) ++check.checked;
-    if (side_of_sphere(points[0], points[1], points[2], points[3], points[4]) <= 0) continue;
-    const Sensitivity sensitivity = in_sphere_sensitivity(points);
-    const double ratio = std::fabs(sensitivity.value) / sensitivity.explained_by(rounding);
-    fail(checks[ratio > 1 ? 0 : 1],
-         [&] { return describe_face(topology.mesh, topology.faces[f], before, behind, ratio); });
-  }
+  const mesh::TetMesh& mesh = topology.mesh;
+  SharedProgress shared(progress, "verify Delaunay", 0, topology.faces.size());
+  const auto look = [&](std::size_t begin, std::size_t end) {
+    Found found;
+    for (std::size_t f = begin; f < end; ++f) {
+      if (constrained[f] || topology.on_boundary(static_cast<std::uint32_t>(f))) continue;
+      ++found.checked;
+      const std::array<Point3, 5> points = points_of(mesh, inner_face(topology, f));
+      if (!is_locally_delaunay(points)) found.failures[ratio_to_rounding(points, rounding) > 1 ? 0 : 1].add(f);
+    }
+    shared.add(end - begin);
+    return found;
+  };
+  const auto describe = [&](std::size_t f) {
+    const InnerFace inner = inner_face(topology, f);
+    char times[32];
+    std::snprintf(times, sizeof times, "%.2g", ratio_to_rounding(points_of(mesh, inner), rounding));
+    return "the face" + text(mesh.vertices, topology.faces[f]) + " between " + text(mesh.vertices[inner.before]) +
+           " and " + text(mesh.vertices[inner.behind]) + ": " + times + " times the bound of rounding errors";
+  };
+  for (const Found& found : parallel_chunks(topology.faces.size(), chunk_length, look))
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      checks[i].checked += found.checked;
+      fail(checks[i], found.failures[i], describe);
+    }
   return checks;
 }
 

@@ -9,14 +9,14 @@
 
 namespace ccdt::verify {
 
-/// Every inner face that stands for no facet is locally Delaunay: the vertex behind it is not strictly inside the
-/// circumsphere of the tetrahedron before it. By the Delaunay lemma for constrained Delaunay tetrahedralizations the
-/// mesh is then one (Shewchuk 2008).
+/// Every inner face that is not part of a facet is locally Delaunay: the vertex behind it is not strictly inside the
+/// circumsphere of the tetrahedron before it. By the Delaunay lemma (Shewchuk 2008), the mesh is then a constrained
+/// Delaunay tetrahedralization.
 ///
-/// The coordinates that a mesher worked with may differ from those in the mesh, because it rounds them. A violation is
-/// explained by that if moving each coordinate by `rounding` can change the sign of the determinant (to first order).
+/// The coordinates with which a mesher worked may differ from those in the mesh by rounding. Rounding explains a
+/// violation if moving each coordinate by `rounding` can change the sign of the determinant.
 ///
-/// \param constrained  of each face: does it stand for a facet?
+/// \param constrained  by face: is it part of a facet?
 /// \param rounding     in units of the input
 /// \param required     must the mesh be constrained Delaunay?
 /// \return             faces that are not locally Delaunay beyond what rounding explains, and those within (not

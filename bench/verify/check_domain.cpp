@@ -5,18 +5,23 @@
 #include <unordered_set>
 
 #include "bench/verify/findings.h"
+#include "engine/base/shared_union_find.h"
 
 namespace ccdt::verify {
 
 namespace {
 
-/// A sum that keeps what rounding would lose (Neumaier 1974).
+/// A sum that compensates rounding errors (Neumaier 1974).
 class Sum {
  public:
   void add(double x) {
     const double sum = sum_ + x;
     lost_ += std::fabs(sum_) >= std::fabs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
     sum_ = sum;
+  }
+  void add(const Sum& other) {
+    add(other.sum_);
+    add(other.lost_);
   }
   double value() const { return sum_ + lost_; }
 
@@ -34,8 +39,8 @@ int attribute_of(const mesh::TetMesh& mesh, std::size_t t) {
   return mesh.regions.empty() ? 0 : mesh.regions[t];
 }
 
-/// The attributes that tetrahedra of each region may have: where there is no seed, that of the first one. (A region
-/// of tetrahedra within facets alone has none.)
+/// The attributes that tetrahedra of each region may have; without a seed, that of the first tetrahedron. (A region
+/// that consists only of tetrahedra within facets has none.)
 std::vector<std::vector<int>> wanted_regions(const mesh::TetMesh& mesh, const Regions& regions,
                                              const RegionsOfTetrahedra& assigned) {
   auto wanted = regions.attributes;
@@ -61,8 +66,63 @@ void flood(const Topology& topology, std::vector<std::uint32_t>& queue, const Is
   }
 }
 
+/// Calls enter(tetrahedron, region) for those at the faces that stand for facets.
+template <class Enter>
+void visit_matched_sides(const Regions& regions, const FacetMatches& matches, const Enter& enter) {
+  for (const MatchedFace& f : matches.faces) {
+    if (f.tet_above != none) enter(f.tet_above, regions.of_side[2 * f.piece]);
+    if (f.tet_below != none) enter(f.tet_below, regions.of_side[2 * f.piece + 1]);
+  }
+}
+
+/// Gives the tetrahedra that are connected without crossing a facet the region which faces that stand for facets say.
+///
+/// \return  false if these do not agree: then some tetrahedra are reached from two regions
+bool assign_to_components(const Topology& topology, const Regions& regions, const FacetMatches& matches,
+                          RegionsOfTetrahedra& assigned) {
+  const std::size_t size = topology.mesh.tetrahedra.size();
+  SharedUnionFind components(size);
+  parallel_for(topology.faces.size(), chunk_length, [&](std::size_t f) {
+    const auto [one, other] = topology.half_faces[f];
+    if (other != none && !matches.is_matched[f]) components.join(one / 4, other / 4);
+  });
+  assigned.region.assign(size, none);  // first of the representatives
+  bool agree = true;
+  visit_matched_sides(regions, matches, [&](std::uint32_t tet, std::uint32_t region) {
+    std::uint32_t& its_region = assigned.region[components.find(tet)];
+    if (its_region == none) its_region = region;
+    agree = agree && its_region == region;
+  });
+  if (!agree) return false;
+  parallel_for(size, chunk_length, [&](std::size_t t) {
+    const std::uint32_t first = components.find(static_cast<std::uint32_t>(t));
+    if (first != t) assigned.region[t] = assigned.region[first];
+  });
+  return true;
+}
+
+/// The same where regions do not agree: floods the mesh from all faces that stand for facets.
+void assign_by_flood(const Topology& topology, const Regions& regions, const FacetMatches& matches,
+                     RegionsOfTetrahedra& assigned) {
+  assigned.region.assign(topology.mesh.tetrahedra.size(), none);
+  std::vector<std::uint32_t> queue;
+  const auto enter = [&](std::uint32_t tet, std::uint32_t region) {
+    if (assigned.region[tet] == none) {
+      assigned.region[tet] = region;
+      queue.push_back(tet);
+    } else if (assigned.region[tet] != region) {
+      assigned.conflicts.push_back(tet);
+    }
+  };
+  visit_matched_sides(regions, matches, enter);
+  flood(
+      topology, queue, [&](std::uint32_t face) { return !matches.is_matched[face]; },
+      [&](std::uint32_t tet, std::uint32_t from) { enter(tet, assigned.region[from]); });
+  sort_and_unique(assigned.conflicts);
+}
+
 /// Finds the tetrahedra between two sheets of faces that both span an interior facet: those with all four vertices on
-/// the sheet that was taken and near its plane, that a way through such connects with it.
+/// the sheet that was taken and near its plane, that are connected with it through such tetrahedra.
 void find_flat_tetrahedra(const Topology& topology, const Regions& regions, std::span<const MatchedFace> sheet,
                           const Plane& plane, double flat, RegionsOfTetrahedra& assigned) {
   const std::uint32_t a = regions.of_side[2 * sheet[0].piece], b = regions.of_side[2 * sheet[0].piece + 1];
@@ -84,44 +144,45 @@ void find_flat_tetrahedra(const Topology& topology, const Regions& regions, std:
       topology, queue, [](std::uint32_t) { return true; }, enter);
 }
 
-/// Every tetrahedron is in one region, and that is inside.
+/// Every tetrahedron is in one region, which is inside.
 Check check_inside(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
-  Check check{.name = "tetrahedra in the domain", .checked = mesh.tetrahedra.size()};
+  Check check{.name = "tetrahedra in the domain"};
   for (const std::uint32_t t : assigned.conflicts)
     fail(check, [&] { return text_of_tetrahedron(mesh, t) + " leaks through a facet"; });
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+  const auto is_inside = [&](std::size_t t) {
     const std::uint32_t c = assigned.region[t];
-    if (c == none)
-      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is connected with no facet of the input"; });
-    else if (regions.inside[c] != Inside::yes)
-      fail(check, [&] { return text_of_tetrahedron(mesh, t) + " is outside"; });
-  }
+    return c != none && regions.inside[c] == Inside::yes;
+  };
+  check_each(check, mesh.tetrahedra.size(), is_inside, [&](std::size_t t) {
+    return text_of_tetrahedron(mesh, t) +
+           (assigned.region[t] == none ? " is not connected with any facet of the input" : " is outside");
+  });
   return check;
 }
 
 /// A tetrahedron has the attribute of the region seed in its region; without a seed, the same as all in the region.
 /// One that lies within an interior facet may have the attribute of either side.
 Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
-  Check check{.name = regions_check, .checked = mesh.tetrahedra.size()};
+  Check check{.name = regions_check};
   const auto wanted = wanted_regions(mesh, regions, assigned);
   const auto is_wanted = [&](int region, std::uint32_t c) {
     return wanted[c].empty() || std::find(wanted[c].begin(), wanted[c].end(), region) != wanted[c].end();
   };
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+  const auto is_right = [&](std::size_t t) {
     const std::uint32_t c = assigned.region[t];
     const int region = attribute_of(mesh, t);
-    if (c == none || is_wanted(region, c)) continue;
-    const auto other_region = assigned.other_region.find(t);
-    if (other_region != assigned.other_region.end() && is_wanted(region, other_region->second)) continue;
-    fail(check, [&] {
-      return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(region) + " instead of " +
-             std::to_string(wanted[c][0]);
-    });
-  }
+    if (c == none || is_wanted(region, c)) return true;
+    const auto other_region = assigned.other_region.find(static_cast<std::uint32_t>(t));
+    return other_region != assigned.other_region.end() && is_wanted(region, other_region->second);
+  };
+  check_each(check, mesh.tetrahedra.size(), is_right, [&](std::size_t t) {
+    return text_of_tetrahedron(mesh, t) + " has region " + std::to_string(attribute_of(mesh, t)) + " instead of " +
+           std::to_string(wanted[assigned.region[t]][0]);
+  });
   return check;
 }
 
-/// No tetrahedron is in a region with a hole's point.
+/// No tetrahedron is in a region with a hole seed.
 Check check_holes(const plc::InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check{.name = "holes", .checked = input.holes.size()};
   std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
@@ -134,7 +195,7 @@ Check check_holes(const plc::InputPlc& input, const Regions& regions, const Regi
   return check;
 }
 
-/// The volumes are equal to 1e-9, and what moving the surface within the tolerance can change.
+/// The volumes agree within 1e-9, plus the change from moving the surface within the tolerance.
 Check check_volume(const Surface& surface, const Regions& regions, double of_mesh, double of_input) {
   Check check{.name = "volume", .checked = 1};
   double area = 0;
@@ -152,11 +213,17 @@ Check check_volume(const Surface& surface, const Regions& regions, double of_mes
 }  // namespace
 
 double mesh_volume(const mesh::TetMesh& mesh) {
+  const auto add_some = [&](std::size_t begin, std::size_t end) {
+    Sum sum;
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto& [a, b, c, d] = mesh.tetrahedra[t];
+      const Point3& o = mesh.vertices[a];
+      sum.add(dot(cross(mesh.vertices[b] - o, mesh.vertices[c] - o), mesh.vertices[d] - o) / 6);
+    }
+    return sum;
+  };
   Sum sum;
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const Point3& o = mesh.vertices[a];
-    sum.add(dot(cross(mesh.vertices[b] - o, mesh.vertices[c] - o), mesh.vertices[d] - o) / 6);
-  }
+  for (const Sum& part : parallel_chunks(mesh.tetrahedra.size(), chunk_length, add_some)) sum.add(part);
   return sum.value();
 }
 
@@ -176,25 +243,8 @@ double input_volume(const Surface& surface, const Regions& regions) {
 RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regions, const FacetMatches& matches,
                                    double flat) {
   RegionsOfTetrahedra assigned;
-  assigned.region.assign(topology.mesh.tetrahedra.size(), none);
-  std::vector<std::uint32_t> queue;
-  const auto enter = [&](std::uint32_t tet, std::uint32_t region) {
-    if (tet == none) return;
-    if (assigned.region[tet] == none) {
-      assigned.region[tet] = region;
-      queue.push_back(tet);
-    } else if (assigned.region[tet] != region) {
-      assigned.conflicts.push_back(tet);
-    }
-  };
-  for (const MatchedFace& f : matches.faces) {
-    enter(f.tet_above, regions.of_side[2 * f.piece]);
-    enter(f.tet_below, regions.of_side[2 * f.piece + 1]);
-  }
-  flood(
-      topology, queue, [&](std::uint32_t face) { return !matches.is_matched[face]; },
-      [&](std::uint32_t tet, std::uint32_t from) { enter(tet, assigned.region[from]); });
-  sort_and_unique(assigned.conflicts);
+  if (!assign_to_components(topology, regions, matches, assigned))
+    assign_by_flood(topology, regions, matches, assigned);
   for (auto begin = matches.faces.begin(); begin != matches.faces.end();) {
     const auto end =
         std::find_if(begin, matches.faces.end(), [&](const MatchedFace& f) { return f.plane != begin->plane; });

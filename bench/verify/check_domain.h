@@ -8,21 +8,21 @@
 
 namespace ccdt::verify {
 
-/// In which region of the input each tetrahedron is.
+/// The region of the input of each tetrahedron.
 struct RegionsOfTetrahedra {
-  std::vector<std::uint32_t> region;     ///< of each tetrahedron; `none` for those that no facet bounds
+  std::vector<std::uint32_t> region;     ///< by tetrahedron; `none` for those that no facet bounds
   std::vector<std::uint32_t> conflicts;  ///< tetrahedra that are reached from two regions without crossing a facet
-  /// Of each tetrahedron that lies within an interior facet, since that is flat only within the tolerance: the region
-  /// on the other side of the facet. It could as well be there.
+  /// For each tetrahedron within an interior facet that is flat only within the tolerance: the region on the other side
+  /// of the facet, to which it could belong as well.
   std::unordered_map<std::uint32_t, std::uint32_t> other_region;
 };
 
-/// Floods the mesh from the faces that stand for facets.
+/// Flood fills the mesh from the faces on facets.
 /// \param flat  how far from its plane an interior facet reaches
 RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regions, const FacetMatches& matches,
                                    double flat);
 
-/// Decides the regions of which the input does not tell whether they are inside, by whether the mesh fills them.
+/// Decides undetermined regions: they are inside if the mesh fills them.
 void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions);
 
 /// The name of the check that compares the regions of tetrahedra with those of the input.

@@ -1,9 +1,5 @@
 #include "bench/verify/crossings.h"
 
-#include <CGAL/Segment_3.h>
-#include <CGAL/Triangle_3.h>
-#include <CGAL/intersections.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -12,7 +8,6 @@
 namespace ccdt::verify {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct Box {
@@ -50,21 +45,21 @@ class CrossingTest {
     const auto shared = std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::find(b, v) != b.end(); });
     switch (shared) {
       case 0:
-        return CGAL::do_intersect(whole(a), whole(b));
+        return do_meet(whole(a), whole(b));
       case 1:  // what they share beyond the vertex reaches the edge opposite to it, in one of them
-        return CGAL::do_intersect(far_edge(a), whole(b)) || CGAL::do_intersect(far_edge(b), whole(a));
+        return do_meet(far_edge(a), whole(b)) || do_meet(far_edge(b), whole(a));
       case 2:  // they lie on each other, on one side of the edge
-        return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
-               CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
+        return orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == 0 &&
+               are_on_one_side(at(a[0]), at(a[1]), at(a[2]), at(b[2]));
       default:
         return true;
     }
   }
 
  private:
-  Kernel::Point_3 at(std::uint32_t v) const { return to_cgal(surface_.vertices[v]); }
-  Kernel::Triangle_3 whole(const Triangle& t) const { return {at(t[0]), at(t[1]), at(t[2])}; }
-  Kernel::Segment_3 far_edge(const Triangle& t) const { return {at(t[1]), at(t[2])}; }
+  const Point3& at(std::uint32_t v) const { return surface_.vertices[v]; }
+  std::array<Point3, 3> whole(const Triangle& t) const { return {at(t[0]), at(t[1]), at(t[2])}; }
+  std::array<Point3, 2> far_edge(const Triangle& t) const { return {at(t[1]), at(t[2])}; }
 
   const plc::InputPlc& surface_;
 };

@@ -8,7 +8,7 @@
 
 namespace ccdt::verify {
 
-/// Pairs of triangles that meet anywhere but in vertices and edges that they share, by their numbers. Exact.
+/// Pairs of triangles that meet outside their common vertices and edges, by number. Exact.
 std::vector<std::array<std::uint32_t, 2>> find_crossings(const plc::InputPlc& surface);
 
 }  // namespace ccdt::verify

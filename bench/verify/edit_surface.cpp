@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bench/verify/patches.h"
+#include "engine/base/parallel.h"
 
 namespace ccdt::verify {
 
@@ -32,16 +33,20 @@ double squared_distance(const Point3& p, const Point3& a, const Point3& b) {
   return squared_length(p - a - along * (b - a));
 }
 
-/// Where a point lies against a piece: in its plane and near its border, or within it.
+/// The position of a point relative to a piece: in its plane and near its border, or within it.
 enum class PointOnPiece { off, border, within };
 
 PointOnPiece locate_on_piece(const Surface& surface, std::uint32_t piece, const Point3& p) {
   const Point3& area = surface.area_vector[piece];
   const double size = length(area), tolerance = surface.tolerances.place;
-  if (std::fabs(dot(area, p - surface.origin(piece))) > surface.tolerances.flat * size) return PointOnPiece::off;
+  const double height = dot(area, p - surface.origin(piece)) / size;
+  if (std::fabs(height) > surface.tolerances.touch) return PointOnPiece::off;
   for (const auto& [a, b] : surface.edges_of(piece))
     if (squared_distance(p, surface.at(a), surface.at(b)) <= tolerance * tolerance) return PointOnPiece::border;
-  return encloses(area, surface.edges_of(piece), surface.sites.position, p) ? PointOnPiece::within : PointOnPiece::off;
+  // Its foot, as the drawing is seen along an axis, not along the normal.
+  const Point3 foot = p - (height / size) * area;
+  return encloses(area, surface.edges_of(piece), surface.sites.position, foot) ? PointOnPiece::within
+                                                                               : PointOnPiece::off;
 }
 
 // Lines within facets.
@@ -55,28 +60,32 @@ bool has_edge(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
   return std::ranges::any_of(surface.uses.of(edge), [&](std::uint32_t use) { return surface.piece_of[use] == piece; });
 }
 
-/// Does an edge run along the piece's plane, as far as a piece of that size tells its slope?
+/// Does an edge run along the plane of the piece, as far as a piece of that size determines its slope?
 bool runs_along(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
   const Point3& area = surface.area_vector[piece];
   const Point3 along = surface.at(surface.edges[edge][1]) - surface.at(surface.edges[edge][0]);
   const double squared_size = length(area);
   const double slack = 1 + std::sqrt(squared_length(along) / squared_size);
-  return std::fabs(dot(area, along)) <= 2 * surface.tolerances.flat * slack * squared_size;
+  return std::fabs(dot(area, along)) <= 2 * surface.tolerances.touch * slack * squared_size;
 }
 
-/// The edges with the middle on a piece that is not theirs, along its plane.
+/// The edges whose midpoint lies on a foreign piece, along its plane.
 std::vector<std::uint32_t> find_touching(const Surface& surface, const PieceTree& tree) {
-  std::vector<std::uint32_t> touching;
-  for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
+  const auto touches_a_piece = [&](std::uint32_t e) {
     const Point3 middle = point_along(surface, e, 0.5);
     bool touches = false;
     tree.for_each_near(middle, middle, [&](std::uint32_t p) {
       touches = touches || (!has_edge(surface, p, e) && runs_along(surface, p, e) &&
                             locate_on_piece(surface, p, middle) != PointOnPiece::off);
     });
-    if (touches) touching.push_back(e);
-  }
-  return touching;
+    return touches;
+  };
+  return joined(parallel_chunks(surface.edges.size(), short_chunk_length, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> touching;
+    for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e)
+      if (touches_a_piece(e)) touching.push_back(e);
+    return touching;
+  }));
 }
 
 std::vector<std::uint32_t> sites_of(const Surface& surface, std::uint32_t piece) {
@@ -85,8 +94,8 @@ std::vector<std::uint32_t> sites_of(const Surface& surface, std::uint32_t piece)
   return sites;
 }
 
-/// Splits the lines at all sites that lie on them, and all edges at the ends of the lines. An edge is left whole at a
-/// vertex of its own triangles, which have no height then.
+/// Splits the lines at all sites that lie on them, and all edges at the ends of the lines. An edge is not split at a
+/// vertex of its own triangles, which then have no height.
 void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& lines, Surface& surface) {
   std::vector<std::uint32_t> sites;
   std::map<std::uint32_t, std::vector<std::uint32_t>> candidates;  // of each edge
@@ -127,7 +136,7 @@ struct Drawings {
   std::map<std::uint32_t, std::vector<std::uint32_t>> lines;  ///< of a patch
 };
 
-/// The patches that a line lies in, which it must with both ends.
+/// The patches that contain a line with both ends.
 std::vector<std::uint32_t> patches_around(const Surface& surface, const PieceTree& tree, const Patches& patches,
                                           std::uint32_t line) {
   const double flat = surface.tolerances.flat;
@@ -200,11 +209,11 @@ void divide_patches(const Drawings& drawings, Surface& surface) {
 
 // Vertices that may slide.
 
-/// Of a patch that counts as flat, times the tolerance: what is left must do for its other vertices, which are compared
-/// with the plane of its corners.
+/// The flatness of a patch that counts as flat, times the tolerance. The rest of the tolerance is for its other
+/// vertices, which are compared with the plane of its corners.
 constexpr double greatest_thickness = 0.25;
 
-/// Sites that a piece or a segment has.
+/// Sites of pieces and segments.
 std::vector<bool> find_used(const Surface& surface) {
   std::vector<bool> used(surface.sites.position.size(), false);
   for (const Edge& e : surface.directed) used[e[0]] = used[e[1]] = true;
@@ -212,8 +221,8 @@ std::vector<bool> find_used(const Surface& surface) {
   return used;
 }
 
-/// Finds what is flat in a patch that is not, such as a flat face that goes over into a round one without an edge: sets
-/// of pieces grown from the largest ones along their plane.
+/// Finds the flat parts of a patch that is not flat, such as a flat face that continues as a round one without an edge:
+/// sets of pieces grown from the largest ones along their plane.
 class FlatParts {
  public:
   FlatParts(const Surface& surface, const std::vector<bool>& joined)
@@ -234,7 +243,7 @@ class FlatParts {
   }
 
  private:
-  /// How far the sites of a facet are from its plane that is flat but for rounding, in both coordinates and places.
+  /// The distance of the sites of a facet from its plane if it is flat up to rounding.
   double tolerance() const { return 2 * surface_.tolerances.place; }
 
   void grow(std::uint32_t seed) {
@@ -316,7 +325,7 @@ void merge_flat_patches(Surface& surface, Regions& regions) {
   regions.of_side = std::move(of_side);
 }
 
-/// Takes out the segments that are features of the facets: these are asked for anyway.
+/// Removes the segments that are features of the facets: these are required anyway.
 void drop_segments_on_features(Surface& surface) {
   const std::vector<bool> features = find_features(surface);
   std::set<Edge> kept;
@@ -343,7 +352,7 @@ class StraightRuns {
       if (is_passed(site)) continue;
       for (const std::uint32_t next : around) {
         Run run = follow(site, next);
-        // Found from both ends, if at all.
+        // It is found from both ends, if at all.
         if (run.size() > 2 && run.front() < run.back() && is_straight(run)) runs.push_back(std::move(run));
       }
     }
@@ -444,7 +453,7 @@ void merge_straight_chains(Surface& surface) {
   set_pieces(std::move(merged), surface);
 }
 
-/// Is a vertex that nothing has on a piece or a segment all the same?
+/// Is an unused vertex on a piece or a segment nevertheless?
 bool is_on_something(const Surface& surface, const PieceTree& tree, std::uint32_t site) {
   const Point3& p = surface.at(site);
   bool found = std::ranges::any_of(surface.segments, [&](const Edge& segment) {

@@ -19,18 +19,19 @@ Check check_listed_faces(const Topology& topology) {
   if (mesh.faces.empty()) return check;
   std::vector<bool> listed(topology.faces.size(), false);
   check.checked = mesh.faces.size();
-  for (const Face& vertices : mesh.faces) {
-    const std::uint32_t face = find_face(topology, vertices);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const Face& vertices = mesh.faces[i];
+    const std::uint32_t face = topology.listed_faces[i];
     if (face == none) {
-      fail(check, [&] { return described(mesh, vertices) + " is listed, but no tetrahedron has it"; });
+      fail(check, [&] { return described(mesh, vertices) + " is listed, but belongs to no tetrahedron"; });
     } else if (listed[face]) {
       fail(check, [&] { return described(mesh, vertices) + " is listed twice"; });
     } else {
       listed[face] = true;
     }
   }
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
-    if (listed[f] || !topology.on_boundary(f)) continue;
+  for (const std::uint32_t f : topology.boundary_faces) {
+    if (listed[f]) continue;
     ++check.checked;
     fail(check, [&] { return described(mesh, topology.faces[f]) + " is on the boundary, but not listed"; });
   }
@@ -45,7 +46,7 @@ Check check_face_markers(const Topology& topology, const Surface& surface, const
   for (const MatchedFace& matched : matches.faces)
     if (surface.marker[matched.piece] != 0) markers.emplace(matched.face, surface.marker[matched.piece]);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const auto [first, last] = markers.equal_range(find_face(topology, mesh.faces[i]));
+    const auto [first, last] = markers.equal_range(topology.listed_faces[i]);
     if (first == last) continue;
     ++check.checked;
     if (std::any_of(first, last, [&](const auto& marker) { return marker.second == mesh.face_markers[i]; })) continue;

@@ -5,12 +5,12 @@
 
 namespace ccdt::verify {
 
-/// A mesh that lists faces lists the boundary: each boundary face once, and nothing that is no face of a tetrahedron.
-/// Without any listed face nothing is checked.
+/// A mesh that lists faces lists the boundary: each boundary face once, and only faces of tetrahedra. Without listed
+/// faces, nothing is checked.
 Check check_listed_faces(const Topology& topology);
 
-/// The listed faces that stand for input facets have the markers of these. Facets without a marker (0) do not matter,
-/// since programs fill in what they like. Of facets in one place any marker will do.
+/// The listed faces on input facets have the markers of these facets. Facets without a marker (0) are skipped, because
+/// programs fill in any value. If several facets coincide, any of their markers is accepted.
 Check check_face_markers(const Topology& topology, const Surface& surface, const FacetMatches& matches);
 
 }  // namespace ccdt::verify

@@ -1,9 +1,10 @@
 #include "bench/verify/match_facets.h"
 
-#include <cmath>
-#include <set>
+#include <algorithm>
 
+#include "bench/verify/spread_sheet.h"
 #include "engine/base/simplex_map.h"
+#include "engine/base/sort_in_runs.h"
 #include "engine/base/union_find.h"
 
 namespace ccdt::verify {
@@ -29,18 +30,17 @@ struct Boundary {
 
 Boundary find_boundary(const Topology& topology) {
   Boundary boundary;
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
-    if (!topology.on_boundary(f)) continue;
+  for (const std::uint32_t f : topology.boundary_faces) {
     const auto n = static_cast<std::uint32_t>(boundary.faces.size());
     boundary.faces.push_back(f);
     boundary.corners.push_back(outward(topology.mesh, topology.half_faces[f][0]));
     for (const Edge& e : edges_of(boundary.corners.back())) boundary.at_edges.push_back({edge_key(e[0], e[1]), n});
   }
-  std::sort(boundary.at_edges.begin(), boundary.at_edges.end());
+  sort_in_runs(boundary.at_edges);
   return boundary;
 }
 
-/// The edges between two pieces that the boundary does not have.
+/// The edges between two pieces that are missing in the boundary.
 std::vector<bool> find_joined(const Surface& surface, const Chains& chains, const Boundary& boundary) {
   std::vector<bool> joined(surface.edges.size(), false);
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
@@ -77,20 +77,28 @@ class BoundaryMatcher {
       for (std::size_t k = 1; k < chain.size() && !joined[e]; ++k)
         walls_.push_back({edge_key(chain[k - 1], chain[k]), e});
     }
-    std::sort(walls_.begin(), walls_.end());
+    sort_in_runs(walls_);
   }
 
   void match() {
     const IndexLists parts = divide_boundary();
+    std::vector<Match> first(boundary_.faces.size());  // of the part with the name n
+    parallel_for(first.size(), short_chunk_length, [&](std::size_t n) { first[n] = find_first(parts.of(n)); });
     for (std::size_t n = 0; n < boundary_.faces.size(); ++n) {
       const auto members = parts.of(n);
-      if (members.empty() || match_part(members)) continue;
+      if (members.empty() || record_if_free(members, first[n]) || match_part(members)) continue;
       for (const std::uint32_t m : members) matches_.stray_faces.push_back(boundary_.faces[m]);
     }
   }
 
  private:
-  /// Sets of boundary faces that no wall divides.
+  /// A patch that a part of the boundary looks like; `turned`: as seen from inside the mesh.
+  struct Match {
+    std::uint32_t patch = none;
+    bool turned = false;
+  };
+
+  /// Sets of boundary faces that are not divided by walls.
   IndexLists divide_boundary() {
     UnionFind sets(boundary_.faces.size());
     for_each_edge_group(boundary_.at_edges, [&](std::span<const AtEdge> group) {
@@ -124,26 +132,52 @@ class BoundaryMatcher {
     return result;
   }
 
-  /// The walls around a part tell which patch it stands for, since no two patches have the same loops; needles aside,
-  /// where shape tells.
-  bool match_part(std::span<const std::uint32_t> members) {
+  /// The walls around a part determine its patch, because no two patches have the same loops, except needles, for which
+  /// the shape decides. Calls visit(match, problem) for each patch with the part's walls until that returns true.
+  ///
+  /// \return  whether it did
+  template <class Visit>
+  bool visit_matches(std::span<const std::uint32_t> members, const Visit& visit) const {
     BoundaryPart part = make_part(members);
     for (const bool turned : {false, true}) {
       if (turned) part.turn();
       for (const std::uint32_t patch : find_candidates(part)) {
         if (patches_.open[patch] || patches_.links[patch] != part.links) continue;
-        const std::uint32_t piece = patches_.pieces.of(patch)[0];
-        std::string problem = compare_with_patch(topology_.mesh, surface_, patches_, patch, part.faces);
-        if (problem.empty() && matches_.found[piece] != FoundAs::nothing)
-          problem = "two sheets of the boundary are on it";
-        if (problem.empty()) {
-          record(members, patch, turned);
+        if (visit(Match{patch, turned}, compare_with_patch(topology_.mesh, surface_, patches_, patch, part.faces)))
           return true;
-        }
-        matches_.problem[piece] = problem;
       }
     }
     return false;
+  }
+
+  /// The first patch with the part's walls, if nothing is wrong with it: this needs no look at what others have found.
+  Match find_first(std::span<const std::uint32_t> members) const {
+    Match first;
+    if (members.empty()) return first;
+    visit_matches(members, [&](const Match& match, const std::string& problem) {
+      if (problem.empty()) first = match;
+      return true;
+    });
+    return first;
+  }
+
+  bool is_free(const Match& match) const {
+    return matches_.found[patches_.pieces.of(match.patch)[0]] == FoundAs::nothing;
+  }
+
+  bool record_if_free(std::span<const std::uint32_t> members, const Match& match) {
+    if (match.patch == none || !is_free(match)) return false;
+    record(members, match.patch, match.turned);
+    return true;
+  }
+
+  bool match_part(std::span<const std::uint32_t> members) {
+    return visit_matches(members, [&](const Match& match, const std::string& problem) {
+      if (problem.empty() && record_if_free(members, match)) return true;
+      matches_.problem[patches_.pieces.of(match.patch)[0]] =
+          problem.empty() ? "two sheets of the boundary are on it" : problem;
+      return false;
+    });
   }
 
   /// Records that a part of the boundary stands for a patch. `turned`: the patch is seen from inside the mesh.
@@ -166,103 +200,14 @@ class BoundaryMatcher {
   std::vector<AtEdge> walls_;  // links of the chains of edges that part patches, with the edge; sorted
 };
 
-/// Spreads a sheet of inner faces of the mesh over a patch, from the links around it inwards.
-///
-/// A facet that is flat only within the tolerance may carry flat tetrahedra, so that more than one sheet spans it. The
-/// sheet taken is the topmost: its faces have tetrahedra above that are not flat, wherever the links are edges of that
-/// sheet.
-class Sheet {
- public:
-  Sheet(const Topology& topology, const Surface& surface, const Patches& patches, std::uint32_t patch)
-      : topology_(topology),
-        patches_(patches),
-        patch_(patch),
-        open_(patches.links[patch]),
-        flat_(surface.tolerances.flat),
-        greatest_area_(1.001 * patches.area[patch] + surface.tolerances.flat * patches.perimeter[patch]) {
-    walls_.insert(open_.begin(), open_.end());
-  }
-
-  std::vector<Face> faces;           ///< seen from above
-  std::vector<std::uint32_t> above;  ///< the tetrahedron above each face
-
-  /// \return whether the sheet spans the patch
-  bool spread() {
-    while (!open_.empty()) {
-      const Edge edge = open_.back();
-      open_.pop_back();
-      if (done_.count(edge) == 0 && !add_face(edge[0], edge[1])) return false;
-    }
-    return true;
-  }
-
- private:
-  const Point3& at(std::uint32_t v) const { return topology_.mesh.vertices[v]; }
-
-  bool in_plane(std::uint32_t v) const { return std::fabs(patches_.height(patch_, at(v))) <= flat_; }
-
-  double area_above(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return 0.5 * dot(patches_.normal[patch_], cross(at(b) - at(a), at(c) - at(a)));
-  }
-
-  bool is_inner(const Face& face) const {
-    const std::uint32_t f = find_face(topology_, face);
-    return f != none && !topology_.on_boundary(f);
-  }
-
-  /// Adds the topmost face to the left of a directed edge.
-  bool add_face(std::uint32_t a, std::uint32_t b) {
-    const double least_area = -flat_ * length(at(b) - at(a));
-    std::uint32_t best = none, best_tet = none;
-    std::pair<bool, double> best_rank = {false, least_area};  // is it topmost? its area
-    for (const std::uint32_t t : topology_.stars.of(a)) {
-      const auto& tet = topology_.mesh.tetrahedra[t];
-      if (std::find(tet.begin(), tet.end(), b) == tet.end()) continue;
-      for (std::uint32_t corner = 0; corner < 4; ++corner) {
-        const std::uint32_t apex = tet[corner];
-        if (apex == a || apex == b) continue;
-        const auto [u, v, w] = outward(topology_.mesh, 4 * t + corner);
-        const std::uint32_t third = u != a && u != b ? u : v != a && v != b ? v : w;
-        // Seen from within the tetrahedron, which is to be above, the face runs the other way round than outward.
-        const bool runs = (u == b && v == a) || (v == b && w == a) || (w == b && u == a);
-        if (!runs || !in_plane(third) || !is_inner({a, b, third})) continue;
-        const std::pair<bool, double> rank = {!in_plane(apex), area_above(a, b, third)};
-        if (rank <= best_rank || rank.second < least_area) continue;
-        best = third;
-        best_tet = t;
-        best_rank = rank;
-      }
-    }
-    if (best == none) return false;
-    faces.push_back({a, b, best});
-    above.push_back(best_tet);
-    area_ += best_rank.second;
-    return area_ <= greatest_area_ && close({a, b}) && close({b, best}) && close({best, a});
-  }
-
-  /// An edge of a new face: a link, or to be shared with the next face.
-  bool close(const Edge& e) {
-    const Edge reverse = {e[1], e[0]};
-    if (!done_.insert(e).second) return false;
-    if (walls_.count(e) == 0 && done_.count(reverse) == 0) open_.push_back(reverse);
-    return true;
-  }
-
-  const Topology& topology_;
-  const Patches& patches_;
-  std::uint32_t patch_;
-  std::vector<Edge> open_;
-  double flat_, greatest_area_, area_ = 0;
-  std::set<Edge> walls_, done_;
-};
-
 class InteriorMatcher {
  public:
   InteriorMatcher(const Topology& topology, const Surface& surface, FacetMatches& matches)
       : topology_(topology), surface_(surface), matches_(matches) {}
 
-  /// Whole facets first, since the sheets of a facet need not agree about its inner edges; then as small as the mesh's
-  /// edges allow, for facets that are bent a little.
+  /// The faces that the mesh lists go before others that span the same facet as well. Whole facets come first, because
+  /// the sheets of a facet need not agree on its inner edges; then parts as small as the edges of the mesh allow, for
+  /// slightly bent facets.
   void match(const Chains& chains, const std::vector<bool>& features) {
     const auto is_left = [&](std::uint32_t use) { return matches_.found[surface_.piece_of[use]] == FoundAs::nothing; };
     std::vector<bool> joined(surface_.edges.size());
@@ -275,15 +220,17 @@ class InteriorMatcher {
   }
 
  private:
-  /// Matches what is left of the pieces patch by patch.
+  /// Matches the remaining pieces patch by patch.
   void match_patches(const Patches& patches) {
     for (std::uint32_t n = 0; n < patches.count(); ++n) {
       const auto pieces = patches.pieces.of(n);
       if (std::ranges::any_of(pieces, [&](std::uint32_t p) { return matches_.found[p] != FoundAs::nothing; })) continue;
       const bool is_flat = patches.thickness[n] <= surface_.tolerances.flat;
       if (is_flat) matches_.planes.push_back({patches.normal[n], patches.center[n]});
-      if (match_piece_by_piece(pieces, is_flat) || patches.open[n] || !is_flat) continue;
-      match_by_sheet(patches, n);
+      const bool may_have_sheet = is_flat && !patches.open[n];
+      if (may_have_sheet && match_by_sheet(patches, n, SheetFaces::listed)) continue;
+      if (match_piece_by_piece(pieces, is_flat) || !may_have_sheet) continue;
+      if (!match_by_sheet(patches, n, SheetFaces::all)) match_by_sheet(patches, n, SheetFaces::without_dead_ends);
     }
   }
 
@@ -311,15 +258,18 @@ class InteriorMatcher {
     return true;
   }
 
-  void match_by_sheet(const Patches& patches, std::uint32_t n) {
-    Sheet sheet(topology_, surface_, patches, n);
+  bool match_by_sheet(const Patches& patches, std::uint32_t n, SheetFaces which) {
     const std::uint32_t piece = patches.pieces.of(n)[0];
-    const std::string problem = sheet.spread() ? compare_with_patch(topology_.mesh, surface_, patches, n, sheet.faces)
-                                               : "no sheet of faces spans it";
-    if (!problem.empty()) {
-      matches_.problem[piece] = problem;
-      return;
-    }
+    const std::optional<Sheet> sheet = spread_sheet(topology_, surface_, patches, n, which);
+    matches_.problem[piece] =
+        sheet ? compare_with_patch(topology_.mesh, surface_, patches, n, sheet->faces) : "no sheet of faces spans it";
+    if (!matches_.problem[piece].empty()) return false;
+    record(patches, n, *sheet);
+    return true;
+  }
+
+  void record(const Patches& patches, std::uint32_t n, const Sheet& sheet) {
+    const std::uint32_t piece = patches.pieces.of(n)[0];
     for (std::size_t i = 0; i < sheet.faces.size(); ++i) {
       const std::uint32_t f = find_face(topology_, sheet.faces[i]);
       std::uint32_t above = sheet.above[i], below = topology_.across(f, above);

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "bench/verify/findings.h"
+#include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
 
 namespace ccdt::verify {
@@ -24,8 +25,8 @@ Point3 farthest_from(const Surface& surface, std::uint32_t piece, const Point3& 
   return farthest;
 }
 
-/// How far two pieces at an edge are from lying in one plane: the least altitude of the tetrahedron that they span,
-/// which is small for needles whatever their normal.
+/// The deviation of two pieces at an edge from one plane: the least altitude of the tetrahedron that they span, which
+/// is small for needles with any normal.
 double fold_width(const Surface& surface, std::uint32_t edge) {
   const Point3 a = surface.at(surface.edges[edge][0]), b = surface.at(surface.edges[edge][1]);
   const auto use = surface.uses.of(edge);
@@ -59,7 +60,7 @@ class EdgeWalk {
     axis_ = (1 / length_) * axis_;
   }
 
-  /// Depth first, nearest vertices first; on nearly every edge there is one way only.
+  /// Depth first, nearest vertices first; on nearly every edge there is only one way.
   bool run(std::vector<std::uint32_t>& chain) {
     std::vector<std::vector<std::pair<double, std::uint32_t>>> ahead;  // of each vertex of the chain, nearest last
     chain.assign(1, ends_[0]);
@@ -170,48 +171,67 @@ void find_planes(const Surface& surface, Patches& patches) {
   }
 }
 
-/// The vertices along an edge. Two edges of a needle may be within the tolerance of each other, so that chains which
-/// keep closer to the edge go first: a chain on the edge but for rounding is right.
+/// The vertices along an edge. Two edges of a needle may be within the tolerance of each other, so chains closer to the
+/// edge come first: a chain on the edge up to rounding is right.
 bool find_chain(const Topology& topology, const Surface& surface, const Edge& edge, std::vector<std::uint32_t>& chain) {
   for (const double part : {1e-5, 1e-2, 1.0})
     if (EdgeWalk(topology, surface, edge, part * surface.tolerances.place).run(chain)) return true;
   return false;
 }
 
+/// Must a mesh have this edge?
+bool is_feature(const Surface& surface, std::uint32_t e) {
+  if (surface.use_count(e) != 2) return true;
+  const auto use = surface.uses.of(e);
+  if (surface.marker[surface.piece_of[use[0]]] != surface.marker[surface.piece_of[use[1]]] ||
+      fold_width(surface, e) > surface.tolerances.flat)
+    return true;
+  if (!folds_back(surface, e)) return false;
+  // Two leaves of one needle count as flat; two broad ones are a fold that must be kept.
+  const double edge_length = length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1]));
+  const auto broad = [&](std::uint32_t u) {
+    return length(surface.area_vector[surface.piece_of[u]]) > surface.tolerances.flat * edge_length;
+  };
+  return broad(use[0]) && broad(use[1]);
+}
+
+struct ChainsOfRange {
+  std::vector<std::uint32_t> items, lengths;  ///< one chain behind the other, and how many vertices each has
+};
+
 }  // namespace
 
 std::vector<bool> find_features(const Surface& surface) {
-  std::vector<bool> features(surface.edges.size(), true);
-  for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
-    if (surface.use_count(e) != 2) continue;
-    const auto use = surface.uses.of(e);
-    features[e] = surface.marker[surface.piece_of[use[0]]] != surface.marker[surface.piece_of[use[1]]] ||
-                  fold_width(surface, e) > surface.tolerances.flat;
-    if (!features[e] && folds_back(surface, e)) {
-      // Two leaves of one needle are as good as flat; two broad ones are a fold that the surface may not lose.
-      const double edge_length = length(surface.at(surface.edges[e][0]) - surface.at(surface.edges[e][1]));
-      const auto broad = [&](std::uint32_t u) {
-        return length(surface.area_vector[surface.piece_of[u]]) > surface.tolerances.flat * edge_length;
-      };
-      features[e] = broad(use[0]) && broad(use[1]);
-    }
-  }
-  return features;
+  const auto parts = parallel_chunks(surface.edges.size(), chunk_length, [&](std::size_t begin, std::size_t end) {
+    std::vector<bool> features;
+    for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) features.push_back(is_feature(surface, e));
+    return features;
+  });
+  return joined(parts);
 }
 
 Chains find_chains(const Topology& topology, const Surface& surface, std::span<const Edge> edges) {
+  const auto parts = parallel_chunks(edges.size(), short_chunk_length, [&](std::size_t begin, std::size_t end) {
+    ChainsOfRange range;
+    std::vector<std::uint32_t> chain;
+    for (const Edge& edge : edges.subspan(begin, end - begin)) {
+      const std::size_t before = range.items.size();
+      if (surface.sites.in_mesh(edge[0]) && surface.sites.in_mesh(edge[1])) {
+        if (has_edge(topology, edge[0], edge[1]))
+          range.items.insert(range.items.end(), edge.begin(), edge.end());
+        else if (find_chain(topology, surface, edge, chain))
+          range.items.insert(range.items.end(), chain.begin(), chain.end());
+      }
+      range.lengths.push_back(static_cast<std::uint32_t>(range.items.size() - before));
+    }
+    return range;
+  });
   Chains chains;
   chains.first.reserve(edges.size() + 1);
   chains.first.push_back(0);
-  std::vector<std::uint32_t> chain;
-  for (const auto& [a, b] : edges) {
-    if (surface.sites.in_mesh(a) && surface.sites.in_mesh(b)) {
-      if (has_edge(topology, a, b))
-        chains.items.insert(chains.items.end(), {a, b});
-      else if (find_chain(topology, surface, {a, b}, chain))
-        chains.items.insert(chains.items.end(), chain.begin(), chain.end());
-    }
-    chains.first.push_back(static_cast<std::uint32_t>(chains.items.size()));
+  for (const ChainsOfRange& range : parts) {
+    chains.items.insert(chains.items.end(), range.items.begin(), range.items.end());
+    for (const std::uint32_t length : range.lengths) chains.first.push_back(chains.first.back() + length);
   }
   return chains;
 }
@@ -247,7 +267,7 @@ std::string compare_with_patch(const mesh::TetMesh& mesh, const Surface& surface
     for (const std::uint32_t v : {a, b, c}) {
       vertices.push_back(v);
       if (std::fabs(patches.height(patch, mesh.vertices[v])) > flat)
-        return "the vertex " + text(mesh.vertices[v]) + " is off the facet's plane";
+        return "the vertex " + text(mesh.vertices[v]) + " is not in the plane of the facet";
     }
     const Point3 ab = mesh.vertices[b] - mesh.vertices[a], ac = mesh.vertices[c] - mesh.vertices[a];
     const double face_area = 0.5 * dot(normal, cross(ab, ac));
@@ -262,7 +282,7 @@ std::string compare_with_patch(const mesh::TetMesh& mesh, const Surface& surface
   for (const std::uint32_t p : pieces)
     for (const auto& [site, next] : surface.edges_of(p))
       if (!std::binary_search(vertices.begin(), vertices.end(), site))
-        return "no face of the mesh there has the facet's vertex " + text(surface.at(site));
+        return "no face of the mesh there has the vertex of the facet " + text(surface.at(site));
   return {};
 }
 

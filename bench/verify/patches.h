@@ -6,11 +6,11 @@
 
 namespace ccdt::verify {
 
-/// Is the edge one that a mesh must have: not between two facets in one plane with one marker?
+/// Must a mesh contain the edge, because it is not between two facets in one plane with one marker?
 std::vector<bool> find_features(const Surface& surface);
 
 /// For each of a list of straight edges between sites, the vertices of the chain of mesh edges along it, both ends
-/// included; none where the mesh has no such chain.
+/// included; none if the mesh has no such chain.
 struct Chains : IndexLists {
   bool missing(std::size_t edge) const { return of(edge).empty(); }
 };
@@ -18,8 +18,7 @@ struct Chains : IndexLists {
 /// A vertex is on an edge if it is within `tolerances.place` of it.
 Chains find_chains(const Topology& topology, const Surface& surface, std::span<const Edge> edges);
 
-/// Sets of pieces that the mesh may triangulate as it likes, because their common edges are not in the mesh or need not
-/// be.
+/// Sets of pieces that the mesh may triangulate freely, because their common edges are missing or not required.
 struct Patches {
   std::vector<std::uint32_t> of_piece;
   std::vector<bool> flipped;             ///< of each piece: is it against the orientation of its patch?
@@ -41,15 +40,15 @@ Patches group_pieces(const Surface& surface, const Chains& chains, const std::ve
 /// The same without a mesh, so without links.
 Patches group_pieces(const Surface& surface, const std::vector<bool>& joined);
 
-/// Is what the mesh has in place of a patch as good as the patch?
+/// Are faces of the mesh equivalent to a patch?
 ///
 /// The faces must have been found to have the patch's directed links as their only open edges. Then, if no face is
 /// turned over in the projection to the patch's plane, each point of the projected patch is covered once, and the areas
-/// are equal. So this looks at: the patch being flat, all vertices near its plane, no face turned over, equal areas,
-/// and all sites of the patch being vertices.
+/// are equal. So it checks that the patch is flat, all vertices are near its plane, no face is turned over, the areas
+/// are equal, and all sites of the patch are vertices.
 ///
 /// \param faces  oriented like the patch
-/// \return       what is wrong; empty if nothing is
+/// \return       the error; empty if there is none
 std::string compare_with_patch(const mesh::TetMesh& mesh, const Surface& surface, const Patches& patches,
                                std::uint32_t patch, std::span<const Face> faces);
 

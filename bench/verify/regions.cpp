@@ -12,7 +12,7 @@ namespace {
 
 enum class Crossing { no, up, down, grazes };
 
-/// How the line through p and q crosses the triangle abc, and whether between p and q.
+/// How the line through p and q crosses the triangle abc. Is it between p and q?
 Crossing cross_triangle(const Point3& p, const Point3& q, const Point3& a, const Point3& b, const Point3& c) {
   const int ab = orientation(p, q, a, b), bc = orientation(p, q, b, c), ca = orientation(p, q, c, a);
   const int low = std::min({ab, bc, ca}), high = std::max({ab, bc, ca});
@@ -23,7 +23,7 @@ Crossing cross_triangle(const Point3& p, const Point3& q, const Point3& a, const
   return from < 0 ? Crossing::up : Crossing::down;
 }
 
-/// A piece is the sum of the triangles of its directed edges with one of its vertices, as far as a ray can tell.
+/// A piece is the sum of the triangles of its directed edges with one of its vertices, as far as rays are concerned.
 Crossing cross_piece(const Surface& surface, std::uint32_t piece, const Point3& p, const Point3& q) {
   const std::uint32_t origin = surface.directed[surface.piece_begin[piece]][0];
   int sum = 0;
@@ -102,10 +102,10 @@ UnionFind glue_sides(const Surface& surface) {
   return sides;
 }
 
-/// Connected sets of pieces, and how they lie in each other.
+/// Connected sets of pieces, and their nesting.
 struct Shells {
-  std::vector<std::uint32_t> of_piece;    ///< the shell of each piece; its name is its first piece
-  std::vector<std::uint32_t> outer_side;  ///< of each shell: a side that looks at what is around it
+  std::vector<std::uint32_t> of_piece;    ///< the shell of each piece, named by its first piece
+  std::vector<std::uint32_t> outer_side;  ///< by shell: a side that faces outward
 };
 
 Shells find_shells(const Surface& surface) {
@@ -119,7 +119,7 @@ Shells find_shells(const Surface& surface) {
   return shells;
 }
 
-/// A ray through a piece leaves its shell for the last time on the shell's outside. What it meets next is around the
+/// A ray through a piece leaves its shell for the last time on the outside. The next piece that it meets surrounds the
 /// shell.
 bool nest_shell(const Surface& surface, const RayShooter& rays, std::uint32_t piece, int attempt, Shells& shells,
                 UnionFind& sides) {
@@ -307,7 +307,7 @@ Regions find_regions(const plc::InputPlc& input, const Surface& surface) {
 std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& regions, const RayShooter& rays,
                                       const Point3& point) {
   for (int i = 0; i < attempts; ++i) {
-    // From a little below the point, so that a piece that it lies on is met.
+    // Starts a little below the point, so that the ray meets a piece on which the point lies.
     const double back = 2 * surface.tolerances.place;
     const auto hits = rays.shoot(point - back * RayShooter::direction(i), i);
     if (!hits) continue;

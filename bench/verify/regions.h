@@ -13,13 +13,13 @@ struct Hit {
   bool from_above;  ///< the ray comes from the side that the piece's normal points to
 };
 
-/// Shoots rays at the surface. Which pieces a ray meets is decided by exact signs.
+/// Shoots rays at the surface. Exact signs decide which pieces a ray meets.
 class RayShooter {
  public:
   explicit RayShooter(const Surface& surface);
 
   /// All pieces that the ray from `start` out of the box meets, in their order along it; nothing if the ray grazes an
-  /// edge or two pieces are too close to be put in order. There are as many rays to choose from as one likes.
+  /// edge or two pieces are too close to be ordered. There are unlimited rays to choose from.
   std::optional<std::vector<Hit>> shoot(const Point3& start, int attempt) const;
 
   /// How far a ray that starts at this height rises.
@@ -41,7 +41,7 @@ class RayShooter {
 
 enum class Inside : std::uint8_t { no, yes, unknown };
 
-/// The parts of space that the input's facets do not divide further, found from the input alone.
+/// The parts of space that the facets of the input do not divide further, computed only from the input.
 struct Regions {
   /// Region of each side of each piece: 2 * piece for above, 2 * piece + 1 for below. Region 0 reaches infinity.
   std::vector<std::uint32_t> of_side;
@@ -55,16 +55,16 @@ struct Regions {
   }
 };
 
-/// Finds the regions: sides of pieces are glued around edges, and shells are put into each other by rays.
+/// Finds the regions: sides of pieces are glued around edges, and rays determine the nesting of shells.
 ///
-/// Which regions of a surface (`Inside::even_odd`) are inside is a matter of its shells: connected pieces. A region
-/// is inside if an odd number of shells, or of pieces on the shortest way to infinity, is around it. Where the two
-/// differ, which takes regions that share pieces and of which one is enclosed by others, either is right:
+/// Which regions of a surface (`Inside::even_odd`) are inside depends on its shells, which are connected pieces. A
+/// region is inside if an odd number of shells, or of pieces on the shortest way to infinity, is around it. Where the
+/// two differ, which takes regions that share pieces and of which one is enclosed by others, either is right:
 /// `Inside::unknown`.
 Regions find_regions(const plc::InputPlc& input, const Surface& surface);
 
-/// The regions that a point is in, or borders on if it lies on the surface. Empty if the surface there is too crooked
-/// to tell.
+/// The regions that a point is in, or borders on if it lies on the surface. Empty if the surface there is too irregular
+/// to decide.
 std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& regions, const RayShooter& rays,
                                       const Point3& point);
 

@@ -9,6 +9,7 @@
 #include "bench/verify/exact.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/base/sort_in_runs.h"
 
 namespace ccdt::verify {
 
@@ -284,8 +285,7 @@ void index_edges(Surface& surface) {
   auto& [first, uses] = surface.uses;
   uses.resize(n);
   std::iota(uses.begin(), uses.end(), 0u);
-  std::sort(uses.begin(), uses.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return keys[i] != keys[j] ? keys[i] < keys[j] : i < j; });
+  sort_in_runs(uses, [&](std::uint32_t i, std::uint32_t j) { return keys[i] != keys[j] ? keys[i] < keys[j] : i < j; });
   surface.edge_of.resize(n);
   surface.edges.clear();
   first.clear();
@@ -387,7 +387,14 @@ Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
   const double box = input.vertices.empty() ? 0 : std::max({extent.x, extent.y, extent.z});
   // A mesher may measure flatness against the next power of two above the box, and on both sides of a plane that is not
   // ours.
-  return {box, 0.1 * flatness * box, 4 * flatness * box};
+  return {box, 0.1 * flatness * box, 4 * flatness * box, 4 * flatness * box};
+}
+
+Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness) {
+  constexpr double rounding = 1e-12;  // of coordinates as doubles
+  Tolerances tolerances = find_tolerances(input, flatness);
+  tolerances.place = tolerances.touch = rounding * tolerances.box;
+  return tolerances;
 }
 
 void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_number) {
@@ -416,23 +423,6 @@ void set_pieces(Pieces pieces, Surface& surface) {
   surface.area_vector.clear();
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
     surface.area_vector.push_back(0.5 * area_vector(surface.edges_of(p), surface.sites.position));
-}
-
-void split_directed(const std::function<std::vector<std::uint32_t>(std::uint32_t edge)>& within, Surface& surface) {
-  Pieces split;
-  std::vector<Edge> edges;
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
-    edges.clear();
-    for (const std::uint32_t use : surface.uses_of(p)) {
-      auto between = within(surface.edge_of[use]);
-      if (!surface.is_forward(use)) std::reverse(between.begin(), between.end());
-      between.push_back(surface.directed[use][1]);
-      std::uint32_t from = surface.directed[use][0];
-      for (const std::uint32_t to : between) edges.push_back({std::exchange(from, to), to});
-    }
-    split.add(edges, surface.marker[p], surface.number[p]);
-  }
-  if (split.directed.size() > surface.directed.size()) set_pieces(std::move(split), surface);
 }
 
 std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edge,

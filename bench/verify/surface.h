@@ -11,17 +11,22 @@
 
 namespace ccdt::verify {
 
-/// Lengths within which things count as equal.
+/// The tolerances, as lengths.
 struct Tolerances {
   double box;    ///< largest extent of the input's bounding box
   double place;  ///< two points are in one place
   double flat;   ///< a patch is flat
+  double touch;  ///< a line lies on a piece
 };
 
 Tolerances find_tolerances(const plc::InputPlc& input, double flatness);
 
-/// The places of the input's vertices, named by the mesh's vertices that are there, so that the input can be compared
-/// with the mesh by indices. A place where the mesh has no vertex gets a number behind those of the mesh.
+/// The same for exact coordinates (`put_on_grid`): then equal positions and contacts are exact up to the rounding of
+/// doubles.
+Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness);
+
+/// The positions of the input's vertices, identified with vertices of the mesh, so that input and mesh can be compared
+/// by indices. A position without a vertex of the mesh gets a number after those of the mesh.
 struct Sites {
   std::vector<std::uint32_t> of_input;  ///< site of each input vertex
   std::vector<Point3> position;  ///< of each site, in the input; of a vertex that is not in the input, in the mesh
@@ -33,7 +38,7 @@ struct Sites {
 /// Matches exact coordinates first, then the nearest vertex in use within `tolerances.place`.
 Sites match_sites(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances);
 
-/// A tree of boxes in the units of the input, kept in units that suit the tree whatever the size of the input.
+/// A tree of boxes in the units of the input, scaled internally for any size of the input.
 class ScaledBoxTree {
  public:
   ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerances);
@@ -98,9 +103,8 @@ struct Surface : Pieces {
 
   std::vector<Edge> edges;     ///< ascending sites
   IndexLists uses;             ///< the directed edges along each edge
-  std::vector<Edge> segments;  ///< that the input asks for by themselves
-  std::vector<bool>
-      slides;  ///< of each site: a mesh need not have it (`let_vertices_slide`); empty: it must have them all
+  std::vector<Edge> segments;  ///< that the input lists explicitly
+  std::vector<bool> slides;    ///< by site: not required of the mesh (`let_vertices_slide`); empty: all are required
 
   std::size_t use_count(std::uint32_t edge) const { return uses.of(edge).size(); }
   const Point3& at(std::uint32_t site) const { return sites.position[site]; }
@@ -112,7 +116,7 @@ struct Surface : Pieces {
   bool is_forward(std::uint32_t use) const { return directed[use][0] < directed[use][1]; }
 };
 
-/// Replaces the pieces, and finds what follows from them: edges and areas.
+/// Replaces the pieces, and updates edges and areas.
 void set_pieces(Pieces pieces, Surface& surface);
 
 /// Splits the directed edges at the sites that `within` gives for an edge, from the edge's first end to its second.

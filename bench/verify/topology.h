@@ -6,11 +6,28 @@
 #include <vector>
 
 #include "engine/base/index_lists.h"
+#include "engine/base/raw_vector.h"
 #include "engine/mesh/tet_mesh.h"
 
 namespace ccdt::verify {
 
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+/// How long the ranges are in which one thread goes over a long list.
+inline constexpr std::size_t chunk_length = 8192;
+/// The same where each item takes a search.
+inline constexpr std::size_t short_chunk_length = 512;
+
+/// Lists one behind the other.
+template <class Item>
+std::vector<Item> joined(const std::vector<std::vector<Item>>& lists) {
+  std::size_t size = 0;
+  for (const auto& list : lists) size += list.size();
+  std::vector<Item> all;
+  all.reserve(size);
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
 
 using Edge = std::array<std::uint32_t, 2>;
 using Face = std::array<std::uint32_t, 3>;
@@ -28,14 +45,18 @@ void sort_and_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// Which tetrahedra and faces of a mesh share what. A *half-face* is 4 * tetrahedron + the corner opposite to it.
+/// The adjacency of tetrahedra and faces of a mesh. A *half-face* is 4 * tetrahedron + the corner opposite to it.
 struct Topology {
   const mesh::TetMesh& mesh;
-  std::vector<Face> faces;               ///< vertices of each face, ascending; in lexicographic order
-  std::vector<Edge> half_faces;          ///< of each face, the first two half-faces; the second may be `none`
-  std::vector<std::uint32_t> face_of;    ///< of each half-face
-  std::vector<std::uint32_t> bad_faces;  ///< shared by more than two tetrahedra, or by two on one side
-  IndexLists stars;                      ///< tetrahedra around each vertex
+  IndexLists stars = {};                      ///< tetrahedra around each vertex
+  RawVector<Face> faces = {};                 ///< vertices of each face, ascending; in lexicographic order
+  RawVector<std::uint32_t> first_face = {};   ///< by vertex: the first face that has it as its least; then their number
+  RawVector<Edge> half_faces = {};            ///< of each face, the first two half-faces; the second may be `none`
+  RawVector<std::uint32_t> face_of = {};      ///< of each half-face
+  std::vector<std::uint32_t> bad_faces = {};  ///< shared by more than two tetrahedra, or by two on one side
+  std::vector<std::uint32_t> boundary_faces = {};  ///< of one tetrahedron
+  std::vector<std::uint32_t> listed_faces = {};    ///< of each face that the mesh lists: which it is, or `none`
+  std::vector<bool> listed = {};                   ///< by face: does the mesh list it?
 
   bool on_boundary(std::uint32_t face) const { return half_faces[face][1] == none; }
   bool used(std::uint32_t vertex) const { return !stars.of(vertex).empty(); }

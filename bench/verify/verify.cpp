@@ -12,12 +12,15 @@
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
 #include "bench/verify/listed_faces.h"
+#include "bench/verify/on_grid.h"
+#include "engine/base/shared_progress.h"
+#include "engine/base/sort_in_runs.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
 // of input facets (same loops, flat, no face turned over: so it covers the patch once), and no patch has two such
-// parts. Within the tolerance, d therefore changes only across input facets: by one across a facet found as boundary,
-// up to the side where the tetrahedra are, else not at all. The facets' sides are labeled inside or outside from the
+// parts. Within the tolerance, d therefore changes only across input facets: by one across a facet found as a boundary,
+// toward the side of the tetrahedra, and otherwise not at all. The facets' sides are labeled inside or outside from the
 // input alone, and each facet must be found as the boundary of its inside side exactly when its sides differ. So d and
 // the indicator of the domain change by the same across every facet; both are 0 at infinity; they are equal. The
 // tetrahedra fill the domain and do not overlap. Facets within the domain are spanned by inner faces in the same sense;
@@ -37,30 +40,30 @@ void check_array(Check& check, const char* what, std::size_t size, std::size_t w
 
 template <class Elements>
 void check_elements(Check& check, const char* what, const Elements& elements, std::size_t vertices) {
-  check.checked += elements.size();
-  for (std::size_t i = 0; i < elements.size(); ++i) {
+  const auto is_right = [&](std::size_t i) {
     const auto sorted = ascending(elements[i]);
-    if (sorted.back() < vertices && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) continue;
-    fail(check, [&] {
-      std::string s = std::string(what) + " " + std::to_string(i) + " has the vertices";
-      for (const std::uint32_t v : elements[i]) s += " " + std::to_string(v);
-      return s + " of " + std::to_string(vertices);
-    });
-  }
+    return sorted.back() < vertices && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  };
+  check_each(check, elements.size(), is_right, [&](std::size_t i) {
+    std::string s = std::string(what) + " " + std::to_string(i) + " has the vertices";
+    for (const std::uint32_t v : elements[i]) s += " " + std::to_string(v);
+    return s + " of " + std::to_string(vertices);
+  });
 }
 
 /// Coordinates are finite.
 Check check_coordinates(const mesh::TetMesh& mesh) {
-  Check check{.name = "finite coordinates", .checked = mesh.vertices.size()};
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+  Check check{.name = "finite coordinates"};
+  const auto is_finite = [&](std::size_t v) {
     const Point3& p = mesh.vertices[v];
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-    fail(check, [&] { return "vertex " + std::to_string(v) + " is at " + text(p); });
-  }
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
+  check_each(check, mesh.vertices.size(), is_finite,
+             [&](std::size_t v) { return "vertex " + std::to_string(v) + " is at " + text(mesh.vertices[v]); });
   return check;
 }
 
-/// Every tetrahedron has four different vertices that exist, and attribute arrays have one entry an element.
+/// Every tetrahedron has four different vertices that exist, and attribute arrays have one entry per element.
 Check check_indices(const mesh::TetMesh& mesh) {
   Check check{.name = "valid elements"};
   if (mesh.tetrahedra.empty()) fail(check, [] { return std::string("the mesh has no tetrahedra"); });
@@ -75,31 +78,38 @@ Check check_indices(const mesh::TetMesh& mesh) {
 
 /// Every tetrahedron is positively oriented, exactly.
 Check check_orientation(const mesh::TetMesh& mesh, const Progress& progress) {
-  Check check{.name = "positive orientation", .checked = mesh.tetrahedra.size()};
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    if (t % 65536 == 0) report(progress, "verify orientation", t, mesh.tetrahedra.size());
+  Check check{.name = "positive orientation"};
+  SharedProgress shared(progress, "verify orientation", 0, mesh.tetrahedra.size());
+  const auto is_positive = [&](std::size_t t) {
+    if (t % chunk_length == 0) shared.add(std::min(chunk_length, mesh.tetrahedra.size() - t));
     const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    if (orientation(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]) > 0) continue;
-    fail(check, [&] { return "tetrahedron " + std::to_string(t) + ":" + text(mesh.vertices, mesh.tetrahedra[t]); });
-  }
+    return orientation(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]) > 0;
+  };
+  check_each(check, mesh.tetrahedra.size(), is_positive, [&](std::size_t t) {
+    return "tetrahedron " + std::to_string(t) + ":" + text(mesh.vertices, mesh.tetrahedra[t]);
+  });
   return check;
 }
 
-/// No two vertices that tetrahedra use are in one place.
+/// No two used vertices have the same position.
 Check check_distinct_vertices(const Topology& topology) {
   Check check{.name = "distinct vertices"};
-  std::vector<std::uint32_t> order;
+  struct Vertex {
+    std::array<double, 3> at;
+    std::uint32_t number;
+
+    auto operator<=>(const Vertex&) const = default;
+  };
+  std::vector<Vertex> sorted;
   for (std::uint32_t v = 0; v < topology.mesh.vertices.size(); ++v)
-    if (topology.used(v)) order.push_back(v);
-  check.checked = order.size();
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return as_array(topology.mesh.vertices[a]) < as_array(topology.mesh.vertices[b]);
-  });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (topology.mesh.vertices[order[i - 1]] != topology.mesh.vertices[order[i]]) continue;
+    if (topology.used(v)) sorted.push_back({as_array(topology.mesh.vertices[v]), v});
+  check.checked = sorted.size();
+  sort_in_runs(sorted, [](const Vertex& a, const Vertex& b) { return a < b; });
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i - 1].at != sorted[i].at) continue;
     fail(check, [&] {
-      return "vertices " + std::to_string(order[i - 1]) + " and " + std::to_string(order[i]) + " are both at " +
-             text(topology.mesh.vertices[order[i]]);
+      return "vertices " + std::to_string(sorted[i - 1].number) + " and " + std::to_string(sorted[i].number) +
+             " are both at " + text(topology.mesh.vertices[sorted[i].number]);
     });
   }
   return check;
@@ -107,17 +117,16 @@ Check check_distinct_vertices(const Topology& topology) {
 
 /// Every vertex is used by a tetrahedron (not required).
 Check check_used_vertices(const Topology& topology) {
-  Check check{.name = "vertices in use", .checked = topology.mesh.vertices.size(), .required = false};
-  for (std::uint32_t v = 0; v < topology.mesh.vertices.size(); ++v) {
-    if (topology.used(v)) continue;
-    fail(check, [&] {
-      return "no tetrahedron has the vertex " + std::to_string(v) + " at " + text(topology.mesh.vertices[v]);
-    });
-  }
+  Check check{.name = "vertices in use", .required = false};
+  check_each(
+      check, topology.mesh.vertices.size(), [&](std::size_t v) { return topology.used(static_cast<std::uint32_t>(v)); },
+      [&](std::size_t v) {
+        return "no tetrahedron uses the vertex " + std::to_string(v) + " at " + text(topology.mesh.vertices[v]);
+      });
   return check;
 }
 
-/// Every face is of one tetrahedron, or of two on opposite sides.
+/// Every face belongs to one tetrahedron, or to two on opposite sides.
 Check check_shared_faces(const Topology& topology) {
   Check check{.name = "faces of one or two tetrahedra", .checked = topology.faces.size()};
   for (const std::uint32_t f : topology.bad_faces) {
@@ -144,10 +153,12 @@ bool is_in_domain(const Surface& surface, const Regions& regions, const RayShoot
   return rays.is_on_piece_across_axis(p);
 }
 
+constexpr const char *vertices_check = "input vertices", *segments_check = "input segments";
+
 /// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
 Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions,
                      const RayShooter& rays) {
-  Check check{.name = surface.slides.empty() ? "input vertices" : "input vertices that may not slide"};
+  Check check{.name = surface.slides.empty() ? vertices_check : "input vertices that may not slide"};
   std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
     for (const auto& [site, next] : surface.edges_of(p)) {
@@ -165,8 +176,6 @@ Check check_vertices(const plc::InputPlc& input, const Surface& surface, const R
   }
   return check;
 }
-
-constexpr const char* segments_check = "input segments";
 
 /// Every segment and every feature edge in or on the domain is a chain of mesh edges.
 Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
@@ -192,7 +201,8 @@ Check check_segments(const Surface& surface, const Chains& edges, const Chains& 
   return check;
 }
 
-/// Every facet that the domain touches is there: as a boundary if one side is inside, else as inner faces.
+/// Every facet that touches the domain exists in the mesh: as a boundary if one side is inside, otherwise as inner
+/// faces.
 Check check_facets(const Surface& surface, const FacetMatches& matches, const Regions& regions) {
   Check check{.name = "input facets"};
   for (std::uint32_t p = 0; p < surface.pieces(); ++p) {
@@ -217,13 +227,12 @@ Check check_facets(const Surface& surface, const FacetMatches& matches, const Re
   return check;
 }
 
-/// Every boundary face of the mesh stands for an input facet.
+/// Every boundary face of the mesh lies on an input facet.
 Check check_boundary(const Topology& topology, const FacetMatches& matches) {
-  Check check{.name = "boundary faces on input facets"};
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) check.checked += topology.on_boundary(f);
+  Check check{.name = "boundary faces on input facets", .checked = topology.boundary_faces.size()};
   for (const std::uint32_t f : matches.stray_faces) {
     fail(check, [&] {
-      return "not of the input's surface is the boundary face" + text(topology.mesh.vertices, topology.faces[f]);
+      return "on no facet of the input lies the boundary face" + text(topology.mesh.vertices, topology.faces[f]);
     });
   }
   return check;
@@ -242,9 +251,8 @@ bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {
   return options.delaunay == VerifyOptions::Delaunay::yes;
 }
 
-void check_against_input(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
-                         const Progress& progress, Verification& result) {
-  const Tolerances tolerances = find_tolerances(input, options.flatness);
+void check_against_input(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances,
+                         const VerifyOptions& options, const Progress& progress, Verification& result) {
   report(progress, "verify facets", 0, 0);
   Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
   embed_lines(surface);
@@ -272,42 +280,56 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
   checks.insert(checks.end(), delaunay.begin(), delaunay.end());
 }
 
-/// Do all checks hold up to that of the segments?
-bool has_vertices_and_segments(const Verification& result) {
+/// Do all checks pass, up to the one whose name starts with this?
+bool holds_up_to(const char* name, const Verification& result) {
   for (const Check& check : result.checks) {
     if (check.required && check.failed > 0) return false;
-    if (check.name == segments_check) return true;
+    if (check.name.starts_with(name)) return true;
   }
   return false;
 }
 
-/// Of the tolerances that are tried after the given one.
+/// The smallest tolerance to try after the given one.
 constexpr double least_flatness = 1e-11;
 
-/// If only facets are not found: tries a tenth, a hundredth, ... of the flatness as well. Facets that are right at one
-/// tolerance are right at all greater ones. But where they are as narrow as the tolerance, there is more than one way
-/// to match them with the mesh.
+/// Checks with smaller and smaller flatness until the mesh is right.
 ///
-/// \param result  gets the checks; if the mesh is never right, those at the given flatness
-void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, VerifyOptions options,
-                         const Progress& progress, Verification& result) {
-  const Verification before = result;
-  check_against_input(input, topology, options, progress, result);
-  if (!has_vertices_and_segments(result)) return;
-  while (!result.ok() && options.flatness > least_flatness) {
-    options.flatness /= 10;
+/// \param result  gets the checks if it is
+void check_until_right(const plc::InputPlc& input, const Topology& topology, decltype(find_tolerances)& tolerances,
+                       double flatness, const VerifyOptions& options, const Progress& progress,
+                       const Verification& before, Verification& result) {
+  for (; !result.ok() && flatness > 0.5 * least_flatness; flatness /= 10) {
     Verification closer = before;
-    check_against_input(input, topology, options, progress, closer);
+    check_against_input(input, topology, tolerances(input, flatness), options, progress, closer);
     if (closer.ok()) result = std::move(closer);
   }
 }
 
-/// The boundary of the mesh as an input of its own.
+/// If only facets are not found, smaller tolerances are tried as well. Facets that are right at one tolerance are right
+/// at all greater ones. But where they are as narrow as the tolerance, there is more than one way to match them with
+/// the mesh. Where parts are as near to each other as coordinates are rounded, the mesh is compared with the rounded
+/// input: there, new vertices are exactly in place, and facets without area are those that the engine leaves out.
+///
+/// \param result  gets the checks; if the mesh is never right, those at the given flatness
+void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
+                         const Progress& progress, Verification& result) {
+  const Verification before = result;
+  check_against_input(input, topology, find_tolerances(input, options.flatness), options, progress, result);
+  if (result.ok() || options.flatness <= least_flatness || !holds_up_to(vertices_check, result)) return;
+  if (holds_up_to(segments_check, result))
+    check_until_right(input, topology, find_tolerances, options.flatness / 10, options, progress, before, result);
+  if (result.ok()) return;
+  const OnGrid rounded = put_on_grid(input, topology.mesh);
+  if (check_orientation(rounded.mesh, progress).failed == 0)
+    check_until_right(rounded.input, find_topology(rounded.mesh), find_tolerances_on_grid, options.flatness, options,
+                      progress, before, result);
+}
+
+/// The boundary of the mesh as an input.
 plc::InputPlc boundary_of(const Topology& topology) {
   plc::InputPlc boundary;
   std::vector<std::uint32_t> number(topology.mesh.vertices.size(), none);
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
-    if (!topology.on_boundary(f)) continue;
+  for (const std::uint32_t f : topology.boundary_faces) {
     Face face = outward(topology.mesh, topology.half_faces[f][0]);
     for (std::uint32_t& v : face) {
       if (number[v] == none) {
@@ -334,12 +356,12 @@ Check check_crossings(const plc::InputPlc& boundary) {
 }
 
 /// The boundary of the mesh encloses its tetrahedra, each point once: by the same argument as above, with the boundary
-/// for an input.
+/// as the input.
 /// \pre  it does not cross itself
 Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, const Progress& progress) {
   Verification by_itself;
-  check_against_input(boundary, topology, {.flatness = 0, .delaunay = VerifyOptions::Delaunay::no}, progress,
-                      by_itself);
+  check_against_input(boundary, topology, find_tolerances(boundary, 0), {.delaunay = VerifyOptions::Delaunay::no},
+                      progress, by_itself);
   Check enclosed{.name = "boundary that encloses the tetrahedra once", .checked = boundary.triangles.size()};
   for (const Check& check : by_itself.checks) {
     if (!check.required || check.name == regions_check) continue;  // regions are bounded by inner faces as well
@@ -351,7 +373,7 @@ Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, co
 
 void check_own_surface(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
                        const Progress& progress, Verification& result) {
-  if (!result.ok()) return;  // a boundary of inverted tetrahedra, or of more than two at a face, encloses nothing
+  if (!result.ok()) return;  // the boundary of inverted tetrahedra, or of more than two at a face, encloses nothing
   const plc::InputPlc boundary = boundary_of(topology);
   result.checks.push_back(check_crossings(boundary));
   if (result.checks.back().failed == 0) result.checks.push_back(check_enclosed(boundary, topology, progress));
@@ -382,7 +404,7 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
   auto& checks = result.checks;
   checks.push_back(check_coordinates(mesh));
   checks.push_back(check_indices(mesh));
-  if (!result.ok()) return result;  // nothing else can be asked of such a mesh
+  if (!result.ok()) return result;  // no other check makes sense for such a mesh
   checks.push_back(check_orientation(mesh, progress));
   report(progress, "verify faces", 0, 0);
   const Topology topology = find_topology(mesh);

@@ -8,9 +8,15 @@
 
 namespace ccdt {
 
-/// From a point as far as a vector leads.
+/// From a point to that point plus a vector.
 struct LineSegment {
   Point3 from, along;
+};
+
+/// The points not farther from a center than a radius.
+struct Ball {
+  Point3 center;
+  double radius;
 };
 
 /// An axis-parallel box with its boundary.
@@ -18,12 +24,17 @@ struct Box {
   Point3 low, high;
 
   Point3 center() const { return 0.5 * (low + high); }
-  // Which of the six comparisons fails is as good as random: all are made, without branches.
+  // It is unpredictable which of the six comparisons fails, so all are made without branches.
   bool meets(const Box& o) const {
     return (int{low.x <= o.high.x} & int{o.low.x <= high.x} & int{low.y <= o.high.y} & int{o.low.y <= high.y} &
             int{low.z <= o.high.z} & int{o.low.z <= high.z}) != 0;
   }
-  // The part of the segment between each two planes of the box, up to rounding.
+  /// Up to rounding.
+  bool meets(const Ball& ball) const {
+    const Point3 nearest = componentwise_max(low, componentwise_min(high, ball.center));
+    return squared_length(nearest - ball.center) <= ball.radius * ball.radius;
+  }
+  // The part of the segment between two parallel planes of the box, up to rounding.
   bool meets(const LineSegment& s) const {
     double from = 0, to = 1;
     const auto clip = [&](double least, double most, double start, double along) {

@@ -10,7 +10,7 @@
 
 namespace ccdt {
 
-/// A hierarchy of bounding boxes: the items in Morton order of their centers, halved again and again.
+/// A hierarchy of bounding boxes: the items in Morton order of their centers, halved repeatedly.
 ///
 ///     node 1 = [2 3], node i = [2i 2i+1], the last `leaf_count` nodes are runs of `leaf_size` items
 class BoxTree {

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "engine/base/work.h"
 
 namespace ccdt {
 
-/// What the running thread has done since its innermost `WorkScope` began. Code that counts adds to it; in inner loops
-/// it counts in a local variable, and adds that once.
+/// The work of this thread since its innermost `WorkScope` began. Counting code adds to it; inner loops count in a
+/// local variable and add it once.
 inline constinit thread_local Work work_done;
 
-/// Adds what this thread does in the scope's life to some work, and to that of the scope around it.
+/// Adds the work of this thread during the life of the scope to a total, and to that of the enclosing scope.
 class WorkScope {
  public:
   explicit WorkScope(Work& work) : work_(work), before_(work_done) { work_done = {}; }
@@ -27,13 +28,27 @@ class WorkScope {
   Work before_;
 };
 
-/// The bytes of the elements of lists, not of what they have reserved.
+/// Adds what this thread does in the scope's life to some work, and not to that of the scope around it: for a part of
+/// another thread's stage.
+class WorkElsewhere {
+ public:
+  explicit WorkElsewhere(Work& work) : work_(work), before_(std::exchange(work_done, {})) {}
+  ~WorkElsewhere() { work_ += std::exchange(work_done, before_); }
+  WorkElsewhere(const WorkElsewhere&) = delete;
+  WorkElsewhere& operator=(const WorkElsewhere&) = delete;
+
+ private:
+  Work& work_;
+  Work before_;
+};
+
+/// The bytes of the elements of lists, without reserved memory.
 template <class... List>
 std::size_t bytes_of(const List&... lists) {
   return ((lists.size() * sizeof(typename List::value_type)) + ... + std::size_t{0});
 }
 
-/// Notes that so many bytes are in use.
+/// Notes that this many bytes are in use.
 inline void note_bytes(std::size_t bytes) {
   work_done.peak_bytes = std::max<std::uint64_t>(work_done.peak_bytes, bytes);
 }

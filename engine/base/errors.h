@@ -7,7 +7,7 @@
 
 namespace ccdt {
 
-/// Where in the user's data an error is. Every part is optional; the program turns what is there into words.
+/// The place of an error in the user's data. Every part is optional; the program turns the given parts into words.
 struct Place {
   std::string file = {};                           ///< path as the user gave it
   long long line = 0;                              ///< line of a text file, from 1

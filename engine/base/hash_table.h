@@ -10,7 +10,7 @@
 
 namespace ccdt {
 
-/// What a `HashTable` needs to know of its keys: `none()` is a key that never occurs and marks the empty places;
+/// The properties of keys that a `HashTable` needs: `none()` is a key that never occurs and marks the empty places;
 /// `hash(key)` should fill all bits, as tables use the lowest.
 template <class Key>
 struct HashTraits;
@@ -48,8 +48,17 @@ struct HashTraits<std::array<std::uint32_t, 3>> {
   }
 };
 
-/// A hash table in one flat array: open addressing with linear probing, entries move back when one before them goes, so
-/// that no tombstones stay. Pointers to values hold until the next insertion or removal.
+template <class Key>
+constexpr bool is_same_key(const Key& a, const Key& b) {
+  return a == b;
+}
+/// Without a call of memcmp.
+constexpr bool is_same_key(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
+/// A hash table in one flat array: open addressing with linear probing, entries move back when an earlier one is
+/// removed, so there are no tombstones. Pointers to values are valid until the next insertion or removal.
 template <class Key, class Value, class Traits = HashTraits<Key>>
 class HashTable {
  public:
@@ -60,47 +69,52 @@ class HashTable {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// Of all places, the empty ones included.
+  /// The number of all places, including empty ones.
   std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
   void clear() { *this = {}; }
 
-  /// Room for so many entries without growing.
+  /// Reserves room for this many entries.
   void reserve(std::size_t entries) {
     std::size_t places = least_places;
     while (places < 2 * entries) places *= 2;
     if (places > entries_.size()) grow(places);
   }
 
+  /// Asks for the place of a key that is looked up soon.
+  void prefetch(const Key& key) const {
+    if (!entries_.empty()) __builtin_prefetch(&entries_[home(key)]);
+  }
+
   Value* find(const Key& key) {
     if (size_ == 0) return nullptr;
     for (std::size_t i = home(key);; i = next(i)) {
-      if (entries_[i].key == key) return &entries_[i].value;
-      if (entries_[i].key == Traits::none()) return nullptr;
+      if (is_same_key(entries_[i].key, key)) return &entries_[i].value;
+      if (is_empty(i)) return nullptr;
     }
   }
   const Value* find(const Key& key) const { return const_cast<HashTable*>(this)->find(key); }
 
   bool contains(const Key& key) const { return find(key) != nullptr; }
-  /// A copy of the value of the key, or `otherwise` if it has none.
+  /// A copy of the value of the key, or `otherwise` if there is none.
   Value get(const Key& key, const Value& otherwise) const {
     const Value* value = find(key);
     return value != nullptr ? *value : otherwise;
   }
 
-  /// Adds the entry unless the key has one already.
+  /// Adds the entry unless the key has one.
   ///
   /// \return  the value of the key, and whether it is new
   std::pair<Value*, bool> insert(const Key& key, const Value& value = {}) {
     if (2 * (size_ + 1) > entries_.size()) grow(entries_.empty() ? least_places : 2 * entries_.size());
     std::size_t i = home(key);
-    for (; !(entries_[i].key == Traits::none()); i = next(i))
-      if (entries_[i].key == key) return {&entries_[i].value, false};
+    for (; !is_empty(i); i = next(i))
+      if (is_same_key(entries_[i].key, key)) return {&entries_[i].value, false};
     entries_[i] = {key, value};
     ++size_;
     return {&entries_[i].value, true};
   }
 
-  /// Adds the entry, or changes the value of the one that the key has.
+  /// Adds the entry, or changes the value of the existing one.
   void set(const Key& key, const Value& value) { *insert(key, value).first = value; }
 
   /// Removes the entry of a value that `find` gave.
@@ -108,10 +122,10 @@ class HashTable {
     std::size_t gap = 0;
     for (gap = place_of(value);;) {
       std::size_t i = next(gap);
-      // The next entry that may stand in the gap: its home is not between the gap and itself.
-      for (; !(entries_[i].key == Traits::none()); i = next(i))
+      // The next entry that may move to the gap: its home is not between the gap and itself.
+      for (; !is_empty(i); i = next(i))
         if (((i - home(entries_[i].key)) & mask()) >= ((i - gap) & mask())) break;
-      if (entries_[i].key == Traits::none()) break;
+      if (is_empty(i)) break;
       entries_[gap] = entries_[i];
       gap = i;
     }
@@ -123,7 +137,7 @@ class HashTable {
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (const Entry& e : entries_)
-      if (!(e.key == Traits::none())) visit(e.key, e.value);
+      if (!is_same_key(e.key, Traits::none())) visit(e.key, e.value);
   }
 
  private:
@@ -132,6 +146,7 @@ class HashTable {
   std::size_t mask() const { return entries_.size() - 1; }
   std::size_t home(const Key& key) const { return Traits::hash(key) & mask(); }
   std::size_t next(std::size_t i) const { return (i + 1) & mask(); }
+  bool is_empty(std::size_t i) const { return is_same_key(entries_[i].key, Traits::none()); }
   std::size_t place_of(const Value* value) const {
     const auto offset = reinterpret_cast<const char*>(value) - reinterpret_cast<const char*>(&entries_[0].value);
     return static_cast<std::size_t>(offset) / sizeof(Entry);
@@ -141,9 +156,9 @@ class HashTable {
     std::vector<Entry> old(places);
     old.swap(entries_);
     for (const Entry& e : old) {
-      if (e.key == Traits::none()) continue;
+      if (is_same_key(e.key, Traits::none())) continue;
       std::size_t i = home(e.key);
-      while (!(entries_[i].key == Traits::none())) i = next(i);
+      while (!is_empty(i)) i = next(i);
       entries_[i] = e;
     }
   }

@@ -8,8 +8,8 @@ namespace ccdt {
 
 /// An index that cannot be mistaken for an index of another kind.
 ///
-/// It converts to an integer freely (arrays are subscripted with it), but an integer or an index of another kind
-/// becomes one only by an explicit conversion.
+/// It converts implicitly to an integer, so that it can subscript arrays. An integer or an index of another kind must
+/// be converted explicitly.
 template <class Tag>
 struct Index {
   std::uint32_t value = none_value;

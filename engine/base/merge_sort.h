@@ -7,8 +7,8 @@
 
 namespace ccdt {
 
-/// Sorts a list, stably, with the same comparisons whatever the standard library: for comparisons that are work of
-/// their own (base/work.h), such as exact predicates.
+/// Sorts a list stably, with the same comparisons for every standard library. Use it if comparisons count as work
+/// (base/work.h), such as exact predicates.
 ///
 /// \param less  a strict weak order
 template <class Item, class Less>

@@ -4,15 +4,26 @@
 #include <boost/sort/spreadsort/integer_sort.hpp>
 
 #include "engine/base/box.h"
+#include "engine/base/sort_in_runs.h"
 
 namespace ccdt {
 
+namespace {
+
+bool less(const KeyedIndex& a, const KeyedIndex& b) {
+  return a.key != b.key ? a.key < b.key : a.index < b.index;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> sorted_by_key(std::vector<KeyedIndex> items) {
-  boost::sort::spreadsort::integer_sort(
-      items.begin(), items.end(), [](const KeyedIndex& k, unsigned offset) { return k.key >> offset; },
-      [](const KeyedIndex& a, const KeyedIndex& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  const auto digits = [](const KeyedIndex& k, unsigned offset) { return k.key >> offset; };
+  const auto sort_run = [&](auto first, auto last) {
+    boost::sort::spreadsort::integer_sort(first, last, digits, less);
+  };
+  sort_in_runs(items, sort_run, less);
   std::vector<std::uint32_t> order(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].index;
+  parallel_for(items.size(), 4096, [&](std::size_t i) { order[i] = items[i].index; });
   return order;
 }
 
@@ -23,7 +34,9 @@ std::vector<std::uint32_t> morton_order(std::span<const Point3> points) {
   constexpr int bits_per_axis = 21;
   const double scale = ((1 << bits_per_axis) - 1) / extent;
   std::vector<KeyedIndex> keyed(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) keyed[i] = {morton_code_at(scale * (points[i] - box.low)), i};
+  parallel_for(points.size(), 4096, [&](std::size_t i) {
+    keyed[i] = {morton_code_at(scale * (points[i] - box.low)), static_cast<std::uint32_t>(i)};
+  });
   return sorted_by_key(std::move(keyed));
 }
 

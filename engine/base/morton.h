@@ -44,17 +44,17 @@ constexpr std::array<std::uint32_t, 3> coordinates_of_morton_code(std::uint64_t 
   return {gather_bits(code), gather_bits(code >> 1), gather_bits(code >> 2)};
 }
 
-/// An item by its place on a space-filling curve.
+/// An item and its place on a space-filling curve.
 struct KeyedIndex {
   std::uint64_t key;
   std::uint32_t index;
 };
 
-/// The indices sorted by key; those of one key by index.
+/// The indices sorted by key, equal keys by index.
 std::vector<std::uint32_t> sorted_by_key(std::vector<KeyedIndex> items);
 
-/// The indices of points in Morton order, in a grid of 2^21 cells a side around them; those of one cell in the order
-/// in which they are given.
+/// The indices of points in Morton order, in a grid of 2^21 cells per side around them; points of one cell keep their
+/// order.
 std::vector<std::uint32_t> morton_order(std::span<const Point3> points);
 
 }  // namespace ccdt

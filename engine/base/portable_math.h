@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Functions of which libraries differ in the last bits, and even one library from processor to processor: made of
-/// operations that IEEE 754 rounds alike everywhere, so that what depends on them is the same on every machine. They
-/// are right to about 1e-15.
+/// Functions whose last bits differ between libraries, and even between processors. These use only operations that IEEE
+/// 754 rounds alike everywhere, so results are the same on every machine. They are accurate to about 1e-15.
 namespace ccdt::portable {
 
 inline constexpr double pi = 3.14159265358979323846;

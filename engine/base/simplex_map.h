@@ -33,13 +33,13 @@ class SimplexMap {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
   SimplexMap() = default;
-  /// \param simplices  different ones; corners of any integer or index type
+  /// \param simplices  pairwise different; corners of any integer or index type
   /// \param vertices   more than each corner
   template <class Id>
   SimplexMap(const std::vector<std::array<Id, N>>& simplices, std::size_t vertices)
       : first_(vertices + 1, 0), entries_(simplices.size()) {
     for (const auto& s : simplices) ++first_[*std::ranges::min_element(s)];
-    // From counts to ends; filling from behind turns the ends into beginnings.
+    // Turns counts into ends; filling from the back turns the ends into beginnings.
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     for (std::uint32_t i = 0; i < simplices.size(); ++i) {
       Corners corners;
@@ -53,14 +53,14 @@ class SimplexMap {
 
   bool empty() const { return entries_.empty(); }
 
-  /// The index of the edge among those given; `none` if it was not there.
+  /// The index of the edge in the given list; `none` if it is not there.
   std::uint32_t find(std::uint32_t a, std::uint32_t b) const requires(N == 2) {
     if (b < a) std::swap(a, b);
     for (std::uint32_t i = first_[a]; i < first_[a + 1]; ++i)
       if (entries_[i].others[0] == b) return entries_[i].index;
     return none;
   }
-  /// The index of the triangle among those given; `none` if it was not there.
+  /// The index of the triangle in the given list; `none` if it is not there.
   std::uint32_t find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
     const FaceKey key = face_key(a, b, c);
     for (std::uint32_t i = first_[key[0]]; i < first_[key[0] + 1]; ++i)

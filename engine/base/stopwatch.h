@@ -1,10 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace ccdt {
 
-/// Adds the wall-clock seconds of its own life to a figure.
+/// Adds the wall-clock seconds of its lifetime to a number.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
@@ -16,6 +17,19 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   double& seconds_;
   Clock::time_point start_;
+};
+
+/// Adds the CPU seconds that all threads of the process spend in its own life to a figure.
+class CpuStopwatch {
+ public:
+  explicit CpuStopwatch(double& seconds) : seconds_(seconds), start_(std::clock()) {}
+  ~CpuStopwatch() { seconds_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+  CpuStopwatch(const CpuStopwatch&) = delete;
+  CpuStopwatch& operator=(const CpuStopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::clock_t start_;
 };
 
 }  // namespace ccdt

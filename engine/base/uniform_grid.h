@@ -29,7 +29,7 @@ struct UniformGrid {
   Point3 center(const CellIndex& c) const {
     return {low.x + (c[0] + 0.5) * cell_size, low.y + (c[1] + 0.5) * cell_size, low.z + (c[2] + 0.5) * cell_size};
   }
-  /// A little larger than the cell, for the roundings of `cell_at`.
+  /// A little larger than the cell, to cover rounding in `cell_at`.
   Box box(const CellIndex& c) const {
     const double slack = 1e-6 * cell_size, side = cell_size + 2 * slack;
     const Point3 corner{low.x + c[0] * cell_size - slack, low.y + c[1] * cell_size - slack,
@@ -52,12 +52,12 @@ struct UniformGrid {
   }
 };
 
-/// The grid of the paper: about as many cubes as there are vertices or faces, whichever are more.
+/// The grid of the paper: about as many cubes as vertices or faces, whichever is larger.
 ///
 /// \param scale  factor of the paper's cell size; a tenth of it means a thousand times the cells
 inline UniformGrid make_uniform_grid(const Box& box, std::size_t items, double scale = 1) {
   const Point3 extent = box.high - box.low;
-  // The tolerance of the paper keeps flat boxes from having no volume, and the cubes from being too many.
+  // The tolerance of the paper avoids flat boxes without volume, and too many cubes.
   const double tolerance = 1e-3 * std::max({extent.x, extent.y, extent.z, 1.0});
   UniformGrid grid;
   grid.low = box.low - Point3{tolerance, tolerance, tolerance};

@@ -6,9 +6,9 @@
 
 namespace ccdt {
 
-/// What the engine did, in numbers that depend on the input and the options alone: the same on every machine, whatever
-/// the compiler, the load and the number of threads. (Only a limit of time for improvement makes them differ.) If they
-/// change, the algorithm has changed.
+/// What the engine did, in numbers that depend only on the input and the options: the same on every machine, whatever
+/// the compiler and the load. If they change, the algorithm has changed. There are two exceptions: a time limit for
+/// improvement, and several threads, where vertices are inserted in another order.
 struct Work {
   // ---- Signs of determinants (engine/numbers)
   std::uint64_t orient3d_filter_failures = 0;  ///< `orient3d` that floating point could not decide
@@ -68,17 +68,17 @@ struct Work {
   std::uint64_t edges_collapsed = 0;      ///< edges that were drawn together to one of their ends
   std::uint64_t triangles_evaluated = 0;  ///< triangles whose quality was computed, at each place of a corner anew
 
-  /// The bytes of a stage's large arrays at their largest, its result and its working memory: of their elements in
-  /// use, not of what is reserved for more. It is the same on every machine, and so is not the memory that the process
-  /// has; for that, see `peak_rss_bytes` of `ccdt.run/1`.
+  /// The peak bytes of a stage's large arrays, both result and working memory: of elements in use, without reserved
+  /// memory. It is the same on every machine, unlike the memory of the process, which is `peak_rss_bytes` of
+  /// `ccdt.run/1`.
   std::uint64_t peak_bytes = 0;
 
-  /// Adds what was done elsewhere: counts are summed, the largest of anything stays the largest.
+  /// Adds other work: counts are summed, and maxima stay maxima.
   Work& operator+=(const Work& more);
   friend bool operator==(const Work&, const Work&) = default;
 };
 
-/// How counts of two pieces of work make one count.
+/// How to combine two counts.
 enum class WorkKind { sum, largest };
 
 struct WorkCount {

@@ -23,7 +23,7 @@ constexpr int corner_offset(unsigned corner) {
 /// The corners of even sum of a unit cube, and those of odd sum: positively oriented.
 constexpr std::array<std::array<std::uint8_t, 4>, 2> tetrahedron_corners = {{{0, 5, 3, 6}, {1, 2, 4, 7}}};
 
-/// Where each corner is in its tetrahedron.
+/// The position of each corner in its tetrahedron.
 constexpr std::array<std::uint8_t, 8> place_of_corner = {0, 0, 1, 2, 2, 1, 3, 3};
 
 class CellMaker {
@@ -57,7 +57,7 @@ class CellMaker {
     });
   }
 
-  /// Joins face f of a cell to the face of another one of the core with this code; `nothing`: there is none.
+  /// Joins face f of a cell to the face of another core cell with this code; `nothing`: there is none.
   void join(std::uint32_t cell, std::uint32_t f, std::uint32_t code) {
     if (code == nothing) {
       border_.push_back(face_code(first_ + cell, f));
@@ -94,7 +94,7 @@ class CellMaker {
       }
     }
   }
-  /// Of the vertex on the axis next to the diagonal.
+  /// The vertex on the axis next to the diagonal.
   static unsigned place_of_next(unsigned q) { return q == 0 || q == 3 ? 2 : 3; }
 
   /// The face opposite to a corner is that of the octahedron around the corner across.

@@ -12,14 +12,14 @@ using Numbers = Surrounded<std::uint32_t>;
 
 constexpr auto stride = Flags::stride;
 
-/// How far the corner of a unit cube is from its least one, by the bits x, y, z of the corner.
+/// The offset of a corner of a unit cube from its least corner, by the bits x, y, z of the corner.
 constexpr int corner_offset(unsigned corner) {
   return static_cast<int>(corner & 1) * stride[0] + static_cast<int>(corner >> 1 & 1) * stride[1] +
          static_cast<int>(corner >> 2 & 1) * stride[2];
 }
 
 /// Calls visit(index) for the vertices of the shape around a place, until it returns false.
-/// \return  was it true for all?
+/// \return  did it return true for all?
 template <class Visit>
 bool for_vertices_at(Lattice kind, const Place& p, int at, const Visit& visit) {
   if (kind == Lattice::fcc) {
@@ -58,7 +58,7 @@ class CoreFinder {
   }
 
  private:
-  /// Those that have all of their vertices.
+  /// Finds the shapes with all their vertices.
   void find_whole_shapes(SiteBlock& block) {
     around_.gather(sites_, block, &SiteBlock::flags, 0);
     const auto is_present = [&](int i) { return (around_[i] & present) != 0; };
@@ -103,7 +103,7 @@ class CoreFinder {
   bool is_odd(const Place& p) const { return (p[0] & 1) != 0; }
   bool has_faces_beside(const Place& p) const { return kind_ == Lattice::fcc || is_odd(p); }
 
-  /// Numbers the cells of the core's shapes that have a deep vertex.
+  /// Numbers the cells of core shapes with a deep vertex.
   void number_cells(SiteBlock& block) {
     around_.gather(sites_, block, &SiteBlock::flags, 0);
     vertex_.gather(sites_, block, &SiteBlock::point, nothing);

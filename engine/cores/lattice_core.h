@@ -11,15 +11,15 @@ namespace ccdt::cores {
 
 /// The part of a Delaunay tetrahedralization that follows from the lattices alone; docs/lattice-cores.md has the proof.
 ///
-/// The spheres of a perfect lattice hold the vertices of *shapes*. They are placed in steps: half the side of a lattice
+/// The empty spheres of a perfect lattice circumscribe *shapes*. Places are given in steps: half the side of a lattice
 /// cell, or the whole side for `sc`.
 ///
 /// - `fcc`: octahedra around the points of odd sum, and tetrahedra in the unit cubes between
 /// - `bcc`: four tetrahedra around the face of two cells, that is, around the axis between their centers
 /// - `sc`: cubes
 ///
-/// A shape is *core* if all of its vertices are there and its closed spheres hold no other vertex. A vertex is *deep*
-/// if all its shapes are core. The core kept here is that of the shapes that have a deep vertex.
+/// A shape is *core* if all of its vertices exist and its closed spheres contain no other vertex. A vertex is *deep* if
+/// all its shapes are core. The core kept here consists of the core shapes with a deep vertex.
 struct LatticeCore {
   SiteBlocks sites;
   std::vector<bool> is_deep;     ///< by vertex
@@ -27,9 +27,9 @@ struct LatticeCore {
 };
 
 /// \param lattice  the interior points
-/// \param vertex   by point: its vertex, which is its rank as well; or `nothing`, and it is taken for absent
-/// \param others   all vertices that are no lattice points, and the only ones that are not
-/// \param vertices how many there are in all
+/// \param vertex   by point: its vertex, which is also its rank; or `nothing` if it is absent
+/// \param others   all vertices that are not lattice points
+/// \param vertices the number of all vertices
 LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
                               std::span<const Point3> others, std::size_t vertices);
 
@@ -41,10 +41,10 @@ LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::
 std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, std::span<delaunay::Cell> cells,
                                            std::uint32_t first);
 
-/// Puts the core into the tetrahedralization of the other vertices: cells of that within the core go, found by a flood
-/// from the core's border, and those outside become neighbors of the core's.
+/// Adds the points of a lattice to a tetrahedralization: `delaunay::insert_points`, with the same result, but the cells
+/// deep within the lattice are written down, and only the vertices that are not deep are inserted.
 ///
-/// \param d  the Delaunay tetrahedralization of at least all vertices that are not deep; its list of vertices has all
-void insert_core(const LatticeCore& core, delaunay::Delaunay& d);
+/// \return  the number of cells in the core
+std::size_t insert_points(const lattice::LatticePoints& lattice, delaunay::Delaunay& d, const Progress& progress = {});
 
 }  // namespace ccdt::cores

@@ -53,7 +53,7 @@ SiteMap::SiteMap(const lattice::LatticePoints& lattice, const std::vector<std::u
   for (std::uint32_t i = 0; i < lattice_.points.size(); ++i) put_on_other_levels(i, vertex[i]);
 }
 
-/// The levels that have points. A point of a level may be a site of the next finer one only.
+/// The levels with points. A point of a level may be a site of only the next finer one.
 void SiteMap::make_levels() {
   index_.assign(lattice_.depth + 1, nothing);
   for (const std::uint8_t level : lattice_.levels)
@@ -133,7 +133,7 @@ void SiteMap::find_neighbors(std::uint32_t b) {
   for (std::uint32_t coarse = 0; coarse < block.level; ++coarse) find_coarser(b, coarse);
 }
 
-/// Notes of a block and those of a coarser level that they are near to each other.
+/// Notes that a block and those of a coarser level are near each other.
 void SiteMap::find_coarser(std::uint32_t b, std::uint32_t coarse) {
   SiteBlock& block = all_.blocks[b];
   const std::int64_t step = all_.levels[block.level].step, coarse_step = all_.levels[coarse].step;
@@ -185,7 +185,7 @@ void SiteMap::for_blocks_in(std::uint32_t level, const Place& low, const Place& 
       }
 }
 
-/// Shapes of a level are core no more if they have a point in one of their spheres.
+/// Shapes of a level with a point in one of their spheres are no longer core.
 void SiteMap::discard_shapes(std::uint32_t level, const Point3& p) {
   const double scale = 1 / (lattice_.unit * all_.levels[level].step);
   const Point3 from_origin = p - lattice_.origin;

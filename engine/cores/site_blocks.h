@@ -15,7 +15,7 @@ using lattice::Lattice;
 
 inline constexpr std::uint32_t nothing = 0xFFFFFFFFu;
 
-/// What is known of a place of a block: of the point there, and of the unit cube whose least corner it is.
+/// The flags of a place of a block: of the point there, and of the unit cube with this least corner.
 enum PlaceFlag : std::uint8_t {
   present = 0x01,     ///< a vertex of the lattice is there
   deep = 0x02,        ///< that vertex is deep
@@ -32,12 +32,12 @@ struct SiteBlock {
   std::array<std::uint32_t, 3> at;        ///< least place / side
   std::uint32_t level;                    ///< index of its `SiteLevel`
   bool has_core = false;                  ///< is any of its shapes core?
-  std::uint64_t near_levels = 0;          ///< bits: levels that have a block which vertices of this one may be near
+  std::uint64_t near_levels = 0;          ///< bits: levels with blocks near which vertices of this one may be
   std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `nothing`: none
   std::array<std::uint32_t, size> point;  ///< a site: its vertex; else the first cell of the shape there; or `nothing`
   std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `nothing`
   std::array<std::uint8_t, size> flags;
-  std::array<std::uint8_t, size> kind;  ///< how the ranks of its vertices split a shape
+  std::array<std::uint8_t, size> kind;  ///< the split of a shape by the ranks of its vertices
 
   static std::size_t place(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + side * (y + side * z); }
 };
@@ -50,7 +50,7 @@ struct SiteLevel {
 
 using Place = std::array<std::uint32_t, 3>;
 
-/// Coordinates in steps are larger by this: so none is below zero around a site.
+/// Offset of coordinates in steps, so that none is below zero around a site.
 inline constexpr std::uint32_t margin = SiteBlock::side;
 
 /// Is a place, in steps, a site of the lattice?
@@ -84,12 +84,12 @@ struct SiteBlocks {
 class SiteMap {
  public:
   /// \param lattice  must outlive this
-  /// \param vertex   by point of the lattice: its vertex, or `nothing` if it is not to be there
+  /// \param vertex   by point of the lattice: its vertex, or `nothing` if it is absent
   SiteMap(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex);
 
   SiteBlocks& blocks() { return all_; }
-  /// Finds the core shapes in whose spheres there are lattice points of other levels, or any of the other vertices:
-  /// they are core no more.
+  /// Finds core shapes with lattice points of other levels, or any of the other vertices, in their spheres: these are
+  /// no longer core.
   void discard_shapes_with(std::span<const Point3> others);
 
  private:
@@ -112,7 +112,7 @@ class SiteMap {
   SiteBlocks all_;
   std::vector<std::uint32_t> index_;     ///< of a level, by that of the octree
   std::vector<std::uint32_t> block_of_;  ///< by point
-  // The block of the last point, which is often that of the next.
+  // The block of the last point, which is often also that of the next.
   std::uint32_t last_ = 0, last_level_ = nothing;
   std::uint64_t last_key_ = 0;
 };

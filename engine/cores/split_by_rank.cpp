@@ -74,7 +74,7 @@ CubeSplit split_cube(const std::array<std::uint8_t, 8>& place) {
   return split;
 }
 
-/// The kinds by the order of the ranks, each found when it is first needed.
+/// The kinds by the order of the ranks; each is computed when first needed.
 struct KindTable {
   static constexpr std::uint8_t unknown = 0xFF;
 

@@ -1,10 +1,13 @@
 #include "engine/delaunay/delaunay.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
-#include "engine/delaunay/insertion.h"
+#include "engine/base/parallel.h"
+#include "engine/delaunay/hilbert_order.h"
+#include "engine/delaunay/insert_vertices.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::delaunay {
@@ -42,14 +45,15 @@ void make_first_cells(Delaunay& d) {
   d.cells.assign(5, {});
   work_done.cells_created += 5;
   d.cells[0].vertices = {0, 1, 2, 3};
+  for (const std::uint32_t v : d.cells[0].vertices) d.vertices[v].cell = 0;
   for (std::uint32_t f = 0; f < 4; ++f) {
-    // From outside the face is seen the other way round.
+    // From outside, the face is seen with the opposite orientation.
     const auto& corner = face_corners[f];
     d.cells[f + 1].vertices = {corner[0], corner[2], corner[1], ghost_vertex};
     d.cells[f + 1].neighbors[3] = face_code(0, f);
     d.cells[0].neighbors[f] = face_code(f + 1, 3);
   }
-  // Two ghosts meet where both lack each other's opposite vertex.
+  // Two ghosts meet at the face that lacks the opposite vertex of each.
   for (std::uint32_t i = 1; i < 5; ++i) {
     for (std::uint32_t f = 0; f < 3; ++f) {
       const std::uint32_t other = 1 + d.cells[i].vertices[f];  // the ghost over the face opposite to this vertex
@@ -60,17 +64,18 @@ void make_first_cells(Delaunay& d) {
   }
 }
 
-/// From places in the insertion order back to ids.
+/// Converts places in the insertion order back to ids.
 void renumber(Delaunay& d, const std::vector<std::uint32_t>& order) {
   std::vector<DelaunayVertex> by_id(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) by_id[order[i]] = d.vertices[i];
+  parallel_for(order.size(), 4096, [&](std::size_t i) { by_id[order[i]] = d.vertices[i]; });
   d.vertices = std::move(by_id);
-  for (Cell& cell : d.cells)
-    for (std::uint32_t& v : cell.vertices)
+  parallel_for(d.cells.size(), 4096, [&](std::size_t c) {
+    for (std::uint32_t& v : d.cells[c].vertices)
       if (v != ghost_vertex) v = order[v];
+  });
 }
 
-/// The place of v among the vertices of the cell, 4 if it is not there.
+/// The position of v among the vertices of the cell; 4 if it is not there.
 std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
   std::uint32_t i = 0;
   while (i < 4 && cell.vertices[i] != v) ++i;
@@ -80,7 +85,7 @@ std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
 }  // namespace
 
 void refuse_flat_points() {
-  throw MeshError("the vertices are all in one plane, or fewer than four", {},
+  throw MeshError("there are fewer than four vertices, or all are in one plane", {},
                   "a tetrahedral mesh needs a body: check that the input is not flat");
 }
 
@@ -95,17 +100,13 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   const std::vector<std::uint32_t> order = insertion_order(points);
   Delaunay d;
   d.vertices.resize(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i), 0};
-  d.cells.reserve(7 * points.size() + 64);
+  parallel_for(order.size(), 4096, [&](std::size_t i) {
+    d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i), no_cell};
+  });
   make_first_cells(d);
-  Insertion insertion(d);
-  std::uint32_t last = 0;
-  for (std::uint32_t v = 4; v < d.vertices.size(); ++v) {
-    insertion.find_cavity(v, last);
-    last = insertion.fill_cavity();
-    if ((v & 0xFFFF) == 0) report(progress, "delaunay", v, d.vertices.size());
-  }
-  note_bytes(bytes_of(order, d.vertices, d.cells, d.free_cells) + insertion.bytes());
+  std::vector<std::uint32_t> others(d.vertices.size() - 4);
+  std::iota(others.begin(), others.end(), 4u);
+  insert_vertices(d, others, progress);
   renumber(d, order);
   return d;
 }
@@ -132,24 +133,24 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
   return cells_;
 }
 
-// Walks towards b within the star of a. The walk ends, as any walk towards a point in a Delaunay tetrahedralization; in
-// the cell at a that b is above, and if ab is an edge, then it is one of that cell.
-bool CellStar::has_edge(std::uint32_t a, std::uint32_t b) {
-  std::uint32_t here = d_.vertices[a].cell;
-  // Never outside of the hull: b is not.
-  if (d_.is_ghost(here)) here = cell_of(d_.cells[here].neighbors[3]);
-  const Point3& p = d_.point(b);
+// Walks toward b within the star of a. Like any walk toward a point in a Delaunay tetrahedralization, it ends. It ends
+// in the cell at a that contains the direction to b; if ab is an edge, it is an edge of that cell.
+std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
+  std::uint32_t here = d.vertices[a].cell;
+  // The walk never leaves the hull, because b is inside.
+  if (d.is_ghost(here)) here = cell_of(d.cells[here].neighbors[3]);
+  const Point3& p = d.point(b);
   for (std::uint32_t from = no_neighbor;;) {
     ++work_done.cells_visited;
-    const Cell& cell = d_.cells[here];
-    if (place_of(cell, b) < 4) return true;
+    const Cell& cell = d.cells[here];
+    if (place_of(cell, b) < 4) return here;
     std::uint32_t exit = 4;
     for (std::uint32_t f = 0; f < 4 && exit == 4; ++f) {
       if (cell.vertices[f] == a || cell.neighbors[f] == from) continue;
       const auto [u, v, w] = corners_of_face(cell.vertices, f);
-      if (numbers::orient3d(d_.point(u), d_.point(v), d_.point(w), p) < 0) exit = f;
+      if (numbers::orient3d(d.point(u), d.point(v), d.point(w), p) < 0) exit = f;
     }
-    if (exit == 4) return false;
+    if (exit == 4) return no_neighbor;
     from = face_code(here, exit);
     here = cell_of(cell.neighbors[exit]);
   }

@@ -8,14 +8,18 @@
 #include "engine/base/box.h"
 #include "engine/base/index.h"
 #include "engine/base/progress.h"
+#include "engine/base/raw_vector.h"
 
 namespace ccdt::delaunay {
 
-/// A vertex of the tetrahedralization. Its rank, its place in the order of insertion, is given once and decides ties.
+inline constexpr std::uint32_t no_cell = 0xFFFFFFFFu;
+
+/// A vertex of the tetrahedralization. Its rank, which is its place in the order of insertion, is fixed and decides
+/// ties.
 struct DelaunayVertex {
   Point3 point;
   std::uint32_t rank = 0;
-  std::uint32_t cell = 0;  ///< some cell that has this vertex
+  std::uint32_t cell = 0;  ///< a cell with this vertex; `no_cell`: it waits to be inserted
 };
 
 /// \return  `empty_box` if there are no vertices
@@ -28,8 +32,8 @@ inline Box bounding_box(std::span<const DelaunayVertex> vertices) {
 /// A tetrahedron, or a *ghost*: a face of the convex hull joined to the vertex at infinity.
 ///
 /// Vertices are positively oriented: vertex 3 is above the triangle 0 1 2. Face i is opposite to vertex i. A ghost has
-/// `ghost_vertex` as vertex 3; the outside of the hull is above its triangle 0 1 2.
-/// A neighbor is a face code, 4 * cell + face: the same face as the cell on its other side calls it.
+/// `ghost_vertex` as vertex 3; the outside of the hull is above its triangle 0 1 2. A neighbor is a face code, 4 * cell
+/// + face: the same face, numbered in the cell on its other side.
 struct Cell {
   std::array<std::uint32_t, 4> vertices;
   std::array<std::uint32_t, 4> neighbors;
@@ -58,21 +62,21 @@ constexpr std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uin
   return {v[corner[0]], v[corner[1]], v[corner[2]]};
 }
 
-/// Makes two cells neighbors across the face that has code a in the one and code b in the other.
-inline void join_faces(std::vector<Cell>& cells, std::uint32_t a, std::uint32_t b) {
+/// Makes two cells neighbors across the face with code a in one and code b in the other.
+inline void join_faces(RawVector<Cell>& cells, std::uint32_t a, std::uint32_t b) {
   cells[cell_of(a)].neighbors[face_of(a)] = b;
   cells[cell_of(b)].neighbors[face_of(b)] = a;
 }
 
-/// The Delaunay tetrahedralization of points on the dyadic grid, unique by perturbation (predicates.h). A plain flat
-/// structure: cells and vertices are indices into arrays. Cells whose place waits to be used again are dead.
+/// The Delaunay tetrahedralization of points on the dyadic grid, unique by perturbation (predicates.h). A flat
+/// structure: cells and vertices are indices into arrays. Cells whose place can be reused are dead.
 struct Delaunay {
   std::vector<DelaunayVertex> vertices;  ///< by id
-  std::vector<Cell> cells;
+  RawVector<Cell> cells;
   std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
   const Point3& point(std::uint32_t v) const { return vertices[v].point; }
-  /// The face of a code, as the cell on its other side calls it.
+  /// The code of the same face in the cell on its other side.
   std::uint32_t across(std::uint32_t code) const { return cells[cell_of(code)].neighbors[face_of(code)]; }
   bool is_dead(std::uint32_t cell) const { return cells[cell].neighbors[0] == no_neighbor; }
   bool is_ghost(std::uint32_t cell) const { return cells[cell].vertices[3] == ghost_vertex; }
@@ -96,13 +100,13 @@ std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points);
 
 /// Tetrahedralizes points face by face, as the paper does (sections 4 and 5: the uniform grid construction of Fang and
 /// Piegl 1993, in space): starting with a face of the hull, the tetrahedron on the open side of each face is found by a
-/// search in the uniform grid around it. The cells are the very ones that insertion in the order of the ranks gives.
+/// search in the uniform grid around it. The cells are the same as those of insertion in the order of the ranks.
 ///
-/// The time is about linear for points of a uniform density in a body. It is not where the points are graded or lie on
-/// surfaces alone, as the number of vertices in a cell is then no longer bounded: a region that is k times denser than
-/// the mean costs about k times as much per vertex; n points on a sphere cost about n^2. On slanted flat sides, where
-/// vertices are a rounding off the plane, the spheres of slivers are half-spaces, whose border is searched: about n^1.2
-/// in all.
+/// The time is about linear for points of uniform density in a body. It is not if the points are graded or lie only on
+/// surfaces, because the number of vertices in a grid cell is then unbounded: a region that is k times denser than the
+/// mean costs about k times as much per vertex; n points on a sphere cost about n^2. On slanted flat sides, where
+/// vertices are off the plane by rounding, the spheres of slivers are nearly half-spaces, and their border is searched:
+/// about n^1.2 in all.
 ///
 /// \param vertices    by id, with point and rank; points pairwise different, in grid units, and ranks too
 /// \param grid_scale  factor of the paper's size of the grid's cells
@@ -110,7 +114,27 @@ std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points);
 /// \throw MeshError  as build_delaunay
 Delaunay wrap_delaunay(std::vector<DelaunayVertex> vertices, double grid_scale = 1, const Progress& progress = {});
 
-/// Walks the cells around vertices; owns the marks that this takes, so it is made once and used often.
+/// Adds points as vertices, in the order of a Hilbert curve. Their ids, and their ranks too, follow the existing ones.
+/// They have no cells yet: those are made by `insert_vertices`, or all anew by `wrap_delaunay`.
+///
+/// \param points  grid units
+/// \return  by added vertex, the index of its point
+std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points);
+
+/// Adds points to the tetrahedralization, as `append_vertices` and `insert_vertices` do.
+///
+/// \param points  grid units, pairwise different and different from the vertices
+void insert_points(Delaunay& d, std::span<const Point3> points, const Progress& progress = {});
+
+/// A cell that has the edge ab; `no_neighbor` if that is no edge of the tetrahedralization.
+std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b);
+
+/// Is ab an edge of the tetrahedralization?
+inline bool has_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
+  return find_edge(d, a, b) != no_neighbor;
+}
+
+/// Visits the cells around vertices. It owns the marks for this, so create it once and use it often.
 class CellStar {
  public:
   explicit CellStar(const Delaunay& delaunay) : d_(delaunay) {}
@@ -118,10 +142,8 @@ class CellStar {
   /// All cells, finite and ghost, that have the vertex; valid until the next call.
   std::span<const std::uint32_t> around(std::uint32_t vertex);
 
-  /// Is ab an edge of the tetrahedralization?
-  bool has_edge(std::uint32_t a, std::uint32_t b);
-
-  /// The face abc as the cell above it (from where abc is counterclockwise) calls it; `no_neighbor` if it is no face.
+  /// The code of the face abc in the cell above it (from where abc is counterclockwise); `no_neighbor` if it is not a
+  /// face.
   std::uint32_t find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
  private:

@@ -63,7 +63,7 @@ class ApexSearch {
         normal_(pencil_.normal()),
         per_normal_x_(1 / normal_.x) {
     const auto& v = grid.vertices;
-    // The vertex is to be expected half a cell above the face.
+    // The vertex is expected half a cell above the face.
     const double lift = 0.5 * cell_size_ / pencil_.normal_length();
     middle_ =
         cell_at((1.0 / 3) * (v[face[0]].point + v[face[1]].point + v[face[2]].point) + std::min(lift, 1e300) * normal_);
@@ -189,7 +189,7 @@ class ApexSearch {
     if (pencil_.apex() != apex) cap_ = pencil_.cap();
   }
 
-  /// Leaves of a row of cells what is within the ball and above the face. \return is there anything left?
+  /// Reduces a row of cells to the part within the ball and above the face. \return is anything left?
   bool shorten(int y, int z, int& from, int& to) const {
     const double row_y = g_.grid.low.y + (y + 0.5) * cell_size_, row_z = g_.grid.low.z + (z + 0.5) * cell_size_;
     double low = -infinity, high = infinity;
@@ -201,7 +201,7 @@ class ApexSearch {
       const double reach = std::sqrt(square) + 1e-6 * cell_size_;
       low = cap_.center.x - reach, high = cap_.center.x + reach;
     }
-    // The highest that the row's cross-section reaches above the plane of the face, at x = origin.x.
+    // The greatest height of the row's cross-section above the plane of the face, at x = origin.x.
     const Point3& origin = pencil_.origin();
     const double height = normal_.y * (row_y - origin.y) + normal_.z * (row_z - origin.z) +
                           (std::fabs(normal_.y) + std::fabs(normal_.z)) * half_ + plane_slack_;
@@ -267,7 +267,7 @@ class ApexSearch {
   double per_normal_x_;
   CellIndex middle_;
   CellBox seen_;
-  std::uint64_t cells_ = 0, vertices_ = 0;  ///< that the search came to
+  std::uint64_t cells_ = 0, vertices_ = 0;  ///< visited by the search
 };
 
 }  // namespace

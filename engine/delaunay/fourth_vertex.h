@@ -20,8 +20,8 @@ struct GridBlock {
   Point3 center, half;                  ///< of the box of its vertices; slightly larger
 };
 
-/// Vertices in the order of the cells of a uniform grid (paper, section 4), so that those of a row of cells lie side by
-/// side: those of cell c are first[c] .. first[c + 1]. In what follows a vertex is named by its place in this order.
+/// Vertices in the order of the cells of a uniform grid (paper, section 4), so that those of a row of cells are
+/// adjacent: those of cell c are first[c] .. first[c + 1]. Below, a vertex is named by its place in this order.
 struct VertexGrid {
   UniformGrid grid;
   Point3 extent;  ///< of the points
@@ -44,21 +44,21 @@ struct VertexGrid {
 /// \param scale  factor of the paper's cell size
 VertexGrid make_vertex_grid(std::span<const DelaunayVertex> vertices, double scale);
 
-/// How far the vertices of the blocks of a grid reach in a direction: remembered, as many faces of a flat side of a
-/// part ask in nearly the same direction. A box around vertices on a slanted side reaches far above it, and the spheres
-/// there are all but half-spaces: their rounded vertices are slightly off a plane.
+/// A cache of how far the vertices of each block of a grid reach in a direction. Many faces of a flat side of a part
+/// ask for nearly the same direction. A bounding box around vertices on a slanted side reaches far above it, and the
+/// spheres there are nearly half-spaces, because their rounded vertices are slightly off a plane.
 class BlockTops {
  public:
   explicit BlockTops(const VertexGrid& grid) : grid_(grid), slots_(slot_count) {}
 
   struct Direction {
-    Point3 normal;             ///< of unit length, near the one asked for
+    Point3 normal;             ///< of unit length, near the requested one
     std::vector<double> tops;  ///< of blocks, along the normal; NaN: not known yet
     std::uint64_t key = 0;
   };
-  /// What is remembered for about this direction. \param normal  of unit length
+  /// The cached values for about this direction. \param normal  of unit length
   Direction& direction(const Point3& normal);
-  /// At least the largest normal . p of all vertices p of the block, by not more than roundings.
+  /// An upper bound of normal . p over all vertices p of the block, exact up to rounding.
   double top(Direction& direction, std::size_t block) const;
 
  private:
@@ -68,16 +68,16 @@ class BlockTops {
   std::vector<Direction> slots_;
 };
 
-/// How much to search.
+/// The extent of a search.
 enum class Reach {
-  near,       ///< not what is above a face of the hull, nor a huge sphere, which is nearly a half-space as well
-  everywhere  ///< all that is above the face
+  near,       ///< neither above a face of the hull nor in a huge sphere, which is nearly a half-space too
+  everywhere  ///< everything above the face
 };
 
 /// Finds the vertex that makes a Delaunay tetrahedron of a Delaunay face (paper, sections 4 and 5; Fang and Piegl 1993
 /// for the plane): a spiral search around the face in growing boxes of cells finds a candidate; it is replaced by any
-/// vertex inside the sphere through it and the face, until the cells that the sphere meets above the face have all been
-/// seen. Where the sphere is large, blocks of cells are passed over at once.
+/// vertex inside the sphere through it and the face, until all cells that the sphere meets above the face have been
+/// visited. If the sphere is large, whole blocks of cells are skipped.
 class FourthVertexSearch {
  public:
   /// \param grid  must outlive the search
@@ -85,7 +85,7 @@ class FourthVertexSearch {
 
   /// \param face       of the Delaunay tetrahedralization; the search is above it
   /// \param candidate  a vertex strictly above the face, to start with; `ghost_vertex` to search for one
-  /// \return  `ghost_vertex` if there is no vertex strictly above the face, or none has been found within reach
+  /// \return  `ghost_vertex` if there is no vertex strictly above the face, or none was found within reach
   std::uint32_t find(const std::array<std::uint32_t, 3>& face, std::uint32_t candidate, Reach reach);
 
  private:

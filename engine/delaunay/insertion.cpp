@@ -3,107 +3,58 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/box.h"
 #include "engine/base/count_work.h"
-#include "engine/base/morton.h"
-#include "engine/base/simplex_map.h"
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {
 
-constexpr int bits_per_axis = 20;
-constexpr int round_shift = 3 * bits_per_axis;  // rounds above the 60 bits of the curve
-
-/// Distance along the Hilbert curve of a point of the cube [0, 2^bits)^3 (Skilling 2004: transpose form, then
-/// interleaved).
-std::uint64_t hilbert_distance(std::array<std::uint32_t, 3> x) {
-  for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1) {
-    const std::uint32_t p = q - 1;
-    for (int i = 0; i < 3; ++i) {
-      if (x[i] & q) {
-        x[0] ^= p;
-      } else {
-        const std::uint32_t t = (x[0] ^ x[i]) & p;
-        x[0] ^= t;
-        x[i] ^= t;
-      }
-    }
-  }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1)
-    if (x[2] & q) t ^= q - 1;
-  return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
-}
-
-/// A well-mixed hash of an index: the random bits of the rounds, the same on every machine.
-std::uint64_t random_bits(std::uint64_t i) {
-  i += 0x9E3779B97F4A7C15u;
-  i = (i ^ (i >> 30)) * 0xBF58476D1CE4E5B9u;
-  i = (i ^ (i >> 27)) * 0x94D049BB133111EBu;
-  return i ^ (i >> 31);
-}
-
-constexpr std::uint8_t no_local = 0xFF;
-
 /// The face of a new cell that is opposite to the k-th vertex of its border face, by where the ghost was among them (3:
 /// nowhere); see the order of vertices in `make_cell`.
 constexpr std::uint8_t opposite[4][3] = {{3, 1, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 2}};
 
+constexpr std::uint8_t no_local = InsertionMarks::no_local;
+
 }  // namespace
 
-std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
-  const auto [low, high] = bounding_box(points);
-  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1.0});
-  const double scale = ((1u << bits_per_axis) - 1) / extent;
+Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), marks_(own_marks_), table_(table_side * table_side) {}
 
-  // A round has eight times the points of the one before; small sets need none.
-  int rounds = 0;
-  for (std::size_t n = points.size(); n > 2000 && rounds < 6; n /= 8) ++rounds;
-  std::vector<KeyedIndex> keyed(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point3& p = points[i];
-    const auto cell = [&](double c, double l) { return static_cast<std::uint32_t>((c - l) * scale); };
-    std::uint64_t round = static_cast<std::uint64_t>(rounds);
-    for (std::uint64_t bits = random_bits(i); round > 0 && (bits & 7) == 0; bits >>= 3) --round;
-    keyed[i] = {round << round_shift | hilbert_distance({cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)}),
-                static_cast<std::uint32_t>(i)};
-  }
-  return sorted_by_key(std::move(keyed));
-}
-
-Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), table_(table_side * table_side) {}
+Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, CellPool& pool)
+    : d_(delaunay), marks_(marks), pool_(&pool), table_(table_side * table_side) {}
 
 bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   v_ = v;
   ties_ = ties;
   p_ = d_.point(v);
-  mark_.resize(d_.cells.size(), Mark::unknown);
-  if (local_.size() < d_.vertices.size() + 1) local_.resize(d_.vertices.capacity() + 1, no_local);
+  twin_ = ghost_vertex;
+  if (pool_ == nullptr) {
+    marks_.cells.resize(d_.cells.size(), Mark::unknown);
+    if (marks_.local.size() < d_.vertices.size()) marks_.local.resize(d_.vertices.capacity(), no_local);
+  }
   const unsigned turn = turn_;
   const std::uint32_t first = walk(p_, start);
   work_done.walk_steps += turn_ - turn;
+  if (marks_.cells[first] == Mark::shared) return false;
   for (const std::uint32_t corner : d_.cells[first].vertices) {
     if (corner != ghost_vertex && d_.point(corner) == p_) {
       twin_ = corner;
       return false;
     }
   }
-  spread(first);
-  // Each cell of the cavity but the first, and each one around it, was tested once.
+  if (!spread(first)) return false;
+  // Each cell of the cavity except the first, and each one around it, was tested once.
   work_done.cells_tested += cavity_.size + outside_.size - 1;
   work_done.largest_cavity = std::max<std::uint64_t>(work_done.largest_cavity, cavity_.size);
   ++work_done.insertions;
   return true;
 }
 
-/// Grows the cavity from its first cell across all faces behind which the new vertex is in the sphere.
-CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
+/// Grows the cavity from its first cell across all faces to cells whose sphere contains the new vertex.
+/// \return false if a shared cell is in the cavity
+CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {
   const Cell* const cells = d_.cells.data();
-  Mark* const mark = mark_.data();
+  Mark* const mark = marks_.cells.data();
   cavity_.add(first);
   mark[first] = Mark::conflict;
   for (std::size_t i = 0; i < cavity_.size; ++i) {
@@ -112,25 +63,29 @@ CCDT_WIDE_LANES void Insertion::spread(std::uint32_t first) {
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
       if (mark[next] == Mark::conflict) continue;
-      if (mark[next] == Mark::unknown) {
+      if (mark[next] != Mark::outside) {
         if (conflicts(cells[next])) {
+          if (mark[next] == Mark::shared) return false;
           mark[next] = Mark::conflict;
           cavity_.add(next);
-          // By the time that its turn comes, they are there.
+          // They exist by the time they are needed.
           for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
           continue;
         }
-        mark[next] = Mark::outside;
-        outside_.add(next);
+        if (mark[next] == Mark::unknown) {
+          mark[next] = Mark::outside;
+          outside_.add(next);
+        }
       }
       border_.add({corners_of_face(cell.vertices, f), code});
     }
   }
+  return true;
 }
 
 void Insertion::discard_cavity() {
-  for (const std::uint32_t c : cavity_.items()) mark_[c] = Mark::unknown;
-  for (const std::uint32_t c : outside_.items()) mark_[c] = Mark::unknown;
+  for (const std::uint32_t c : cavity_.items()) marks_.cells[c] = Mark::unknown;
+  for (const std::uint32_t c : outside_.items()) marks_.cells[c] = Mark::unknown;
   cavity_.size = outside_.size = border_.size = 0;
 }
 
@@ -148,22 +103,23 @@ std::uint32_t Insertion::fill_cavity() {
   work_done.cells_destroyed += cavity_.size;
   const std::uint32_t some = places_[0];
   d_.vertices[v_].cell = some;
-  for (const std::uint32_t u : border_vertices_) local_[u + 1] = no_local;
+  for (const std::uint32_t u : border_vertices_) local_of(u) = no_local;
   border_vertices_.clear();
   for (std::size_t i = border_.size; i < cavity_.size; ++i) {
     d_.cells[cavity_.slots[i]].neighbors[0] = no_neighbor;
-    d_.free_cells.push_back(cavity_.slots[i]);
+    free_cells().push_back(cavity_.slots[i]);
   }
   discard_cavity();
   return some;
 }
 
-/// The visibility walk; ends in the cell that holds p, or in a ghost whose hull face p is above. The face that is tried
-/// first changes from step to step, so that the walk does not favor a side.
+/// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell. The
+/// first face to try changes from step to step, so that the walk does not favor a side.
 std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   std::uint32_t from = no_neighbor;
   while (true) {
+    if (pool_ != nullptr && marks_.cells[here] == Mark::shared) return here;
     const Cell& cell = d_.cells[here];
     if (cell.vertices[3] == ghost_vertex) return here;
     std::uint32_t exit = 4;
@@ -180,7 +136,7 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   }
 }
 
-/// A new vertex of the greatest rank of all is outside of a sphere that it is on.
+/// A new vertex with the greatest rank is outside a sphere on which it lies.
 CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
   if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
   const auto& v = cell.vertices;
@@ -216,28 +172,38 @@ bool Insertion::ghost_conflicts(const Cell& ghost) const {
          0;
 }
 
-/// The cells of the cavity give their places to the new ones; more are taken from dead cells and from the end.
+bool Insertion::has_room() {
+  if (pool_ == nullptr) return true;
+  while (cavity_.size + places_from_pool_.size() < border_.size) {
+    const std::uint32_t first = pool_->next.fetch_add(CellPool::chunk, std::memory_order_relaxed);
+    if (first + CellPool::chunk > pool_->end) return false;
+    for (std::uint32_t i = CellPool::chunk; i-- > 0;) places_from_pool_.push_back(first + i);
+  }
+  return true;
+}
+
+/// New cells take the places of the cavity's cells; further places come from dead cells and from the end.
 void Insertion::choose_places() {
   const auto cavity = cavity_.items();
   places_.assign(cavity.begin(), cavity.begin() + static_cast<std::ptrdiff_t>(std::min(cavity.size(), border_.size)));
-  while (places_.size() < border_.size && !d_.free_cells.empty()) {
-    places_.push_back(d_.free_cells.back());
-    d_.free_cells.pop_back();
+  std::vector<std::uint32_t>& free = free_cells();
+  while (places_.size() < border_.size && !free.empty()) {
+    places_.push_back(free.back());
+    free.pop_back();
   }
   const std::size_t old = d_.cells.size(), more = border_.size - places_.size();
   if (more == 0) return;
   d_.cells.resize(old + more);
-  mark_.resize(old + more, Mark::unknown);
+  marks_.cells.resize(old + more, Mark::unknown);
   for (std::size_t i = 0; i < more; ++i) places_.push_back(static_cast<std::uint32_t>(old + i));
 }
 
 void Insertion::number_border_vertices() {
-  std::uint8_t* const local = local_.data();
   for (std::size_t i = 0; i < border_.size; ++i) {
     for (const std::uint32_t u : border_.slots[i].vertices) {
-      const std::uint32_t slot = u + 1;
-      if (local[slot] != no_local) continue;
-      if (border_vertices_.size() < no_local) local[slot] = static_cast<std::uint8_t>(border_vertices_.size());
+      std::uint8_t& local = local_of(u);
+      if (local != no_local) continue;
+      if (border_vertices_.size() < no_local) local = static_cast<std::uint8_t>(border_vertices_.size());
       border_vertices_.push_back(u);
       if (u != ghost_vertex) d_.vertices[u].cell = places_[i];
     }
@@ -245,7 +211,7 @@ void Insertion::number_border_vertices() {
 }
 
 /// Joins a face of the border to the new vertex.
-/// \return where the ghost was among the face's vertices, 3 if it was not
+/// \return the position of the ghost among the face's vertices; 3 if it is not there
 inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t place) const {
   Cell& cell = d_.cells[place];
   const auto& f = face.vertices;
@@ -269,7 +235,7 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
 }
 
 /// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
-/// pass in opposite directions: the first to come leaves its code in the table, the second finds it.
+/// pass in opposite directions: the first one leaves its code in the table, and the second one finds it.
 void Insertion::connect_by_table() {
   std::uint64_t* const table = table_.data();
   const std::uint64_t stamp = insertions_ << 32;
@@ -277,8 +243,7 @@ void Insertion::connect_by_table() {
     const CavityFace& face = border_.slots[i];
     const std::uint32_t place = places_[i];
     const auto& opposite_faces = opposite[make_cell(face, place)];
-    const std::uint32_t local[3] = {local_[face.vertices[0] + 1], local_[face.vertices[1] + 1],
-                                    local_[face.vertices[2] + 1]};
+    const std::uint32_t local[3] = {local_of(face.vertices[0]), local_of(face.vertices[1]), local_of(face.vertices[2])};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t from = local[k == 2 ? 0 : k + 1], to = local[k == 0 ? 2 : k - 1];
       const std::uint32_t here = face_code(place, opposite_faces[k]);
@@ -292,17 +257,23 @@ void Insertion::connect_by_table() {
   }
 }
 
-/// The same for a cavity with more vertices than the table has rows: edges are paired by sorting.
+/// The same for a cavity with more vertices than the table has rows.
 void Insertion::connect_by_search() {
-  std::vector<AtEdge> faces;
-  faces.reserve(3 * border_.size);
+  const auto key = [](std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32 | to; };
   for (std::size_t i = 0; i < border_.size; ++i) {
     const auto& v = border_.slots[i].vertices;
     const auto& opposite_faces = opposite[make_cell(border_.slots[i], places_[i])];
-    for (int k = 0; k < 3; ++k)
-      faces.push_back({edge_key(v[(k + 1) % 3], v[(k + 2) % 3]), face_code(places_[i], opposite_faces[k])});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = v[k == 2 ? 0 : k + 1], to = v[k == 0 ? 2 : k - 1];
+      const std::uint32_t here = face_code(places_[i], opposite_faces[k]);
+      if (const std::uint32_t* other = waiting_.find(key(to, from))) {
+        join_faces(d_.cells, here, *other);
+        waiting_.erase(other);
+      } else {
+        waiting_.insert(key(from, to), here);
+      }
+    }
   }
-  for_each_edge_group(faces, [&](std::span<const AtEdge> pair) { join_faces(d_.cells, pair[0].value, pair[1].value); });
 }
 
 }  // namespace ccdt::delaunay

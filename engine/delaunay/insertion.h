@@ -1,19 +1,15 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/base/count_work.h"
+#include "engine/base/hash_table.h"
 #include "engine/delaunay/delaunay.h"
 
 namespace ccdt::delaunay {
-
-/// The order in which points are inserted: a few rounds of growing size (a biased randomized insertion order, Amenta,
-/// Choi and Rote 2003), each along a Hilbert curve, so that a point is near the one before it.
-///
-/// \return  the indices of the points, each once; depends on the points alone
-std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points);
 
 /// A face between a cell that a new vertex destroys and one that it leaves.
 struct CavityFace {
@@ -21,41 +17,73 @@ struct CavityFace {
   std::uint32_t outside;                  ///< code of the face in the cell that stays
 };
 
-/// How it is decided whether a new vertex that is on a sphere is in it.
+/// How to decide whether a new vertex on a sphere is inside.
 enum class Ties {
-  greatest_rank,  ///< it is not: no vertex in the tetrahedralization has a greater rank
+  greatest_rank,  ///< it is outside: no vertex in the tetrahedralization has a greater rank
   any_rank        ///< by comparing all ranks
 };
 
-/// Inserts vertices into a tetrahedralization one by one, in three steps that may be taken apart: find the cavity, look
-/// at it, fill it. It owns the working memory, which is kept from one insertion to the next.
+/// Marks of an insertion at the cells and vertices that it comes to; between two insertions all are as at first.
+struct InsertionMarks {
+  enum class Cell : std::uint8_t {
+    unknown,
+    conflict,
+    outside,
+    shared  ///< with others that insert at the same time: it must stay
+  };
+  static constexpr std::uint8_t no_local = 0xFF;
+
+  std::vector<Cell> cells;
+  std::vector<std::uint8_t> local;  ///< by vertex: its number among those of the cavity's border; `no_local`: none
+};
+
+/// Places for new cells, for several insertions at the same time.
+struct CellPool {
+  static constexpr std::uint32_t chunk = 512;
+
+  std::atomic<std::uint32_t> next;  ///< the first place that is not taken
+  std::uint32_t end;
+};
+
+/// Inserts vertices into a tetrahedralization one by one, in three separate steps: find the cavity, examine it, fill
+/// it. It owns the working memory and keeps it between insertions.
 class Insertion {
  public:
   explicit Insertion(Delaunay& delaunay);
+  /// One of several that insert at the same time, each where no other does. It takes part in no cell that is marked
+  /// `shared`, but for the codes of its own faces.
+  ///
+  /// \param marks  of all cells and vertices, places of the pool included
+  Insertion(Delaunay& delaunay, InsertionMarks& marks, CellPool& pool);
 
   /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
-  /// \param start  a cell to walk from; the nearer the quicker
-  /// \param ties   what the rank of the vertex is among those that are in the tetrahedralization
-  /// \return false if a vertex with this very point is in the tetrahedralization (`twin()` tells which)
+  /// \param start  a cell to start the walk; the nearer, the faster
+  /// \param ties   the rank of the vertex relative to those in the tetrahedralization
+  /// \return false if the tetrahedralization has a vertex at this point (`twin()` returns it), or if a shared
+  ///         cell is in the way (`twin()` is none)
   bool find_cavity(std::uint32_t v, std::uint32_t start, Ties ties = Ties::greatest_rank);
 
   std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
   std::span<const CavityFace> cavity_faces() const { return border_.items(); }
   std::uint32_t twin() const { return twin_; }
-  bool in_cavity(std::uint32_t cell) const { return mark_[cell] == Mark::conflict; }
-  /// Of the marks of cells and vertices; the rest of the working memory is small.
-  std::size_t bytes() const { return bytes_of(mark_) + d_.vertices.size() * sizeof(local_[0]); }
+  bool in_cavity(std::uint32_t cell) const { return marks_.cells[cell] == Mark::conflict; }
+  /// The bytes of the marks of cells and vertices; the rest of the working memory is small.
+  std::size_t bytes() const { return bytes_of(marks_.cells) + d_.vertices.size() * sizeof(marks_.local[0]); }
 
-  /// Forgets the cavity and leaves all as it was.
+  /// Discards the cavity and changes nothing.
   void discard_cavity();
-  /// Joins the new vertex to the border of the cavity.
+  /// Places that were taken from the pool and are not in use.
+  std::span<const std::uint32_t> unused_places() const { return places_from_pool_; }
+  /// Is there room for the cells that will fill the cavity?
+  bool has_room();
+  /// Joins the new vertex to the border of the cavity, for which there must be room.
   /// \return one of the new cells
   std::uint32_t fill_cavity();
 
  private:
-  enum class Mark : std::uint8_t { unknown, conflict, outside };
+  using Mark = InsertionMarks::Cell;
 
-  /// A list that is checked for space before several additions, not at each of them.
+  /// A list that is checked for space once before several additions.
   template <class T>
   struct List {
     std::vector<T> slots = std::vector<T>(256);
@@ -69,7 +97,7 @@ class Insertion {
   };
 
   std::uint32_t walk(const Point3& p, std::uint32_t start);
-  void spread(std::uint32_t first);
+  bool spread(std::uint32_t first);
   bool conflicts(const Cell& cell) const;
   bool conflicts_exactly(const Cell& cell) const;
   bool ghost_conflicts(const Cell& ghost) const;
@@ -79,22 +107,29 @@ class Insertion {
   void connect_by_table();
   void connect_by_search();
 
+  std::vector<std::uint32_t>& free_cells() { return pool_ == nullptr ? d_.free_cells : places_from_pool_; }
+  std::uint8_t& local_of(std::uint32_t v) { return v == ghost_vertex ? local_of_ghost_ : marks_.local[v]; }
+
   Delaunay& d_;
+  InsertionMarks own_marks_;
+  InsertionMarks& marks_;
+  CellPool* const pool_ = nullptr;
+  std::vector<std::uint32_t> places_from_pool_;
   std::uint32_t v_ = 0, twin_ = 0;
   Ties ties_ = Ties::greatest_rank;
   Point3 p_;
   unsigned turn_ = 0;
-  std::vector<Mark> mark_;
   List<std::uint32_t> cavity_, outside_;
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
   // Vertices of the border get small local numbers, so that its directed edges are places in a small table. An entry
   // holds the number of the insertion that wrote it, above a face code.
   static constexpr std::uint32_t table_side = 64;
-  std::vector<std::uint8_t> local_;  // by vertex + 1 (the ghost wraps round to 0); no_local: none
+  std::uint8_t local_of_ghost_ = InsertionMarks::no_local;
   std::vector<std::uint32_t> border_vertices_;
   std::vector<std::uint64_t> table_;
   std::uint64_t insertions_ = 0;
+  HashTable<std::uint64_t, std::uint32_t> waiting_;  ///< the same for large cavities: by directed edge, a face code
 };
 
 }  // namespace ccdt::delaunay

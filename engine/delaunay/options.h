@@ -6,10 +6,10 @@
 
 namespace ccdt::delaunay {
 
-/// How the Delaunay tetrahedralization is made; the result is the same.
+/// How to make the Delaunay tetrahedralization; the result is the same.
 enum class DelaunayMethod {
   insert,  ///< vertex by vertex along a Hilbert curve (Bowyer, Watson)
-  core,    ///< the same, but for the cells deep within a lattice, which are known
+  core,    ///< the same, except for the cells deep within a lattice, which are known
   wrap     ///< face by face with a uniform grid (paper, section 5; Fang and Piegl 1993)
 };
 

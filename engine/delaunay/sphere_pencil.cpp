@@ -16,14 +16,14 @@ double largest(const Point3& p) {
   return numbers::filter::larger(numbers::filter::larger(p.x, p.y), p.z);
 }
 
-/// The sums of magnitudes whose differences a cross product is.
+/// The sums of magnitudes in a cross product, for its error bound.
 Point3 cross_magnitudes(const Point3& p, const Point3& q) {
   return {std::fabs(p.y * q.z) + std::fabs(p.z * q.y), std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
           std::fabs(p.x * q.y) + std::fabs(p.y * q.x)};
 }
 
 /// Heights that are positive for vertices certainly above the face, and for these values that grow with how far the
-/// sphere's center is above the face. (No choice is made here: it would be a branch, and the lanes would be lost.)
+/// sphere's center is above the face. (There is no selection here: it would be a branch, and prevent vectorization.)
 CCDT_WIDE_LANES void find_lifts(VertexBatch& batch, Point3 normal, double normal_error, Point3 twice_to_center) {
   const std::size_t size = batch.size;
   for (std::size_t i = 0; i < size; ++i) {
@@ -98,7 +98,7 @@ void SpherePencil::consider_first(VertexBatch& batch) {
   } else {
     batch.value.fill(0);
   }
-  // What has passed the others may still be slightly better.
+  // A vertex that passed the other tests may still be slightly better.
   for (std::size_t i = 0; i < batch.size; ++i)
     if (batch.value[i] >= 0) consider(batch.vertices[i]);
 }
@@ -123,7 +123,7 @@ SpherePencil::Cap SpherePencil::cap() const {
   if (circle_.radius < lift) {
     const double lift_error = 2 * error + (16 * unit + 2 * normal_error_ / normal_length_) * radius;
     lift = std::max(0.0, dot(normal_, to_center) / normal_length_ + lift_error);
-    // Of a sphere whose center is below the face, all that is above is in the ball of the circle.
+    // If the center of the sphere is below the face, the part above it is in the ball of the circle.
     if (lift == 0) return {circle_.center, circle_.radius * (1 + 1e-12) + 2 * circle_.error, lift};
   }
   // The error of the center, in each of three axes, acts on where the ball is and on its radius.

@@ -12,7 +12,7 @@
 
 namespace ccdt::delaunay {
 
-/// A vertex as the searches in the grid see it.
+/// A vertex in the searches of the grid.
 struct GridVertex {
   Point3 point;  ///< relative to the low corner of all points, exactly
   std::uint32_t rank = 0;
@@ -44,7 +44,7 @@ class SpherePencil {
   double normal_length() const { return normal_length_; }
   /// Error of normal . e for an e whose coordinates' magnitudes sum to 1.
   double normal_error() const { return normal_error_; }
-  /// How far corners are from the first one, in an axis.
+  /// The largest distance of corners from the first one, along an axis.
   double size() const { return size_; }
 
   /// Makes the vertex the candidate if it is above the face and inside the sphere.
@@ -59,7 +59,7 @@ class SpherePencil {
     if ((power > power_error && height > height_error) || is_better(v)) accept(v);
   }
 
-  /// Considers all at once, when there is no candidate yet and the circle is known. Overwrites the values.
+  /// Considers all at once, if there is no candidate yet and the circle is known. Overwrites the values.
   void consider_first(VertexBatch& batch);
 
   /// Makes a vertex strictly above the face the candidate.
@@ -77,7 +77,7 @@ class SpherePencil {
   struct Cap {
     Point3 center;  ///< of a ball that holds it
     double radius = std::numeric_limits<double>::infinity();
-    /// How far the center of the sphere is above the face at the most, not less than zero.
+    /// An upper bound of the height of the sphere's center above the face, at least zero.
     double lift = std::numeric_limits<double>::infinity();
   };
   Cap cap() const;

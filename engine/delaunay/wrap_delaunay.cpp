@@ -19,12 +19,13 @@ using FaceCorners = std::array<std::uint32_t, 3>;
 // ---- The first face
 
 constexpr std::uint32_t none = VertexId::none_value;
-// Straight up, about as far as points can be apart, so that the filters of the predicates work as for any points.
+// A point straight up, about as far away as points can be, so that the filters of the predicates work as for any
+// points.
 constexpr Point3 upwards = {0, 0, 0x1p51};
 
 /// Finds a face of the Delaunay tetrahedralization from which it can be built face by face: one of the convex hull, by
 /// wrapping a plane around the points: a vertex, an edge, the plane of a hull face, a Delaunay triangle in that plane.
-/// Each step is one pass over the vertices and is exact.
+/// Each step is one exact pass over the vertices.
 class HullWrapping {
  public:
   explicit HullWrapping(std::span<const GridVertex> vertices) : v_(vertices) {}
@@ -50,7 +51,7 @@ class HullWrapping {
  private:
   const Point3& at(std::uint32_t v) const { return v_[v].point; }
 
-  /// Of the smallest x, of these the smallest y, of these the smallest z: a vertex of the hull.
+  /// The vertex with the smallest x, then y, then z: a vertex of the hull.
   std::uint32_t lowest() const {
     const auto lower = [](const GridVertex& p, const GridVertex& q) { return as_array(p.point) < as_array(q.point); };
     return static_cast<std::uint32_t>(std::min_element(v_.begin(), v_.end(), lower) - v_.begin());
@@ -127,7 +128,7 @@ class HullWrapping {
 // ---- The hull
 
 /// The corners of a face, such that the vertex opposite to it is below them.
-FaceCorners outward_corners(const std::vector<Cell>& cells, std::uint32_t code) {
+FaceCorners outward_corners(const RawVector<Cell>& cells, std::uint32_t code) {
   const auto [a, b, c] = corners_of_face(cells[cell_of(code)].vertices, face_of(code));
   return {a, c, b};
 }
@@ -157,18 +158,18 @@ std::vector<Side> sides_by_edge(const std::vector<FaceCorners>& corners) {
   return sides;
 }
 
-std::vector<FaceCorners> corners_of(const std::vector<Cell>& cells, std::span<const std::uint32_t> faces) {
+std::vector<FaceCorners> corners_of(const RawVector<Cell>& cells, std::span<const std::uint32_t> faces) {
   std::vector<FaceCorners> corners(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) corners[f] = outward_corners(cells, faces[f]);
   return corners;
 }
 
-/// Is the vertex in front of one of the faces from outside?
+/// Is the vertex outside one of the faces?
 bool sees(std::span<const GridVertex> v, const FaceCorners& face, std::uint32_t vertex) {
   return numbers::orient3d(v[face[0]].point, v[face[1]].point, v[face[2]].point, v[vertex].point) > 0;
 }
 
-void add_faces_seen_by_lone_vertices(const std::vector<Cell>& cells, std::span<const GridVertex> vertices,
+void add_faces_seen_by_lone_vertices(const RawVector<Cell>& cells, std::span<const GridVertex> vertices,
                                      std::span<const std::uint32_t> faces, const std::vector<FaceCorners>& corners,
                                      std::vector<UnfinishedFace>& result) {
   std::vector<bool> has_cell(vertices.size(), false);
@@ -182,14 +183,14 @@ void add_faces_seen_by_lone_vertices(const std::vector<Cell>& cells, std::span<c
   }
 }
 
-/// Are the open faces the convex hull? They are the border of a body of Delaunay cells connected by faces. It
-/// is the hull when it is convex, and it is convex when it is so at each of its edges; and then, when it has all
-/// vertices. So not all that is above a face of the hull has to be searched to know that there is nothing.
+/// Are the open faces the convex hull? They are the border of a body of Delaunay cells connected by faces. It is the
+/// hull when it is convex, and it is convex when it is so at each of its edges; and then, when it has all vertices. So
+/// it is not necessary to search everything above a face of the hull.
 ///
 /// \param faces  codes of the open faces
 /// \return  faces that are not of the hull: at edges that are not convex; if there are none, those that see a vertex
 ///          that no cell has
-std::vector<UnfinishedFace> find_unfinished(const std::vector<Cell>& cells, std::span<const GridVertex> vertices,
+std::vector<UnfinishedFace> find_unfinished(const RawVector<Cell>& cells, std::span<const GridVertex> vertices,
                                             std::span<const std::uint32_t> faces) {
   const auto corners = corners_of(cells, faces);
   const auto sides = sides_by_edge(corners);
@@ -212,7 +213,7 @@ std::vector<UnfinishedFace> find_unfinished(const std::vector<Cell>& cells, std:
 }
 
 /// Adds a ghost for each of the open faces, which are those of the hull, and makes them neighbors.
-void add_ghosts(std::vector<Cell>& cells, std::span<const std::uint32_t> faces) {
+void add_ghosts(RawVector<Cell>& cells, std::span<const std::uint32_t> faces) {
   const auto corners = corners_of(cells, faces);
   const auto first = static_cast<std::uint32_t>(cells.size());
   cells.resize(cells.size() + faces.size());
@@ -239,7 +240,7 @@ class Wrap {
   }
 
   /// \param hull_face  the outside above it
-  std::vector<Cell> run(const FaceCorners& hull_face) {
+  RawVector<Cell> run(const FaceCorners& hull_face) {
     const FaceCorners inward = {hull_face[0], hull_face[2], hull_face[1]};
     add_cell(inward, search_.find(inward, ghost_vertex, Reach::everywhere));
     advance();
@@ -257,7 +258,7 @@ class Wrap {
  private:
   bool is_open(std::uint32_t code) const { return cells_[cell_of(code)].neighbors[face_of(code)] == no_neighbor; }
 
-  /// Adds the cell over each open face for which a search nearby finds one; postpones the others.
+  /// Adds the cell above each open face for which a local search finds one; postpones the others.
   void advance() {
     std::vector<std::uint32_t> faces;
     while (!front_.empty()) {
@@ -304,9 +305,9 @@ class Wrap {
   const VertexGrid& grid_;
   FourthVertexSearch search_;
   const Progress& progress_;
-  std::vector<Cell> cells_;
+  RawVector<Cell> cells_;
   HashTable<FaceKey, std::uint32_t> open_;  ///< faces that have a cell on one side only: the codes by the corners
-  std::vector<std::uint32_t> front_;        ///< faces to look at next; some have been closed since
+  std::vector<std::uint32_t> front_;        ///< faces to process next; some have been closed meanwhile
   std::vector<std::uint32_t> postponed_;    ///< open faces without a vertex nearby: of the hull, or at a wide gap
 };
 

@@ -69,10 +69,10 @@ class BentPlane {
   int domain_side_;
 };
 
-/// Where a facet faces.
+/// The frame of a facet.
 struct FacetFrame {
   Point3 normal;
-  int axis;      ///< that the normal is nearest to
+  int axis;      ///< axis nearest to the normal
   double scale;  ///< extent of the facet
 };
 
@@ -89,7 +89,7 @@ FacetFrame frame_of(const plc::Facet& facet, const std::vector<delaunay::Delauna
   return {normal, plc::dominant_axis(normal), std::sqrt(scale)};
 }
 
-/// The least one that is not less than a positive number.
+/// The least power of two that is not less than a positive number.
 double power_of_two_above(double x) {
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
@@ -105,7 +105,7 @@ FacetPlane exact_plane(const plc::Facet& facet, const std::vector<delaunay::Dela
   return FacetPlane(vertices, apex);
 }
 
-/// Works through the facets of one PLC; holds what they share.
+/// Processes the facets of one PLC; holds their shared data.
 class FacetMesher {
  public:
   FacetMesher(const plc::Plc& plc, const protection::SegmentChains& chains, const delaunay::Delaunay& delaunay)
@@ -133,11 +133,11 @@ class FacetMesher {
     result.facet.resize(result.triangles.size(), id);
   }
 
-  /// Are these triangles of a facet Delaunay faces that bound no flat cell towards the domain?
+  /// Are these triangles of a facet Delaunay faces without a flat cell on the side of the domain?
   bool face_domain(const plc::Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes) {
     if (std::ranges::find(codes, delaunay::no_neighbor) != codes.end()) return false;
     enter(facet, triangles);
-    std::optional<FacetPlane> plane;  // hardly ever needed
+    std::optional<FacetPlane> plane;  // rarely needed
     return std::ranges::none_of(codes, [&](std::uint32_t code) {
       const std::uint32_t cell = cell_on_domain_side(code);
       if (!has_all_vertices_here(cell)) return false;
@@ -148,7 +148,7 @@ class FacetMesher {
 
  private:
   struct FacetSegment {
-    VertexId a, b;  ///< as its triangle has them
+    VertexId a, b;  ///< in the order of its triangle
     std::uint32_t segment;
   };
 
@@ -218,14 +218,14 @@ class FacetMesher {
     return squared_length(cross(u, v)) < 1e-12 * longest * longest;
   }
 
-  /// Has the cell all vertices in the facet at hand?
+  /// Are all vertices of the cell in the current facet?
   bool has_all_vertices_here(std::uint32_t cell) const {
     return std::ranges::all_of(d_.cells[cell].vertices,
                                [&](std::uint32_t u) { return u != delaunay::ghost_vertex && in_facet_[u] == here_; });
   }
 
-  /// Has the cell all vertices in the facet at hand, and may it be left out? Not if it is all that joins the middle one
-  /// of three vertices along the border of the facet, which sticks out a little, to the domain.
+  /// Are all vertices of the cell in the current facet, and may it be left out? Not if only this cell joins a slightly
+  /// protruding vertex on the border of the facet to the domain.
   bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
     if (!has_all_vertices_here(cell)) return false;
     const auto& v = d_.cells[cell].vertices;
@@ -242,7 +242,7 @@ class FacetMesher {
     return true;
   }
 
-  /// Has the cell all vertices in the facet at hand, but may not be left out?
+  /// Are all vertices of the cell in the current facet, although it may not be left out?
   bool is_kept_cell(std::uint32_t cell, const FacetPlane& plane) const {
     return has_all_vertices_here(cell) && !is_flat_cell(cell, plane);
   }
@@ -253,7 +253,7 @@ class FacetMesher {
     return domain_side_ > 0 ? cell : delaunay::cell_of(d_.cells[cell].neighbors[delaunay::face_of(code)]);
   }
 
-  /// The edges of the Delaunay faces of the facet that have no flat cell towards the domain.
+  /// The edges of the Delaunay faces of the facet without a flat cell on the side of the domain.
   std::vector<planar::Edge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices) {
     std::vector<planar::Edge> edges;
     for (const VertexId v : vertices) {
@@ -264,7 +264,7 @@ class FacetMesher {
           Triangle face;
           for (int i = 0; i < 3; ++i) face[i] = VertexId(d_.cells[c].vertices[corner[i]]);
           if (std::any_of(face.begin(), face.end(), [&](VertexId u) { return in_facet_[u] != here_; })) continue;
-          if (face[0] > v || face[1] > v || face[2] > v) continue;  // once a face
+          if (face[0] > v || face[1] > v || face[2] > v) continue;  // once per face
           if (plane.orient(face[0], face[1], face[2]) != domain_side_ || is_chain(face[0], face[1], face[2])) continue;
           if (is_kept_cell(delaunay::cell_of(d_.cells[c].neighbors[f]), plane)) continue;
           for (int i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
@@ -274,7 +274,7 @@ class FacetMesher {
     return edges;
   }
 
-  /// Makes the facet the one at hand. \return its vertices
+  /// Makes this the current facet. \return its vertices
   std::vector<VertexId> enter(const plc::Facet& facet, std::span<const Triangle> triangles) {
     ++here_;
     domain_side_ = plc_.regions[facet.above].inside ? 1 : -1;
@@ -288,7 +288,7 @@ class FacetMesher {
     return vertices;
   }
 
-  /// Gives a facet that is not exactly flat the Delaunay faces that bound no flat cell towards the domain.
+  /// Gives a facet that is not exactly flat the Delaunay faces without a flat cell on the side of the domain.
   void take_faces_on_domain_side(const plc::Facet& facet, const FacetPlane& plane, planar::Triangulation& t) {
     const std::vector<VertexId> vertices = enter(facet, t.triangles);
     const auto is_right = [&](const Triangle& triangle) {
@@ -300,7 +300,8 @@ class FacetMesher {
       const auto side = planar::find_edge(t, edge[0], edge[1]);
       if (!side || !t.constrained[side->triangle][side->corner]) planar::insert_constraint(t, edge[0], edge[1], plane);
     }
-    // What is left is no Delaunay face. Its edges must not be reflex, or the front might find no way around them.
+    // The rest are not Delaunay faces. Their edges must not be reflex, otherwise the front might find no way around
+    // them.
     const bool on_both_sides = plc_.regions[facet.above].inside && plc_.regions[facet.below].inside;
     if (!on_both_sides) planar::legalize(t, BentPlane(plane, d_.vertices, domain_side_));
   }
@@ -310,10 +311,10 @@ class FacetMesher {
   const delaunay::Delaunay& d_;
   delaunay::CellStar star_;
   EdgeMap segment_of_edge_;
-  std::vector<Point3> flattened_;        // by vertex, of the facet at hand
-  std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet that it was seen in, + 1
+  std::vector<Point3> flattened_;        // by vertex, of the current facet
+  std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet in which it was seen, plus 1
   std::uint32_t here_ = 0;
-  int domain_side_ = 1;  // of the facet at hand, +1: above
+  int domain_side_ = 1;  // of the current facet; +1: above
 };
 
 }  // namespace

@@ -21,17 +21,17 @@ struct FacetMesh {
 /// which contains every Delaunay face in the facet.
 ///
 /// A facet that is flat only within the tolerance has, where vertices are cocircular or on the convex hull, tetrahedra
-/// with all vertices in the facet, of almost no volume, whose two sides are two triangulations of the same patch. Of
-/// these the facet takes the one on the side of the domain, so that the flat tetrahedra are left outside; where the
-/// domain is on both sides, the upper one.
+/// with all vertices in the facet, of almost no volume, whose two sides are two triangulations of the same patch. The
+/// facet takes the one on the side of the domain, so that the flat tetrahedra stay outside; if the domain is on both
+/// sides, it takes the upper one.
 FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
                              const delaunay::Delaunay& delaunay, const Progress& progress = {});
 
-/// Brings the triangulation up to date when interior vertices have joined the tetrahedralization. A facet that is
-/// exactly flat stays as it is: its triangulation depends on its own vertices alone. One that is flat within the
-/// tolerance is done again unless all its triangles are Delaunay and towards the domain.
+/// Updates the triangulation after interior vertices were added to the tetrahedralization. An exactly flat facet stays
+/// as it is: its triangulation depends only on its own vertices. A facet that is flat only within the tolerance is
+/// triangulated again, unless all its triangles are Delaunay and face the domain.
 ///
-/// \param codes  for every triangle its code in the cell above it, `no_neighbor` if it is no Delaunay face
+/// \param codes  for every triangle its code in the cell above it, `no_neighbor` if it is not a Delaunay face
 /// \return       has any triangle changed?
 bool follow_interior_vertices(const plc::Plc& plc, const protection::SegmentChains& chains,
                               const delaunay::Delaunay& delaunay, const std::vector<std::uint32_t>& codes,

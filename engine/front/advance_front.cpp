@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index_lists.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
@@ -33,11 +34,10 @@ struct OrientedFaceTraits {
   }
 };
 
-/// Which vertices are tried for an apex: those near the face, or all.
+/// The candidates for an apex: the vertices near the face, or all.
 enum class Search { near, full };
 
-/// Finds the vertex that makes the tetrahedron above a face. Here with a locator of the whole model, so that there is
-/// only one cavity.
+/// Finds the apex above a face, with a locator of the whole model, so that there is only one cavity.
 template <class Locator>
 class WholeModelFinder {
  public:
@@ -116,7 +116,7 @@ FrontFace state_of(const FrontInput& in, std::size_t side) {
   return {facet.below, code == no_neighbor ? code : in.delaunay.across(code)};
 }
 
-/// The sides of the PLC's faces that the domain is on.
+/// The sides of the PLC's faces on which the domain lies.
 std::vector<std::uint8_t> sides_within(const FrontInput& in) {
   std::vector<std::uint8_t> is_within(2 * in.facets.triangles.size());
   for (std::size_t i = 0; i < in.facets.triangles.size(); ++i) {
@@ -151,7 +151,7 @@ class Front {
     }
   }
 
-  /// What is left of the front: faces of the PLC and of its own.
+  /// The remaining front: faces of the PLC and its own.
   FrontResult finish() {
     result_.open.reserve(static_cast<std::size_t>(std::ranges::count(plc_open_, 1)) + faces_.size());
     for (std::size_t side = 0; side < plc_open_.size(); ++side)
@@ -249,15 +249,15 @@ class Front {
     }
   }
 
-  /// Takes back the tetrahedra that hold a vertex which no search has named.
+  /// Removes the tetrahedra that contain a vertex that no search has found.
   void take_back_swallowing() {
     contradicted_ = find_swallowing(result_.tetrahedra, in_.facets, in_.delaunay);
     if (contradicted_.empty()) return;
     const OrientedFace first = base_of(result_.tetrahedra[contradicted_[0]]);
-    if (!take_back_contradicted()) fail(first, "a tetrahedron of the front has a vertex in it");
+    if (!take_back_contradicted()) fail(first, "a tetrahedron of the front contains a vertex");
   }
 
-  /// Makes the tetrahedron above a face that was taken from the front, or takes back what is in its way.
+  /// Makes the tetrahedron above a face taken from the front, or removes what conflicts with it.
   template <class Finder>
   void fill(Finder& finder, const OrientedFace& face, State state) {
     const Search first = doubts_.contains(face) ? Search::full : first_search_;
@@ -269,15 +269,15 @@ class Front {
       problem = problem_of(face, apex, state);
     }
     if (problem == nullptr) return add_tetrahedron(face, *apex, state);
-    // The face is right if all that it rests on is. Then so is its apex, and what that contradicts is wrong or rests on
-    // what is.
+    // The face is right if everything on which it rests is right. Then its apex is right too, and whatever contradicts
+    // that is wrong or rests on something wrong.
     open(face, state);
     if (state.side == no_side) contradict(face.reversed());
     if (!take_back_contradicted()) fail(face, problem);
   }
 
-  /// Takes back what the contradicted tetrahedra rest on and is not sure.
-  /// \return  false if all is sure
+  /// Removes the uncertain tetrahedra on which the contradicted ones rest.
+  /// \return  false if all are certain
   bool take_back_contradicted() {
     std::vector<OrientedFace> unsure;
     for (const std::uint32_t tetrahedron : contradicted_)
@@ -299,8 +299,8 @@ class Front {
     return state != nullptr && state->side != no_side;
   }
 
-  /// The base of the tetrahedron, or of the next one among those that it rests on, above which not all vertices were
-  /// tried; none if it rests on the PLC by tetrahedra that are sure.
+  /// The base of the tetrahedron, or of the next one on which it rests, for which not all vertices were tried; none if
+  /// it rests on the PLC through certain tetrahedra.
   std::optional<OrientedFace> first_unsure_base(std::uint32_t tetrahedron) const {
     for (;;) {
       const OrientedFace base = base_of(result_.tetrahedra[tetrahedron]);
@@ -310,8 +310,8 @@ class Front {
     }
   }
 
-  /// Why the face and the apex make no constrained Delaunay tetrahedron together with those around them; `nullptr` if
-  /// they do. Notes those that they contradict.
+  /// The reason why the face and the apex do not make a constrained Delaunay tetrahedron with those around them;
+  /// `nullptr` if they do. Notes the contradicted ones.
   const char* problem_of(const OrientedFace& base, std::optional<std::uint32_t> apex, const State& state) {
     contradicted_.clear();
     if (!apex) return "the front found no vertex that is visible from a face";
@@ -374,7 +374,7 @@ class Front {
     return face_protection_ ? star_.find_face(a, b, c) : no_neighbor;
   }
 
-  /// Removes the tetrahedron above a base, if it is still there, with all that rest on it.
+  /// Removes the tetrahedron above a base, if it still exists, and all that rest on it.
   void take_back(const OrientedFace& base) {
     std::vector<OrientedFace> bases = {base};
     while (!bases.empty()) {
@@ -432,30 +432,29 @@ FrontResult standing_front(const FrontInput& in) {
 
 std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
   std::vector<std::uint32_t> codes(facets.triangles.size(), no_neighbor);
-  std::uint32_t vertices = 0;  // ids from here on are of vertices that no face has
+  std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
   for (const auto& t : facets.triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   const FaceMap faces(facets.triangles, vertices);
-  std::uint64_t faces_tested = 0;
   // One pass over the cells, most of which are inside and passed over at once. (The ghosts' faces are theirs too.)
-  for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
+  parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
+    const auto c = static_cast<std::uint32_t>(i);
     const delaunay::Cell& cell = delaunay.cells[c];
     const auto& v = cell.vertices;
     const unsigned inner = (v[0] >= vertices) + (v[1] >= vertices) + (v[2] >= vertices) + (v[3] >= vertices);
-    if (inner > 1 || delaunay.is_dead(c)) continue;
+    if (inner > 1 || delaunay.is_dead(c)) return;
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (inner == 1 && v[f] < vertices) continue;
       if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
       const auto [p, q, r] = delaunay::corners_of_face(v, f);
       const std::uint32_t face = faces.find(p, q, r);
-      ++faces_tested;
+      ++work_done.faces_tested;
       if (face == FaceMap::none) continue;
       // The cell is above the face if it sees the corners in their order.
       const auto& t = facets.triangles[face];
       const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
       codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
     }
-  }
-  work_done.faces_tested += faces_tested;
+  });
   work_done.cells_visited += delaunay.cells.size();
   note_bytes(bytes_of(codes, facets.triangles));
   return codes;

@@ -26,7 +26,7 @@ struct FrontFace {
   std::uint32_t code = no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
 };
 
-/// What the front has built, and where it stopped.
+/// The result of the front, and where it stopped.
 struct FrontResult {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented
   std::vector<RegionId> regions;                         ///< of each tetrahedron
@@ -38,7 +38,7 @@ struct FrontResult {
   std::optional<MeshError> stuck = {};
 };
 
-/// What the front works on; all of it must outlive the stage.
+/// The input of the front; all of it must outlive the stage.
 struct FrontInput {
   const plc::Plc& plc;
   const facets::FacetMesh& facets;
@@ -58,9 +58,9 @@ struct FrontOptions {
 /// vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the cell there is hidden
 /// from every point of the face (Shewchuk 2008).
 ///
-/// Cavity by cavity, vertices near a face are tried first, since the sphere of a needle may hold thousands of hidden
-/// ones; that the tetrahedra fit together proves them right, and those that do not are made again with all vertices
-/// tried. The locators of the whole model try all at once, as the paper does.
+/// The `cavity` locator tries vertices near a face first, because the sphere of a needle may contain thousands of
+/// hidden ones. If the tetrahedra fit together, they are right; those that do not fit are made again with all vertices
+/// tried. The locators of the whole model try all vertices, as the paper does.
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::front

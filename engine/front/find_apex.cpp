@@ -16,11 +16,11 @@
 namespace ccdt::front {
 namespace {
 
-/// A triangle that may be in the way.
+/// A triangle that may block the view.
 using Occluder = std::array<const Point3*, 3>;
 
-/// Do filters tell that the line from p to the centroid of abc meets not the inside of t? Nearly all occluders that are
-/// tried are passed by widely, and signs that take exact arithmetic, of coplanar points, need not be known then.
+/// Do filters prove that the line from p to the centroid of abc does not meet the inside of t? The line passes nearly
+/// all candidates at a distance, so the exact signs of coplanar points are not needed.
 bool surely_passes_by(const Occluder& t, const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
   int turns_seen = 0;  // a bit for each sign
   const auto add = [&](numbers::Sign turn) {
@@ -56,8 +56,7 @@ Point3 approximate_centroid(const Point3& a, const Point3& b, const Point3& c) {
   return (1.0 / 3) * (a + b + c);
 }
 
-/// The circumsphere in floating point, a little too large; the cap stays as it is where the four points are too flat to
-/// tell.
+/// The circumsphere in floating point, a little too large; the cap stays unchanged if the four points are too flat.
 void shrink(locate::Cap& cap, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
   const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
@@ -110,7 +109,7 @@ class ApexSearch {
     std::uint32_t id;
   };
 
-  /// Makes the best of the vertices that are better than the best so far, and visible, the best.
+  /// Updates the best vertex with the best of the visible vertices that are better.
   void find_better(std::span<const std::uint32_t> vertices, locate::LocatedVertex& best,
                    std::vector<Candidate>& candidates) {
     const Point3 u = b_.point - a_.point, v = c_.point - a_.point, normal = cross(u, v);
@@ -125,7 +124,7 @@ class ApexSearch {
       const double lift = dot(e, e - to_center) / dot(normal, e);
       candidates.push_back({std::isnan(lift) ? 0 : lift, id});
     }
-    // The first that is visible is the best, but for roundings.
+    // The first visible one is the best, up to rounding.
     std::ranges::sort(candidates, {}, [](const Candidate& c) { return std::pair(c.lift, c.id); });
     for (const Candidate& candidate : candidates) {
       const locate::LocatedVertex vertex = located(candidate.id);
@@ -141,7 +140,7 @@ class ApexSearch {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
     locate::Cap cap(a, b, c);
     locate::LocatedVertex best{{}, 0, delaunay::ghost_vertex};
-    // What is above the face and in a later, smaller sphere is in the earlier one too: one search is enough.
+    // Any vertex above the face in a later, smaller sphere is also in the earlier one, so one search suffices.
     locator_.visit_nearest_first(approximate_centroid(a, b, c), cap, [&](const locate::LocatedVertex& v) {
       ++work_done.front_candidates;
       if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2]) return;
@@ -167,7 +166,7 @@ class ApexSearch {
   }
 
   bool is_visible(const locate::LocatedVertex& v) {
-    // What hid the last vertex is likely to hide this one.
+    // The triangle that hid the last vertex is likely to hide this one.
     if (last_occluder_ != none && is_hidden_by(last_occluder_, v)) return false;
     return !locator_.any_near_edge(approximate_centroid(a_.point, b_.point, c_.point), v.point, [&](std::uint32_t f) {
       if (!is_hidden_by(f, v)) return false;

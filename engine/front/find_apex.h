@@ -10,7 +10,7 @@
 
 namespace ccdt::front {
 
-/// An oriented face by its corners, the smallest first. What is above it waits to be filled.
+/// An oriented face by its corners, the smallest first. The space above it is not filled yet.
 struct OrientedFace {
   std::array<std::uint32_t, 3> corners;
 
@@ -28,19 +28,19 @@ struct OrientedFace {
 
 /// Finds the vertex that makes the constrained Delaunay tetrahedron above a face (paper, section 5.1).
 ///
-/// First the vertex with the emptiest sphere is found without regard to facets. If that is visible, no other can be
-/// better, which is so nearly everywhere: one test of visibility. Otherwise every vertex that would be the best so far
-/// is tested.
+/// First the vertex with the emptiest sphere is found without regard to facets. If it is visible, which is nearly
+/// always true, no other can be better, and one test of visibility suffices. Otherwise every vertex that would be the
+/// best so far is tested.
 ///
-/// \tparam Locator  `GridLocator` or `OctreeLocator`, of all that may be near
+/// \tparam Locator  `GridLocator` or `OctreeLocator`, of all vertices and faces that may be near
 /// \return  nothing if no vertex above the face can be seen from it
 template <class Locator>
 std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
                                        const delaunay::Delaunay& delaunay, const OrientedFace& face);
 
 /// The same among the vertices near the face, and those near the best so far, until none of these is better. The sphere
-/// of a large face may hold thousands of hidden vertices, and this does not look at them; so the apex is nearly always
-/// the right one, but not surely.
+/// of a large face may contain thousands of hidden vertices, which this search skips. So the apex is nearly always
+/// right, but not certainly.
 ///
 /// \return  nothing if none of the vertices is above the face and visible from it
 template <class Locator>

@@ -10,12 +10,11 @@
 
 namespace ccdt::front {
 
-/// Finds the tetrahedra that hold a vertex which is a corner of none of them and of no face of the PLC. Such a vertex
-/// has been overlooked: the tetrahedra fit each other, but are the constrained Delaunay ones of the other vertices
-/// only.
+/// Finds tetrahedra that contain a vertex which is a corner of none of them and of no face of the PLC. Such a vertex
+/// was overlooked: the tetrahedra fit each other, but they are constrained Delaunay only for the other vertices.
 ///
 /// \param tetrahedra  positively oriented; those with `ghost_vertex` are passed over
-/// \return            their indices, ascending; touching counts as holding
+/// \return            their indices, ascending; touching counts as containing
 std::vector<std::uint32_t> find_swallowing(std::span<const std::array<std::uint32_t, 4>> tetrahedra,
                                            const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay);
 

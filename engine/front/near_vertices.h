@@ -13,9 +13,9 @@
 
 namespace ccdt::front {
 
-/// The vertices near a face: those that its corners are joined to by Delaunay edges and by edges of missing faces of
-/// the PLC. The apex above a face is nearly always one of them: few edges of a constrained Delaunay tetrahedralization
-/// are neither.
+/// The vertices near a face: those joined to its corners by Delaunay edges or by edges of missing faces of the PLC. The
+/// apex above a face is nearly always one of them, because few edges of a constrained Delaunay tetrahedralization are
+/// neither.
 class NearVertices {
  public:
   /// \param codes  the Delaunay faces of the PLC by their codes; the others are `no_neighbor`
@@ -32,7 +32,7 @@ class NearVertices {
     });
   }
 
-  /// Those of a face, without its corners; valid until the next call of any function.
+  /// The vertices near a face, without its corners; valid until the next call of any function.
   std::span<const std::uint32_t> of_face(const std::array<std::uint32_t, 3>& corners) {
     ++search_;
     vertices_.clear();
@@ -41,7 +41,7 @@ class NearVertices {
     return vertices_;
   }
 
-  /// Those of one more vertex that were not named since the last face was; valid until the next call.
+  /// The vertices near one more vertex that were not returned since the last face; valid until the next call.
   std::span<const std::uint32_t> more(std::uint32_t vertex) {
     vertices_.clear();
     add(vertex);
@@ -66,7 +66,7 @@ class NearVertices {
   delaunay::CellStar& star_;
   const delaunay::Delaunay& d_;
   IndexLists joined_by_missing_;
-  std::vector<std::uint32_t> last_seen_;  // the number of the last search that named the vertex
+  std::vector<std::uint32_t> last_seen_;  // the number of the last search that returned the vertex
   std::uint32_t search_ = 0;
   std::vector<std::uint32_t> vertices_;
 };

@@ -1,11 +1,14 @@
 #include "engine/improve/cell_complex.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "engine/base/count_work.h"
+#include "engine/base/index_lists.h"
+#include "engine/base/parallel.h"
 #include "engine/base/portable_math.h"
 #include "engine/numbers/predicates.h"
 
@@ -49,39 +52,51 @@ double goal_quality(const QualityGoal& goal) {
 
 namespace {
 
-/// A face of a cell, or a face of the mesh on a facet, among those with the same least corner.
+constexpr std::size_t grain = 4096;  // of loops on several threads
+
+/// A face of a cell, among those with the same least corner.
 struct FaceEntry {
   std::uint64_t rest;  ///< the other two corners, in growing order
-  std::uint32_t code;  ///< of the cell; `no_neighbor`: it is a face on a facet
+  std::uint32_t code;
 };
 
-/// All faces, ordered by their least corners: those of vertex v are from `begin[v]` to `begin[v + 1]`.
-struct FaceBuckets {
-  std::vector<std::uint32_t> begin;
-  std::vector<FaceEntry> entries;
-};
+std::uint64_t rest_of(const FaceKey& key) {
+  return std::uint64_t{key[1]} << 32 | key[2];
+}
 
 FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   const auto [a, b, c] = corners_of_face(v, f);
   return face_key(a, b, c);
 }
 
-FaceBuckets sort_faces(const std::vector<Cell>& cells, const std::vector<std::array<std::uint32_t, 3>>& faces,
-                       std::size_t vertices) {
-  const auto visit_faces = [&](const auto& visit) {
-    for (std::uint32_t c = 0; c < cells.size(); ++c)
-      for (std::uint32_t f = 0; f < 4; ++f) visit(key_of_face(cells[c].vertices, f), face_code(c, f));
-    for (const auto& face : faces) visit(face_key(face[0], face[1], face[2]), no_neighbor);
-  };
-  FaceBuckets buckets;
-  buckets.begin.assign(vertices + 2, 0);
-  visit_faces([&](const FaceKey& key, std::uint32_t) { ++buckets.begin[key[0] + 2]; });
-  for (std::size_t v = 2; v < buckets.begin.size(); ++v) buckets.begin[v] += buckets.begin[v - 1];
-  buckets.entries.resize(buckets.begin.back());
-  visit_faces([&](const FaceKey& key, std::uint32_t code) {
-    buckets.entries[buckets.begin[key[0] + 1]++] = {std::uint64_t{key[1]} << 32 | key[2], code};
-  });
-  return buckets;
+/// The positions of the two least vertices of a cell.
+std::array<std::uint32_t, 2> two_least(const std::array<std::uint32_t, 4>& v) {
+  std::uint32_t least = v[0] < v[1] ? 0 : 1, next = 1 - least;
+  for (std::uint32_t i = 2; i < 4; ++i) {
+    if (v[i] < v[least])
+      next = least, least = i;
+    else if (v[i] < v[next])
+      next = i;
+  }
+  return {least, next};
+}
+
+/// Joins the cells at a face that occurs in two entries. Changes the entries.
+void join_same_faces(std::vector<FaceEntry>& entries, RawVector<Cell>& cells) {
+  constexpr std::size_t most_unsorted = 64;  // comparing so few is faster than sorting
+  if (entries.size() > most_unsorted) {
+    std::ranges::sort(entries, {}, &FaceEntry::rest);
+    for (std::size_t i = 1; i < entries.size(); ++i)
+      if (entries[i - 1].rest == entries[i].rest) join_faces(cells, entries[i - 1].code, entries[i].code);
+    return;
+  }
+  for (std::size_t i = 0, end = entries.size(); i < end; ++i) {
+    std::size_t j = i + 1;
+    while (j < end && entries[j].rest != entries[i].rest) ++j;
+    if (j >= end) continue;
+    join_faces(cells, entries[i].code, entries[j].code);
+    entries[j] = entries[--end];
+  }
 }
 
 bool is_new_wall(const std::vector<FacetFlip>& flips, const FaceKey& key) {
@@ -113,11 +128,12 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
       generations_(cells_.size(), 0),
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
-  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+  parallel_for(cells_.size(), grain, [&](std::size_t c) {
     cells_[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
     qualities_[c] = quality_of(mesh.tetrahedra[c]);
-    for (const std::uint32_t v : mesh.tetrahedra[c]) cell_at_[v] = c;
-  }
+  });
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = c;
   segments_.reserve(mesh.edges.size());
   for (const auto& edge : mesh.edges) segments_.insert(edge_key(edge[0], edge[1]));
   face_table_.reserve(faces_.size());
@@ -127,29 +143,44 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
 }
 
 void CellComplex::set_wall(std::uint32_t code) {
-  walls_[cell_of(code)] |= static_cast<std::uint8_t>(1u << face_of(code));
+  // Neighboring faces of a cell may be looked at by several threads.
+  std::atomic_ref(walls_[cell_of(code)])
+      .fetch_or(static_cast<std::uint8_t>(1u << face_of(code)), std::memory_order_relaxed);
 }
 
-/// Joins the entries that are the same face: two cells at most, and a face on a facet.
+/// Joins equal faces: at most two cells, and a face on a facet. Faces meet at their least corners. Three faces of a
+/// cell contain its least vertex, and the fourth contains the next.
 void CellComplex::find_neighbors() {
-  const FaceBuckets buckets = sort_faces(cells_, faces_, points_.size());
-  const auto& entries = buckets.entries;
-  for (std::size_t v = 0; v < points_.size(); ++v) {
-    for (std::size_t i = buckets.begin[v]; i < buckets.begin[v + 1]; ++i) {
-      for (std::size_t j = i + 1; j < buckets.begin[v + 1]; ++j) {
-        if (entries[i].rest != entries[j].rest) continue;
-        const std::uint32_t a = entries[i].code, b = entries[j].code;
-        if (a != no_neighbor && b != no_neighbor) {
-          join_faces(cells_, a, b);
-        } else if (a != no_neighbor || b != no_neighbor) {
-          set_wall(a != no_neighbor ? a : b);
-        }
+  const auto by_vertex = [&](std::size_t which) {
+    return group_indices(points_.size(), cells_.size(),
+                         [&](std::size_t c) { return cells_[c].vertices[two_least(cells_[c].vertices)[which]]; });
+  };
+  const IndexLists least = by_vertex(0), next = by_vertex(1);
+  const IndexLists walls = group_indices(points_.size(), faces_.size(),
+                                         [&](std::size_t f) { return std::uint32_t{std::ranges::min(faces_[f])}; });
+  parallel_ranges(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<FaceEntry> entries;
+    const auto add = [&](std::uint32_t c, std::uint32_t f) {
+      entries.push_back({rest_of(key_of_face(cells_[c].vertices, f)), face_code(c, f)});
+    };
+    for (std::size_t v = begin; v < end; ++v) {
+      entries.clear();
+      for (const std::uint32_t c : least.of(v))
+        for (std::uint32_t f = 0; f < 4; ++f)
+          if (cells_[c].vertices[f] != v) add(c, f);
+      for (const std::uint32_t c : next.of(v)) add(c, two_least(cells_[c].vertices)[0]);
+      for (const std::uint32_t f : walls.of(v)) {
+        const std::uint64_t rest = rest_of(face_key(faces_[f][0], faces_[f][1], faces_[f][2]));
+        for (const FaceEntry& entry : entries)
+          if (entry.rest == rest) set_wall(entry.code);
       }
+      join_same_faces(entries, cells_);
     }
-  }
-  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+  });
+  parallel_for(cells_.size(), grain, [&](std::size_t c) {
     for (std::uint32_t f = 0; f < 4; ++f)
-      if (cells_[c].neighbors[f] == no_neighbor) set_wall(face_code(c, f));
+      if (cells_[c].neighbors[f] == no_neighbor) set_wall(face_code(static_cast<std::uint32_t>(c), f));
+  });
 }
 
 double CellComplex::worst_of(std::span<const std::uint32_t> cells) const {
@@ -211,7 +242,7 @@ std::uint32_t CellComplex::take_place() {
   return place;
 }
 
-/// Joins a face of a new cell to what waits for it, or lets it wait.
+/// Joins a face of a new cell to the waiting one, or lets it wait.
 void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flips) {
   const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
   const bool becomes_wall = !flips.empty() && is_new_wall(flips, key);
@@ -264,7 +295,8 @@ void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std:
     for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.flips);
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
   }
-  // What a flip has left open on a boundary facet: its two old triangles are gone, the two new ones are walls already.
+  // The faces that a flip left open on a boundary facet: its two old triangles are removed, and the two new ones are
+  // walls already.
   for (const FacetFlip& flip : change.flips) flip_walls(flip);
   ++change_count_;
   for (const NewCell& cell : change.new_cells)

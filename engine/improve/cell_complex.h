@@ -17,7 +17,7 @@ namespace ccdt::improve {
 using delaunay::Cell, delaunay::cell_of, delaunay::corners_of_face, delaunay::face_code, delaunay::face_of,
     delaunay::ghost_vertex, delaunay::join_faces, delaunay::no_neighbor;
 
-/// What is good enough, as numbers that can be compared with 1 / r and the least sine.
+/// The goals, as numbers to compare with 1 / r and the least sine.
 struct QualityGoal {
   Objective objective = Objective::r;
   double inverse_r = 0.5;
@@ -30,8 +30,8 @@ QualityGoal goal_of(const ImproveOptions& options);
 /// is above abc in a positive tetrahedron.
 double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
-/// Of the dihedral angle at an edge of length l between faces of areas A and B in a tetrahedron of volume V, the sine
-/// is 3 V l / (2 A B).
+/// The sine of the dihedral angle at an edge of length l between faces of areas A and B in a tetrahedron of volume V is
+/// 3 V l / (2 A B).
 double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// The quality of a tetrahedron by the objective: greater is better, and 0 or less is flat or inverted. That of a set
@@ -51,12 +51,12 @@ struct NewCell {
   double quality;
 };
 
-/// The diagonal ab of two triangles on a facet gives way to the other one, cd.
+/// The diagonal ab of two triangles on a facet is replaced by the other one, cd.
 struct FacetFlip {
   std::uint32_t a, b, c, d;
 };
 
-/// A plan: cells, and those that are to fill the same space instead.
+/// A plan: cells to remove, and cells that fill the same space instead.
 struct Change {
   std::vector<std::uint32_t> old_cells;
   std::vector<NewCell> new_cells;
@@ -66,7 +66,7 @@ struct Change {
   void clear();
 };
 
-/// Which cells have been met, for searches through a complex one after the other.
+/// Marks of visited cells, for consecutive searches through a complex.
 class CellMarks {
  public:
   /// Forgets all marks.
@@ -78,15 +78,15 @@ class CellMarks {
   bool is_marked(std::uint32_t cell) const { return marks_[cell] == search_; }
 
  private:
-  std::vector<std::uint32_t> marks_;  // the number of the last search that met the cell
+  std::vector<std::uint32_t> marks_;  // the number of the last search that visited the cell
   std::uint32_t search_ = 0;
 };
 
 /// A tetrahedral mesh that can be changed: cells know their neighbors, and which of their faces and edges must stay.
 ///
-/// As in the Delaunay tetrahedralization, but without ghosts: the code of a neighbor is `no_neighbor` where there is
-/// none. A *wall* is a face on a facet, of the boundary or inside. Vertices below the first interior one are of the PLC
-/// or Steiner vertices on its segments and facets; *interior* vertices may go anywhere, or away.
+/// As in the Delaunay tetrahedralization, but without ghosts: the code of a missing neighbor is `no_neighbor`. A *wall*
+/// is a face on a facet, of the boundary or inside. Vertices below the first interior one are of the PLC or Steiner
+/// vertices on its segments and facets; *interior* vertices may move anywhere or be removed.
 class CellComplex {
  public:
   /// \param mesh            tetrahedra, regions, faces and edges; its coordinates are not used
@@ -102,21 +102,21 @@ class CellComplex {
   std::size_t vertex_count() const { return points_.size(); }
   const Point3& point(std::uint32_t v) const { return points_[v]; }
   bool is_interior(std::uint32_t v) const { return v >= first_interior_; }
-  /// Some cell that has the vertex; `no_neighbor` if it is gone.
+  /// A cell with the vertex; `no_neighbor` if the vertex was removed.
   std::uint32_t cell_at(std::uint32_t v) const { return cell_at_[v]; }
   /// The number of the last change around the vertex.
   std::uint64_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
 
-  /// Dead cells included, whose places wait to be used again.
+  /// Includes dead cells, whose places can be reused.
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t dead_count() const { return free_.size(); }
   const Cell& cell(std::uint32_t c) const { return cells_[c]; }
   bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
   int region(std::uint32_t c) const { return regions_[c]; }
   double quality(std::uint32_t c) const { return qualities_[c]; }
-  /// How often the place of the cell was given to another one.
+  /// How often the place of the cell was reused.
   std::uint32_t generation(std::uint32_t c) const { return generations_[c]; }
-  /// The place of a vertex in a cell that has it.
+  /// The position of a vertex in one of its cells.
   std::uint32_t place(std::uint32_t c, std::uint32_t v) const {
     const auto& all = cells_[c].vertices;
     return all[0] == v ? 0 : all[1] == v ? 1 : all[2] == v ? 2 : 3;
@@ -130,7 +130,7 @@ class CellComplex {
   /// The faces on facets, and the facet of each.
   const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
   const std::vector<std::uint32_t>& facet_of_face() const { return facet_of_face_; }
-  /// The number of the face with these corners; nothing if it is on no facet.
+  /// The number of the face with these corners; none if it is not on a facet.
   std::optional<std::uint32_t> find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const std::uint32_t* const face = face_table_.find(face_key(a, b, c));
     return face == nullptr ? std::nullopt : std::optional(*face);
@@ -142,7 +142,7 @@ class CellComplex {
     return !is_interior(a) && !is_interior(b) && segments_.find(edge_key(a, b)) != nullptr;
   }
 
-  /// The quality that a cell of these vertices would have.
+  /// The quality of a cell with these vertices.
   double quality_of(const std::array<std::uint32_t, 4>& v) const {
     return cell_quality(goal_, points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
   }
@@ -151,17 +151,17 @@ class CellComplex {
   /// Exactly: are all new cells positive? With the same hull as the old ones they then fill the same space, once.
   bool all_positive(const Change& change) const;
 
-  /// Of what it holds by vertex, by cell and by face.
+  /// Bytes of its data by vertex, by cell and by face.
   std::size_t bytes() const;
 
-  /// Makes a change that is all positive. Interior vertices that no new cell has are gone.
+  /// Applies a change whose cells are all positive. Interior vertices without new cells are removed.
   /// \param marks  working memory
   /// \param made   the new cells
   void apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made);
-  /// Moves a vertex to where all cells around it, `star`, are positive.
+  /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
-  /// Puts what became of the mesh back: tetrahedra, regions and faces. Interior vertices that are gone leave no gaps.
+  /// Writes the result back to the mesh: tetrahedra, regions and faces. Removed interior vertices leave no gaps.
   /// \return the vertices of the mesh, in grid units
   std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
@@ -169,7 +169,7 @@ class CellComplex {
   /// A face that waits for the cell on its other side.
   struct OpenFace {
     FaceKey key;
-    std::uint32_t code;  ///< of the cell that is there; `no_neighbor`: none, the face is on the boundary
+    std::uint32_t code;  ///< of the existing cell; `no_neighbor`: none, the face is on the boundary
     bool is_wall;
   };
 
@@ -191,7 +191,7 @@ class CellComplex {
   std::vector<std::uint64_t> changed_at_;
 
   // By cell.
-  std::vector<Cell> cells_;
+  RawVector<Cell> cells_;
   std::vector<std::uint8_t> walls_;  // bit f is set if face f is a wall
   std::vector<int> regions_;
   std::vector<double> qualities_;

@@ -7,12 +7,12 @@
 
 namespace ccdt::improve {
 
-/// Why improvement came to an end.
+/// Why improvement stopped.
 enum class ImproveStop {
-  none,    ///< it was not asked for
-  target,  ///< every tetrahedron is as good as was asked for
+  none,    ///< it was not requested
+  target,  ///< every tetrahedron reached the target
   time,    ///< the time was up
-  stuck    ///< each of the remaining tetrahedra was tried in vain, the last time or several times
+  stuck    ///< no change improves any of the remaining tetrahedra
 };
 
 constexpr auto names_of(ImproveStop) {

@@ -17,7 +17,7 @@ Freedom along_line(const Point3& a, const Point3& b) {
   return {1, plc::shortest_step(a, b), {}};
 }
 
-/// What is around a vertex of the PLC.
+/// The facets and segments around a vertex of the PLC.
 struct VertexSurroundings {
   std::uint32_t facet = none;  ///< the first
   bool several_facets = false;
@@ -113,7 +113,7 @@ class FreedomFinder {
     return steps_[facet] ? Freedom{2, steps_[facet]->u, steps_[facet]->v} : fixed;
   }
 
-  /// Two segments that meet in one line and do not overlap are the two sides of their vertex.
+  /// Two segments on one line that meet without overlap are on opposite sides of their vertex.
   Freedom of_junction(std::uint32_t v, const VertexSurroundings& around) const {
     const auto [s, t] = around.segments;
     if (around.crossed || plc_.segments[s].marker != plc_.segments[t].marker) return fixed;
@@ -126,7 +126,7 @@ class FreedomFinder {
   std::vector<VertexSurroundings> around_;
   std::vector<char> flat_segment_;  // are all facets at the segment exactly flat?
   HashTable<std::uint64_t, std::uint32_t> segment_of_edge_;
-  mutable std::vector<std::optional<plc::PlaneSteps>> steps_;  // of each facet, as far as they were asked for
+  mutable std::vector<std::optional<plc::PlaneSteps>> steps_;  // by facet, computed when needed
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace ccdt::improve {
 
-/// Where the vertices of a mesh may go without a change of any facet or segment (`BoundaryRule::slide`):
+/// Where the vertices of a mesh may move without changing any facet or segment (`BoundaryRule::slide`):
 ///
 /// - a vertex of the PLC inside one facet, in its plane;
 /// - a vertex inside a segment along it: a Steiner vertex, or a vertex of the PLC where two segments of one marker meet
@@ -17,10 +17,10 @@ namespace ccdt::improve {
 /// - interior vertices, anywhere;
 /// - all others, nowhere: corners, isolated vertices, and vertices on facets that are flat only within the tolerance.
 ///
-/// What is straight or flat is decided exactly. Vertices of the PLC are multiples of the quantum, so that the quotients
-/// by `DyadicGrid::quantum` of the differences between them have integer coordinates: such are the steps.
+/// Straightness and flatness are decided exactly. Vertices of the PLC are multiples of the quantum, so that the
+/// quotients by `DyadicGrid::quantum` of the differences between them have integer coordinates: such are the steps.
 ///
-/// \param vertices  how many vertices the mesh has: those of the PLC, Steiner vertices, then interior vertices
+/// \param vertices  the number of vertices of the mesh: those of the PLC, Steiner vertices, then interior vertices
 std::vector<Freedom> find_freedom(const plc::Plc& plc, const protection::SegmentChains& chains, std::size_t vertices);
 
 }  // namespace ccdt::improve

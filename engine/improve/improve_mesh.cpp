@@ -18,16 +18,16 @@ using Clock = std::chrono::steady_clock;
 struct BadCell {
   double quality;
   std::uint32_t cell;
-  std::uint32_t generation;    ///< of the cell: another one there is a new cell
-  std::uint64_t tried_at = 0;  ///< the number of the last change when it was tried in vain
-  int tries = 0;               ///< how often that was
+  std::uint32_t generation;    ///< version of the cell: a different one means a new cell
+  std::uint64_t tried_at = 0;  ///< the number of the last change when no improvement was found
+  int tries = 0;               ///< how often no improvement was found
 };
 
-/// So often a cell is tried in vain before it is given up. More would cost half as much time again for the last one in
-/// a hundred of the bad cells.
+/// After this many failed attempts, a cell is given up. More attempts would cost 50% more time to fix one more percent
+/// of the bad cells.
 constexpr int most_tries = 3;
 
-/// How much is tried for a cell.
+/// The effort for a cell.
 enum class Effort { usual, greatest };
 
 class Improver {
@@ -73,8 +73,8 @@ class Improver {
     if (is_bad(cell)) found_.push_back({x_.quality(cell), cell, x_.generation(cell)});
   }
 
-  /// Leaves one entry for each cell that is still bad, the least tried, and the worst first. A cell that a moved vertex
-  /// has made good and another one bad again has two.
+  /// Keeps one entry for each cell that is still bad, the one with the fewest attempts, sorted with the worst first. A
+  /// cell that one moved vertex made good and another made bad again has two entries.
   void tidy(std::vector<BadCell>& bad) const {
     std::erase_if(bad, [&](const BadCell& b) { return is_stale(b); });
     for (BadCell& b : bad) b.quality = x_.quality(b.cell);
@@ -85,8 +85,8 @@ class Improver {
     bad.erase(rest.begin(), rest.end());
   }
 
-  /// Tries each bad cell once, unless nothing around it has changed since it was tried in vain.
-  /// \return has anything been improved?
+  /// Tries each bad cell once, unless nothing around it has changed since its last failed attempt. \return was anything
+  /// improved?
   bool pass(Effort effort, const Progress& progress) {
     queue_.swap(found_);
     found_.clear();
@@ -125,10 +125,10 @@ class Improver {
     return (everything && insert_or_collapse(cell)) || improved;
   }
 
-  /// The best of all swaps that a cell has part in.
+  /// The best of all swaps that involve a cell.
   bool swap(std::uint32_t cell) {
     double least = x_.quality(cell);
-    std::uint64_t* count = nullptr;  // of what the best plan removes
+    std::uint64_t* count = nullptr;  // worst quality of the cells that the best plan removes
     const auto consider = [&](bool is_better, std::uint64_t& removed) {
       if (!is_better) return;
       least = worst_of(plan_.new_cells);
@@ -162,7 +162,7 @@ class Improver {
     return moved;
   }
 
-  /// Interior vertices first: those on the boundary slide only where that was not enough.
+  /// Interior vertices first: those on the boundary slide only if that is not enough.
   bool move(std::uint32_t vertex, Effort effort) {
     Freedom freedom;
     if (!x_.is_interior(vertex)) {
@@ -202,7 +202,7 @@ class Improver {
   const Improvement improvement_;
   const Clock::time_point begin_;
   ImproveCounts counts_;
-  std::vector<BadCell> queue_, found_;  ///< of this pass, worst first; for the next one
+  std::vector<BadCell> queue_, found_;  ///< of this pass, the worst first; of the next pass
 
   // Working memory.
   Change plan_, best_;
@@ -210,53 +210,6 @@ class Improver {
   VertexStar star_;
   std::vector<std::uint32_t> new_cells_, good_cells_;
 };
-
-using Tetrahedron = std::array<std::uint32_t, 4>;
-
-struct LabeledCell {
-  Tetrahedron vertices;
-  int region;
-};
-
-/// The even permutation with the least vertex first and the least of the others second.
-Tetrahedron in_order(Tetrahedron t) {
-  const auto least = std::min_element(t.begin(), t.end()) - t.begin();
-  if (least != 0) {
-    // Two exchanges keep the orientation.
-    std::swap(t[0], t[static_cast<std::size_t>(least)]);
-    std::swap(least == 1 ? t[2] : t[1], t[3 == least ? 2 : 3]);
-  }
-  std::rotate(t.begin() + 1, std::min_element(t.begin() + 1, t.end()), t.end());
-  return t;
-}
-
-/// Brings the tetrahedra, with their regions, and the corners of each into an order that depends on nothing but the set
-/// of tetrahedra: what is done cell by cell has the same result whatever strategy made the mesh. Neighbors in space
-/// are mostly near to each other in it, as interior vertices are numbered along a space-filling curve.
-void sort_cells(mesh::TetMesh& mesh) {
-  // A counting sort by the first vertex leaves a few cells a bucket.
-  std::vector<std::uint32_t> begin;
-  for (Tetrahedron& t : mesh.tetrahedra) {
-    t = in_order(t);
-    if (t[0] + 2 > begin.size()) begin.resize(t[0] + 2, 0);
-    ++begin[t[0] + 1];
-  }
-  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-  std::vector<LabeledCell> sorted(mesh.tetrahedra.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-    sorted[begin[mesh.tetrahedra[i][0]]++] = {mesh.tetrahedra[i], mesh.regions[i]};
-  // By now each entry of `begin` is where the bucket of its vertex ends.
-  std::uint32_t first = 0;
-  for (const std::uint32_t last : begin) {
-    std::sort(sorted.begin() + first, sorted.begin() + last,
-              [](const LabeledCell& a, const LabeledCell& b) { return a.vertices < b.vertices; });
-    first = last;
-  }
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    mesh.tetrahedra[i] = sorted[i].vertices;
-    mesh.regions[i] = sorted[i].region;
-  }
-}
 
 }  // namespace
 
@@ -274,7 +227,6 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
     freedom = find_freedom(input.plc, input.chains, points.size());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
-  sort_cells(mesh);
   CellComplex complex(mesh, std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);

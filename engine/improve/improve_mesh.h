@@ -13,15 +13,15 @@
 namespace ccdt::improve {
 
 /// Improves the cells that are not good enough, the worst first: by swaps, by moving vertices, and where both are stuck
-/// by inserting and removing interior vertices. What a change makes is always better than what it replaces, the
-/// worst against the worst, and exactly positive. Cells whose surroundings have changed are tried again, until all are
-/// good enough, nothing helps any more, or the time is up.
+/// by inserting and removing interior vertices. The worst of the new cells is always better than the worst of the
+/// replaced ones, and all are exactly positive. Cells whose surroundings have changed are tried again, until all are
+/// good enough, no change helps, or the time is up.
 ///
 /// \param freedom  of the vertices that are not interior; empty: they stay
 ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& freedom, const ImproveOptions& options,
                             const Progress& progress = {});
 
-/// What `improve_mesh` is told of a mesh.
+/// The data of a mesh that `improve_mesh` needs.
 struct ImproveInput {
   const plc::Plc& plc;
   const protection::SegmentChains& chains;

@@ -11,18 +11,19 @@ namespace ccdt::improve {
 enum class Improvement {
   none,
   swap,    ///< other tetrahedra of the same vertices: edges and faces are removed
-  smooth,  ///< other places for the same vertices
-  all      ///< both, and interior vertices are inserted and taken out where these are stuck
+  smooth,  ///< other positions of the same vertices
+  all      ///< both, and insertion and removal of interior vertices where these are stuck
 };
 
 constexpr auto names_of(Improvement) {
-  return std::to_array<NamedValue<Improvement>>({{Improvement::all, "all", "swaps, smoothing, insertion and collapse"},
-                                                 {Improvement::swap, "swap", "other tetrahedra of the same vertices"},
-                                                 {Improvement::smooth, "smooth", "other places for the same vertices"},
-                                                 {Improvement::none, "none", "the mesh as it is"}});
+  return std::to_array<NamedValue<Improvement>>(
+      {{Improvement::all, "all", "swaps, smoothing, insertion and collapse"},
+       {Improvement::swap, "swap", "other tetrahedra of the same vertices"},
+       {Improvement::smooth, "smooth", "other positions of the same vertices"},
+       {Improvement::none, "none", "the mesh as it is"}});
 }
 
-/// What is improved: the worst value of it counts.
+/// The quality measure to improve; its worst value counts.
 enum class Objective {
   r,        ///< the paper's measure of shape (section 5); where that is good, the dihedral angles
   dihedral  ///< the least sine of the dihedral angles, so that small and large ones count alike
@@ -34,7 +35,7 @@ constexpr auto names_of(Objective) {
        {Objective::dihedral, "dihedral", "the dihedral angles alone"}});
 }
 
-/// What becomes of the vertices on the boundary and on interior facets.
+/// What happens to the vertices on the boundary and on interior facets.
 enum class BoundaryRule {
   keep,  ///< they stay where they are
   slide  ///< those inside a facet may move in it, those inside a segment along it
@@ -47,12 +48,12 @@ constexpr auto names_of(BoundaryRule) {
 }
 
 struct ImproveOptions {
-  std::optional<Improvement> improvement = {};  ///< unset: all, or none where the lattice is none
+  std::optional<Improvement> improvement = {};  ///< unset: all, or none if the lattice is none
   Objective objective = Objective::r;
   BoundaryRule boundary = BoundaryRule::keep;
-  double target_dihedral = 20;  ///< degrees: no dihedral angle is to be smaller, or larger than 180 less this
-  double target_r = 2;          ///< no tetrahedron is to be worse; with `Objective::r` alone
-  double time = 0;              ///< seconds after which improvement stops; 0: no limit
+  double target_dihedral = 20;  ///< target: all dihedral angles are between this and 180 minus this, in degrees
+  double target_r = 2;          ///< target for every tetrahedron; only for `Objective::r`
+  double time = 0;              ///< stop improvement after this many seconds; 0: no limit
 };
 
 }  // namespace ccdt::improve

@@ -18,7 +18,7 @@ namespace {
 /// How much more the quality of the star may grow than a 1 / r above its goal shrinks.
 constexpr double surplus_weight = 4;
 
-// The loops that follow have no branches and no calls, so that compilers turn them into vector instructions.
+// The following loops have no branches and no calls, so that compilers vectorize them.
 
 void compute_inverse_r(const Point3& p, ScaledStar& star) {
   const std::size_t size = star.size();
@@ -173,7 +173,7 @@ namespace {
 /// Gradients in space have four that are affinely independent; one more joins before another leaves.
 constexpr int most_in_support = 5;
 
-/// Models with their shares in the combination: the shares are positive, their sum is 1.
+/// Models with their weights in the combination: the weights are positive, and their sum is 1.
 struct Support {
   int size = 0;
   std::array<std::size_t, most_in_support> model;
@@ -234,7 +234,7 @@ std::array<double, most_in_support> free_shares(const Support& support, double l
   return shares;
 }
 
-/// Goes from the shares towards the free ones until one becomes zero, and on without that, until all are positive.
+/// Moves from the weights toward the free ones until one becomes zero, drops it, and continues until all are positive.
 void settle(double length, Support& support) {
   while (support.size > 1) {
     const std::array<double, most_in_support> target = free_shares(support, length);
@@ -282,7 +282,7 @@ ProximalStep proximal_step(const LinearModels& models, double length) {
     found.step = length * support.combination();
     lowest = find_lowest(models, found.step);
     found.least = lowest.value;
-    // All models of the support agree there, and no combination can promise more.
+    // All models of the support agree there, and no combination can predict more.
     const double promised = support.value[0] + dot(support.gradient[0], found.step);
     if (promised - lowest.value <= enough * (promised - now)) break;
     const auto end = support.model.begin() + support.size;
@@ -301,12 +301,12 @@ namespace {
 constexpr int most_steps = 10;
 constexpr double first_length = 0.1;  ///< of a step, per unit of the gradient
 constexpr double longest_step = 0.4;
-constexpr double reach = 0.3;        ///< functions that are greater than the least by more do not matter to a step
-constexpr double least_gain = 1e-3;  ///< that is worth a step
-constexpr double worthwhile = 1.05;  ///< times the worst: a gain for which good tetrahedra may become bad
+constexpr double reach = 0.3;        ///< functions that exceed the least one by more do not affect a step
+constexpr double least_gain = 1e-3;  ///< smallest gain that is worth a step
+constexpr double worthwhile = 1.05;  ///< factor of the worst quality: for such a gain, good tetrahedra may become bad
 constexpr double largest_coordinate = 0x1p51 + 0x1p20;
 
-/// Takes the part of a vector out that leads off the plane or the line.
+/// Removes the component of a vector that leads off the plane or the line.
 class Projection {
  public:
   explicit Projection(const Freedom& freedom) : dimensions_(freedom.dimensions) {
@@ -333,7 +333,7 @@ double largest_of(const Point3& p) {
   return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 
-/// The nearest vector to `move` that the freedom allows.
+/// The allowed vector nearest to `move`.
 std::optional<Point3> round_move(const Freedom& freedom, const Point3& move) {
   if (freedom.dimensions == 3) return Point3{std::round(move.x), std::round(move.y), std::round(move.z)};
   const Point3 &u = freedom.u, &v = freedom.v;
@@ -360,7 +360,7 @@ std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, 
   }));
 }
 
-/// Where the search begins: the apex or the mean of the corners of the star.
+/// The start of the search: the apex or the mean of the corners of the star.
 Point3 find_start(const QualityGoal& goal, const Projection& project, ScaledStar& star, double& least) {
   const Point3 mean = project(star.mean);
   least = least_quality(goal, mean, star);
@@ -374,8 +374,8 @@ Point3 find_start(const QualityGoal& goal, const Projection& project, ScaledStar
   return mean;
 }
 
-/// Proximal steps from `x`, each towards where the models of the functions around promise the greatest least quality; a
-/// model is trusted as far as its last promise was kept.
+/// Proximal steps from `x`, each toward the greatest least quality that the models of nearby functions predict. The
+/// step length depends on how well the last prediction was met.
 Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, double least, MoveScratch& scratch) {
   auto& [star, models] = scratch;
   double length = first_length;
@@ -457,7 +457,8 @@ double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const
   if (largest_of(place) > largest_coordinate) return worst;
   const double there = worst_of_star(faces, goal, place);
   if (!(there > worst) || !all_positive(faces, place)) return worst;
-  // A worst that can hardly be mended would else, step by step, draw all around it down to where it is.
+  // Otherwise a worst tetrahedron that can hardly be improved would, step by step, drag all tetrahedra around it down
+  // to its level.
   if (there < worthwhile * worst && count_bad(faces, goal, place) > count_bad(faces, goal, apex)) return worst;
   apex = place;
   return there;

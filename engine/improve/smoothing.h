@@ -9,12 +9,12 @@
 
 namespace ccdt::improve {
 
-/// A face that the apex of a star sees: the tetrahedron a b c apex is positive.
+/// A face as seen from the apex of a star: the tetrahedron a b c apex is positive.
 struct StarFace {
   Point3 a, b, c;
 };
 
-/// The cells around a vertex, and the faces opposite to it, as it sees them.
+/// The cells around a vertex, and the opposite faces as seen from it.
 struct VertexStar {
   std::vector<std::uint32_t> cells;
   std::vector<StarFace> faces;  ///< of each cell
@@ -26,9 +26,10 @@ void gather_cells(const CellComplex& complex, std::uint32_t vertex, CellMarks& m
 
 void gather_star(const CellComplex& complex, std::uint32_t vertex, CellMarks& marks, VertexStar& star);
 
-/// Where a vertex may go: to any point with integer coordinates, or to those that are exactly on its facet or segment.
+/// Where a vertex may move: to any point with integer coordinates, or to those exactly on its facet or segment.
 struct Freedom {
-  int dimensions = 3;  ///< 0: nowhere; 1: its place + i u; 2: its place + i u + j v, with integers i and j; 3: anywhere
+  int dimensions =
+      3;  ///< 0: nowhere; 1: its position + i u; 2: its position + i u + j v, with integers i and j; 3: anywhere
   Point3 u = {}, v = {};  ///< steps of integer coordinates
 };
 
@@ -44,23 +45,24 @@ struct Coordinates {
   void set(std::size_t i, const Point3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
 };
 
-/// The faces of a star in the order of their computation: relative to where its apex was, in units of the length of its
-/// edges, with all that does not depend on the apex. Scratch: to be used again, for it keeps its memory.
+/// The faces of a star, prepared for computation: relative to the old apex, in units of the edge length, with
+/// everything that does not depend on the apex. Reuse the object: it keeps its memory.
 struct ScaledStar {
   double scale = 1;  ///< grid units in one unit
   Point3 mean = {};  ///< of the corners of the faces
   Coordinates a, b, c;
-  Coordinates normal;                   ///< (b - a) x (c - a)
-  Coordinates centroid;                 ///< of a face
-  std::vector<double> height;           ///< normal . a
-  std::vector<double> mean_square;      ///< of the six edges of the tetrahedron, less what depends on the apex
+  Coordinates normal;          ///< (b - a) x (c - a)
+  Coordinates centroid;        ///< of a face
+  std::vector<double> height;  ///< normal . a
+  std::vector<double>
+      mean_square;  ///< mean square of the six edges of the tetrahedron, without the part that depends on the apex
   std::vector<double> inverse_area;     ///< 1 / normal^2
-  std::vector<double> inverse_r, sine;  ///< of the tetrahedra with the apex at which they were last computed
+  std::vector<double> inverse_r, sine;  ///< of the tetrahedra, for the last computed apex
 
   std::size_t size() const { return height.size(); }
 };
 
-/// Functions of the place of the apex near some place, each by its value and its gradient there.
+/// Functions of the position of the apex near a point, each by its value and gradient there.
 struct LinearModels {
   std::vector<double> value;
   Coordinates gradient;
@@ -86,10 +88,10 @@ double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star)
 void model_star(const QualityGoal& goal, const Point3& x, double least, double reach, const ScaledStar& star,
                 LinearModels& models);
 
-/// A step and what it promises.
+/// A step and its predicted result.
 struct ProximalStep {
   Point3 step = {};
-  double least = 0;  ///< of the models, after the step
+  double least = 0;  ///< least value of the models after the step
 };
 
 /// The step s that makes the least of the models as great as possible, less s^2 / (2 `length`): a proximal point. The
@@ -105,15 +107,15 @@ struct MoveScratch {
   LinearModels models;
 };
 
-/// Moves the apex of a star to where the worst of its tetrahedra is better: to the mean of the star's vertices where
-/// that makes all good enough, else by ascent on the non-smooth minimum of their qualities (Freitag and Ollivier-Gooch
-/// 1997), in steps that take the values of nearby functions into account as well as their gradients (`proximal_step`).
-/// The new place has integer coordinates, and all tetrahedra are exactly positive there. For a gain of a few per cent
-/// no more of them may be below the goal than before.
+/// Moves the apex of a star to a position where the worst of its tetrahedra is better: to the mean of the star's
+/// vertices if that makes all good enough, otherwise by ascent on the non-smooth minimum of their qualities (Freitag
+/// and Ollivier-Gooch 1997), in steps that take the values of nearby functions into account as well as their gradients
+/// (`proximal_step`). The new place has integer coordinates, and all tetrahedra are exactly positive there. For a gain
+/// of a few percent, no more of them may be below the goal than before.
 ///
 /// \param faces  in grid units
 /// \param worst  `worst_of_star` at the apex
-/// \return       `worst_of_star` at the new apex: greater, or equal where the apex has stayed
+/// \return       `worst_of_star` at the new apex: greater, or equal if the apex stays
 double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const Freedom& freedom, double worst,
                  MoveScratch& scratch, Point3& apex);
 

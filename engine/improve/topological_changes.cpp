@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array<std::array<std::uint8_t, 4>, 6> edge_corners = {
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
-/// What is around an edge ab between two walls, or all around: cell i is a, b, vertex i, vertex i + 1.
+/// The cells around an edge ab between two walls, or all around it: cell i is a, b, vertex i, vertex i + 1.
 struct Ring {
   std::uint32_t a, b;
   std::array<std::uint32_t, longest_ring + 1> vertices;
@@ -68,7 +68,7 @@ bool find_ring(const CellComplex& x, std::uint32_t cell, std::uint32_t before, s
   });
   if (ring.is_closed) return true;
   if (!fits) return false;
-  // There is a wall: what is on the other side of the first cell comes before it.
+  // There is a wall: the cells on the other side of the first cell come before it.
   ring.begin_wall = walk_around(x, ring.a, ring.b, cell, after, [&](std::uint32_t next, std::uint32_t vertex) {
     fits = ring.size < longest_ring;
     if (!fits) return false;
@@ -88,7 +88,7 @@ class RingTriangulation {
  public:
   RingTriangulation(const CellComplex& x, const Ring& ring, double least) : x_(x), ring_(ring), least_(least) {}
 
-  /// \return the quality of the worst cell, or less than `least` where there is nothing better
+  /// \return the quality of the worst cell, or less than `least` if there is nothing better
   double find() {
     const std::uint32_t n = ring_.vertex_count();
     for (std::uint32_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = infinity;
@@ -140,7 +140,7 @@ class RingTriangulation {
   std::array<std::array<std::uint8_t, longest_ring + 1>, longest_ring + 1> apex_;
 };
 
-/// Adds the best that can replace the cells of a ring, if its quality is greater than `least`.
+/// Adds the best replacement of the cells of a ring, if its quality is greater than `least`.
 bool add_ring(const CellComplex& x, const Ring& ring, double least, Change& change) {
   if (ring.vertex_count() < 3) return false;
   RingTriangulation triangulation(x, ring, least);
@@ -156,7 +156,7 @@ std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, s
 }
 
 /// The cells on the other side of the facet that the ring ends at, from its last wall to its first.
-/// \return false: what is there forbids to exchange the diagonal
+/// \return false: the cells there do not allow exchanging the diagonal
 bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
   other.size = 0;
   const std::uint32_t behind_begin = x.across(ring.begin_wall), behind_end = x.across(ring.end_wall);
@@ -178,7 +178,7 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   return true;
 }
 
-/// The most cells on one side of the faces that go.
+/// The largest number of cells on one side of the removed faces.
 constexpr std::uint32_t most_faces = 6;
 
 /// The faces between two vertices, grown from one of them across its edges, and their edges at the rim.
@@ -187,7 +187,7 @@ class SandwichedFaces {
   SandwichedFaces(const CellComplex& x, std::uint32_t above, std::uint32_t below, Change& change)
       : x_(x), above_(above), below_(below), change_(change) {}
 
-  /// Adds a face by the cells on its two sides. Its edges are at the rim, or further faces go as well.
+  /// Adds a face by the cells on its two sides. Its edges are at the rim, or further faces are removed as well.
   /// \return the quality of the worst new cell
   double add_face(std::uint32_t upper, std::uint32_t lower, const std::array<std::uint32_t, 3>& corners, int edges) {
     change_.old_cells.push_back(upper);
@@ -269,7 +269,7 @@ namespace {
 constexpr std::size_t most_cavity_cells = 40;  ///< in a cavity
 constexpr int most_insertion_rounds = 3;       ///< of growing the cavity and moving the vertex
 
-/// Finds the hull of the cavity as it is.
+/// Finds the hull of the current cavity.
 void find_hull(const CellComplex& x, const CellMarks& in_cavity, VertexCavity& cavity) {
   cavity.hull.clear();
   cavity.faces.clear();
@@ -284,8 +284,8 @@ void find_hull(const CellComplex& x, const CellMarks& in_cavity, VertexCavity& c
   }
 }
 
-/// Takes in what is behind faces that make a cell with the apex whose quality is less than `wanted`.
-/// \return false: the cavity is as large as it may be
+/// Adds the cells behind faces that would make a cell worse than `wanted` with the apex. \return false: the cavity has
+/// its largest size
 bool grow(const CellComplex& x, double wanted, const Point3& apex, CellMarks& in_cavity, VertexCavity& cavity) {
   // Cells that join the cavity are met later in the same loop.
   for (std::size_t i = 0; i < cavity.cells.size(); ++i) {
@@ -309,7 +309,7 @@ Point3 rounded(const Point3& p) {
   return {std::nearbyint(p.x), std::nearbyint(p.y), std::nearbyint(p.z)};
 }
 
-/// Are all vertices and edges that must stay on the cavity's hull?
+/// Are all vertices and edges that must stay on the hull of the cavity?
 bool keeps_constraints(const CellComplex& x, const VertexCavity& cavity) {
   const auto on_hull = [&](std::uint32_t a, std::uint32_t b) {
     return std::ranges::any_of(cavity.hull, [&](const auto& face) {
@@ -328,14 +328,13 @@ bool keeps_constraints(const CellComplex& x, const VertexCavity& cavity) {
   return true;
 }
 
-/// The quality that the cells around a new vertex are to have, between what the cell has and what is good enough.
+/// The wanted quality of the cells around a new vertex, between that of the cell and the goal.
 double wanted_quality(const QualityGoal& goal, double least) {
   return goal.objective == Objective::r ? std::max(least, 0.5 * (std::min(least, goal.inverse_r) + goal.inverse_r))
                                         : 0.5 * (least + goal.sine);
 }
 
-/// Makes the cells that are left when `gone` has moved onto `end`.
-/// \return is each better than `least`?
+/// Makes the cells that remain after `gone` moves onto `end`. \return is each better than `least`?
 bool join_star(const CellComplex& x, const std::vector<std::uint32_t>& star, std::uint32_t gone, std::uint32_t end,
                double least, std::vector<NewCell>& made) {
   made.clear();

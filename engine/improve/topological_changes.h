@@ -6,13 +6,12 @@
 
 #include "engine/improve/smoothing.h"
 
-/// Plans of changes that make other cells. All of them leave the complex as it is, and put the best change that they
-/// find into `change`. The quality of the worst new cell must be greater than `least`, which is no less than that of
-/// `cell`. They return whether there is such a change. Whether the new cells are exactly positive is not yet known,
-/// except after `plan_insertion`.
+/// Plans of changes that replace cells. They do not change the complex; they write the best change into `change` and
+/// return whether there is one. The quality of the worst new cell must be greater than `least`, which is not less than
+/// that of `cell`. The new cells are not yet tested for exact positivity, except by `plan_insertion`.
 namespace ccdt::improve {
 
-/// Cells that a new vertex is to replace, marked, and their hull.
+/// Marked cells that a new vertex replaces, and their hull.
 struct VertexCavity {
   std::vector<std::uint32_t> cells;
   std::vector<std::array<std::uint32_t, 3>> hull;  ///< corners of its faces, the inside above
@@ -31,34 +30,34 @@ struct PlanScratch {
 /// The quality of the worst of some cells.
 double worst_of(const std::vector<NewCell>& cells);
 
-/// The longest ring of vertices around an edge that is tried.
+/// The longest ring of vertices around an edge to try.
 inline constexpr std::uint32_t longest_ring = 8;
 
-/// Plans to remove an edge: the cells around it give way to the best of all triangulations of the ring of vertices
+/// Plans to remove an edge: the cells around it are replaced by the best of all triangulations of the ring of vertices
 /// around it, each of its triangles joined to both ends of the edge (Shewchuk 2002, "Two discrete optimization
 /// algorithms for the topological improvement of tetrahedral meshes"; the dynamic programming is Klincsek's). A ring of
-/// three is the swap 3-2, one of four 4-4. An edge on a facet that is no segment is removed from each side of it: swaps
-/// 2-2 and 4-4 on facets, and larger ones.
+/// three is the swap 3-2, one of four 4-4. An edge on a facet that is not a segment is removed from each side of it:
+/// swaps 2-2 and 4-4 on facets, and larger ones.
 ///
 /// \param edge   of the cell, 0 to 5: between its vertices 0 1, 0 2, 0 3, 1 2, 1 3, 2 3
 bool plan_edge_removal(const CellComplex& complex, std::uint32_t cell, std::uint32_t edge, double least,
                        Change& change);
 
-/// Plans to remove a face, and with it more faces between the two cells' apexes: the cells on both sides of these give
-/// way to cells around the edge between the apexes (Shewchuk 2002; the swap 2-3 is the case of one face).
+/// Plans to remove a face, and with it more faces between the two cells' apexes: the cells on both sides of these are
+/// replaced by cells around the edge between the apexes (Shewchuk 2002; the swap 2-3 is the case of one face).
 ///
 /// \param face   of the cell, 0 to 3
 bool plan_face_removal(const CellComplex& complex, std::uint32_t cell, std::uint32_t face, double least,
                        Change& change);
 
-/// Plans to take an interior vertex of a cell away by collapsing one of the cell's edges onto the other end: the cells
-/// around the vertex that do not have that end are joined to it instead.
+/// Plans to remove an interior vertex of a cell by collapsing one of the cell's edges onto the other end: the cells
+/// around the vertex without that end are joined to it instead.
 bool plan_collapse(const CellComplex& complex, std::uint32_t cell, double least, PlanScratch& scratch, Change& change);
 
 /// Plans to insert a vertex in place of a cell and of those of its neighbors that the new vertex can replace by better
-/// ones: the cavity grows across each face that would make a bad cell with the new vertex, which then moves to where
-/// the worst of the new cells is best (after Klingner and Shewchuk 2007). An interior vertex that ends up inside the
-/// cavity is gone.
+/// ones: the cavity grows across each face that would make a bad cell with the new vertex. The vertex then moves to the
+/// position where the worst of the new cells is best (after Klingner and Shewchuk 2007). An interior vertex inside the
+/// cavity is removed.
 bool plan_insertion(const CellComplex& complex, std::uint32_t cell, double least, PlanScratch& scratch, Change& change);
 
 }  // namespace ccdt::improve

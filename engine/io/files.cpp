@@ -62,7 +62,7 @@ FileBytes read_whole_file(const std::filesystem::path& file) {
   }
   if (const std::size_t got = std::fread(result.bytes.data(), 1, size, in.get()); got != size)
     throw InputError("reading stopped after " + std::to_string(got) + " of " + std::to_string(size) + " bytes", place,
-                     "check the disk, and that nobody is writing the file");
+                     "check the disk, and that no other program is writing the file");
   return result;
 }
 
@@ -138,7 +138,7 @@ void OutputFile::commit() {
 
 void OutputFile::fail(int error) const {
   throw OutputError(std::string("cannot be written: ") + std::strerror(error), place_in(target_.string()),
-                    "check that the folder exists, that you may write there and that the disk has room");
+                    "check that the folder exists and is writable, and that the disk has space");
 }
 
 }  // namespace ccdt::io

@@ -24,24 +24,24 @@ struct FileBytes {
 
 bool is_there(const std::filesystem::path& file);
 
-/// \throw InputError  no such file, a directory or another thing that is no file
+/// \throw InputError  no such file, a directory, or not a regular file
 void check_is_file(const std::filesystem::path& file);
 
 /// Reads a whole file.
 ///
-/// \throw InputError  no such file, a directory or another thing that is no file, empty, unreadable
+/// \throw InputError  no such file, a directory, not a regular file, empty, or unreadable
 /// \throw LimitError  it does not fit into memory
 FileBytes read_whole_file(const std::filesystem::path& file);
 
 /// The ending of a file's name in lower case, with its dot.
 std::string lower_ending(const std::filesystem::path& file);
 
-/// A place that is only known to be in a file.
+/// The place of an error of which only the file is known.
 inline Place place_in(std::string file) {
   return {.file = std::move(file)};
 }
 
-/// What ends the lines of a text: a line feed, or a carriage return if there is no line feed at all.
+/// The line end of a text: a line feed, or a carriage return if there is no line feed at all.
 char line_end_of(std::string_view text);
 
 /// The place of the line of a text in which a byte is.
@@ -61,8 +61,8 @@ Number number_at(const char* bytes, bool big_endian = false) {
   return std::bit_cast<Number>(digits);
 }
 
-/// A file that appears whole or not at all: it is written beside its place under a temporary name and renamed by
-/// `commit`. Without `commit` the destructor removes it. Numbers are written in the shortest form that reads back bit
+/// A file that appears completely or not at all: it is written under a temporary name in the same folder, and `commit`
+/// renames it. Without `commit` the destructor removes it. Numbers are written in the shortest form that reads back bit
 /// for bit.
 class OutputFile {
  public:
@@ -81,15 +81,15 @@ class OutputFile {
     return *this << std::string_view(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
   }
   OutputFile& operator<<(const Point3& p) { return *this << p.x << ' ' << p.y << ' ' << p.z; }
-  /// The bytes of a value as they are in memory.
+  /// The bytes of a value in memory.
   template <class T>
   OutputFile& raw(const T& value) {
     return *this << std::string_view(reinterpret_cast<const char*>(&value), sizeof value);
   }
 
-  /// Flushes and closes: everything that can fail short of the renaming. \throw OutputError
+  /// Flushes and closes: everything that can fail before the renaming. \throw OutputError
   void close();
-  /// Closes if that is still to do, and renames. \throw OutputError
+  /// Closes the file if necessary, and renames it. \throw OutputError
   void commit();
 
  private:

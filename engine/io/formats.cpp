@@ -15,7 +15,7 @@ struct FormatLimits {
   bool several_polygons = false, segments = false, seeds = false, loose_vertices = true;
 };
 
-/// Who reads and writes a format, and what it can hold.
+/// The functions that read and write a format, and what it can hold.
 struct PlcFormat {
   std::string_view ending, name;
   plc::InputPlc (*read)(const FileBytes&);
@@ -32,6 +32,7 @@ constexpr PlcFormat plc_formats[] = {
     {".smesh", ".smesh", read_smesh, write_smesh, {.segments = true, .seeds = true}},
     {".node", ".node", read_node},
     {".mesh", "Medit .mesh", read_medit_plc, write_medit_plc, {.most_corners = 4, .segments = true}},
+    {".meshb", "Medit .meshb", read_meditb_plc, write_meditb_plc, {.most_corners = 4, .segments = true}},
 };
 
 bool has_loose_vertex(const plc::InputPlc& plc) {
@@ -44,7 +45,7 @@ bool has_loose_vertex(const plc::InputPlc& plc) {
   return std::find(used.begin(), used.end(), false) != used.end();
 }
 
-/// Why the format cannot hold a facet of polygons; empty if it can.
+/// The reason why the format cannot hold a facet of polygons; empty if it can.
 std::string objection(const plc::PolygonFacet& facet, const PlcFormat& format) {
   if (!format.limits.several_polygons && (facet.polygons.size() != 1 || !facet.holes.empty()))
     return "facets with holes or of several polygons";
@@ -56,22 +57,21 @@ std::string objection(const plc::PolygonFacet& facet, const PlcFormat& format) {
   return {};
 }
 
-/// \throw OutputError  the PLC has what the format cannot hold, or no vertices
+/// \throw OutputError  the format cannot hold the PLC, or it has no vertices
 void check_format_holds(const plc::InputPlc& plc, const PlcFormat& format, const std::string& file) {
   const auto refuse_if = [&](bool condition, const std::string& what, const std::string& where = {}) {
     if (condition)
       throw OutputError(where + std::string(format.name) + " cannot hold " + what, place_in(file),
                         "write a .poly file instead");
   };
-  if (plc.vertices.empty())
-    throw OutputError("there are no vertices to write", place_in(file), "check the model that is to be written");
+  if (plc.vertices.empty()) throw OutputError("there are no vertices to write", place_in(file), "check the model");
   refuse_if(!format.limits.segments && !plc.segments.empty(), "segments");
   refuse_if(!format.limits.seeds && !plc.holes.empty(), "seeds of holes");
   refuse_if(!format.limits.seeds && !plc.regions.empty(), "seeds of regions");
   for (const plc::PolygonFacet& facet : plc.polygon_facets)
     if (const std::string what = objection(facet, format); !what.empty())
       refuse_if(true, what, "facet " + std::to_string(facet.number) + ": ");
-  refuse_if(!format.limits.loose_vertices && has_loose_vertex(plc), "vertices that no facet has");
+  refuse_if(!format.limits.loose_vertices && has_loose_vertex(plc), "vertices without facets");
 }
 
 struct TetMeshFormat {
@@ -82,14 +82,17 @@ struct TetMeshFormat {
 
 constexpr TetMeshFormat mesh_formats[] = {
     {".mesh", read_medit_mesh, write_medit_mesh},
+    {".meshb", read_meditb_mesh, write_meditb_mesh},
     {".vtu", read_vtu, write_vtu},
     {".msh", read_gmsh, write_gmsh},
+    {".msh4", read_gmsh, write_gmsh4},
     {".node"},
     {".ele"},
     {".face"},
 };
 
-constexpr const char* mesh_endings = ".mesh (Medit), .vtu (VTK), .msh (Gmsh), .node, .ele and .face (TetGen)";
+constexpr const char* mesh_endings =
+    ".mesh and .meshb (Medit), .vtu (VTK), .msh and .msh4 (Gmsh), .node, .ele and .face (TetGen)";
 
 /// The format with the ending of the file; null if there is none.
 template <class Format, std::size_t Count>
@@ -99,7 +102,7 @@ const Format* format_of(const std::filesystem::path& file, const Format (&format
 }
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& known_endings) {
-  check_is_file(file);  // no such file is the better message
+  check_is_file(file);  // "no such file" is the better message
   throw InputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
                    "known are " + known_endings + ": convert or rename the file");
 }
@@ -153,7 +156,7 @@ bool is_plc_file(const std::filesystem::path& file) {
 
 plc::InputPlc read_plc(const std::filesystem::path& file) {
   const PlcFormat* format = format_of(file, plc_formats);
-  if (!format) fail_to_read(file, ".stl, .off, .obj, .ply, .poly, .smesh, .node and .mesh");
+  if (!format) fail_to_read(file, ".stl, .off, .obj, .ply, .poly, .smesh, .node, .mesh and .meshb");
   plc::InputPlc plc = format->read(read_whole_file(file));
   plc.name = file.string();
   return plc;
@@ -161,7 +164,7 @@ plc::InputPlc read_plc(const std::filesystem::path& file) {
 
 void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {
   const PlcFormat* format = format_of(file, plc_formats);
-  if (!format || !format->write) fail_to_write(file, ".stl, .off, .obj, .ply, .poly, .smesh and .mesh");
+  if (!format || !format->write) fail_to_write(file, ".stl, .off, .obj, .ply, .poly, .smesh, .mesh and .meshb");
   check_format_holds(plc, *format, file.string());
   OutputFile out(file);
   format->write(plc, out);

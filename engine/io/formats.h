@@ -13,10 +13,10 @@
 /// `write_tet_mesh` choose among them by the ending.
 namespace ccdt::io {
 
-/// Surfaces and piecewise linear complexes. No reader builds a mesh structure: what the file says is what the caller
-/// gets, non-manifold or not. (OpenMesh's readers drop faces that do not fit a half-edge mesh, take coordinates in
-/// single precision and are silent about truncation and NaN; so they serve as the independent cross-reader of our
-/// tests, not here.) The readers fill all of an `InputPlc` but its name. All throw InputError as `read_plc` says.
+/// Surfaces and piecewise linear complexes. No reader builds a mesh structure: the caller gets the contents of the
+/// file, manifold or not. (OpenMesh's readers drop faces that do not fit a half-edge mesh, read coordinates in single
+/// precision, and ignore truncation and NaN. So they serve only as an independent reader in our tests.) The readers
+/// fill all of an `InputPlc` except its name. All throw InputError like `read_plc`.
 plc::InputPlc read_stl(const FileBytes& file);
 plc::InputPlc read_off(const FileBytes& file);
 plc::InputPlc read_obj(const FileBytes& file);
@@ -25,8 +25,9 @@ plc::InputPlc read_poly(const FileBytes& file);
 plc::InputPlc read_smesh(const FileBytes& file);
 plc::InputPlc read_node(const FileBytes& file);
 plc::InputPlc read_medit_plc(const FileBytes& file);
+plc::InputPlc read_meditb_plc(const FileBytes& file);
 
-/// The writers expect what `write_plc` has checked.
+/// The writers rely on the checks of `write_plc`.
 void write_stl(const plc::InputPlc& plc, OutputFile& out);
 void write_off(const plc::InputPlc& plc, OutputFile& out);
 void write_obj(const plc::InputPlc& plc, OutputFile& out);
@@ -34,27 +35,33 @@ void write_ply(const plc::InputPlc& plc, OutputFile& out);
 void write_poly(const plc::InputPlc& plc, OutputFile& out);
 void write_smesh(const plc::InputPlc& plc, OutputFile& out);
 void write_medit_plc(const plc::InputPlc& plc, OutputFile& out);
+void write_meditb_plc(const plc::InputPlc& plc, OutputFile& out);
 
 /// Tetrahedral meshes.
 mesh::TetMesh read_medit_mesh(const FileBytes& file);
+mesh::TetMesh read_meditb_mesh(const FileBytes& file);
 mesh::TetMesh read_vtu(const FileBytes& file);
 mesh::TetMesh read_gmsh(const FileBytes& file);
-/// Reads .node and .ele, and .face and .edge where they are, given the path of one of the first three.
+/// Reads .node and .ele, and .face and .edge if they exist, given the path of one of the first three.
 mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file);
 
 void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out);
+void write_meditb_mesh(const mesh::TetMesh& mesh, OutputFile& out);
 void write_vtu(const mesh::TetMesh& mesh, OutputFile& out);
+/// Version 2.2 in text, which most programs read.
 void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out);
-/// Writes .node, .ele, .face and .edge (also empty ones, so that none is left of an older mesh).
+/// Version 4.1 in binary.
+void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out);
+/// Writes .node, .ele, .face and .edge (even empty ones, so that no file of an older mesh remains).
 void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
 /// Adds a facet with one loop: a triangle, a polygon, or, of two corners, a segment. Less is nothing.
 void add_facet(plc::InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t number);
 
-/// To be called when all facets are in: numbers that equal the indices are not kept, nor are markers that are all 0.
+/// Call it after adding all facets: it drops numbers that equal the indices, and markers that are all 0.
 void finish_facets(plc::InputPlc& plc);
 
-/// One facet with one loop, wherever the PLC holds it.
+/// A facet with one loop, wherever the PLC stores it.
 struct FacetLoop {
   std::span<const std::uint32_t> corners;
   int marker = 0;
@@ -62,15 +69,15 @@ struct FacetLoop {
   std::uint32_t number = 0;                    ///< in the file
 };
 
-/// All facets, in the order of their numbers in the file that they came from.
+/// All facets, in the order of their numbers in the file.
 std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc);
 
-/// Our writers leave this comment in the formats that are read with seeds when the PLC goes by even and odd.
+/// Our writers add this comment in formats that are read with seeds if the PLC uses the even-odd rule.
 inline constexpr std::string_view even_odd_claim = "# ccdt inside even_odd";
-/// How text formats keep `TetMesh::constrained_delaunay`: words in a comment near the file's start.
+/// The text formats keep `TetMesh::constrained_delaunay` as words in a comment near the start of the file.
 inline constexpr std::string_view constrained_delaunay_claim = "ccdt constrained_delaunay";
 
-/// Does a claim stand near the file's start?
+/// Is there such a claim near the start of the file?
 inline bool has_claim(const FileBytes& file, std::string_view claim) {
   return std::string_view(file.bytes).substr(0, 1024).find(claim) != std::string_view::npos;
 }
@@ -78,7 +85,7 @@ inline plc::InputPlc::Inside inside_claimed(const FileBytes& file) {
   return has_claim(file, even_odd_claim) ? plc::InputPlc::Inside::even_odd : plc::InputPlc::Inside::seeds;
 }
 
-/// The i-th of the attributes, which may be missing as a whole.
+/// The i-th attribute; the whole list may be missing.
 inline int attribute_of(const std::vector<int>& attributes, std::size_t i) {
   return i < attributes.size() ? attributes[i] : 0;
 }
@@ -88,12 +95,12 @@ inline void write_corners(std::span<const std::uint32_t> corners, OutputFile& ou
   for (const std::uint32_t v : corners) out << ' ' << v + first;
 }
 
-/// Writes a line "number x y z" a point, numbered from 1.
+/// Writes a line "number x y z" for each point, numbered from 1.
 inline void write_numbered(const std::vector<Point3>& points, OutputFile& out) {
   for (std::size_t i = 0; i < points.size(); ++i) out << i + 1 << ' ' << points[i] << '\n';
 }
 
-/// The file beside the given one with another ending.
+/// The file with the same name and another ending.
 inline std::filesystem::path sibling(std::filesystem::path file, const char* ending) {
   return file.replace_extension(ending);
 }

@@ -1,17 +1,11 @@
+#include "engine/io/medit.h"
+
 #include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
 
 namespace {
-
-/// Medit's text format holds surfaces and tetrahedral meshes alike. Each element has a "reference".
-struct MeditFile {
-  mesh::TetMesh mesh;
-  std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
-  std::vector<int> quadrilateral_references;
-  std::size_t first_triangle = 0, first_quadrilateral = 0;  ///< how many facets came before them in the file
-};
 
 bool starts_with_letter(std::string_view word) {
   return !word.empty() && ((word[0] >= 'A' && word[0] <= 'Z') || (word[0] >= 'a' && word[0] <= 'z'));
@@ -40,7 +34,7 @@ void read_elements(TextScanner& in, Item item, std::size_t vertices,
   }
 }
 
-/// \param with_tetrahedra  false: they are skipped as every section that is not listed above
+/// \param with_tetrahedra  false: they are skipped, like every section that is not listed above
 MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   MeditFile medit;
   mesh::TetMesh& mesh = medit.mesh;
@@ -84,7 +78,7 @@ void write_head(std::string_view comment, const std::vector<Point3>& vertices, O
   for (const Point3& p : vertices) out << p << " 0\n";
 }
 
-/// Writes a section, or nothing if there are no elements. `references` is empty (all 0) or has one an element.
+/// Writes a section, or nothing if there are no elements. `references` is empty (all 0) or has one per element.
 template <std::size_t Corners>
 void write_elements(const char* keyword, std::span<const std::array<std::uint32_t, Corners>> elements,
                     std::span<const int> references, OutputFile& out) {
@@ -98,11 +92,10 @@ void write_elements(const char* keyword, std::span<const std::array<std::uint32_
 
 }  // namespace
 
-plc::InputPlc read_medit_plc(const FileBytes& file) {
-  MeditFile medit = read_medit(file, false);
+plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside) {
   const mesh::TetMesh& mesh = medit.mesh;
   plc::InputPlc plc;
-  plc.inside = inside_claimed(file);
+  plc.inside = inside;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i)
     add_facet(plc, mesh.faces[i], mesh.face_markers[i], medit.first_triangle + i);
   for (std::size_t i = 0; i < medit.quadrilaterals.size(); ++i)
@@ -113,6 +106,28 @@ plc::InputPlc read_medit_plc(const FileBytes& file) {
   return plc;
 }
 
+MeditFile medit_of(const plc::InputPlc& plc) {
+  MeditFile medit;
+  for (const FacetLoop& facet : facets_in_order(plc)) {
+    const auto& c = facet.corners;
+    if (c.size() == 3) {
+      medit.mesh.faces.push_back({c[0], c[1], c[2]});
+      medit.mesh.face_markers.push_back(facet.marker);
+    } else {
+      medit.quadrilaterals.push_back({c[0], c[1], c[2], c[3]});
+      medit.quadrilateral_references.push_back(facet.marker);
+    }
+  }
+  medit.mesh.vertices = plc.vertices;
+  medit.mesh.edges = plc.segments;
+  medit.mesh.edge_markers = plc.segment_markers;
+  return medit;
+}
+
+plc::InputPlc read_medit_plc(const FileBytes& file) {
+  return plc_of(read_medit(file, false), inside_claimed(file));
+}
+
 mesh::TetMesh read_medit_mesh(const FileBytes& file) {
   mesh::TetMesh mesh = read_medit(file, true).mesh;
   mesh.constrained_delaunay = has_claim(file, constrained_delaunay_claim);
@@ -120,23 +135,11 @@ mesh::TetMesh read_medit_mesh(const FileBytes& file) {
 }
 
 void write_medit_plc(const plc::InputPlc& plc, OutputFile& out) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
-  std::vector<int> triangle_references, quadrilateral_references;
-  for (const FacetLoop& facet : facets_in_order(plc)) {
-    const auto& c = facet.corners;
-    if (c.size() == 3) {
-      triangles.push_back({c[0], c[1], c[2]});
-      triangle_references.push_back(facet.marker);
-    } else {
-      quadrilaterals.push_back({c[0], c[1], c[2], c[3]});
-      quadrilateral_references.push_back(facet.marker);
-    }
-  }
+  const MeditFile medit = medit_of(plc);
   write_head(plc.inside == plc::InputPlc::Inside::even_odd ? even_odd_claim : "", plc.vertices, out);
-  write_elements<2>("Edges", plc.segments, plc.segment_markers, out);
-  write_elements<3>("Triangles", triangles, triangle_references, out);
-  write_elements<4>("Quadrilaterals", quadrilaterals, quadrilateral_references, out);
+  write_elements<2>("Edges", medit.mesh.edges, medit.mesh.edge_markers, out);
+  write_elements<3>("Triangles", medit.mesh.faces, medit.mesh.face_markers, out);
+  write_elements<4>("Quadrilaterals", medit.quadrilaterals, medit.quadrilateral_references, out);
   out << "\nEnd\n";
 }
 

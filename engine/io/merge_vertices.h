@@ -1,54 +1,76 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "engine/base/hash_table.h"
 #include "engine/base/point.h"
 
 namespace ccdt::io {
 
-/// Gives equal points one index: a hash table with open addressing over a list of points. Formats that repeat a vertex
-/// for every triangle would need six times the memory otherwise. 0 and -0 are equal.
+/// The coordinates of a point bit for bit: of single precision (Bits of 32 bits) or double precision (of 64).
+template <class Bits>
+using PointBits = std::array<Bits, 3>;
+
+template <class Bits>
+struct PointBitsTraits {
+  static constexpr PointBits<Bits> none() { return {~Bits{0}, ~Bits{0}, ~Bits{0}}; }  // a NaN, which no point has
+  static std::size_t hash(const PointBits<Bits>& key) {
+    std::uint64_t h = 0;
+    for (const Bits bits : key) {  // coordinates often end with zeros, so the high bits have to come down
+      h = (h ^ bits) * 0xff51afd7ed558ccdull;
+      h ^= h >> 32;
+    }
+    return static_cast<std::size_t>(h);
+  }
+};
+
+/// Gives equal points one index. Formats that repeat a vertex for every triangle would need six times the memory
+/// otherwise. 0 and -0 are equal. The points must be finite.
+///
+/// \tparam Real  what the file holds: float or double
+template <class Real>
 class VertexMerger {
  public:
-  explicit VertexMerger(std::vector<Point3>& vertices) : vertices_(vertices), slots_(1024, free_slot) {}
+  using Corner = std::array<Real, 3>;
 
-  /// The index of the point in the list, which it joins if it is new.
-  std::uint32_t index_of(Point3 point) {
-    point = {point.x + 0.0, point.y + 0.0, point.z + 0.0};  // -0 becomes 0
-    if (2 * vertices_.size() >= slots_.size()) grow();
-    std::uint32_t& entry = slots_[slot_of(point)];
-    if (entry == free_slot) {
-      entry = static_cast<std::uint32_t>(vertices_.size());
-      vertices_.push_back(point);
-    }
-    return entry;
+  explicit VertexMerger(std::vector<Point3>& vertices) : vertices_(vertices) {}
+
+  /// To be told how many different points come, roughly.
+  void reserve(std::size_t points) {
+    vertices_.reserve(points);
+    indices_.reserve(points);
+  }
+
+  /// The index of the point in the list, to which it is added if it is new.
+  std::uint32_t index_of(const Corner& corner) { return index_of(corner, bits_of(corner)); }
+
+  /// The indices of many points. The table is large and the points are anywhere in it, so all places are on their way
+  /// to the processor before the first one is looked at.
+  void indices_of(std::span<const Corner> corners, std::span<std::uint32_t> indices) {
+    for (const Corner& corner : corners) indices_.prefetch(bits_of(corner));
+    std::ranges::transform(corners, indices.begin(), [&](const Corner& corner) { return index_of(corner); });
   }
 
  private:
-  static constexpr std::uint32_t free_slot = 0xFFFFFFFFu;
+  using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
 
-  static std::uint64_t mixed(std::uint64_t h) {  // the finalizer of MurmurHash3
-    h = (h ^ (h >> 33)) * 0xff51afd7ed558ccdull;
-    h = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53ull;
-    return h ^ (h >> 33);
+  static PointBits<Bits> bits_of(const Corner& corner) {
+    PointBits<Bits> bits;
+    for (std::size_t axis = 0; axis < 3; ++axis) bits[axis] = std::bit_cast<Bits>(corner[axis] + Real{0});  // -0 to 0
+    return bits;
   }
-  std::size_t slot_of(const Point3& point) const {
-    std::uint64_t hash = 0;
-    for (const double coordinate : as_array(point)) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate));
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = hash & mask;
-    while (slots_[slot] != free_slot && vertices_[slots_[slot]] != point) slot = (slot + 1) & mask;
-    return slot;
-  }
-  void grow() {
-    slots_.assign(2 * slots_.size(), free_slot);
-    for (std::uint32_t i = 0; i < vertices_.size(); ++i) slots_[slot_of(vertices_[i])] = i;
+  std::uint32_t index_of(const Corner& corner, const PointBits<Bits>& bits) {
+    const auto [index, is_new] = indices_.insert(bits, static_cast<std::uint32_t>(vertices_.size()));
+    if (is_new) vertices_.push_back({corner[0] + 0.0, corner[1] + 0.0, corner[2] + 0.0});
+    return *index;
   }
 
   std::vector<Point3>& vertices_;
-  std::vector<std::uint32_t> slots_;  ///< a power of two in number, at most half of them used
+  HashTable<PointBits<Bits>, std::uint32_t, PointBitsTraits<Bits>> indices_;
 };
 
 }  // namespace ccdt::io

@@ -8,7 +8,8 @@ namespace ccdt::io {
 
 namespace {
 
-/// A corner is v, v/vt, v//vn or v/vt/vn; only v counts. From 1, or, negative, back from the last vertex so far.
+/// A corner is v, v/vt, v//vn or v/vt/vn; only v counts. It counts from 1 or, if negative, back from the last vertex so
+/// far.
 std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertices) {
   const std::string_view word = in.word(facet), digits = word.substr(0, word.find('/'));
   const std::optional<std::int64_t> parsed = parse_whole<std::int64_t>(digits);
@@ -22,8 +23,8 @@ std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertic
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
 }
 
-/// Groups become markers: a name that is a whole number is the marker itself, other names get the numbers that are
-/// left, from 1 in the order of their appearance. Facets before the first group have the marker 0.
+/// Groups become markers: a name that is a whole number is the marker itself; other names get the unused numbers from
+/// 1, in the order of their appearance. Facets before the first group have the marker 0.
 class Groups {
  public:
   Groups() : names_{"0"} {}

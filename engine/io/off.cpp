@@ -34,7 +34,7 @@ plc::InputPlc read_off(const FileBytes& file) {
   TextScanner in(file);
   read_keyword(in);
   const std::size_t vertices = in.count({"number of vertices"}, 6), faces = in.count({"number of facets"}, 4);
-  in.skip_line();  // the number of edges, which may be missing and says nothing
+  in.skip_line();  // the number of edges, which may be missing and is not used
   plc.vertices.reserve(vertices);
   plc.triangles.reserve(faces);
   for (std::size_t i = 0; i < vertices; ++i) {

@@ -2,6 +2,7 @@
 #include <climits>
 #include <cmath>
 
+#include "engine/io/byte_scanner.h"
 #include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
 
@@ -106,13 +107,13 @@ Header read_header(const FileBytes& file) {
     }
     in.skip_line();
   }
-  if (!has_format) in.fail(item, "it does not say the format");
+  if (!has_format) in.fail(item, "the format is missing");
   in.skip_line();
   header.end = in.position();
   return header;
 }
 
-/// Do the counts fit into what the file has? Asked before anything is allocated.
+/// Do the counts fit into the size of the file? Tested before anything is allocated.
 void check_counts(const FileBytes& file, const Header& header) {
   std::size_t needed = 0;
   for (const Element& element : header.elements) {
@@ -133,26 +134,24 @@ void check_counts(const FileBytes& file, const Header& header) {
                  "the file is truncated or its header is wrong: export it again");
 }
 
-/// The values after the header, one by one, in whichever encoding.
+/// The values after the header, one by one, in any encoding.
 class Values {
  public:
   Values(const FileBytes& file, const Header& header)
-      : file_(file), encoding_(header.encoding), byte_(header.end), text_(file, TextScanner::no_comments, header.end) {}
+      : file_(file),
+        encoding_(header.encoding),
+        bytes_(file, header.end),
+        text_(file, TextScanner::no_comments, header.end) {}
 
   double next(const Type& type, const Item& item) {
     if (encoding_ == Encoding::text) return text_.number(item);
-    begin_ = byte_;
-    if (type.size > file_.bytes.size() - byte_)
-      fail_at_byte(file_, file_.bytes.size(), "the file is truncated: it ends within " + item.name(),
-                   "copy or export the file again", item.facets());
-    byte_ += type.size;
-    return type.decode(file_.bytes.data() + begin_, encoding_ == Encoding::big_endian);
+    return type.decode(bytes_.take(item, type.size), encoding_ == Encoding::big_endian);
   }
   void skip(const Type& type, const Item& item) {
     if (encoding_ == Encoding::text)
       text_.word(item);  // may be NaN
     else
-      next(type, item);
+      bytes_.skip(item, type.size);
   }
   double coordinate(const Type& type, const Item& item) {
     const double value = next(type, item);
@@ -166,24 +165,24 @@ class Values {
   }
   [[noreturn]] void fail(const Item& item, const std::string& what) const {
     if (encoding_ == Encoding::text) text_.fail(item, what);
-    fail_at_byte(file_, begin_, item.name() + ": " + what, "repair this item, or export the file again", item.facets());
+    bytes_.fail(item, what, "repair this item, or export the file again");
   }
-  /// Anything but blanks after the last element would be data that nobody reads.
+  /// Anything except blanks after the last element would be lost data.
   void expect_end() {
     if (encoding_ == Encoding::text) {
       if (!text_.at_end()) text_.fail("end of the file", "more follows than the header says");
       return;
     }
-    for (std::size_t i = byte_; i < file_.bytes.size(); ++i)
+    for (std::size_t i = bytes_.position(); i < file_.bytes.size(); ++i)
       if (static_cast<unsigned char>(file_.bytes[i]) > 32)
         fail_at_byte(file_, i, "more bytes follow than the header says", "the header is wrong: export the file again");
   }
-  std::size_t remaining() const { return encoding_ == Encoding::text ? text_.remaining() : file_.bytes.size() - byte_; }
+  std::size_t remaining() const { return encoding_ == Encoding::text ? text_.remaining() : bytes_.remaining(); }
 
  private:
   const FileBytes& file_;
   Encoding encoding_;
-  std::size_t byte_, begin_ = 0;
+  ByteScanner bytes_;
   TextScanner text_;
 };
 

@@ -7,18 +7,18 @@ namespace ccdt::io {
 
 namespace {
 
-constexpr const char* scalar_remedy = "write one size a vertex, the target edge length there";
+constexpr const char* scalar_remedy = "write one size per vertex: the target edge length there";
 
-/// The file that the sizes belong to: the first of these beside them.
+/// The file to which the sizes belong: the first of these beside it.
 std::filesystem::path background_of(const std::filesystem::path& file, std::initializer_list<const char*> endings,
                                     const std::string& names) {
   for (const char* ending : endings)
     if (is_there(sibling(file, ending))) return sibling(file, ending);
-  throw InputError("there is no " + names + " file of this name beside it, so it is not known where the sizes belong",
-                   place_in(file.string()), "put the mesh that the sizes belong to beside them, under the same name");
+  throw InputError("there is no " + names + " file of this name beside it, so the positions of the sizes are unknown",
+                   place_in(file.string()), "put the mesh of the sizes beside this file, under the same name");
 }
 
-/// Reads how many sizes there are: as many as vertices.
+/// Reads the number of sizes, which must be that of vertices.
 void read_count(TextScanner& in, const lattice::BackgroundSizes& background) {
   const Item item = "number of sizes";
   const std::size_t count = in.count(item, 2), vertices = background.vertices.size();
@@ -26,8 +26,8 @@ void read_count(TextScanner& in, const lattice::BackgroundSizes& background) {
     in.fail(item,
             "there are " + std::to_string(count) + ", but " + background.mesh_name + " has " +
                 std::to_string(vertices) + " vertices",
-            "put the sizes beside the mesh that they were made for");
-  if (count == 0) in.fail(item, "there is none", "give the size function at one vertex at least");
+            "put the sizes beside the mesh for which they were made");
+  if (count == 0) in.fail(item, "there is no size", "give the size function at one or more vertices");
 }
 
 void read_values(TextScanner& in, lattice::BackgroundSizes& background) {
@@ -42,7 +42,7 @@ void read_values(TextScanner& in, lattice::BackgroundSizes& background) {
     in.fail("sizes", "after one for each vertex another number follows: " + in_quotes(next), scalar_remedy);
 }
 
-/// Goes to the section that matters.
+/// Goes to the relevant section.
 void find_sizes(TextScanner& in) {
   in.expect("header", "MeshVersionFormatted", "check that this is a Medit text file");
   in.integer("MeshVersionFormatted");
@@ -53,7 +53,7 @@ void find_sizes(TextScanner& in) {
   }
 }
 
-/// Medit says how many values a vertex has, and of what type each is.
+/// Medit gives the number of values per vertex, and the type of each.
 void check_scalar(TextScanner& in) {
   in.expect_integer("number of fields", 1, scalar_remedy);
   const std::int64_t type = in.integer("type of the field");
@@ -93,7 +93,7 @@ lattice::BackgroundSizes read_mtr(const std::filesystem::path& file) {
   }
   TextScanner in(bytes);
   read_count(in, result);
-  if (!in.at_line_end()) in.expect_integer("values a vertex", 1, scalar_remedy, "they are");
+  if (!in.at_line_end()) in.expect_integer("values per vertex", 1, scalar_remedy, "they are");
   in.skip_line();
   read_values(in, result);
   return result;
@@ -105,7 +105,8 @@ lattice::BackgroundSizes read_sizes(const std::filesystem::path& file) {
   const std::string ending = lower_ending(file);
   check_is_file(file);
   if (ending != ".sol" && ending != ".mtr")
-    throw InputError("no format of size functions has this ending", place_in(file.string()), "use one of .sol .mtr");
+    throw InputError("the ending of the name is not that of a size function", place_in(file.string()),
+                     "use one of .sol .mtr");
   lattice::BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
   sizes.name = file.string();
   return sizes;

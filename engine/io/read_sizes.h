@@ -6,16 +6,15 @@
 
 namespace ccdt::io {
 
-/// Reads a size function: the target edge length at each vertex of a background, which stands beside it under the same
-/// name but for the ending.
+/// Reads a size function: the target edge length at each vertex of a background, which has the same name with another
+/// ending.
 ///
-///     .sol  Medit, ASCII, one scalar a vertex: vertices and tetrahedra (if any) of the .mesh beside it
-///     .mtr  TetGen, one value a vertex: vertices of the .node, .poly or .smesh beside it, the first that there is;
+///     .sol  Medit, ASCII, one scalar per vertex: vertices and tetrahedra (if any) of the .mesh beside it
+///     .mtr  TetGen, one value per vertex: vertices of the .node, .poly or .smesh beside it, the first that there is;
 ///           tetrahedra of the .ele that belongs to the .node (if any)
 ///
-/// \throw InputError  unknown ending, unreadable, no background beside it, another number of vertices than that has,
-///                    not one scalar a vertex, a size that is not a number > 0; with file and line
-/// \throw LimitError  it does not fit into memory
+/// \throw InputError  unknown ending, unreadable, no background beside it, a wrong number of vertices, not one scalar
+/// per vertex, a size that is not a number > 0; with file and line \throw LimitError  it does not fit into memory
 lattice::BackgroundSizes read_sizes(const std::filesystem::path& file);
 
 }  // namespace ccdt::io

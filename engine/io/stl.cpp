@@ -2,6 +2,7 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include "engine/base/errors.h"
@@ -15,13 +16,13 @@ namespace {
 
 constexpr std::size_t header_size = 84, facet_size = 50, first_corner = 12, corner_size = 12;
 
-/// How many facets the header of a binary file claims.
+/// The number of facets in the header of a binary file.
 std::size_t claimed_facets(const FileBytes& file) {
   return number_at<std::uint32_t>(file.bytes.data() + 80);
 }
 
-/// Text begins with `solid` and has no control characters. A binary header may begin with `solid`, too, but a
-/// count or a coordinate soon has a byte that no text has.
+/// Text begins with `solid` and has no control characters. A binary header may also begin with `solid`, but a count or
+/// a coordinate soon contains a byte that text does not have.
 bool looks_like_text(const FileBytes& file) {
   std::string_view start = std::string_view(file.bytes).substr(0, 1024);
   for (const char c : start)
@@ -33,7 +34,7 @@ bool looks_like_text(const FileBytes& file) {
 bool has_binary_size(const FileBytes& file) {
   if (file.bytes.size() < header_size) return false;
   const std::size_t needed = header_size + facet_size * claimed_facets(file);
-  // Some writers pad the end; a whole facet more would be data that nobody reads.
+  // Some writers pad the end; a further facet would be lost data.
   return file.bytes.size() >= needed && file.bytes.size() - needed < facet_size;
 }
 
@@ -42,7 +43,7 @@ bool has_binary_size(const FileBytes& file) {
   const std::string remedy = "copy or export the file again";
   if (size < header_size)
     fail_at_byte(file, size,
-                 "the file is truncated, or no STL: " + std::to_string(size) +
+                 "the file is truncated, or not an STL file: " + std::to_string(size) +
                      " bytes, but a binary STL begins with a header of 84 bytes and a text STL with 'solid'",
                  remedy);
   const std::size_t count = claimed_facets(file), needed = header_size + facet_size * count;
@@ -54,23 +55,36 @@ bool has_binary_size(const FileBytes& file) {
   fail_at_byte(file, needed, claim + ": the rest would be lost", remedy);
 }
 
+using Corner = VertexMerger<float>::Corner;
+
+/// The three corners of a facet. \throw InputError  one of them is not finite
+void read_corners(const FileBytes& file, std::size_t facet, std::span<Corner, 3> corners) {
+  const std::size_t begin = header_size + facet * facet_size + first_corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = number_at<Corner>(file.bytes.data() + begin + k * corner_size);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(corners[k][axis]))
+        fail_at_byte(file, begin + k * corner_size + 4 * axis,
+                     "facet " + std::to_string(facet) + ": a coordinate is not a finite number (NaN or infinite)",
+                     "repair this facet, or export the file again", {static_cast<long long>(facet)});
+  }
+}
+
 plc::InputPlc read_binary(const FileBytes& file) {
+  constexpr std::size_t facets_at_once = 32;
   const std::size_t count = claimed_facets(file);
   plc::InputPlc plc;
-  plc.triangles.reserve(count);
-  VertexMerger merger(plc.vertices);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::size_t byte = header_size + i * facet_size + first_corner;
-    for (std::uint32_t& corner : plc.triangles.emplace_back()) {
-      const auto xyz = number_at<std::array<float, 3>>(file.bytes.data() + byte);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (!std::isfinite(xyz[axis]))
-          fail_at_byte(file, byte + 4 * axis,
-                       "facet " + std::to_string(i) + ": a coordinate is not a finite number (NaN or infinite)",
-                       "repair this facet, or export the file again", {static_cast<long long>(i)});
-      corner = merger.index_of({xyz[0], xyz[1], xyz[2]});
-      byte += corner_size;
-    }
+  plc.triangles.resize(count);
+  VertexMerger<float> merger(plc.vertices);
+  merger.reserve(count / 2);  // as a closed surface has, by Euler's formula
+  std::array<Corner, 3 * facets_at_once> corners;
+  std::array<std::uint32_t, 3 * facets_at_once> indices;
+  for (std::size_t first = 0; first < count; first += facets_at_once) {
+    const std::size_t facets = std::min(facets_at_once, count - first);
+    for (std::size_t i = 0; i < facets; ++i)
+      read_corners(file, first + i, std::span<Corner, 3>(corners.data() + 3 * i, 3));
+    merger.indices_of(std::span(corners.data(), 3 * facets), indices);
+    for (std::size_t i = 0; i < facets; ++i) std::copy_n(&indices[3 * i], 3, plc.triangles[first + i].begin());
   }
   return plc;
 }
@@ -102,7 +116,7 @@ std::string_view next_keyword(TextScanner& in, const Item& facet) {
 
 plc::InputPlc read_text(const FileBytes& file) {
   plc::InputPlc plc;
-  VertexMerger merger(plc.vertices);
+  VertexMerger<double> merger(plc.vertices);
   TextScanner in(file, TextScanner::no_comments);
   while (!in.at_end()) {
     expect(in, "start of a solid", "solid");
@@ -114,12 +128,12 @@ plc::InputPlc read_text(const FileBytes& file) {
       if (!equal_ignoring_case(keyword, "facet"))
         in.fail(facet, "expected 'facet' or 'endsolid', found " + in_quotes(keyword));
       expect(in, facet, "normal");
-      for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and nobody needs them
+      for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and are not needed
       expect(in, facet, "outer");
       expect(in, facet, "loop");
       for (std::uint32_t& corner : plc.triangles.emplace_back()) {
         expect(in, facet, "vertex");
-        corner = merger.index_of(in.point(facet));
+        corner = merger.index_of(as_array(in.point(facet)));
       }
       expect(in, facet, "endloop");
       expect(in, facet, "endfacet", next_keyword(in, facet));
@@ -138,7 +152,7 @@ Point3 unit_normal(const Point3& a, const Point3& b, const Point3& c) {
 }  // namespace
 
 plc::InputPlc read_stl(const FileBytes& file) {
-  if (has_binary_size(file)) return read_binary(file);  // also when its header begins with `solid`
+  if (has_binary_size(file)) return read_binary(file);  // even if its header begins with `solid`
   if (looks_like_text(file)) return read_text(file);
   fail_for_size(file);
 }

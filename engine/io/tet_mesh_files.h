@@ -6,20 +6,22 @@
 
 namespace ccdt::io {
 
-/// Is the ending one that `write_tet_mesh` knows? To be asked before hours of work.
+/// Can `write_tet_mesh` write files with this ending? Check it before hours of work.
 bool is_tet_mesh_file(const std::filesystem::path& file);
 
-/// Writes a mesh; the format is told by the ending: .mesh (Medit), .vtu (VTK), .msh (Gmsh), .node, .ele or .face
-/// (TetGen: all three and .edge are written). Coordinates are written so that they read back bit for bit. Regions, face
-/// and edge markers go through. The file appears whole or not at all.
+/// Writes a mesh; the ending determines the format: .mesh (Medit, text), .meshb (Medit, binary), .vtu (VTK,
+/// compressed), .msh (Gmsh 2.2, text), .msh4 (Gmsh 4.1, binary), .node, .ele or .face (TetGen: all three and .edge are
+/// written). Coordinates are written so that they read back bit for bit. Regions, face and edge markers are written
+/// too. The file appears completely or not at all.
 ///
 /// \throw OutputError  cannot be written, unknown ending
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
-/// Reads a mesh that any mesher wrote in one of these formats: Medit ASCII, .vtu uncompressed, .msh 2.x and 4.1 ASCII.
-/// Of TetGen's files .node and .ele must be there, .face and .edge may. Tetrahedra keep the order of their corners,
-/// right or wrong: `verify` is to see it. Each attribute array has one entry an element. `constrained_delaunay` is true
-/// only if our own writer left that claim in the file.
+/// Reads a mesh that any mesher wrote in one of these formats: Medit text, .meshb of the versions 1 to 4, .vtu in text,
+/// base64 or appended, compressed by zlib or not, and .msh 2.x and 4.1 in text and binary. Of TetGen's files, .node and
+/// .ele must exist; .face and .edge are optional. Tetrahedra keep the order of their corners, right or wrong, so that
+/// `verify` sees it. Each attribute array has one entry per element. `constrained_delaunay` is true only if our own
+/// writer left that claim in the file.
 ///
 /// \throw InputError  as `read_plc`
 mesh::TetMesh read_tet_mesh(const std::filesystem::path& file);

@@ -7,7 +7,7 @@ namespace ccdt::io {
 
 namespace {
 
-/// TetGen's files number the vertices from 0 or 1; indices in all lists count from there.
+/// TetGen's files number the vertices from 0 or 1, and all lists use these numbers.
 struct TetgenNodes {
   std::vector<Point3> vertices;
   std::int64_t first = 0;
@@ -18,7 +18,7 @@ TetgenNodes read_nodes(TextScanner& in) {
   TetgenNodes nodes;
   const std::size_t count = in.count("number of vertices", 8);
   if (!in.at_line_end()) in.expect_integer("dimension", 3, "give points in three dimensions");
-  in.skip_line();  // how many attributes and markers follow each point: both are skipped with the line
+  in.skip_line();  // the numbers of attributes and markers after each point; both are skipped with the line
   nodes.vertices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Item vertex{"vertex", i};
@@ -40,7 +40,7 @@ TetgenNodes read_nodes(const FileBytes& file) {
   return read_nodes(in);
 }
 
-/// The nodes stand in the file itself or, when their count is 0, in the .node file beside it.
+/// The nodes are in the file itself or, if their count is 0, in the .node file of the same name.
 TetgenNodes read_nodes_here_or_beside(const FileBytes& file, TextScanner& in) {
   TetgenNodes nodes = read_nodes(in);
   if (nodes.vertices.empty()) nodes = read_nodes(read_whole_file(sibling(file.name, ".node")));
@@ -76,7 +76,7 @@ void read_poly_facet(TextScanner& in, const TetgenNodes& nodes, bool has_markers
     facet.holes.push_back(in.point(item));
     in.skip_line();
   }
-  // Without an area there is no facet: segments, and vertices, which are in the list of nodes anyway.
+  // Without an area, there is no facet but only segments, and vertices that are in the list of nodes anyway.
   const bool has_area = std::ranges::any_of(facet.polygons, [](const auto& polygon) { return polygon.size() > 2; });
   if (!has_area || (facet.polygons.size() == 1 && facet.polygons[0].size() == 3 && holes == 0)) {
     for (const auto& polygon : facet.polygons) add_facet(plc, polygon, facet.marker, facet.number);
@@ -244,7 +244,7 @@ void write_smesh(const plc::InputPlc& plc, OutputFile& out) {
 }
 
 mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
-  check_is_file(file);  // the message should name what the user named
+  check_is_file(file);  // the message should name the file that the user gave
   TetgenNodes nodes = read_nodes(read_whole_file(sibling(file, ".node")));
   const FileBytes ele_file = read_whole_file(sibling(file, ".ele"));
   mesh::TetMesh mesh;

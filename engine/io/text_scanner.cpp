@@ -15,7 +15,7 @@ bool is_space(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits and one value means none
+constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits, and one value means none
 
 std::string expected(const std::string& what, std::string_view found) {
   return "expected " + what + ", found " + in_quotes(found);
@@ -31,7 +31,7 @@ std::optional<double> parse_number(std::string_view word) {
   double value = 0;
   const auto [stop, error] = std::from_chars(digits_begin(word), end, value);
   if (stop != end) return std::nullopt;
-  // Too large for a double or too small: strtod says which; from_chars has already seen that the form is right.
+  // The number is too large or too small for a double; strtod says which. from_chars has already accepted its form.
   if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
   if (error != std::errc()) return std::nullopt;
   return value;
@@ -188,7 +188,7 @@ std::size_t TextScanner::count(const Item& item, std::size_t least_bytes_each) {
   if (value < 0) fail(item, std::to_string(value) + " is negative");
   const std::size_t result = static_cast<std::size_t>(value);
   if (result > most_things) fail(item, std::to_string(value) + " is more than " + std::to_string(most_things));
-  if (result * least_bytes_each > remaining() + 1)  // the last one needs no line end
+  if (result * least_bytes_each > remaining() + 1)  // the last line needs no line end
     fail(item,
          std::to_string(value) + " claimed, which need at least " + std::to_string(result * least_bytes_each) +
              " bytes, but only " + std::to_string(remaining()) + " bytes follow",

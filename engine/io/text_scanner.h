@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace ccdt::io {
 
-/// What is being read, for messages: "vertex 17". Items of the kind "facet" also go into the place of the error.
+/// The item being read, for messages: "vertex 17". Items of the kind "facet" are also added to the place of the error.
 struct Item {
   std::string_view kind;
   std::int64_t number = -1;  ///< -1: none
@@ -26,10 +27,10 @@ struct Item {
   std::vector<long long> facets() const;
 };
 
-/// Walks over the words of a text. It knows no formats, but it knows where it is: all errors carry the file and the
-/// line, which is counted only when an error needs it.
+/// Reads the words of a text, for any format. All errors carry the file and the line, which is counted only when an
+/// error needs it.
 ///
-/// A line ends as `line_end_of` says.
+/// `line_end_of` determines the line ends.
 class TextScanner {
  public:
   static constexpr int no_comments = -1;
@@ -42,25 +43,25 @@ class TextScanner {
   /// A backslash at the end of a line joins it with the next one (as in OBJ).
   void join_lines_at_backslash() { joins_lines_ = true; }
 
-  /// Skips blanks, line ends and comments; is nothing left?
+  /// Skips blanks, line ends and comments. \return is nothing left?
   bool at_end();
-  /// Skips blanks; is nothing left on this line but a comment?
+  /// Skips blanks. \return is nothing left on this line except a comment?
   bool at_line_end();
   void skip_line();
-  /// The rest of the line without blanks around it; goes to the next line.
+  /// Returns the rest of the line, trimmed, and goes to the next line.
   std::string_view rest_of_line();
 
-  /// The next word, wherever it is. \throw InputError  the text ends
+  /// The next word, on any line. \throw InputError  the text ends
   std::string_view word(const Item& item);
   /// The next word without moving on; empty at the end.
   std::string_view peek();
-  /// Reads a word that must be this one.
+  /// Reads a word that must be equal to this.
   void expect(const Item& item, std::string_view word, const std::string& remedy);
 
   double number(const Item& item);  ///< finite
   Point3 point(const Item& item);
   std::int64_t integer(const Item& item);
-  /// Reads a whole number that must be this one. `it_is` begins the message.
+  /// Reads a whole number that must be equal to this. `it_is` begins the message.
   void expect_integer(const Item& item, std::int64_t expected, const std::string& remedy, const char* it_is = "it is");
   /// A whole number that fits an int; also written as "3.0".
   int attribute(const Item& item);
@@ -72,10 +73,11 @@ class TextScanner {
     for (std::uint32_t& corner : result) corner = index(item, first, count);
     return result;
   }
-  /// How many of something follow. Each needs at least so many bytes, which the rest of the file must have.
+  /// Reads the number of following items. Each needs at least this many bytes, which the rest of the file must have.
   std::size_t count(const Item& item, std::size_t least_bytes_each);
 
   std::size_t position() const { return position_; }
+  void move_to(std::size_t position) { position_ = word_begin_ = std::min(position, end_); }
   std::size_t remaining() const { return end_ - position_; }
   [[noreturn]] void fail(const Item& item, const std::string& what, const std::string& remedy = malformed_remedy) const;
   [[noreturn]] void fail_truncated(const Item& item) const;
@@ -95,7 +97,7 @@ class TextScanner {
   bool joins_lines_ = false;
 };
 
-/// The number that a word is, if it is one.
+/// The value of a word that is a number; none otherwise.
 template <std::integral Integer>
 std::optional<Integer> parse_whole(std::string_view word) {
   Integer value = 0;
@@ -106,7 +108,7 @@ std::optional<Integer> parse_whole(std::string_view word) {
 /// A word for a message: in quotes, shortened, unprintable characters replaced.
 std::string in_quotes(std::string_view word);
 
-/// Are the words equal but for upper and lower case?
+/// Are the words equal, ignoring case?
 bool equal_ignoring_case(std::string_view a, std::string_view lower);
 
 }  // namespace ccdt::io

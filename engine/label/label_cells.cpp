@@ -1,6 +1,7 @@
 #include "engine/label/label_cells.h"
 
 #include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
 
 namespace ccdt::label {
@@ -9,7 +10,7 @@ using delaunay::cell_of, delaunay::face_of, delaunay::ghost_vertex, delaunay::no
 
 namespace {
 
-/// Eight bits a cell: the faces that separate, set on both sides, and above them those that are open on this side.
+/// Eight bits per cell: the separating faces, set on both sides, and above them those that are open on this side.
 using FaceBits = std::vector<std::uint8_t>;
 
 CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint32_t cell) {
@@ -40,18 +41,31 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
   return bits;
 }
 
-/// The parts of the tetrahedralization between the walls. They grow in the order of the cells, which follows the
-/// memory; a flood would jump about in it.
+/// The parts of the tetrahedralization between the walls. They grow in the order of the cells in memory; a flood fill
+/// would jump around.
 UnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   UnionFind parts(d.cells.size());
-  for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
-    if (d.is_dead(cell)) continue;
-    std::uint32_t first = cell;
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t neighbor = cell_of(d.cells[cell].neighbors[f]);
-      if (neighbor < cell && !(bits[cell] >> f & 1u)) first = parts.join(first, neighbor);
+  // Each thread joins the cells of one run; what joins runs waits.
+  using Pair = std::array<std::uint32_t, 2>;
+  std::vector<std::vector<Pair>> waiting(thread_count());
+  parallel_for(waiting.size(), 1, [&](std::size_t run) {
+    const auto begin = static_cast<std::uint32_t>(d.cells.size() * run / waiting.size());
+    const auto end = static_cast<std::uint32_t>(d.cells.size() * (run + 1) / waiting.size());
+    for (std::uint32_t cell = begin; cell < end; ++cell) {
+      if (d.is_dead(cell)) continue;
+      std::uint32_t first = cell;
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const std::uint32_t neighbor = cell_of(d.cells[cell].neighbors[f]);
+        if (neighbor >= cell || (bits[cell] >> f & 1u)) continue;
+        if (neighbor >= begin)
+          first = parts.join(first, neighbor);
+        else
+          waiting[run].push_back({cell, neighbor});
+      }
     }
-  }
+  });
+  for (const auto& pairs : waiting)
+    for (const auto& [cell, neighbor] : pairs) parts.join(cell, neighbor);
   return parts;
 }
 

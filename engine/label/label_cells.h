@@ -20,7 +20,7 @@ struct CellLabels {
 
 /// Labels the Delaunay cells of the domain with their region (paper, section 5.2, step 5): all that are connected to
 /// the open faces of the front, on the upper side, without crossing a face of the front or of the PLC. Holes, regions
-/// and slits need no more care: they follow from the regions of the facets' sides.
+/// and slits need no special treatment: they follow from the regions on the sides of the facets.
 ///
 /// \param wall_codes  the Delaunay faces of the PLC, as the cell above calls them; `no_neighbor` entries are skipped
 CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& delaunay,

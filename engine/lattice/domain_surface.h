@@ -9,7 +9,7 @@
 
 namespace ccdt::lattice {
 
-/// A triangle of a facet, counterclockwise seen from above, and what is on its two sides.
+/// A triangle of a facet, counterclockwise as seen from above, and its two sides.
 struct SurfaceTriangle {
   std::array<VertexId, 3> vertices;
   bool inside_above = false, inside_below = false;  ///< does the domain lie there?
@@ -18,7 +18,7 @@ struct SurfaceTriangle {
 /// The corners of a triangle.
 using TrianglePoints = std::array<Point3, 3>;
 
-/// The surface that the lattice must stay clear of: views of what the caller has.
+/// The surface from which the lattice must keep away: views of the caller's data.
 struct DomainSurface {
   std::span<const Point3> vertices;
   std::span<const SurfaceTriangle> triangles;

@@ -45,7 +45,7 @@ struct Ray {
   Point3 start, end;
 };
 
-/// Where a ray hits a triangle, as a fraction of the ray, and how far that number may be off.
+/// Where a ray hits a triangle, as a fraction of the ray, and the error bound of this number.
 struct Hit {
   double fraction = 0, error = 0;
   bool inside = false;  ///< the flag of the side that faces the start
@@ -171,7 +171,7 @@ bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point)
 
 std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const DomainSurface& surface,
                                       std::span<const std::uint32_t> nearby) {
-  // A second round looks a little aside of each target.
+  // A second round aims a little beside each target.
   constexpr double aside[] = {0, 0.11, 0.23};
   constexpr std::size_t most_targets = 40;
   std::vector<Hit> hits;

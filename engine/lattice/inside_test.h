@@ -13,7 +13,7 @@ namespace ccdt::lattice {
 ///
 /// A ray is sent from the point to a triangle within the box; the flag of the visible side of the nearest triangle that
 /// it hits is the answer. Exact (`orient3d`): a ray that touches an edge or a vertex, or whose nearest hits cannot be
-/// told apart, is given up for another.
+/// told apart, is replaced by another.
 ///
 /// \param p      integer coordinates; in the box
 /// \param box    integer coordinates

@@ -9,6 +9,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
+#include "engine/base/sort_in_runs.h"
 #include "engine/lattice/inside_test.h"
 
 namespace ccdt::lattice {
@@ -58,7 +59,7 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
 class TouchTest {
  public:
   /// \param half  of the sides of the boxes
-  /// \param reach no coordinate of a corner is farther than this from the center of any box that is asked for
+  /// \param reach bound on the coordinates of corners relative to the centers of all tested boxes
   TouchTest(const TrianglePoints& triangle, const Point3& half, double reach);
 
   /// False only if the triangle and the box with this center are certainly apart though their bounding boxes overlap.
@@ -85,7 +86,7 @@ TouchTest::TouchTest(const TrianglePoints& triangle, const Point3& half, double 
   double longest = 0;
   for (const Point3& edge : {ab, bc, ca})
     for (const double c : as_array(edge)) longest = std::max(longest, std::abs(c));
-  // The boxes grow by a margin, so that rounding can only make us say that they touch.
+  // The boxes grow by a margin, so that rounding can only turn "apart" into "touching".
   const auto grown = [&](double h) { return h * (1 + 1e-9) + 1e-12 * reach; };
   const Point3 size{grown(half.x), grown(half.y), grown(half.z)};
   std::size_t count = 0;
@@ -111,7 +112,7 @@ Octree make_root(const DomainSurface& surface, const SizeField& size, Lattice ki
   tree.bounds = bounding_box(surface.vertices);
   const auto extent = as_array(tree.bounds.high - tree.bounds.low);
   const double reach = *std::ranges::max_element(extent);
-  // Half a cell, and half a box while a place is looked for, must be whole grid units: no cell below 2^4.
+  // Half a cell, and half a box during a search, must be whole grid units: no cell is below 2^4.
   constexpr int lowest_bit = 4;
   const double cell = std::max(round_to_few_bits(cell_side(kind, size.reference())), std::ldexp(1.0, lowest_bit + 8));
   double side = cell;
@@ -149,7 +150,7 @@ class Builder {
     }
   }
 
-  /// The neighbors of a split node must exist at its level: else a leaf would meet one that is two levels coarser.
+  /// The neighbors of a split node must exist at its level; otherwise a leaf would meet one that is two levels coarser.
   void balance() {
     std::vector<std::vector<std::uint32_t>> split_nodes(tree_.depth + 1);
     for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
@@ -171,7 +172,7 @@ class Builder {
   }
 
  private:
-  /// Splits what is needed for a node with this corner to exist at the level.
+  /// Splits nodes until one with this corner exists at the level.
   void require(const std::array<std::uint32_t, 3>& corner, unsigned level,
                std::vector<std::vector<std::uint32_t>>& split_nodes) {
     if (std::ranges::max(corner) >= tree_.side(tree_.nodes[0])) return;
@@ -189,7 +190,7 @@ class Builder {
     constexpr std::size_t most_nodes = std::size_t{1} << 31;
     if (tree_.nodes.size() > most_nodes)
       throw LimitError("the octree of the interior points needs more than 2^31 nodes", {},
-                       "ask for a greater edge length or a greater grading");
+                       "use a greater edge length or a greater grading");
     const OctreeNode parent = tree_.nodes[parent_index];
     const auto first_child = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes[parent_index].first_child = first_child;
@@ -316,7 +317,7 @@ bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p
     return is_inside_by_rays(p, intersection(tree.box(n), tree.bounds), surface, tree.triangles_of(n));
   };
   if (const auto answer = answer_in(node)) return *answer;
-  // Triangles are handed down with a margin, so none may be in the box itself. The boxes around it have more.
+  // Triangles are passed down with a margin, so the box itself may contain none. The boxes around it contain more.
   std::vector<std::uint32_t> path = {0};
   while (tree.nodes[path.back()].level < node.level)
     path.push_back(tree.child_at(tree.nodes[path.back()], node.corner));
@@ -348,7 +349,8 @@ std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
       if (strictly_contains(tree.bounds, tree.point(c))) sites.push_back(site_at(c));
     }
   }
-  boost::sort::spreadsort::integer_sort(sites.begin(), sites.end());
+  sort_in_runs(
+      sites, [](auto first, auto last) { boost::sort::spreadsort::integer_sort(first, last); }, std::less<>());
   const auto repeated = std::ranges::unique(sites);
   sites.erase(repeated.begin(), repeated.end());
   return sites;

@@ -26,12 +26,12 @@ double cell_side(Lattice kind, double edge_length);
 /// The inverse of `cell_side`.
 double edge_length_of_cell(Lattice kind, double side);
 
-/// The nearest number that has at most 8 significant bits: a change below 0.4 per cent. Lattice points are small
+/// The nearest number that has at most 8 significant bits: a change below 0.4 percent. Lattice points are small
 /// multiples of half a cell, so they share all trailing zero bits below these; powers of two alone would miss the
-/// wanted size by up to 41 per cent.
+/// wanted size by up to 41 percent.
 double round_to_few_bits(double positive);
 
-/// Where a node lies: touched by the surface, or wholly on one side of it.
+/// The place of a node: touched by the surface, or entirely on one side of it.
 enum class NodePlace : std::uint8_t { outside, surface, inside };
 
 struct OctreeNode {
@@ -46,7 +46,7 @@ struct OctreeNode {
 };
 
 /// An octree whose leaves are lattice cells (paper, section 3). Nodes outside the domain are never split. Levels of
-/// leaves that meet, be it in a corner only, differ by one at most, except at leaves that are outside.
+/// leaves that meet, even if only in a corner, differ by at most one, except at leaves that are outside.
 ///
 /// An *octree unit* is half the side of the finest leaf that is possible, so every lattice point has whole octree
 /// units.
@@ -79,14 +79,14 @@ struct Octree {
   }
 };
 
-/// Builds the octree whose leaves have the cell side that the size asks for, within a factor of sqrt(2); where the size
-/// is the reference of the size field, within 0.4 per cent.
+/// Builds the octree whose leaves have the cell side for the wanted size within a factor of sqrt(2), and within 0.4
+/// percent where that is the reference size.
 ///
 /// \throw LimitError  more leaves than a program can index
 Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice kind);
 
-/// Is a point of a node on the surface strictly inside the domain? Exact; if no ray in the whole tree decides, the
-/// answer is no: a point may be missing then, but none is wrong.
+/// Is a point of a node on the surface strictly inside the domain? Exact. If no ray in the whole tree decides, the
+/// answer is no: then a point may be missing, but none is wrong.
 bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node);
 
 /// A point of the lattice that may become a vertex: the Morton code of its octree coordinates.

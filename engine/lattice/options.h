@@ -10,7 +10,7 @@
 
 namespace ccdt::lattice {
 
-/// The crystal whose points fill the inside.
+/// The crystal lattice whose points fill the inside.
 enum class Lattice { none, fcc, bcc, sc };
 
 constexpr auto names_of(Lattice) {
@@ -40,8 +40,8 @@ struct LatticeOptions {
   Lattice kind = Lattice::fcc;
   double edge_length = 0;  ///< target edge length in grid units; 0: that of the surface
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  /// Factor of the radii of the smallest spheres through surface triangles and subsegments, which no point may be in; 1
-  /// is the paper's rule, 0 switches it off.
+  /// Factor of the radii of the smallest spheres through surface triangles and subsegments, in which no point may lie;
+  /// 1 is the paper's rule, 0 switches it off.
   double sphere_factor = 1;
   double clearance = usual_clearance;           ///< least distance to the surface, in edge lengths of the lattice there
   const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none

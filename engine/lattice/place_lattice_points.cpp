@@ -7,11 +7,14 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/index_lists.h"
+#include "engine/base/morton.h"
+#include "engine/base/parallel.h"
 
 namespace ccdt::lattice {
 
 // The usual clearance was measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of
-// 5120 triangles, uniform; in per cent the cells with a dihedral angle below 20 degrees, and the mean of the paper's r:
+// 5120 triangles, uniform; the percentage of cells with a dihedral angle below 20 degrees, and the mean of the paper's
+// r:
 //
 //     clearance    0      0.4    0.5    0.55   0.6    0.65   0.7    0.8
 //     fcc, < 20    1.18   1.18   0.97   0.73   0.75   0.73   0.93   1.03
@@ -19,8 +22,8 @@ namespace ccdt::lattice {
 //     bcc, < 20    0.97   0.56   0.39   0.39   0.43   0.52   0.65   0.76
 //     bcc, r       1.245  1.214  1.176  1.175  1.182  1.196  1.204  1.205
 //
-// A scanned surface of uneven triangles has its best values from 0.55 to 0.65, a cube with a grid on its faces does not
-// care.
+// A scanned surface of uneven triangles has its best values from 0.55 to 0.65; for a cube with a grid on its faces it
+// makes no difference.
 
 namespace {
 
@@ -80,7 +83,7 @@ struct Range {
   std::array<std::uint32_t, 3> low, high;
 };
 
-/// What lattice points must stay away from: a triangle, or a subsegment or a vertex as a degenerate one.
+/// An obstacle for lattice points: a triangle, or a subsegment or vertex as a degenerate triangle.
 struct Obstacle {
   std::array<VertexId, 3> vertices;
   bool needs_clearance = true;
@@ -147,7 +150,7 @@ class ObstacleList {
     obstacles_.push_back(o);
   }
 
-  /// Of all points in a box, and a little more.
+  /// A bounding box, slightly enlarged.
   Range range(const Box& box) const {
     const auto low = as_array(box.low - tree_.origin), high = as_array(box.high - tree_.origin);
     constexpr double most = std::uint32_t{1} << (Octree::bits + 1);
@@ -165,7 +168,7 @@ class ObstacleList {
   std::vector<Obstacle> obstacles_;
 };
 
-/// Hands the obstacles down the octree, to the leaves whose sites they may clear.
+/// Passes the obstacles down the octree to the leaves whose sites they may remove.
 class Clearing {
  public:
   Clearing(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
@@ -185,12 +188,18 @@ class Clearing {
     find_sites(0, 0);
   }
 
-  std::vector<bool> clear() {
+  std::vector<std::uint8_t> clear() {
     for (const Obstacle& o : obstacles_)
       largest_squared_ball_radius_ = std::max(largest_squared_ball_radius_, o.squared_ball_radius);
-    reaching_ = all_indices(obstacles_.size());
-    descend(0, 0, reaching_.size());
-    note_bytes(bytes_of(tree_.nodes, tree_.triangles, sites_, obstacles_, nodes_) + sites_.size() / 8);
+    Descent top{all_indices(obstacles_.size())};
+    std::vector<Subtree> subtrees;
+    if (thread_count() > 1) top.subtrees = &subtrees, top.most_sites = sites_.size() / (8 * thread_count());
+    descend(0, 0, obstacles_.size(), top);
+    parallel_for(subtrees.size(), 1, [&](std::size_t i) {
+      Descent descent{std::move(subtrees[i].reaching)};
+      descend(subtrees[i].node, 0, descent.reaching.size(), descent);
+    });
+    note_bytes(bytes_of(tree_.nodes, tree_.triangles, sites_, obstacles_, nodes_, stays_));
     return std::move(stays_);
   }
 
@@ -199,6 +208,24 @@ class Clearing {
   struct NodeSites {
     std::uint32_t begin = 0, end = 0;
     std::uint8_t coarsest = 0;  ///< the level of the coarsest leaf in the node that has any
+  };
+  struct PlacedSite {
+    Point3 point;
+    std::uint32_t number;
+  };
+  /// A node and the obstacles that reach it.
+  struct Subtree {
+    std::uint32_t node;
+    std::vector<std::uint32_t> reaching;
+  };
+  /// The working memory of a descent.
+  struct Descent {
+    // Of the node that is at work, of all that it is in before them, and more room behind:
+    std::vector<std::uint32_t> reaching;
+    std::vector<std::uint8_t> children_in_reach = {};  ///< of each that is reaching
+    std::vector<PlacedSite> left = {};                 ///< of a leaf
+    std::vector<Subtree>* subtrees = nullptr;          ///< if any, gets the nodes with few sites instead of going there
+    std::size_t most_sites = 0;                        ///< that are few
   };
   struct Clearance {
     double squared_radius;
@@ -226,32 +253,39 @@ class Clearing {
     return here.end;
   }
 
-  /// \param first,last  the part of `reaching_` that holds the obstacles that reach node i
-  void descend(std::uint32_t i, std::size_t first, std::size_t last) {
+  /// \param first,last  the part of `descent.reaching` that holds the obstacles that reach node i
+  void descend(std::uint32_t i, std::size_t first, std::size_t last, Descent& descent) {
     ++work_done.octree_nodes;
     const OctreeNode& node = tree_.nodes[i];
     const NodeSites& here = nodes_[i];
     if (first == last || here.begin == here.end) return;
+    std::vector<std::uint32_t>& reaching = descent.reaching;
+    const std::span those = std::span(reaching).subspan(first, last - first);
+    if (descent.subtrees != nullptr && here.end - here.begin <= descent.most_sites) {
+      --work_done.octree_nodes;  // it is counted when the subtree is gone through
+      descent.subtrees->push_back({i, {those.begin(), those.end()}});
+      return;
+    }
     if (node.is_leaf()) {
-      clear_leaf(node, here, std::span(reaching_).subspan(first, last - first));
+      clear_leaf(node, here, those, descent.left);
       return;
     }
-    if (is_covered(node, std::span(reaching_).subspan(first, last - first))) {
-      std::fill(stays_.begin() + here.begin, stays_.begin() + here.end, false);
+    if (is_covered(node, those)) {
+      std::fill(stays_.begin() + here.begin, stays_.begin() + here.end, std::uint8_t{false});
       return;
     }
-    if (reaching_.size() < 2 * last - first) reaching_.resize(2 * (2 * last - first));
-    if (children_in_reach_.size() < last) children_in_reach_.resize(2 * last);
-    for (std::size_t k = first; k < last; ++k)
-      children_in_reach_[k] = children_in_reach(node, here, obstacles_[reaching_[k]]);
+    std::vector<std::uint8_t>& children = descent.children_in_reach;
+    if (reaching.size() < 2 * last - first) reaching.resize(2 * (2 * last - first));
+    if (children.size() < last) children.resize(2 * last);
+    for (std::size_t k = first; k < last; ++k) children[k] = children_in_reach(node, here, obstacles_[reaching[k]]);
     for (std::uint32_t c = 0; c < 8; ++c) {
-      // Whether an obstacle reaches a child is as good as random: no branch.
+      // It is unpredictable whether an obstacle reaches a child, so there is no branch.
       std::size_t end = last;
       for (std::size_t k = first; k < last; ++k) {
-        reaching_[end] = reaching_[k];
-        end += children_in_reach_[k] >> c & 1u;
+        reaching[end] = reaching[k];
+        end += children[k] >> c & 1u;
       }
-      descend(node.first_child + c, last, end);
+      descend(node.first_child + c, last, end, descent);
     }
   }
 
@@ -279,8 +313,9 @@ class Clearing {
     return static_cast<std::uint8_t>(children);
   }
 
-  void clear_leaf(const OctreeNode& leaf, const NodeSites& here, std::span<const std::uint32_t> reaching) {
-    left_.clear();
+  void clear_leaf(const OctreeNode& leaf, const NodeSites& here, std::span<const std::uint32_t> reaching,
+                  std::vector<PlacedSite>& left) {
+    left.clear();
     std::uint64_t balls = 0;
     for (std::uint32_t s = here.begin; s < here.end; ++s) {
       const Point3 p = tree_.point(coordinates_of(sites_[s]));
@@ -291,13 +326,13 @@ class Clearing {
       if (covering != reaching.end())
         stays_[s] = false;
       else
-        left_.push_back({p, s});
+        left.push_back({p, s});
     }
     work_done.sites_tested += here.end - here.begin;
     work_done.obstacles_tested += balls;
-    for (std::size_t k = 0; k < reaching.size() && !left_.empty(); ++k) {
+    for (std::size_t k = 0; k < reaching.size() && !left.empty(); ++k) {
       const Obstacle& o = obstacles_[reaching[k]];
-      if (o.needs_clearance && is_near(leaf, o)) clear_around(o, clearance_[leaf.level].squared_radius);
+      if (o.needs_clearance && is_near(leaf, o)) clear_around(o, clearance_[leaf.level].squared_radius, left);
     }
   }
 
@@ -309,21 +344,16 @@ class Clearing {
     return true;
   }
 
-  void clear_around(const Obstacle& o, double squared_radius) {
+  void clear_around(const Obstacle& o, double squared_radius, std::vector<PlacedSite>& left) {
     const auto& [a, b, c] = o.vertices;
     const TriangleDistance distance({surface_.vertices[a], surface_.vertices[b], surface_.vertices[c]});
-    work_done.obstacles_tested += left_.size();
-    std::erase_if(left_, [&](const PlacedSite& site) {
+    work_done.obstacles_tested += left.size();
+    std::erase_if(left, [&](const PlacedSite& site) {
       const bool goes = distance.is_below(squared_radius, site.point);
       if (goes) stays_[site.number] = false;
       return goes;
     });
   }
-
-  struct PlacedSite {
-    Point3 point;
-    std::uint32_t number;
-  };
 
   const Octree& tree_;
   const DomainSurface& surface_;
@@ -331,29 +361,26 @@ class Clearing {
   std::vector<Obstacle> obstacles_;
   std::vector<NodeSites> nodes_;
   std::vector<Clearance> clearance_;  ///< by level
-  std::vector<bool> stays_;
+  std::vector<std::uint8_t> stays_;   ///< by site; each leaf has its own
   double largest_squared_ball_radius_ = -1;
-  // Of the node that is at work, of all that it is in before them, and more room behind:
-  std::vector<std::uint32_t> reaching_;
-  std::vector<std::uint8_t> children_in_reach_;  ///< of each that is reaching
-  std::vector<PlacedSite> left_;                 ///< of a leaf
 };
 
 }  // namespace
 
-std::vector<bool> find_clear_sites(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
-                                   const LatticeOptions& options) {
+std::vector<std::uint8_t> find_clear_sites(const Octree& tree, const DomainSurface& surface,
+                                           const std::vector<Site>& sites, const LatticeOptions& options) {
   return Clearing(tree, surface, sites, options).clear();
 }
 
 namespace {
 
 constexpr std::string_view stage = "lattice";
+constexpr std::uint8_t outside = 0xFF;          ///< instead of a level
 constexpr double most_vertices = 4294967295.0;  ///< ids of 32 bits, of which one means none
 
 [[noreturn]] void throw_too_many_points() {
-  throw LimitError("the edge length asks for more than 2^32 - 1 vertices", {},
-                   "ask for a greater edge length, or greater sizes; they are in the units of the input");
+  throw LimitError("the edge length needs more than 2^32 - 1 vertices", {},
+                   "use a greater edge length or greater sizes; they are in the units of the input");
 }
 
 /// By the divergence theorem.
@@ -370,18 +397,62 @@ double volume_inside(const DomainSurface& surface) {
   return volume;
 }
 
-/// Before memory is asked for. The lattice is nowhere coarser than the greatest target.
+/// Checked before memory is allocated. The lattice is nowhere coarser than the greatest target.
 void check_number(const DomainSurface& surface, const SizeField& size) {
   const double largest = size.largest(),
                points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
   if (points > most_vertices) throw_too_many_points();
 }
 
+/// Are all leaves around an inner one inner leaves of its level?
+bool is_in_one_level(const Octree& tree, const OctreeNode& leaf) {
+  for (std::uint32_t i = 0; i < 27; ++i) {
+    const std::array<std::uint32_t, 3> step = {i % 3, i / 3 % 3, i / 9};
+    std::array<std::uint32_t, 3> corner;
+    // Below 0 wraps around to a large number.
+    for (int k = 0; k < 3; ++k) corner[k] = leaf.corner[k] + (step[k] - 1) * tree.side(leaf);
+    if (std::ranges::max(corner) >= tree.side(tree.nodes[0])) return false;
+    const OctreeNode& other = tree.leaf_at(corner);
+    if (other.level != leaf.level || other.place != NodePlace::inside) return false;
+  }
+  return true;
+}
+
+double share_in_one_level(const Octree& tree) {
+  constexpr std::uint32_t every = 16;
+  std::uint32_t leaves = 0, sampled = 0, in_one_level = 0;
+  for (const OctreeNode& node : tree.nodes) {
+    if (!node.is_leaf() || node.place != NodePlace::inside || leaves++ % every != 0) continue;
+    ++sampled;
+    in_one_level += is_in_one_level(tree, node);
+  }
+  return sampled == 0 ? 0 : static_cast<double>(in_one_level) / sampled;
+}
+
+/// Things with corners among the vertices along a space-filling curve, so that what is near to each other in space is
+/// so in memory. Each is at the sum of its corners.
+template <class Thing, class Corners>
+std::vector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<const Thing> things,
+                                   const Corners& corners_of) {
+  std::vector<Point3> places(things.size());
+  for (std::size_t i = 0; i < things.size(); ++i)
+    for (const VertexId v : corners_of(things[i])) places[i] = places[i] + vertices[v];
+  std::vector<Thing> sorted;
+  sorted.reserve(things.size());
+  for (const std::uint32_t i : morton_order(places)) sorted.push_back(things[i]);
+  return sorted;
+}
+
 }  // namespace
 
-LatticePoints place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
+LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress) {
-  if (options.kind == Lattice::none || surface.triangles.empty()) return {};
+  if (options.kind == Lattice::none || any_order.triangles.empty()) return {};
+  const std::vector<SurfaceTriangle> triangles =
+      in_morton_order(any_order.vertices, any_order.triangles, [](const SurfaceTriangle& t) { return t.vertices; });
+  const std::vector<std::array<VertexId, 2>> subsegments =
+      in_morton_order(any_order.vertices, any_order.subsegments, [](const std::array<VertexId, 2>& s) { return s; });
+  const DomainSurface surface{any_order.vertices, triangles, subsegments};
   constexpr std::uint64_t steps = 4;
   report(progress, stage, 0, steps);
   const SizeField size(surface, options.edge_length, options.grading, options.background);
@@ -390,19 +461,23 @@ LatticePoints place_lattice_points(const DomainSurface& surface, const LatticeOp
   report(progress, stage, 1, steps);
   const std::vector<Site> sites = list_sites(tree, options.kind);
   report(progress, stage, 2, steps);
-  const std::vector<bool> stays = find_clear_sites(tree, surface, sites, options);
+  const std::vector<std::uint8_t> stays = find_clear_sites(tree, surface, sites, options);
   report(progress, stage, 3, steps);
 
-  LatticePoints result{{}, {}, options.kind, tree.origin, tree.unit, tree.depth};
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (!stays[i]) continue;
+  LatticePoints result{{}, {}, options.kind, tree.origin, tree.unit, tree.depth, share_in_one_level(tree)};
+  std::vector<std::uint8_t> levels(sites.size(), outside);
+  parallel_for(sites.size(), 1024, [&](std::size_t i) {
+    if (!stays[i]) return;
     const auto coordinates = coordinates_of(sites[i]);
     const OctreeNode& leaf = tree.leaf_at(coordinates);
-    if (leaf.place == NodePlace::outside) continue;
-    const Point3 p = tree.point(coordinates);
-    if (leaf.place != NodePlace::inside && !is_inside(tree, surface, p, leaf)) continue;
-    result.points.push_back(p);
-    result.levels.push_back(leaf.level);
+    if (leaf.place == NodePlace::outside) return;
+    if (leaf.place == NodePlace::inside || is_inside(tree, surface, tree.point(coordinates), leaf))
+      levels[i] = leaf.level;
+  });
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (levels[i] == outside) continue;
+    result.points.push_back(tree.point(coordinates_of(sites[i])));
+    result.levels.push_back(levels[i]);
   }
   if (static_cast<double>(surface.vertices.size() + result.points.size()) > most_vertices) throw_too_many_points();
   report(progress, stage, steps, steps);

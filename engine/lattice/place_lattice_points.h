@@ -8,7 +8,7 @@
 
 namespace ccdt::lattice {
 
-/// Interior points, and where they lie on the lattices of an octree.
+/// Interior points, and their places in the lattices of an octree.
 struct LatticePoints {
   std::vector<Point3> points;        ///< in grid units
   std::vector<std::uint8_t> levels;  ///< of each point: the level of the leaf that holds it
@@ -16,6 +16,8 @@ struct LatticePoints {
   Point3 origin;       ///< of the octree; a point is this plus whole octree units
   double unit = 1;     ///< one octree unit in grid units
   unsigned depth = 0;  ///< the sides of the leaves of a level are 2^(depth - level + 1) octree units
+  /// The share of the inner leaves that have only inner leaves of their own level around them. Estimated from a sample.
+  double share_in_one_level = 0;
 };
 
 /// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
@@ -23,25 +25,20 @@ struct LatticePoints {
 /// subsegment, and at least about half an edge length away from all triangles, subsegments and vertices (the two
 /// distances are options). In Morton order of the octree; the same for any order of the triangles.
 ///
-/// With a grading, the target edge length at x is the least of `edge_length` (if any) and, over the surface, of
-/// (mean edge length there + grading * distance). Leaves halve from level to level, so the lattice has it within a
-/// factor of sqrt(2), and within 0.4 per cent where it is `edge_length` or, if that is 0, the mean edge length of the
-/// surface. Without a grading all leaves are of that one size. For the constants of the lattices see octree.h.
+/// With a grading, the target edge length at x is the least of `edge_length` (if any) and, over the surface, of (mean
+/// edge length there + grading * distance). Leaves halve from level to level, so the lattice matches it within a factor
+/// of sqrt(2), and within 0.4 percent where it is `edge_length` or, if that is 0, the mean edge length of the surface.
+/// Without a grading, all leaves have that size. For the constants of the lattices see octree.h.
 ///
-/// With a background its sizes take the place of the surface's edge lengths. If it has tetrahedra, the target is linear
-/// in each, and outside that of the nearest vertex; the grading plays no part. If it has vertices alone, the target is
-/// the least over these of (size + grading * distance). Either way `edge_length`, if given, is an upper bound.
+/// With a background, its sizes replace the edge lengths of the surface. If it has tetrahedra, the target is linear in
+/// each, and outside that of the nearest vertex; the grading plays no part. If it has only vertices, the target is the
+/// least over these of (size + grading * distance). Either way `edge_length`, if given, is an upper bound.
 ///
-/// \param surface     in grid units; its subsegments protect the segments, also those that no triangle has
+/// \param any_order   the surface in grid units, its triangles in any order; its subsegments protect the segments, also
+///                    those that no triangle has
 /// \throw LimitError  more points than vertex ids
-LatticePoints place_lattice_points(const DomainSurface& surface, const LatticeOptions& options,
+LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress = {});
-
-/// A ball that must hold no lattice point.
-struct Ball {
-  Point3 center;
-  double radius;
-};
 
 /// The smallest ball around a triangle (the paper's minimal circumsphere), slightly enlarged, so that a point on the
 /// sphere is in it.
@@ -58,7 +55,7 @@ double squared_distance(const TrianglePoints& triangle, const Point3& p);
 ///
 /// \param sites  of the tree, in Morton order
 /// \return       for each site: does it stay?
-std::vector<bool> find_clear_sites(const Octree& tree, const DomainSurface& surface, const std::vector<Site>& sites,
-                                   const LatticeOptions& options);
+std::vector<std::uint8_t> find_clear_sites(const Octree& tree, const DomainSurface& surface,
+                                           const std::vector<Site>& sites, const LatticeOptions& options);
 
 }  // namespace ccdt::lattice

@@ -22,7 +22,7 @@ struct Part {
   double least(double a, double b) const { return std::min(a + from * (b - a), a + to * (b - a)); }
 };
 
-/// How far a point is within the six planes of a box.
+/// The distance of a point from the six planes of a box, positive inside.
 std::array<double, 6> depths(const Box& box, const Point3& p) {
   return {p.x - box.low.x, p.y - box.low.y, p.z - box.low.z, box.high.x - p.x, box.high.y - p.y, box.high.z - p.z};
 }
@@ -71,7 +71,7 @@ struct Weighted {
   double size, weight;
 };
 
-/// How many points ask for each size, up to a factor: those of a tetrahedron, or one a vertex.
+/// The number of points that need each size, up to a factor: those of a tetrahedron, or one per vertex.
 std::vector<Weighted> weigh_sizes(const BackgroundSizes& background, double largest) {
   std::vector<Weighted> sizes;
   for (const auto& [a, b, c, d] : background.tetrahedra) {
@@ -198,7 +198,7 @@ bool InterpolatedSizes::is_below(const Box& box, double bound) const {
   return !meets && is_below_outside(box, bound);
 }
 
-/// No vertex is nearest to any point of the box that is farther from all of it than another is at most.
+/// A vertex whose least distance to the box exceeds the greatest distance of another is nearest to no point of the box.
 bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
   double farthest = HUGE_VAL;
   const auto distance = [&](const Box& other, double) { return squared_distance(other, box); };

@@ -29,14 +29,14 @@ class SizeTree {
 
   bool empty() const { return items_.empty(); }
 
-  /// Does `holds(item)` for any item? Asks only those whose `lower(box, size)` is below the bound, which `holds` may
-  /// lower as it goes.
+  /// Is `holds(item)` true for any item? Tests only those whose `lower(box, size)` is below the bound, which `holds`
+  /// may lower.
   ///
   /// \param lower  does not grow when the box or the size grows smaller within those of the items that it stands for
   template <class Lower, class Holds>
   bool any(const double& bound, const Lower& lower, const Holds& holds) const {
     if (items_.empty() || lower(groups_[0].box, groups_[0].size) >= bound) return false;
-    std::array<Visit, 64> stack;  // two a level of the tree at most
+    std::array<Visit, 64> stack;  // at most two per level of the tree
     std::size_t height = 0;
     stack[height++] = {0, 0, items_.size(), lower(groups_[0].box, groups_[0].size)};
     while (height > 0) {
@@ -84,7 +84,7 @@ class InterpolatedSizes {
   /// \param background  must outlive this
   explicit InterpolatedSizes(const BackgroundSizes& background);
 
-  /// Is the size below `bound` anywhere in the box? Of a box that is only partly in the mesh, that part is asked.
+  /// Is the size below `bound` anywhere in the box? Only the part of the box inside the mesh counts, if there is one.
   bool is_below(const Box& box, double bound) const;
 
  private:
@@ -112,8 +112,8 @@ class SizeField {
   SizeField(const DomainSurface& surface, double edge_length, double grading,
             const BackgroundSizes* background = nullptr);
 
-  /// The edge length that most of the mesh should have: as the user gave it, or the mean of the surface, or the median
-  /// of the background (of as many points as a mesh of these sizes has).
+  /// The edge length of most of the mesh: that of the user, or the mean of the surface, or the median of the background
+  /// (weighted by the points of a mesh of these sizes).
   double reference() const { return reference_; }
   /// The target is nowhere above this; may be infinite.
   double largest() const { return largest_; }

@@ -10,14 +10,14 @@
 
 namespace ccdt::locate {
 
-/// A vertex as a locator holds it: copied, so that those near each other are near each other in memory.
+/// A vertex in a locator: a copy, so that nearby vertices are near each other in memory.
 struct LocatedVertex {
   Point3 point;
   std::uint32_t rank, id;
 };
 
-/// Where the search for the apex of a face still looks: points above the plane of the face and in a ball that shrinks
-/// with every better vertex. In floating point, a little too large, never too small.
+/// The search region for the apex of a face: the points above the plane of the face in a ball that shrinks with every
+/// better vertex. In floating point: slightly too large, never too small.
 class Cap {
  public:
   /// Everything above the triangle abc.
@@ -42,7 +42,7 @@ class Cap {
     return dot(normal_, p - foot_) >= -slack_ && squared_length(p - center_) <= squared_radius_;
   }
 
-  /// Is the box outside for sure?
+  /// Is the box certainly outside?
   bool misses(const Box& box) const {
     const Point3 top{(normal_.x > 0 ? box.high.x : box.low.x) - foot_.x,
                      (normal_.y > 0 ? box.high.y : box.low.y) - foot_.y,

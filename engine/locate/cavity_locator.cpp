@@ -77,7 +77,7 @@ class TriangleCellTest {
 /// an edge or a face within its plane. They are connected, so each face has one part.
 class PiercedCellSearch {
  public:
-  /// \param missing  numbers of triangles of `facets` that are no Delaunay faces
+  /// \param missing  numbers of triangles of `facets` that are not Delaunay faces
   PiercedCellSearch(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
                     const delaunay::Delaunay& d, delaunay::CellStar& star)
       : facets_(facets), missing_(missing), d_(d), star_(star), parts_(missing.size()) {}

@@ -19,22 +19,22 @@ struct PiercedCells {
 };
 
 /// Finds vertices near a face and PLC faces near an edge within the *cavity* of the face alone: a connected part of the
-/// Delaunay cells that missing faces go through. All other cells of the domain are constrained Delaunay as they are, so
-/// what is made anew is inside the cavities, and the cost depends on them, not on the model.
+/// Delaunay cells that missing faces go through. All other cells of the domain are constrained Delaunay already. So all
+/// new cells are inside the cavities, and the cost depends on these, not on the model.
 ///
 /// Why a cavity is enough. Let t be the constrained Delaunay cell above a face f in a cavity, and p a vertex in the
 /// sphere of t. Follow the straight line from f to p. Each face that it passes before it meets a facet is locally
 /// Delaunay, so if p is in the sphere before such a face, p is in the sphere behind it or is a corner of the cell there
 /// (of the powers to the two spheres, the one behind is the smaller beyond the face). If the line left the cavity
-/// before it met a facet, it would be in a cell outside that is Delaunay in truth, whose sphere is empty, and could not
-/// get to p: a contradiction. So p is hidden, and by a face that is missing in this cavity or is a face of its cells.
+/// before it met a facet, it would be in an outside cell that is truly Delaunay, whose sphere is empty, and could not
+/// reach p: a contradiction. So p is hidden, and by a face that is missing in this cavity or is a face of its cells.
 /// Vertices outside the sphere of t do no harm, whether hidden or not; and the apex of t is itself a corner of the
 /// cavity, since t is within it. More cells than needed do no harm either.
 class CavityLocator {
  public:
   static constexpr std::uint32_t no_cavity = 0xFFFFFFFFu;
 
-  /// \param codes  the Delaunay faces as the cell above calls them; what is `no_neighbor` there is looked for again
+  /// \param codes  the Delaunay faces by their codes in the cell above; `no_neighbor` entries are searched again
   CavityLocator(const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                 const delaunay::Delaunay& delaunay, delaunay::CellStar& star);
 

@@ -15,8 +15,8 @@
 
 namespace ccdt::locate {
 
-/// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4). Good where the density
-/// is even.
+/// Finds vertices near a face and PLC faces near an edge by a uniform grid (paper, section 4). It works well for even
+/// density.
 class GridLocator {
  public:
   /// \param scale  factor of the paper's cell size
@@ -25,8 +25,8 @@ class GridLocator {
 
   std::size_t bytes() const { return bytes_of(vertices_, first_vertex_, faces_.first, faces_.items); }
 
-  /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, in growing distance from
-  /// `start`, ring of cells by ring. The cap may shrink meanwhile.
+  /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, by increasing distance
+  /// from `start`, ring of cells by ring. The cap may shrink meanwhile.
   template <class Visit>
   void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const;
 
@@ -90,7 +90,7 @@ void GridLocator::visit_cell(const UniformGrid::CellIndex& cell, const Cap& cap,
 
 template <class Visit>
 bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const {
-  // The edge in pieces of about a cell, each within a box of a few cells; a little wider than it is, for the roundings.
+  // The edge in pieces of about one cell, each within a box of a few cells; slightly widened to cover rounding.
   const double length = std::sqrt(squared_length(q - p));
   const int pieces = std::max(1, static_cast<int>(length / grid_.cell_size));
   const double slack = 1e-3 * grid_.cell_size;

@@ -9,7 +9,7 @@
 namespace ccdt::locate {
 namespace {
 
-/// The numbers of the boxes' middles in a cube around all of them.
+/// The Morton numbers of the centers of the boxes in a cube around all of them.
 std::vector<KeyedIndex> morton_numbers(std::span<const Box> boxes, unsigned bits) {
   Box all = box_of(boxes[0].center());
   for (const Box& box : boxes) all = hull(all, box_of(box.center()));
@@ -78,7 +78,7 @@ BoxOctree::BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size) {
 /// Appends the octants of a node as its children; `levels` are those of the nodes.
 void BoxOctree::split(std::uint32_t node, const std::vector<std::uint64_t>& keys, std::vector<unsigned>& levels) {
   const std::uint32_t first = nodes_[node].first, last = nodes_[node].last;
-  // Octants with everything in them are passed over.
+  // Octants that contain everything are skipped.
   unsigned level = levels[node];
   const auto octant = [&](std::uint32_t i) { return keys[i] >> 3 * (deepest - 1 - level) & 7u; };
   while (level < deepest && octant(first) == octant(last - 1)) ++level;

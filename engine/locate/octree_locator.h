@@ -14,7 +14,7 @@
 namespace ccdt::locate {
 
 /// The straight edge between two points, and whether it meets boxes: by projection to their axes and to the products of
-/// these with the edge. A little too wide, never too narrow.
+/// these with the edge. Slightly too wide, never too narrow.
 class EdgeProbe {
  public:
   EdgeProbe(const Point3& p, const Point3& q) : middle_(0.5 * (p + q)) {
@@ -25,7 +25,7 @@ class EdgeProbe {
 
   bool misses(const Box& box) const {
     const Point3 d = 0.5 * (box.low + box.high) - middle_;
-    // For the roundings: of coordinates below 2^53, and of products with d.
+    // Covers rounding: of coordinates below 2^53, and of products with d.
     const double slack = 16 + 1e-13 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
     const Point3 h = 0.5 * (box.high - box.low) + Point3{slack, slack, slack};
     if (std::fabs(d.x) > half_.x + h.x || std::fabs(d.y) > half_.y + h.y || std::fabs(d.z) > half_.z + h.z) return true;
@@ -50,7 +50,7 @@ class BoxOctree {
     std::uint32_t child_count = 0;      ///< none: a leaf
   };
 
-  /// \param leaf_size  most items of a leaf, unless more are in one place
+  /// \param leaf_size  largest number of items in a leaf, unless more are at one place
   BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size);
 
   std::size_t bytes() const { return bytes_of(order_, nodes_); }
@@ -58,8 +58,8 @@ class BoxOctree {
   /// The items, in the order that nodes count in.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Calls visit(first, last) for the leaves, nearest to `start` first among the children of each node, but for nodes
-  /// that `misses(box)` at their turn.
+  /// Calls visit(first, last) for the leaves, nearest to `start` first among the children of each node, except for
+  /// nodes whose box `misses` when they are reached.
   template <class Misses, class Visit>
   void visit_nearest_first(const Point3& start, const Misses& misses, const Visit& visit) const;
 
@@ -124,8 +124,8 @@ bool BoxOctree::any_leaf_at(const EdgeProbe& probe, const Visit& visit) const {
   return false;
 }
 
-/// Finds vertices near a face and PLC faces near an edge by two octrees, which adapt to graded density. Few vertices
-/// and faces are plain lists: a single leaf.
+/// Finds vertices near a face and PLC faces near an edge by two octrees, which adapt to graded density. A few vertices
+/// and faces form a single leaf.
 class OctreeLocator {
  public:
   /// Of all vertices and all faces.
@@ -139,8 +139,8 @@ class OctreeLocator {
     return vertex_tree_.bytes() + face_tree_.bytes() + bytes_of(vertices_, faces_, face_boxes_);
   }
 
-  /// Calls visit(vertex) once for every vertex that the cap may hold, and for some others, roughly in growing distance
-  /// from `start`. The cap may shrink meanwhile.
+  /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, roughly by increasing
+  /// distance from `start`. The cap may shrink meanwhile.
   template <class Visit>
   void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const {
     vertex_tree_.visit_nearest_first(

@@ -6,7 +6,7 @@
 
 namespace ccdt::locate {
 
-/// What finds the vertices near a face and the faces near an edge, for the front.
+/// The search structure for the vertices near a face and the faces near an edge, for the front.
 enum class LocatorKind {
   grid,    ///< the uniform grid of the paper (section 4)
   octree,  ///< adapts to graded density

@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/mesh/sort_tetrahedra.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::mesh {
@@ -37,8 +38,9 @@ bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
 }
 
 /// Removes the tetrahedra of almost no volume that lie within a boundary facet, with all four vertices on it and two
-/// faces on the boundary; their other two faces become the facet's. Only facets that are flat within the tolerance but
-/// not exactly have such. A tetrahedron whose removal would take a vertex or a segment from its facet stays.
+/// faces on the boundary; their other two faces become faces of the facet. Only facets that are flat within the
+/// tolerance, but not exactly, have such tetrahedra. A tetrahedron stays if its removal would remove a vertex or a
+/// segment from its facet.
 class FlatTetrahedronPeeler {
  public:
   FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
@@ -229,6 +231,7 @@ TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
     mesh.tetrahedra.push_back(delaunay.cells[c].vertices);
     mesh.regions.push_back(plc.regions[region_of_cell[c]].attribute);
   }
+  sort_tetrahedra(mesh);
   return mesh;
 }
 
@@ -279,7 +282,7 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
   place.file = plc.name;
   for (const std::uint32_t v : t) place.points.push_back(as_array(world[v]));
   throw MeshError("a tetrahedron is so thin that the rounding of its coordinates inverts it", place,
-                  "move the part near to the origin, where coordinates are finer");
+                  "move the part closer to the origin, where coordinates are finer");
 }
 
 }  // namespace
@@ -289,8 +292,8 @@ std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points
   std::vector<Point3> world(points.size());
   for (std::size_t v = 0; v < world.size(); ++v)
     world[v] = v < plc.world.size() && points[v] == plc.vertices[v] ? plc.world[v] : plc.grid.to_world(points[v]);
-  // A vertex that goes back to the grid may invert a tetrahedron of another: look again until all are right. All
-  // inverted ones are found before any vertex moves, so that their order does not matter.
+  // A vertex that returns to the grid may invert a tetrahedron of another one, so this repeats until all are right. All
+  // inverted tetrahedra are found before any vertex moves, so that their order does not matter.
   std::vector<bool> on_grid(plc.world.size(), false);
   while (true) {
     std::vector<Tetrahedron> inverted;

@@ -17,33 +17,35 @@
 namespace ccdt::mesh {
 
 /// The tetrahedra of the front and the labeled cells, with their regions: the constrained Delaunay tetrahedralization.
-/// The mesh has nothing else yet.
+/// In the order of
+/// `sort_tetrahedra`. The mesh has nothing else yet.
 TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
                            const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay);
 
-/// Why the tetrahedra are no mesh of the domain: their volume is not that within the facets. All cells are positive and
-/// share their faces; if they have that volume too, they fill the domain once, and there is no error.
+/// The error if the volume of the tetrahedra differs from that inside the facets. All cells are positive and share
+/// their faces; if the volume is right too, they fill the domain once, and there is no error.
 std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
                                       const delaunay::Delaunay& delaunay, const TetMesh& mesh);
 
-/// Why the tetrahedra of the front are not constrained Delaunay: a face between two, or between one and a labeled cell,
-/// is not locally Delaunay. This can only be if a facet is not exactly flat, so only then anything is looked at.
+/// The error if the tetrahedra of the front are not constrained Delaunay: a face between two, or between one and a
+/// labeled cell, is not locally Delaunay. That is possible only if a facet is not exactly flat, so nothing is tested
+/// otherwise.
 std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
                                      const delaunay::Delaunay& delaunay, const front::FrontResult& front);
 
-/// Makes the mesh whole but for its coordinates: takes the flat tetrahedra on its boundary off, gives it the faces of
+/// Completes the mesh except for its coordinates: removes the flat tetrahedra on its boundary, and adds the faces of
 /// the facets and the edges of the segments.
 ///
 /// \return the facet of each of the mesh's faces
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
                                        facets::FacetMesh facets, TetMesh& mesh);
 
-/// The vertices of a mesh in the units of the input. Input vertices get their original coordinates back wherever every
-/// tetrahedron around stays positively oriented in the coordinates that are written, exactly tested; elsewhere they
-/// stay where the grid has put them, and where improvement has moved them.
+/// The vertices of a mesh in the units of the input. Input vertices get back their original coordinates wherever every
+/// tetrahedron around them stays positively oriented in the written coordinates, tested exactly. Elsewhere they keep
+/// their grid positions, or those to which improvement moved them.
 ///
 /// \param points     grid units; those of the PLC's vertices come first
-/// \throw MeshError  a tetrahedron is inverted by writing its vertices as doubles: the part is too far from the origin
+/// \throw MeshError  writing the vertices as doubles inverts a tetrahedron: the part is too far from the origin
 std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points,
                              std::span<const std::array<std::uint32_t, 4>> tetrahedra);
 

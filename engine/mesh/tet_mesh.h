@@ -8,8 +8,8 @@
 
 namespace ccdt::mesh {
 
-/// A tetrahedral mesh, in the units of the input. All arrays are indexed alike by plain integers; an attribute array
-/// has one entry an element.
+/// A tetrahedral mesh, in the units of the input. All arrays are indexed by plain integers; an attribute array has one
+/// entry per element.
 struct TetMesh {
   std::vector<Point3> vertices;  ///< of the input (merged), then Steiner vertices, then interior vertices
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented: ((b-a) x (c-a)) . (d-a) > 0

@@ -16,7 +16,7 @@ namespace ccdt::numbers {
 /// result fits 53 bits, as among the points of a lattice, there is no error at all, and a zero is a zero.
 enum class Sign : std::int8_t { minus = -1, zero = 0, plus = 1, unknown = 2 };
 
-// Four lanes, which the compiler maps to what the processor has. Always inlined, hence never passed in registers.
+// Four lanes, which the compiler maps to the registers of the processor. Always inlined, so never passed as arguments.
 using Lanes = double __attribute__((vector_size(32)));
 using IntegerLanes = std::int64_t __attribute__((vector_size(32)));
 #define CCDT_ALWAYS_INLINE inline __attribute__((always_inline))
@@ -32,7 +32,7 @@ using IntegerLanes = std::int64_t __attribute__((vector_size(32)));
 
 namespace filter {
 
-/// Of two magnitudes. (std::fmax is a call, for the sake of NaN.)
+/// The larger of two magnitudes. (std::fmax is a function call, because of NaN.)
 CCDT_ALWAYS_INLINE double larger(double a, double b) {
   return a > b ? a : b;
 }

@@ -32,7 +32,7 @@ DyadicGrid make_grid(std::span<const Point3> world) {
     const double mantissa = std::frexp(half, &exponent);  // half = mantissa * 2^exponent, mantissa in [0.5, 1)
     exponent += mantissa == 0.5 ? 0 : 1;                  // 2^exponent is the smallest power not below the extent
   }
-  // Below this the quantum could not be distinguished from zero; such input is a point for all purposes.
+  // Below this, the quantum would be zero; such an input is effectively a point.
   exponent = std::max(exponent, std::numeric_limits<double>::min_exponent + 64);
   DyadicGrid grid;
   grid.unit = std::ldexp(1.0, exponent - 52);

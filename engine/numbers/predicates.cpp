@@ -18,8 +18,8 @@ using WideInt = boost::multiprecision::number<
                                            boost::multiprecision::unchecked, void>,
     boost::multiprecision::et_off>;
 
-/// Differences to one point as integers, less the trailing zero bits that all of them share: the sign of a homogeneous
-/// determinant does not change.
+/// Differences to one point as integers, without the trailing zero bits that all of them share: the sign of a
+/// homogeneous determinant does not change.
 template <int n>
 struct Differences {
   std::array<std::array<std::int64_t, 3>, n> row;
@@ -56,9 +56,8 @@ Result determinant3(const std::array<std::array<std::int64_t, 3>, 3>& m) {
   return Result(x) * m[2][0] + Result(y) * m[2][1] + Result(z) * m[2][2];
 }
 
-/// The heights of four rows, that is, their squared lengths, and the volumes that they are multiplied with in the
-/// insphere determinant: it is the sum of height[i] * volume[i]. `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits
-/// + 3.
+/// The heights of four rows, that is, their squared lengths, and the volumes by which the insphere determinant
+/// multiplies them: it is the sum of height[i] * volume[i]. `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits + 3.
 template <class Minor, class Volume>
 struct InsphereTerms {
   std::array<Minor, 4> height;

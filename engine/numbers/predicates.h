@@ -7,7 +7,7 @@
 
 namespace ccdt::numbers {
 
-__extension__ typedef __int128 Int128;  // no name of ISO C++: __extension__ silences pedantic compilers
+__extension__ typedef __int128 Int128;  // not a name of ISO C++: __extension__ silences pedantic compilers
 
 template <class Number>
 int sign_of(const Number& x) {
@@ -24,14 +24,14 @@ int sign_of(const Number& x) {
 /// that is, sign of ((b-a) x (c-a)) . (d-a).
 int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
-/// The same, where `orient3d_filter` has failed already.
+/// The same, after `orient3d_filter` failed.
 int orient3d_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// For a positively oriented abcd: +1 when e is strictly inside the circumsphere of abcd, -1 outside, 0 on it.
 /// (For a negatively oriented abcd the sign is reversed.)
 int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e);
 
-/// The same, where `insphere_filter` has failed already.
+/// The same, after `insphere_filter` failed.
 int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e);
 
 /// `insphere` without ties: a zero is decided by symbolic perturbation of the lifted heights. The height of the vertex
@@ -39,7 +39,7 @@ int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
 /// one. The points do not move. The result depends on nothing but points and ranks, so the Delaunay tetrahedralization
 /// is unique. Zero only if all five points are coplanar.
 ///
-/// Raised heights mean that of cospherical vertices the one of the greatest rank is outside the sphere of the others.
+/// Because of the raised heights, the cospherical vertex with the greatest rank is outside the sphere of the others.
 ///
 /// \param ranks  of a, b, c, d, e, pairwise different
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,

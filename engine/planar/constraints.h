@@ -20,8 +20,8 @@ std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, c
     ++work_done.edges_tested;
     const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, other_side(t, s));
     if (predicates.incircle(a, b, c, d) <= 0) continue;
-    // Exact predicates of one plane imply this; it keeps the triangles valid where the caller's plane is only nearly
-    // one.
+    // Exact predicates of one plane imply this. It keeps the triangles valid if the caller's predicates are only nearly
+    // those of a plane.
     if (predicates.orient(c, a, d) <= 0 || predicates.orient(d, b, c) <= 0) continue;
     for (Side outer : flip(t, s)) stack.push_back(pack(outer));
     ++flips;
@@ -86,7 +86,8 @@ std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
     ++work_done.triangles_visited;
     const std::array<int, 3> signs = signs_at_edges(t, triangle, v, predicates);
     if (is_within(signs)) return triangle;
-    // Another edge first at each step, so that the walk cannot go in circles in a constrained triangulation for long.
+    // Starts with a different edge at each step, so that the walk cannot circle for long in a constrained
+    // triangulation.
     const auto first = static_cast<std::uint32_t>(steps % 3);
     const std::uint32_t second = next_corner(first), third = next_corner(second);
     const std::uint32_t corner = signs[first] < 0 ? first : signs[second] < 0 ? second : third;
@@ -125,7 +126,7 @@ RayExit find_ray_exit(const Triangulation& t, VertexId a, VertexId b, const P& p
   return exit;
 }
 
-/// The triangles that an edge to be inserted crosses, and what it finds at their end.
+/// The triangles that a new edge crosses, and the vertex or obstacle at their end.
 struct Channel {
   std::vector<std::uint32_t> triangles;  ///< from start to end
   /// The edges of these triangles that are not crossed, from start to end, seen from inside.
@@ -212,17 +213,17 @@ inline std::size_t number_of_part(const std::vector<NumberedPart>& parts, Edge e
   for (const NumberedPart& part : parts) {
     if (part.edge == edge || part.edge == reversed) return part.number;
   }
-  throw std::logic_error("a constrained edge that comes from no edge of the input");
+  throw std::logic_error("a constrained edge comes from no edge of the input");
 }
 
-/// Inserts all edges; on a crossing the result says so and has no triangulation.
+/// Inserts all edges. If two cross, the result says so and has no triangulation.
 template <Predicates P>
 void insert_edges(TriangulationResult& result, std::span<const Edge> edges, const P& predicates) {
   std::vector<NumberedPart> parts;
   for (std::size_t number = 0; number < edges.size(); ++number) {
     const auto& [a, b] = edges[number];
     if (!has_vertex(result.triangulation, a) || !has_vertex(result.triangulation, b)) {
-      throw std::invalid_argument("an edge to be triangulated ends in a vertex that is not among the vertices");
+      throw std::invalid_argument("an edge ends in a vertex that is not among the vertices");
     }
     const ConstraintResult inserted = insert_constraint(result.triangulation, a, b, predicates);
     if (!inserted) {

@@ -12,13 +12,13 @@
 namespace ccdt::planar {
 /// The vertices in the order in which a line sweeps over them that turns counterclockwise around a corner of their
 /// convex hull, the *pole*. A projective map that sends the pole to infinity makes it the order from left to right, and
-/// among vertices on one ray from bottom (far from the pole) to top. Such a map keeps the signs of `orient`, so
-/// whatever needs vertices sorted by coordinates and separated by vertical lines can do with this order and without
+/// among vertices on one ray from bottom (far from the pole) to top. Such a map keeps the signs of `orient`. So an
+/// algorithm that needs vertices sorted by coordinates and separated by vertical lines can use this order, without
 /// coordinates.
 struct SweepOrder {
   TriangulationResult::Status status = TriangulationResult::Status::ok;
   VertexId pole;
-  std::vector<VertexId> swept;   ///< all but the pole
+  std::vector<VertexId> swept;   ///< all except the pole
   std::vector<Edge> duplicates;  ///< vertices at the same place
 };
 

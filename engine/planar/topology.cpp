@@ -10,7 +10,7 @@ namespace ccdt::planar {
 
 namespace {
 
-/// Enters a constrained or border edge into the table where it is found without a search.
+/// Enters a constrained or border edge into the table, so that it is found without a search.
 void register_edge(Triangulation& t, Side s) {
   if (is_constrained(t, s) || neighbor(t, s) == none) {
     t.fixed_edges.set(edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
@@ -101,7 +101,7 @@ std::array<Side, 4> flip(Triangulation& t, Side s) {
   const Adjacency ca = adjacency_at(t, {s.triangle, previous_corner(s.corner)});
   const Adjacency ad = adjacency_at(t, {o.triangle, next_corner(o.corner)});
   const Adjacency db = adjacency_at(t, {o.triangle, previous_corner(o.corner)});
-  // c and d keep both triangles, and so whatever the table says of them; a and b lose one.
+  // c and d keep both triangles, so their table entries stay valid; a and b lose one.
   t.triangles[s.triangle] = {c, a, d};
   t.triangles[o.triangle] = {d, b, c};
   t.triangle_of_vertex.set(a, s.triangle);
@@ -174,7 +174,7 @@ Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
   for (const auto& [a, b] : constrained_edges) {
     std::uint32_t packed = side_of_edge.get(directed_key(a, b), none);
     if (packed == none) packed = side_of_edge.get(directed_key(b, a), none);
-    if (packed == none) throw Defect("a constrained edge of a facet is no edge of its triangles", {a, b});
+    if (packed == none) throw Defect("a constrained edge of a facet is not an edge of its triangles", {a, b});
     set_constrained(t, unpack(packed), true);
   }
   return t;
@@ -183,7 +183,7 @@ Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
 std::optional<Side> find_edge(const Triangulation& t, VertexId a, VertexId b) {
   const std::uint32_t fixed = t.fixed_edges.get(edge_key(a, b), none);
   if (fixed != none) {
-    // An entry is not withdrawn when an edge is split or set free, so it must be looked at.
+    // Entries are not removed when an edge is split or freed, so they must be checked.
     const Side s = unpack(fixed);
     if (s.triangle < t.triangles.size() && edge_key(edge_start(t, s), edge_end(t, s)) == edge_key(a, b)) return s;
   }

@@ -15,8 +15,8 @@
 
 namespace ccdt::planar {
 
-/// What a planar triangulation asks of the plane that it lives in. Vertices are named by ids; the answers must be exact
-/// and consistent. A model of this concept is chosen at compile time, so that nothing is virtual in the inner loops.
+/// The predicates that a planar triangulation needs. Vertices are named by ids; the answers must be exact and
+/// consistent. The model of this concept is chosen at compile time, so that no call in the inner loops is virtual.
 ///
 /// `orient(a, b, c)`       +1: counterclockwise, 0: collinear, -1: clockwise
 /// `incircle(a, b, c, d)`  for counterclockwise abc, +1: d inside the circumcircle, -1: outside; 0 is allowed (a tie)
@@ -29,7 +29,7 @@ concept Predicates = requires(const P& p, VertexId v) {
 /// An edge by its two ends, in any order.
 using Edge = std::array<VertexId, 2>;
 
-/// One side of an edge: the triangle, and the corner of it that the edge is opposite to.
+/// One side of an edge: the triangle, and its corner opposite to the edge.
 struct Side {
   std::uint32_t triangle = 0;
   std::uint32_t corner = 0;
@@ -48,7 +48,7 @@ using Table = HashTable<std::uint64_t, std::uint32_t>;
 ///           0-------1
 ///             nbr[2]
 ///
-/// The two tables follow every change of the arrays.
+/// The two tables are updated with every change of the arrays.
 struct Triangulation {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -65,7 +65,7 @@ struct Triangulation {
 class Defect : public InputError {
  public:
   Defect(const std::string& what, Edge edge)
-      : InputError(what, {}, "repair the facet's triangles: neighbours must share whole edges, two at most each"),
+      : InputError(what, {}, "repair the facet's triangles: neighbors must share whole edges, two at most each"),
         edge_(edge) {}
   Edge edge() const { return edge_; }
 
@@ -73,7 +73,7 @@ class Defect : public InputError {
   Edge edge_;
 };
 
-/// What became of a constraint.
+/// The result of inserting a constraint.
 struct ConstraintResult {
   enum class Status {
     inserted,  ///< ab is there, in `parts`
@@ -87,20 +87,21 @@ struct ConstraintResult {
   explicit operator bool() const { return status == Status::inserted; }
 };
 
-/// What is cut away from the constrained Delaunay triangulation of all vertices.
+/// What to remove from the constrained Delaunay triangulation of all vertices.
 struct Carving {
   enum class Outside {
     keep,     ///< the convex hull of the vertices stays
-    remove,   ///< what the border of the convex hull reaches without crossing a constraint goes
+    remove,   ///< everything that is reachable from the border of the convex hull without crossing a constraint is
+              ///< removed
     nesting,  ///< polygons: of the regions nested in each other, outermost first, every second one stays (even-odd)
   };
   Outside outside = Outside::remove;
-  /// Points in holes, each known to `predicates.orient` as a vertex, but not one of the vertices: what each reaches
-  /// without crossing a constraint goes.
+  /// Points in holes, each known to `predicates.orient` as a vertex, but not one of the vertices: everything reachable
+  /// from it without crossing a constraint is removed.
   std::vector<VertexId> hole_seeds;
 };
 
-/// A triangulation from nothing, or why there is none.
+/// A new triangulation, or the reason why there is none.
 struct TriangulationResult {
   enum class Status {
     ok,
@@ -113,14 +114,14 @@ struct TriangulationResult {
   std::vector<VertexId> unused;           ///< vertices with no triangle left after carving
   std::vector<VertexId> lost_seeds;       ///< hole seeds outside all triangles
   std::vector<Edge> duplicates;           ///< pairs of vertices at the same place (equal if an id was given twice)
-  std::array<std::size_t, 2> crossing{};  ///< numbers of two of the edges that cross in a point that is no vertex
+  std::array<std::size_t, 2> crossing{};  ///< numbers of two edges that cross in a point that is not a vertex
 
   explicit operator bool() const { return status == Status::ok; }
 };
 
 // ---- Steps ----------------------------------------------------------------------------------------------------------
-// The planar algorithms are made of these. They change triangles and keep neighbors, constraints and tables, and know
-// nothing of geometry.
+// The planar algorithms are made of these. They change triangles, keep neighbors, constraints and tables up to date,
+// and use no geometry.
 
 constexpr std::uint32_t none = Triangulation::none;
 
@@ -166,7 +167,7 @@ std::uint32_t corner_of(const Triangulation& t, std::uint32_t triangle, VertexId
 /// The same edge seen from its other triangle, which must exist.
 Side other_side(const Triangulation& t, Side s);
 
-/// What is across one edge of a triangle that is about to be rewritten.
+/// The other side of an edge of a triangle that is about to be rewritten.
 struct Adjacency {
   std::uint32_t neighbor = none;
   std::uint32_t corner = 0;  ///< of the neighbor, opposite to the edge
@@ -174,7 +175,7 @@ struct Adjacency {
 };
 Adjacency adjacency_at(const Triangulation& t, Side s);
 
-/// Joins the side to what is across it, from both sides, and enters the edge into the tables.
+/// Joins the side to its other side, in both directions, and enters the edge into the tables.
 void attach(Triangulation& t, Side s, const Adjacency& across);
 
 /// Joins two sides of one edge as an inner edge.
@@ -196,13 +197,13 @@ void set_corners(Triangulation& t, std::uint32_t triangle, VertexId a, VertexId 
 ///        d                  d
 std::array<Side, 4> flip(Triangulation& t, Side s);
 
-/// Puts as many new triangles in the place of the channel's and joins them to each other and to what was around.
+/// Replaces the triangles of the channel by as many new ones, and joins them to each other and to their surroundings.
 /// \param border  the sides of the channel's triangles that are not crossed
 void replace_channel(Triangulation& t, const std::vector<std::uint32_t>& channel, const std::vector<Side>& border,
                      const std::vector<std::array<VertexId, 3>>& triangles);
 
-/// Calls visit(triangle, corner of v) for the triangles around v that hang together with the known one, until it
-/// returns true; returns whether it did. At a pinched vertex these need not be all.
+/// Calls visit(triangle, corner of v) for the triangles around v that are connected with the known one, until it
+/// returns true. \return did it return true? At a pinched vertex these need not be all.
 template <class Visit>
 bool visit_fan(const Triangulation& t, VertexId v, Visit visit) {
   const std::uint32_t first = t.triangle_of_vertex.get(v, none);
@@ -243,13 +244,13 @@ bool visit_star(const Triangulation& t, VertexId v, Visit visit) {
   return false;
 }
 
-/// Keeps the triangles with a true mark only; edges to the others become border edges.
+/// Keeps only the triangles with a true mark; edges to the others become border edges.
 Triangulation keep_triangles(const Triangulation& t, const std::vector<bool>& keep);
 
-/// Marks for `keep_triangles` after the wish for the outside (see `Carving`).
+/// Marks for `keep_triangles` according to the carving (see `Carving`).
 std::vector<bool> choose_inside(const Triangulation& t, Carving::Outside outside);
 
-/// Takes the marks from all triangles that the seed triangle reaches without crossing a constraint.
+/// Clears the marks of all triangles that are reachable from the seed triangle without crossing a constraint.
 void flood_hole(const Triangulation& t, std::uint32_t seed, std::vector<bool>& keep);
 
 }  // namespace ccdt::planar

@@ -30,17 +30,17 @@ std::vector<Edge> border_edges(const Triangulation& t);
 // All triangles must be strictly counterclockwise by `predicates.orient`.
 
 /// Flips unconstrained inner edges until each is locally Delaunay: the triangulation becomes the constrained Delaunay
-/// triangulation (Lawson 1977). A tie (`incircle` 0) leaves the edge; without ties the result is unique. Ends if the
-/// predicates are exact.
+/// triangulation (Lawson 1977). A tie (`incircle` 0) leaves the edge; without ties the result is unique. It terminates
+/// if the predicates are exact.
 ///
-/// \return how many edges were flipped
+/// \return the number of flipped edges
 template <Predicates P>
 std::size_t legalize(Triangulation& t, const P& predicates);
 
 /// Inserts the vertex v, which lies exactly on the edge ab, strictly between its ends, and legalizes around it. The
 /// halves of the edge inherit its constraint. If the triangulation was constrained Delaunay, it is so again.
 ///
-/// \return false, and nothing has changed, if ab is no edge of the triangulation
+/// \return false, and nothing has changed, if ab is not an edge of the triangulation
 template <Predicates P>
 bool split_edge(Triangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates);
 
@@ -49,7 +49,7 @@ bool split_edge(Triangulation& t, VertexId a, VertexId b, VertexId v, const P& p
 template <Predicates P>
 ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, const P& predicates);
 
-// ---- From nothing ---------------------------------------------------------------------------------------------------
+// ---- From scratch ---------------------------------------------------------------------------------------------------
 
 /// The constrained Delaunay triangulation of vertices and edges. Divide and conquer after Guibas & Stolfi (1985), in
 /// the order in which a corner of the convex hull sees the vertices, so that no coordinates are needed: O(n log n) for
@@ -61,7 +61,7 @@ template <Predicates P>
 TriangulationResult triangulate(std::span<const VertexId> vertices, std::span<const Edge> edges, const P& predicates,
                                 const Carving& carving = {});
 
-/// The Delaunay triangulation of the convex hull of the vertices; `triangulation` is all of the result.
+/// The Delaunay triangulation of the convex hull of the vertices; only `triangulation` of the result is used.
 template <Predicates P>
 TriangulationResult delaunay(std::span<const VertexId> vertices, const P& predicates);
 

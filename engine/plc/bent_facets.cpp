@@ -23,9 +23,9 @@ constexpr std::size_t most_corners = 64;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// What is wrong with a triangulation, the worst first.
+/// The defects of a triangulation, the worst first.
 struct Cost {
-  std::uint32_t faults = 0;  ///< triangles that are folded over, without area, or another facet
+  std::uint32_t faults = 0;  ///< triangles that are folded over, have no area, or equal another facet
   double bend = 0;           ///< of the largest angle between normals; see `bend_between`
   double length = 0;         ///< of all diagonals
 
@@ -115,7 +115,7 @@ class LeastBending {
   std::vector<Cost> own_, best_;
 };
 
-/// Takes the bent facets out of an input and puts triangles in their place.
+/// Replaces the bent facets of an input by triangles.
 class BentFacets {
  public:
   explicit BentFacets(const InputPlc& input) : given_(input) {

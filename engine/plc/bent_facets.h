@@ -12,15 +12,15 @@ namespace ccdt::plc {
 /// The plane through three points of a facet that are far apart.
 struct FacetPlane {
   Point3 normal;             ///< of any length; zero if all points are on one line
-  double deviation = 0;      ///< how far from the plane in the middle of them the points are at most
-  std::size_t farthest = 0;  ///< the index of a point that is as far as that
+  double deviation = 0;      ///< largest distance of the points from the plane in the middle
+  std::size_t farthest = 0;  ///< the index of a point at that distance
 };
 
 /// \param points  on the dyadic grid, in grid units; not empty
 FacetPlane find_plane(std::span<const Point3> points);
 
-/// Replaces each polygon facet that is not planar within the tolerance of `PlcOptions` by triangles, so that all who
-/// get the input agree on what it means. The triangles keep the facet's number and marker.
+/// Replaces each polygon facet that is not planar within the tolerance of `PlcOptions` by triangles, so that all
+/// meshers agree on its meaning. The triangles keep the facet's number and marker.
 ///
 /// A polygon of up to 64 corners is triangulated so that it bends least: the largest angle between the normals of
 /// neighboring triangles is the smallest possible, found by dynamic programming (as for filling holes: Barequet &
@@ -31,7 +31,7 @@ FacetPlane find_plane(std::span<const Point3> points);
 ///
 /// A polygon that meets one vertex twice is left as it is.
 ///
-/// \return nothing if no facet had to be replaced; else the new input, whose `bent` has grown by what was done
+/// \return nothing if no facet had to be replaced; otherwise the new input, with updated `bent`
 /// \throw InputError  a coordinate that is not finite; edges of a large facet cross each other
 std::optional<InputPlc> triangulate_bent_facets(const InputPlc& input);
 

@@ -22,7 +22,7 @@ namespace ccdt::plc {
 
 namespace {
 
-/// The input as triangles and segments, conforming in their indices, with what has been found about them.
+/// The input as conforming triangles and segments, with derived data.
 struct PlcParts {
   TriangleSet triangles;
   SegmentSet segments;
@@ -31,12 +31,13 @@ struct PlcParts {
   FacetPatches patches;
 };
 
-/// How the triangles divide space.
+/// The regions into which the triangles divide space.
 struct RegionMap {
   /// Of each side of each triangle: entry 2t is the side that the normal points to, 2t+1 the other.
   std::vector<RegionId> of_side;
-  std::vector<Region> regions;     ///< number 0 reaches infinity; the others follow in the order of their first side
-  std::vector<RegionId> around;    ///< of each region but 0, the one that holds the connected facets that enclose it
+  std::vector<Region> regions;  ///< number 0 reaches infinity; the others follow in the order of their first side
+  std::vector<RegionId>
+      around;  ///< for each region except 0, the region that contains the connected facets enclosing it
   std::vector<RegionId> of_loose;  ///< of each of `PlcParts::match.loose`: where the middle of the segment is
 
   RegionId of(std::uint32_t triangle, bool above) const { return of_side[2 * triangle + (above ? 0 : 1)]; }
@@ -103,7 +104,7 @@ Box box_above(const IntegerPoint& sixfold, bool upwards) {
   return box;
 }
 
-// Of q over the plane through a, times the length of its normal.
+// The height of q above the plane through a, times the length of its normal.
 Wide height_over(const IntegerPoint& a, const WideVector& normal, const IntegerPoint& q) {
   return normal[0] * (q[0] - a[0]) + normal[1] * (q[1] - a[1]) + normal[2] * (q[2] - a[2]);
 }
@@ -135,7 +136,7 @@ class VerticalRays {
       WideVector n = exact_normal(points);
       const bool turned = n[2] < 0;
       if (turned) n = {-n[0], -n[1], -n[2]};
-      if (height_over(a, n, q) > 0) return;  // zero is for the caller to exclude: the start is on the triangle then
+      if (height_over(a, n, q) > 0) return;  // the caller excludes zero: then the start is on the triangle
       const Wide height = n[2] * a[2] - n[0] * (q[0] - a[0]) - n[1] * (q[1] - a[1]);
       crossings.push_back({t, n, turned, VeryWide(height)});
     });
@@ -183,7 +184,7 @@ void join_through_sectors(const TriangleSet& triangles, const EdgeTable& edges, 
                           UnionFind& sides) {
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     const auto around = edges.around(e);
-    if (facets.is_inner_edge[e]) {  // oriented alike; a tiny fold between them has no say
+    if (facets.is_inner_edge[e]) {  // oriented alike; a tiny fold between them does not matter
       sides.join(side(around[0], true), side(around[1], true));
       sides.join(side(around[0], false), side(around[1], false));
       continue;
@@ -203,9 +204,8 @@ UnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
   return components;
 }
 
-// That one ray a component suffices: the sides of one component that see the same connected part of space, seen alone,
-// are all joined already. So on the way from a component up to whatever encloses it, everything passed joins the
-// outermost side of what it passes.
+// One ray per component suffices: the sides of one component that see the same connected part of space are joined
+// already. So on the way from a component up to whatever encloses it, every crossed component joins its outermost side.
 RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
                        const FacetPatches& facets, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
@@ -255,7 +255,7 @@ RegionId region_at(const RegionMap& map, const VerticalRays& rays, const Integer
 RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
                         const Point3& seed, const std::string& name) {
   const std::string remedy = "move the seed into the part of space that it is for, or remove it";
-  const std::string outside = name + " is outside of all that the facets enclose";
+  const std::string outside = name + " is outside everything that the facets enclose";
   // Seeds beyond the box of the vertices may not fit the grid.
   if (!contains(bounding_box(plc.world), box_of(seed))) throw_input_error(plc, outside, remedy, {seed});
   const IntegerPoint start = six_times(plc.grid.snap(seed));
@@ -272,7 +272,7 @@ bool has_free_edge(const EdgeTable& edges) {
   return false;
 }
 
-// Inside are the regions behind an odd number of connected surfaces, seen from infinity.
+// The regions behind an odd number of connected surfaces, seen from infinity, are inside.
 void mark_by_nesting(RegionMap& map) {
   for (std::uint32_t c = 1; c < map.regions.size(); ++c)
     for (RegionId outer(c); outer != 0u; outer = map.around[outer]) map.regions[c].inside = !map.regions[c].inside;
@@ -352,7 +352,7 @@ bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const
   return false;
 }
 
-// The edges that do not lie within one facet, and the segments of the input that are no edge.
+// The edges that do not lie within one facet, and the segments of the input that are not edges.
 std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map) {
   std::vector<Segment> segments;
   for (std::uint32_t e = 0; e < parts.edges.size(); ++e) {
@@ -402,7 +402,7 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
   triangles = gather_triangles(input, plc);
   segments = gather_segments(input, plc);
   const double tolerance = tolerance_of(plc, options.flatness);
-  // A smaller tolerance asks for smaller facets; it does not make polygons wrong.
+  // A smaller tolerance gives smaller facets; it does not make polygons invalid.
   triangulate_polygons(input, plc, std::max(tolerance, tolerance_of(plc, PlcOptions{}.flatness)), triangles, segments);
   if (drop_triangles_without_area(plc.vertices, triangles) > 0 && triangles.size() == 0)
     throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
@@ -410,7 +410,11 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
 
   report(progress, "plc", 1, steps);
   BoxTree tree(boxes_of(plc.vertices, triangles));
-  if (split_triangles_at_vertices(plc.vertices, tree, triangles)) tree = BoxTree(boxes_of(plc.vertices, triangles));
+  std::vector<TrianglePair> close = find_close_triangles(plc.vertices, triangles, tree);
+  if (split_triangles_at_vertices(plc.vertices, close, tree, triangles)) {
+    tree = BoxTree(boxes_of(plc.vertices, triangles));
+    close = find_close_triangles(plc.vertices, triangles, tree);
+  }
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
@@ -419,9 +423,9 @@ Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& 
   patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
 
   report(progress, "plc", 3, steps);
-  if (const auto covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges))
-    throw_overlaps(plc, triangles, segments, {&*covering, 1}, false);
-  check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, tree, most_overlaps));
+  const auto covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges, 1);
+  if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
+  check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
   check_overlaps(plc, parts,
                  find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_overlaps));
 

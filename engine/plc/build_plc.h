@@ -7,11 +7,12 @@
 namespace ccdt::plc {
 
 struct PlcOptions {
-  double flatness = 1e-8;  ///< a patch whose vertices are this near to one plane is one facet; as a fraction of the box
+  double flatness = 1e-8;  ///< tolerance for the vertices of a patch to be in one plane, so that it is one facet; as a
+                           ///< fraction of the box
 };
 
 /// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and regions, and checks that they
-/// form a piecewise linear complex. Facets that have no area on the grid bound nothing and are left out; their vertices
+/// form a piecewise linear complex. Facets without area on the grid bound nothing and are left out; their vertices
 /// stay.
 ///
 /// \throw InputError  non-finite coordinates, duplicate facets, facets that cross or cover each other, an

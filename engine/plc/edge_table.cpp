@@ -17,7 +17,7 @@ bool on_same_side(const Point3& a, const Point3& b, const Point3& c, const Point
   return orient_along(axis, a, b, c) == orient_along(axis, a, b, d);
 }
 
-// A facet is near another only if their angle says so, and narrow triangles make no reliable angle with anything.
+// A facet is near another only by their angle, and angles of narrow triangles are not reliable.
 constexpr double reliable_heights = 100;  // tolerances
 
 bool nearly_cover(const Point3& a, const Point3& b, const Point3& c, const Point3& d, double tolerance) {
@@ -90,8 +90,10 @@ Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3&
   return on_same_side(a, b, c, d) ? Turn::zero : Turn::exactly_180;
 }
 
-std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                         const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges) {
+std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
+                                       const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges,
+                                       std::size_t limit) {
+  std::vector<Overlap> covering;
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     const std::span<std::uint32_t> around = edges.around(e);
     if (is_inner_edge[e] || around.size() < 2) continue;
@@ -114,14 +116,15 @@ std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const
       std::ranges::copy(others, around.begin() + 1);
     }
     for (std::size_t i = 0; i < around.size(); ++i) {
-      if (i == 1 && around.size() == 2) break;  // the same pair once more
+      if (i == 1 && around.size() == 2) break;  // the same pair again
       const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
       const Point3 &c = apex(s), &d = apex(t);
-      if (nearly_cover(a, b, c, d, tolerance) || turn_about(a, b, c, d) == Turn::zero)
-        return Overlap{Overlap::Between::covering_facets, s, t, common_point(a, b, c, d)};
+      if (!nearly_cover(a, b, c, d, tolerance) && turn_about(a, b, c, d) != Turn::zero) continue;
+      covering.push_back({Overlap::Between::covering_facets, s, t, common_point(a, b, c, d)});
+      if (covering.size() == limit) return covering;
     }
   }
-  return std::nullopt;
+  return covering;
 }
 
 }  // namespace ccdt::plc

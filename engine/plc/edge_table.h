@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,7 +17,7 @@ using VertexTriple = std::array<VertexId, 3>;
 struct TriangleSet {
   std::vector<VertexTriple> corners;
   std::vector<int> markers;
-  std::vector<std::uint32_t> numbers;  ///< number in the file of the facet that the triangle is (a part of)
+  std::vector<std::uint32_t> numbers;  ///< number in the file of the triangle's facet
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(corners.size()); }
   void add(const VertexTriple& c, int marker, std::uint32_t number) {
@@ -28,7 +27,7 @@ struct TriangleSet {
   }
 };
 
-/// The segments that the input itself names; arrays indexed alike.
+/// The segments that the input itself lists; arrays indexed alike.
 struct SegmentSet {
   std::vector<std::array<VertexId, 2>> ends;
   std::vector<int> markers;
@@ -58,7 +57,7 @@ inline VertexId apex_over(const VertexTriple& t, VertexId a, VertexId b) {
   return t[0] != a && t[0] != b ? t[0] : t[1] != a && t[1] != b ? t[1] : t[2];
 }
 
-/// Two things that meet in more than common vertices and edges, and a point of that in grid units.
+/// Two triangles or segments that meet in more than common vertices and edges, and such a point in grid units.
 struct Overlap {
   enum class Between { facets, covering_facets, facet_and_segment, segments };
   Between between;
@@ -89,10 +88,10 @@ struct EdgeTable {
 
 EdgeTable make_edge_table(std::span<const VertexTriple> triangles);
 
-/// Which edges are segments of the input, and which of these are no edge.
+/// Which edges are segments of the input, and which segments are not edges.
 struct SegmentMatch {
   std::vector<std::uint32_t> segment_of;  ///< of each edge: the segment that it is, or `EdgeTable::none`
-  std::vector<std::uint32_t> loose;       ///< the segments that are no edge
+  std::vector<std::uint32_t> loose;       ///< the segments that are not edges
 };
 
 SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges);
@@ -105,11 +104,12 @@ Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3&
 /// Sorts the triangles around each edge of three or more by angle, counterclockwise about the axis from its smaller end
 /// to its greater.
 ///
-/// \param is_inner_edge  edges within one facet: they have two triangles and are not looked at
+/// \param is_inner_edge  edges within one facet: they have two triangles and are skipped
 /// \param tolerance      in grid units; two facets on the same side of an edge and this near to each other cover each
 ///                       other
-/// \return two triangles that cover each other, if there are any
-std::optional<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                         const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges);
+/// \return pairs of triangles that cover each other, at most `limit`; if it is reached, not all edges are sorted
+std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
+                                       const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges,
+                                       std::size_t limit);
 
 }  // namespace ccdt::plc

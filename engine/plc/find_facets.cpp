@@ -84,8 +84,8 @@ class PatchFinder {
  private:
   std::array<Point3, 3> corner_points(std::uint32_t t) const { return points_of(vertices_, triangles_.corners[t]); }
 
-  // Leaves the patch of the seed in `patch_`: grown along a plane that is fitted on the way and, if some vertex turns
-  // out to be too far from the final plane, once more along that plane as it is.
+  // Stores the patch of the seed in `patch_`. It grows along a plane that is fitted on the way. If some vertex is too
+  // far from the final plane, it grows again along that fixed plane.
   void find_patch(std::uint32_t seed) {
     FittedPlane fitted;
     fitted.add(normals_[seed], corner_points(seed));

@@ -13,13 +13,13 @@ namespace ccdt::plc {
 struct FacetPatches {
   std::vector<std::uint32_t> facet_of;  ///< of each triangle; facets are numbered by their first triangle
   std::vector<char> exactly_flat;       ///< of each facet: all its vertices are in one plane
-  std::vector<char> is_inner_edge;      ///< of each edge: it lies within one facet and is no segment
+  std::vector<char> is_inner_edge;      ///< of each edge: it lies within one facet and is not a segment
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(exactly_flat.size()); }
 };
 
-/// Finds patches of triangles that are flat, exactly or within a tolerance, and turns the triangles of each patch so
-/// that all are counterclockwise seen from one side.
+/// Finds patches of triangles that are flat, exactly or within a tolerance, and orients the triangles of each patch
+/// counterclockwise as seen from one side.
 ///
 /// A patch grows from its largest triangle over edges that have exactly two triangles, of one marker, and are no input
 /// segment. It never folds: every triangle is counterclockwise when the patch is projected along the dominant axis of

@@ -19,7 +19,7 @@ bool in_box_of(const Point3& a, const Point3& b, const Point3& p) {
   return is_between(a.x, p.x, b.x) && is_between(a.y, p.y, b.y) && is_between(a.z, p.z, b.z);
 }
 
-// Here and below, coplanar points are seen along an axis that their plane is not parallel to.
+// Here and below, coplanar points are projected along an axis that is not parallel to their plane.
 bool holds(int axis, const Triangle& t, const Point3& p) {
   const int u = orient_along(axis, t[0], t[1], p), v = orient_along(axis, t[1], t[2], p);
   if (u * v < 0) return false;
@@ -120,30 +120,23 @@ bool share_end(const std::array<VertexId, 2>& a, const std::array<VertexId, 2>& 
 
 }  // namespace
 
-std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  for (const VertexTriple& t : triangles.corners) boxes.push_back(bounding_box(points_of(vertices, t)));
-  return boxes;
-}
-
 std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                   const FacetPatches& facets, const BoxTree& tree, std::size_t limit) {
-  std::vector<int> axes(facets.count());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    axes[facets.facet_of[t]] = dominant_axis(points_of(vertices, triangles.corners[t]));
+                                   const FacetPatches& facets, std::span<const TrianglePair> close, std::size_t limit) {
+  constexpr int unknown = -1;
+  std::vector<int> axes(facets.count(), unknown);
   std::vector<Overlap> found;
-  tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-    if (found.size() >= limit) return;
+  for (const auto& [i, j] : close) {
+    if (found.size() >= limit) break;
     const std::uint32_t facet = facets.facet_of[i];
     const bool one_facet = facet == facets.facet_of[j];
-    if (one_facet && !facets.exactly_flat[facet]) return;
+    if (one_facet && !facets.exactly_flat[facet]) continue;
     const VertexTriple &s = triangles.corners[i], &t = triangles.corners[j];
-    if (const auto contact = meet(vertices, s, t, one_facet ? axes[facet] : -1)) {
+    if (one_facet && axes[facet] == unknown) axes[facet] = dominant_axis(points_of(vertices, s));
+    if (const auto contact = meet(vertices, s, t, one_facet ? axes[facet] : unknown)) {
       const bool covering = contact->coplanar && are_coplanar(points_of(vertices, s), points_of(vertices, t));
       found.push_back({covering ? Between::covering_facets : Between::facets, i, j, contact->where});
     }
-  });
+  }
   return found;
 }
 
@@ -179,8 +172,7 @@ bool are_apart_in_plane(int axis, const Triangle& s, const Triangle& t, int comm
     return std::array<IntegerPoint, 3>{to_integers(u[0]), to_integers(u[1]), to_integers(u[2])};
   };
   const std::array<IntegerPoint, 3> is = integers(s), it = integers(t);
-  // Does the line of an edge of the one have it and the other on different sides? A common corner, the first of both,
-  // may be on the line.
+  // Does the line of an edge of one triangle separate the two? A common corner, the first of both, may be on the line.
   const auto divides = [&](const std::array<IntegerPoint, 3>& one, const std::array<IntegerPoint, 3>& other) {
     const int sense = orient_along(axis, one[0], one[1], one[2]);
     for (int k = 0; k < 3; ++k) {
@@ -206,7 +198,7 @@ std::optional<Contact> meet_triangles(const Triangle& s, const Triangle& t) {
   return std::nullopt;
 }
 
-// Their intersection is convex and holds the common corner. If it holds more, then it reaches the opposite edge of one
+// Their intersection is convex and contains the common corner. If it contains more, it reaches the opposite edge of one
 // of them.
 std::optional<Contact> meet_triangles_at_corner(const Triangle& s, const Triangle& t) {
   const int s1 = numbers::orient3d(t[0], t[1], t[2], s[1]), s2 = numbers::orient3d(t[0], t[1], t[2], s[2]);

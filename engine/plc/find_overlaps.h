@@ -7,32 +7,31 @@
 
 #include "engine/base/box_tree.h"
 #include "engine/base/point.h"
+#include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
 
 namespace ccdt::plc {
 
-/// The boxes of triangles.
-std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
-
-/// All pairs of triangles, at most `limit`, that meet in more than common vertices and edges. Pairs with a common edge
-/// are the business of `sort_around_edges`, and those of a facet that is flat only within the tolerance are left out:
-/// its tiny folds are no overlap.
+/// All pairs of triangles, at most `limit`, that meet in more than common vertices and edges. `sort_around_edges`
+/// handles pairs with a common edge. Pairs within a facet that is flat only within the tolerance are left out: its tiny
+/// folds are not overlaps.
 ///
-/// \param tree  over `boxes_of(vertices, triangles)`
+/// \param close  of the triangles
 std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                   const FacetPatches& facets, const BoxTree& tree, std::size_t limit);
+                                   const FacetPatches& facets, std::span<const TrianglePair> close, std::size_t limit);
 
-/// The same for segments that are no edges of triangles, with triangles and with each other.
+/// The same for segments that are not edges of triangles, with triangles and with each other.
 ///
 /// \param loose  the indices of those segments
+/// \param tree   over the boxes of the triangles
 std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
                                            const SegmentSet& segments, std::span<const std::uint32_t> loose,
                                            const BoxTree& tree, std::size_t limit);
 
-// ---- Exact tests of two things --------------------------------------------------------------------------------------
+// ---- Exact tests of pairs --------------------------------------------------------------------------------------
 
-/// A point where two things meet that should not; the decision is exact, the point is rounded.
+/// A point where two elements meet but should not; the decision is exact, the point is rounded.
 struct Contact {
   Point3 where;
   bool coplanar = false;
@@ -41,8 +40,8 @@ struct Contact {
 /// Where a segment meets a triangle, both closed; nothing if they are apart.
 std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, const std::array<Point3, 3>& triangle);
 
-/// Are two coplanar triangles separated by the line of an edge of one, so that they have nothing in common but maybe a
-/// corner on that line? False does not say that they meet: the functions below decide. Many times faster than those.
+/// Are two coplanar triangles separated by the line of an edge of one, so that they share nothing, except perhaps a
+/// corner on that line? False does not mean that they meet: the functions below decide, but are many times slower.
 ///
 /// \param axis    an axis that the plane is not parallel to
 /// \param common  the number of corners that both have: 0, or 1, the first of each
@@ -51,7 +50,7 @@ bool are_apart_in_plane(int axis, const std::array<Point3, 3>& s, const std::arr
 /// Where two triangles without a common vertex meet, both closed.
 std::optional<Contact> meet_triangles(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
 
-/// Where two triangles with just the common corner s[0] = t[0] meet elsewhere.
+/// Where two triangles with only the common corner s[0] = t[0] meet elsewhere.
 std::optional<Contact> meet_triangles_at_corner(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
 
 /// Where a segment from a corner of a triangle, t[0], meets the triangle elsewhere.

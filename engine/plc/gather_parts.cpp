@@ -36,7 +36,7 @@ double largest_difference(const Point3& a, const Point3& b) {
   return std::max({std::fabs(a.x - b.x), std::fabs(a.y - b.y), std::fabs(a.z - b.z)});
 }
 
-// One vertex after the other splits the triangle that holds it into three, or two if it is on an edge.
+// Each vertex splits the triangle that contains it into three, or into two if it is on an edge.
 class TriangleSplitter {
  public:
   TriangleSplitter(std::span<const Point3> vertices, const VertexTriple& t)
@@ -47,7 +47,7 @@ class TriangleSplitter {
       parts.push_back(t);
       return;
     }
-    const std::size_t middle = inner.size() / 2;  // vertices in a row have their ids in a row: so the list is halved
+    const std::size_t middle = inner.size() / 2;  // consecutive vertices have consecutive ids, so the list is halved
     const VertexId v = inner[middle];
     for (int k = 0; k < 3; ++k) {
       const VertexTriple part = {t[k], t[(k + 1) % 3], v};
@@ -74,8 +74,8 @@ class TriangleSplitter {
   int sense_;
 };
 
-// The plane of a facet, seen along the axis that it is least parallel to. In this projection all answers are exact,
-// also for a facet that is planar only within the tolerance.
+// The plane of a facet, seen along the axis that it is least parallel to. In this projection, all answers are exact,
+// even for a facet that is planar only within the tolerance.
 struct ProjectedPlane {
   std::span<const Point3> vertices;
   std::span<const Point3> seeds;  // their ids follow those of the vertices
@@ -90,7 +90,7 @@ struct ProjectedPlane {
   }
 
  private:
-  // In the plane z = 0, turned so that counterclockwise stays so.
+  // In the plane z = 0, keeping the orientation.
   Point3 flat(VertexId v) const {
     const auto p = as_array(point(v));
     return {p[(axis + 1) % 3], p[(axis + 2) % 3], 0};
@@ -178,7 +178,7 @@ class FacetTriangulator {
     return true;
   }
 
-  // Most facets of surface files; along the shorter of the diagonals that are within.
+  // The most common case; uses the shorter of the inner diagonals.
   bool split_quadrilateral() {
     const VertexId a = edges_[0][0], b = edges_[1][0], c = edges_[2][0], d = edges_[3][0];
     const auto is_within = [&](VertexId p, VertexId q, VertexId r, VertexId s) {
@@ -223,7 +223,7 @@ class FacetTriangulator {
       fail("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
     planar::Triangulation& t = result.triangulation;
     if (t.triangles.empty())
-      fail("the outline of a facet is not closed, or its holes leave nothing", vertices_,
+      fail("the outline of a facet is not closed, or its holes remove everything", vertices_,
            "close the outline, or remove the facet");
     for (const VertexId v : result.unused)
       if (!is_end_of_edge(v))
@@ -244,7 +244,7 @@ class FacetTriangulator {
     return std::any_of(edges_.begin(), edges_.end(), [&](const planar::Edge& e) { return e[0] == v || e[1] == v; });
   }
 
-  // A segment that leaves the facet or crosses its edges is left to the checks of all segments.
+  // The checks of all segments handle a segment that leaves the facet or crosses its edges.
   void insert_given_segments(planar::Triangulation& t) {
     for (const VertexId v : vertices_)
       for (const std::uint32_t s : segments_at_[v]) {
@@ -348,20 +348,44 @@ std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, Tria
   return dropped;
 }
 
-bool split_triangles_at_vertices(std::span<const Point3> vertices, const BoxTree& tree, TriangleSet& triangles) {
-  std::vector<char> axes(triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    axes[t] = static_cast<char>(dominant_axis(points_of(vertices, triangles.corners[t])));
-  std::vector<std::pair<std::uint32_t, VertexId>> found;  // triangle and a vertex on it
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    const VertexId v(i);
-    tree.for_each_meeting(box_of(vertices[v]), [&](std::uint32_t t) {
-      const VertexTriple& c = triangles.corners[t];
-      if (!has_corner(c, v) && is_on_triangle(axes[t], vertices[v], points_of(vertices, c))) found.emplace_back(t, v);
-    });
+namespace {
+
+/// A triangle and a vertex on it that is no corner.
+using VertexOnTriangle = std::pair<std::uint32_t, VertexId>;
+
+std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3> vertices,
+                                                         std::span<const TrianglePair> close, const BoxTree& tree,
+                                                         const TriangleSet& triangles) {
+  std::vector<VertexOnTriangle> found;
+  const auto test = [&](VertexId v, std::uint32_t t) {
+    const VertexTriple& c = triangles.corners[t];
+    if (has_corner(c, v)) return;
+    const auto corners = points_of(vertices, c);
+    if (bounding_box(corners).meets(box_of(vertices[v])) &&
+        is_on_triangle(dominant_axis(corners), vertices[v], corners))
+      found.emplace_back(t, v);
+  };
+  for (const auto& [s, t] : close) {
+    for (const VertexId v : triangles.corners[s]) test(v, t);
+    for (const VertexId v : triangles.corners[t]) test(v, s);
   }
+  std::vector<bool> is_corner(vertices.size(), false);
+  for (const VertexTriple& t : triangles.corners)
+    for (const VertexId v : t) is_corner[v] = true;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (!is_corner[v]) tree.for_each_meeting(box_of(vertices[v]), [&](std::uint32_t t) { test(VertexId(v), t); });
+  std::ranges::sort(found);
+  const auto again = std::ranges::unique(found);
+  found.erase(again.begin(), again.end());
+  return found;
+}
+
+}  // namespace
+
+bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<const TrianglePair> close,
+                                 const BoxTree& tree, TriangleSet& triangles) {
+  const std::vector<VertexOnTriangle> found = find_vertices_on_triangles(vertices, close, tree, triangles);
   if (found.empty()) return false;
-  std::sort(found.begin(), found.end());
 
   TriangleSet result;
   std::vector<VertexId> inner;

@@ -3,19 +3,20 @@
 #include <span>
 
 #include "engine/base/box_tree.h"
+#include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt::plc {
 
-/// Fills the grid, the vertices and all that belongs to them: puts the vertices of the input on the dyadic grid and
-/// makes those that fall on the same point one. Ids are given in the order of first appearance.
+/// Fills the grid, the vertices and their data: rounds the vertices of the input to the dyadic grid and merges those
+/// that fall on the same point. Ids are given in the order of first appearance.
 ///
 /// \throw InputError  a coordinate that is not finite, with the number of its vertex
 void snap_vertices(const InputPlc& input, Plc& plc);
 
-/// A tolerance that is given as a fraction of the box of the vertices, in grid units.
+/// Converts a tolerance from a fraction of the bounding box to grid units.
 double tolerance_of(const Plc& plc, double flatness);
 
 /// The triangles of the input, without its polygon facets.
@@ -26,8 +27,8 @@ SegmentSet gather_segments(const InputPlc& input, const Plc& plc);
 
 /// Triangulates the polygon facets of the input, exactly, with all their vertices and without their holes, and appends
 /// the triangles. A facet without area is left out. Polygons of two vertices, and edges of polygons that have the facet
-/// on both sides, are appended to the segments. Segments that are there already and lie in a facet with both ends among
-/// its vertices become edges of its triangles.
+/// on both sides, are appended to the segments. Existing segments in a facet, with both ends among its vertices, become
+/// edges of its triangles.
 ///
 /// \param tolerance  in grid units: how far from a plane the vertices of a facet may be
 /// \throw InputError  a facet that is not planar, whose edges cross, or with a hole seed or vertex
@@ -35,21 +36,23 @@ SegmentSet gather_segments(const InputPlc& input, const Plc& plc);
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments);
 
-/// Drops the triangles that have no area, exactly: they bound nothing. CAD programs close the gap with them where a
+/// Drops the triangles that have no area, exactly: they bound nothing. CAD programs use them to close the gap where a
 /// vertex of one facet is on the edge of another. The vertex stays, and splits that facet
 /// (`split_triangles_at_vertices`).
 ///
-/// \return how many
+/// \return their number
 std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles);
 
-/// Splits the triangles that other vertices lie on, exactly, in an edge or within, so that those are corners. What was
-/// conforming in space is then conforming in its indices as well.
+/// Splits the triangles that contain other vertices, exactly, on an edge or inside, so that these become corners. What
+/// conforms in space then also conforms by indices.
 ///
-/// \param tree  over the boxes of the triangles
-/// \return whether anything was split; the triangles are new then
-bool split_triangles_at_vertices(std::span<const Point3> vertices, const BoxTree& tree, TriangleSet& triangles);
+/// \param close  of the triangles
+/// \param tree   over the boxes of the triangles
+/// \return was anything split? Then the triangles are new
+bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<const TrianglePair> close,
+                                 const BoxTree& tree, TriangleSet& triangles);
 
-/// Splits the segments that other vertices lie on, drops those of no length and keeps of equal ones the first.
+/// Splits the segments that contain other vertices, drops those without length, and keeps the first of equal ones.
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments);
 
 }  // namespace ccdt::plc

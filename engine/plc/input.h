@@ -19,13 +19,13 @@ struct PolygonFacet {
   std::uint32_t number = 0;  ///< number of the facet in the file, from 0
 };
 
-/// What a file holds, in the units of the file, before anything is checked: indices are in range (the readers see to
-/// that) and nothing else is promised.
+/// The contents of a file, in its units, before any check. Indices are in range, which the readers ensure; nothing else
+/// is guaranteed.
 struct InputPlc {
-  /// How the file says what is inside.
+  /// How the file defines the inside.
   enum class Inside {
     even_odd,  ///< surface formats: a point is inside if it is separated from infinity by an odd number of shells
-    seeds,     ///< .poly, .smesh, .mesh: all that infinity cannot reach, less what the hole seeds reach
+    seeds,     ///< .poly, .smesh, .mesh: everything not reachable from infinity or from hole seeds
   };
 
   struct RegionSeed {
@@ -40,12 +40,12 @@ struct InputPlc {
   std::vector<Point3> vertices;
 
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<int> triangle_markers;            ///< empty, or one a triangle
+  std::vector<int> triangle_markers;            ///< empty, or one per triangle
   std::vector<std::uint32_t> triangle_numbers;  ///< empty (the index itself), or the number of the facet in the file
   std::vector<PolygonFacet> polygon_facets;
 
   std::vector<std::array<std::uint32_t, 2>> segments;
-  std::vector<int> segment_markers;  ///< empty, or one a segment
+  std::vector<int> segment_markers;  ///< empty, or one per segment
 
   std::vector<Point3> holes;
   std::vector<RegionSeed> regions;

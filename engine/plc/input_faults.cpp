@@ -102,13 +102,12 @@ void throw_open_surface(const Plc& plc, const EdgeTable& edges) {
     lengths += (lengths.empty() ? "" : ", ") + std::to_string(count);
     points.push_back(plc.world[vertex]);
   }
-  throw_input_error(
-      plc,
-      "the surface is open: it has " + std::to_string(edge_counts.size()) + " boundary loop" +
-          (edge_counts.size() == 1 ? "" : "s") + ", of " + lengths + " edges; a point of each follows",
-      "close the holes, or merge vertices that should be one; a surface that is meant to be open inside a "
-      "closed one has to come as .poly, .smesh or .mesh",
-      points);
+  throw_input_error(plc,
+                    "the surface is open: it has " + std::to_string(edge_counts.size()) + " boundary loop" +
+                        (edge_counts.size() == 1 ? "" : "s") + ", of " + lengths + " edges; a point of each follows",
+                    "close the holes, or merge vertices that should be one; an open surface inside a closed one must "
+                    "be given as .poly, .smesh or .mesh",
+                    points);
 }
 
 }  // namespace ccdt::plc

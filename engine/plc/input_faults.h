@@ -10,11 +10,11 @@
 
 namespace ccdt::plc {
 
-/// \throw InputError  a facet is there twice
+/// \throw InputError  a facet occurs twice
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
 
-/// \param pairs     not empty; the one of the smallest facet numbers is named
-/// \param at_least  there may be more than `pairs` holds
+/// \param pairs     not empty; the pair with the smallest facet numbers is named
+/// \param at_least  there may be more than in `pairs`
 /// \throw InputError  always
 [[noreturn]] void throw_overlaps(const Plc& plc, const TriangleSet& triangles, const SegmentSet& segments,
                                  std::span<const Overlap> pairs, bool at_least);

@@ -50,7 +50,7 @@ inline int dominant_axis(const Point3& v) {
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-/// An axis that the plane of a triangle is not parallel to.
+/// An axis that is not parallel to the plane of a triangle.
 inline int dominant_axis(const std::array<Point3, 3>& t) {
   return dominant_axis(rounded_normal(t));
 }

@@ -20,8 +20,8 @@ struct PlaneSteps {
 /// \param a, b, c  points of integer coordinates, not on one line
 PlaneSteps steps_in_plane(const Point3& a, const Point3& b, const Point3& c);
 
-/// The steps in the plane of an exactly flat facet: those between corners of the input, which are multiples of the
-/// quantum. Between other vertices they would be as long as the triangles.
+/// The steps in the plane of an exactly flat facet, computed from corners of the input, which are multiples of the
+/// quantum. From other vertices, they would be as long as the triangles.
 std::optional<PlaneSteps> steps_of_facet(const Facet& facet, const std::vector<Point3>& points);
 
 }  // namespace ccdt::plc

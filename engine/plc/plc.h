@@ -20,7 +20,8 @@ struct Segment {
 
 /// A facet: a maximal connected coplanar patch of input facets with one marker, bounded by segments.
 ///
-/// `above` is the side that its triangles' normals point to (right-hand rule, counterclockwise seen from above).
+/// `above` is the side to which the normals of its triangles point (right-hand rule, counterclockwise as seen from
+/// above).
 struct Facet {
   std::vector<std::array<VertexId, 3>>
       triangles;             ///< any triangulation, with all vertices of the facet, consistently oriented
@@ -46,7 +47,7 @@ struct Plc {
   numbers::DyadicGrid grid;
   std::vector<Point3> vertices;           ///< grid units
   std::vector<Point3> world;              ///< the same vertices in the units of the input, unrounded
-  std::vector<VertexId> vertex_of_input;  ///< for each input vertex the vertex that it became
+  std::vector<VertexId> vertex_of_input;  ///< for each input vertex, its vertex
   std::vector<Segment> segments;
   std::vector<Facet> facets;
   std::vector<Region> regions;

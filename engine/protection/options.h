@@ -6,7 +6,7 @@
 
 namespace ccdt::protection {
 
-/// Where a missing segment is split.
+/// Where to split a missing segment.
 enum class Protection { shell, midpoint };
 
 constexpr auto names_of(Protection) {

@@ -1,6 +1,7 @@
 #include "engine/protection/split_edges.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -16,40 +17,64 @@ constexpr std::uint32_t no_segment = 0xFFFFFFFFu;
 /// splits.
 constexpr std::uint32_t most_splits_at_feet = 8;
 
-/// Parts of a piece that its splits leave at the least, if that does no harm.
+/// Smallest share of a piece that a split leaves, if that does no harm.
 constexpr double least_part_at_foot = 0.001;
 
-/// Where a piece is split for the sake of an encroaching vertex: at the foot of the vertex, so that it is in the
-/// diametral sphere of neither half. Very near to an end of the piece it is somewhat farther from that end, but only so
-/// far that the vertex stays out of both spheres.
+/// Where to split a piece because of an encroaching vertex: at the foot of the vertex, so that it is outside the
+/// diametral spheres of both halves. Near an end of the piece, the split moves away from that end, but only so far that
+/// the vertex stays outside both spheres.
 ///
 /// \param from, to  the ends of the piece; like the foot and the result in distances from the segment's first end
-double split_near_foot(double foot, double squared_height, double from, double to) {
+SplitPlace split_near_foot(double foot, double squared_height, double from, double to) {
   const double margin = least_part_at_foot * (to - from), room = 0.9 * squared_height;
   const double wanted = std::clamp(foot, from + margin, to - margin);
-  return std::clamp(wanted, foot - room / (to - foot), foot + room / (foot - from));
+  const double low = foot - room / (to - foot), high = foot + room / (foot - from);
+  return {std::clamp(wanted, low, high), low, high};
+}
+
+/// Where a line, between two distances from its origin, meets the plane whose coordinate is a multiple of the greatest
+/// power of two, across the dominant axis of the line. Parallel lines meet the same planes.
+double distance_of_round_plane(const Point3& origin, const Point3& direction, double from, double to) {
+  const auto along = as_array(direction);
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::fabs(along[i]) > std::fabs(along[axis])) axis = i;
+  const double start = as_array(origin)[axis];
+  const auto [low, high] = std::minmax({start + from * along[axis], start + to * along[axis]});
+  double step = 0x1p52;  // more than any coordinate
+  while (std::floor(high / step) * step < low) step /= 2;
+  return std::clamp((std::floor(high / step) * step - start) / along[axis], from, to);
+}
+
+/// The least fraction of a segment whose multiples are on the grid. The coordinates of its ends are multiples of 2^20,
+/// and those of regular shapes of greater powers.
+std::uint32_t finest_step(const Point3& along) {
+  int zeros = std::countr_zero(whole);
+  for (const double part : as_array(along))
+    if (part != 0) zeros = std::min(zeros, std::countr_zero(static_cast<std::uint64_t>(std::fabs(part))));
+  return whole >> zeros;
 }
 
 Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
   const Point3& a = plc.vertices[plc.segments[segment].ends[0]];
   const Point3& b = plc.vertices[plc.segments[segment].ends[1]];
-  // The ends are multiples of 2^20, so that this is exact.
+  // Exact, as the fraction is a multiple of `finest_step`.
   return a + fraction * ((1.0 / whole) * (b - a));
 }
 
-/// More than any real part was seen to need (six splits for each vertex), so that one whose segments split each other
-/// on and on ends within seconds.
+/// More than any real part needed (six splits per vertex), so that segments that split each other forever end within
+/// seconds.
 std::size_t most_splits(std::size_t vertices) {
-  return 10000 + 10 * vertices;
+  return 100000 + 10 * vertices;
 }
 
 [[noreturn]] void refuse_further_splits(const plc::Plc& plc, const Subsegment& piece, const char* why) {
   Place place;
   place.file = plc.name;
   for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
-  throw LimitError(
-      std::string("a segment cannot be protected: ") + why, place,
-      "look for features at its ends that are smaller than 1e-6 of it, and remove them or split the segment");
+  throw LimitError(std::string("a segment cannot be protected: ") + why, place,
+                   "look for features at its ends or beside it that are smaller than 1e-5 of it, and remove them or "
+                   "split the segment");
 }
 
 }  // namespace
@@ -67,8 +92,8 @@ EdgeSplitter::EdgeSplitter(const plc::Plc& plc, Protection strategy, delaunay::D
 }
 
 ChainVertex EdgeSplitter::split(const Subsegment& piece) {
-  if (piece.to.fraction - piece.from.fraction < 2)
-    refuse_further_splits(plc_, piece, "it would have to be split into more than 2^20 pieces");
+  if (piece.to.fraction - piece.from.fraction < 2 * step_of(piece.segment))
+    refuse_further_splits(plc_, piece, "it would have to be split at places that are not on the grid");
   if (d_.vertices.size() > most_vertices_)
     refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
   const std::uint32_t fraction = split_fraction(piece);
@@ -82,20 +107,39 @@ ChainVertex EdgeSplitter::split(const Subsegment& piece) {
   return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
 }
 
-/// A fraction strictly between the ends of the piece.
-std::uint32_t EdgeSplitter::split_fraction(const Subsegment& piece) {
-  const std::uint32_t middle = piece.from.fraction + (piece.to.fraction - piece.from.fraction) / 2;
-  if (strategy_ == Protection::midpoint) return middle;
-  const auto encroaching = encroaching_vertex(piece, middle);
-  if (!encroaching) return middle;
-  const auto& ends = plc_.segments[piece.segment].ends;
-  const double length = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0])));
-  const double fraction = std::nearbyint(split_length(piece, *encroaching) / length * whole);
-  return static_cast<std::uint32_t>(std::clamp(fraction, piece.from.fraction + 1.0, piece.to.fraction - 1.0));
+/// The step between the fractions at which a segment may be split.
+std::uint32_t EdgeSplitter::step_of(std::uint32_t segment) const {
+  const auto& [a, b] = plc_.segments[segment].ends;
+  return strategy_ == Protection::midpoint ? usual_step : finest_step(d_.point(b) - d_.point(a));
 }
 
-/// Of the vertices around a point of the piece the one that sees the piece under the largest obtuse angle: it is why
-/// the piece is missing. Nothing if none is in the diametral sphere.
+/// The fraction strictly between the ends of the piece that is nearest to the wanted place, in default steps; if none
+/// of these serves its purpose, in smaller ones, as far as the segment allows.
+std::uint32_t EdgeSplitter::fraction_near(const Subsegment& piece, const SplitPlace& place) const {
+  const auto& ends = plc_.segments[piece.segment].ends;
+  const double unit = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0]))) / whole;
+  const std::uint32_t finest = step_of(piece.segment);
+  for (std::uint32_t step = usual_step;; step /= 2) {
+    const std::uint32_t first = (piece.from.fraction / step + 1) * step, last = (piece.to.fraction - 1) / step * step;
+    if (first > last) continue;
+    const auto nearest = step * static_cast<std::uint32_t>(std::nearbyint(std::max(0.0, place.wanted) / (unit * step)));
+    const std::uint32_t fraction = std::clamp(nearest, first, last);
+    if (step == finest || (place.low <= unit * fraction && unit * fraction <= place.high)) return fraction;
+  }
+}
+
+/// A fraction strictly between the ends of the piece.
+std::uint32_t EdgeSplitter::split_fraction(const Subsegment& piece) {
+  const std::uint32_t length = piece.to.fraction - piece.from.fraction;
+  const std::uint32_t step = length < 2 * usual_step ? step_of(piece.segment) : usual_step;
+  const std::uint32_t middle = (piece.from.fraction + length / 2) / step * step;
+  if (strategy_ == Protection::midpoint) return middle;
+  const auto encroaching = encroaching_vertex(piece, middle);
+  return encroaching ? fraction_near(piece, split_place(piece, *encroaching)) : middle;
+}
+
+/// The vertex around a point of the piece that sees the piece under the largest obtuse angle: the reason why the piece
+/// is missing. None if no vertex is in the diametral sphere.
 std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
   const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
   d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
@@ -108,7 +152,7 @@ std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& 
       if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
       const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
       const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
-      // Of equals the first, whatever the order of the cells.
+      // The first of equal ones, for any order of the cells.
       if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
       least_cosine = cosine;
       worst = v;
@@ -119,32 +163,35 @@ std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& 
   return worst;
 }
 
-/// Where the piece is split for the sake of an encroaching vertex, as a distance from the first end of its segment.
-double EdgeSplitter::split_length(const Subsegment& piece, std::uint32_t encroaching) const {
+/// Where to split the piece because of an encroaching vertex.
+SplitPlace EdgeSplitter::split_place(const Subsegment& piece, std::uint32_t encroaching) const {
   const auto& ends = plc_.segments[piece.segment].ends;
   const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
   const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
+  const double from = length * piece.from.fraction / whole, to = length * piece.to.fraction / whole;
   const std::uint32_t other =
       encroaching < plc_.vertices.size() ? no_segment : segment_of_[encroaching - plc_.vertices.size()];
   if (other != no_segment) {
     // On a segment that meets this one: on its shell, so that the two do not split each other forever.
+    const double margin = length * std::min(usual_step, (piece.to.fraction - piece.from.fraction) / 2) / whole;
     const auto& others = plc_.segments[other].ends;
     for (int i = 0; i < 2; ++i) {
       if (ends[i] != others[0] && ends[i] != others[1]) continue;
       const double radius = std::sqrt(squared_length(p - d_.point(ends[i])));
       const double along = i == 0 ? radius : length - radius;
-      if (along * whole > length * (piece.from.fraction + 1) && along * whole < length * (piece.to.fraction - 1))
-        return along;
+      if (along > from + margin && along < to - margin) return {along, from, to};
     }
   }
-  // Feet of segments that are not quite parallel move towards each other without end. After some splits, they keep
-  // their distance from the ends of the piece.
-  const double from = length * piece.from.fraction / whole, to = length * piece.to.fraction / whole;
-  const bool is_deep = std::max(piece.from.level, piece.to.level) >= most_splits_at_feet;
-  const double margin = is_deep ? 0.2 * (to - from) : 0;
   const Point3 axis = (1 / length) * (d_.point(ends[1]) - first);
   const double foot = dot(p - first, axis), height2 = squared_length(p - first - foot * axis);
-  return std::clamp(split_near_foot(foot, height2, from, to), from + margin, to - margin);
+  SplitPlace place = split_near_foot(foot, height2, from, to);
+  // Feet on segments that are not quite parallel would move toward each other forever. So after some splits, pieces are
+  // no longer split near their ends but where adjacent ones are split as well.
+  const bool is_deep = std::max(piece.from.level, piece.to.level) >= most_splits_at_feet;
+  const double margin = is_deep ? 0.2 * (to - from) : 0;
+  if (place.wanted >= from + margin && place.wanted <= to - margin) return place;
+  const double wanted = distance_of_round_plane(first, axis, from + margin, to - margin);
+  return {wanted, wanted, wanted};
 }
 
 }  // namespace ccdt::protection

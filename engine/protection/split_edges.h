@@ -21,6 +21,12 @@ struct Subsegment {
   ChainVertex from, to;
 };
 
+/// Where to split a piece, as distances from the first end of its segment.
+struct SplitPlace {
+  double wanted;
+  double low, high;  ///< between these, the split serves its purpose
+};
+
 /// Splits pieces of segments by new vertices of the tetrahedralization; keeps its working memory between splits.
 class EdgeSplitter {
  public:
@@ -36,15 +42,17 @@ class EdgeSplitter {
   std::span<const std::array<std::uint32_t, 4>> destroyed() const { return destroyed_; }
 
  private:
+  std::uint32_t step_of(std::uint32_t segment) const;
+  std::uint32_t fraction_near(const Subsegment& piece, const SplitPlace& place) const;
   std::uint32_t split_fraction(const Subsegment& piece);
   std::optional<std::uint32_t> encroaching_vertex(const Subsegment& piece, std::uint32_t fraction);
-  double split_length(const Subsegment& piece, std::uint32_t encroaching) const;
+  SplitPlace split_place(const Subsegment& piece, std::uint32_t encroaching) const;
 
   const plc::Plc& plc_;
   Protection strategy_;
   delaunay::Delaunay& d_;
   delaunay::Insertion insertion_;
-  std::vector<std::uint32_t> segment_of_;  ///< by vertex less those of the PLC; none: not on a segment
+  std::vector<std::uint32_t> segment_of_;  ///< by vertex, without those of the PLC; none: not on a segment
   std::size_t most_vertices_;              ///< more would be far too many splits
   std::vector<std::array<std::uint32_t, 4>> destroyed_;
 };

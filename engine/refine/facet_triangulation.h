@@ -35,13 +35,13 @@ class FacetPlane {
   double first_ = 1, shear_ = 0, second_ = 1;  ///< how the other two coordinates are stretched
 };
 
-/// Where a walk towards a point ended: in a triangle that has it, or at an edge that it may not cross.
+/// Where a walk toward a point ended: in a triangle that contains it, or at an edge that it must not cross.
 struct WalkEnd {
   std::uint32_t triangle = planar::none;  ///< none: the walk gave up
   std::optional<planar::Side> wall;
 };
 
-/// The constrained Delaunay triangulation of a facet, which takes vertices in.
+/// The constrained Delaunay triangulation of a facet, to which vertices can be added.
 class FacetTriangulation {
  public:
   /// \param segments  edges of the facet's triangles
@@ -58,14 +58,14 @@ class FacetTriangulation {
   /// Walks from a triangle towards a vertex that is not part of the triangulation yet.
   WalkEnd walk(std::uint32_t from, VertexId to) const;
 
-  /// A triangle that has a vertex which is not part of the triangulation yet.
+  /// A triangle that contains a vertex that is not part of the triangulation yet.
   std::uint32_t find(VertexId v) const { return planar::locate(t_, v, plane_); }
 
-  /// Takes a vertex in that is in this triangle or on an edge of it. False, and nothing has changed, if it is at a
-  /// corner or on an edge that is constrained.
+  /// Adds a vertex in this triangle or on an edge of it. False, without any change, if it is at a corner or on a
+  /// constrained edge.
   bool insert(VertexId v, std::uint32_t triangle);
 
-  /// Takes a vertex in that is on the edge ab.
+  /// Adds a vertex on the edge ab.
   bool split(VertexId a, VertexId b, VertexId v) { return planar::split_edge(t_, a, b, v, plane_); }
 
  private:
@@ -77,7 +77,7 @@ class FacetTriangulation {
 
   FacetPlane plane_;
   planar::Triangulation t_;
-  std::vector<Patch> patches_;  ///< of an exactly flat facet: one for all
+  std::vector<Patch> patches_;  ///< one for all in an exactly flat facet
 };
 
 }  // namespace ccdt::refine

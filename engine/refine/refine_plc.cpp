@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/base/simplex_map.h"
-#include "engine/delaunay/insertion.h"
+#include "engine/delaunay/hilbert_order.h"
 #include "engine/refine/facet_triangulation.h"
 #include "engine/refine/surface_sizes.h"
 
@@ -18,7 +18,6 @@ namespace {
 
 using planar::Side;
 using protection::ChainVertex;
-using protection::whole_segment;
 
 /// A triangle is too large if its circumradius is more than this times the wanted length; 0.58 times is the radius of
 /// the equilateral triangle of that length.
@@ -37,7 +36,10 @@ constexpr double least_halved = 1.1;
 /// A vertex encroaches on an edge of a segment that it sees under an angle of more than 120 degrees.
 constexpr double encroaching_cosine = -0.5;
 
-/// A new vertex may be that far from where it is wanted, as a fraction of the wanted length.
+/// Fractions of segments are counted in steps that are on the grid on every segment.
+constexpr std::uint32_t all_steps = protection::whole_segment / protection::usual_step;
+
+/// Largest distance of a new vertex from its wanted place, as a fraction of the wanted length.
 constexpr double most_shift = 0.2;
 
 struct Shape {
@@ -67,7 +69,7 @@ class Refiner {
  public:
   Refiner(plc::Plc plc, const RefineOptions& options, const Progress& progress)
       : plc_(std::move(plc)),
-        sizes_(plc_, options.edge_length, options.grading),
+        sizes_(plc_, options),
         progress_(progress),
         points_(plc_.vertices),
         facets_of_segment_(plc_.segments.size()) {
@@ -90,7 +92,7 @@ class Refiner {
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-  /// Where a vertex was added.
+  /// The place where a vertex was added.
   struct PlaceOfVertex {
     std::uint32_t segment = none, fraction = 0;
     std::uint32_t facet = none;
@@ -124,17 +126,17 @@ class Refiner {
   Point3 at_fraction(std::uint32_t segment, std::uint32_t fraction) const {
     const auto& [a, b] = plc_.segments[segment].ends;
     // The ends are multiples of 2^20, so that this is exact.
-    return points_[a] + fraction * ((1.0 / whole_segment) * (points_[b] - points_[a]));
+    return points_[a] + fraction * ((1.0 / all_steps) * (points_[b] - points_[a]));
   }
 
   /// Puts vertices on a segment at nearly equal intervals, where they are measured by the wanted lengths.
   void divide(std::uint32_t segment) {
-    const double whole = length(at_fraction(segment, whole_segment) - at_fraction(segment, 0));
+    const double whole = length(at_fraction(segment, all_steps) - at_fraction(segment, 0));
     std::vector<std::pair<double, double>> passed = {{0, 0}};  // fraction of the length, wanted edges up to there
     for (double t = 0; t < 1;) {
-      const Point3 p = at_fraction(segment, static_cast<std::uint32_t>(t * whole_segment));
+      const Point3 p = at_fraction(segment, static_cast<std::uint32_t>(t * all_steps));
       const double step = std::min(0.25 * sizes_.at(p) / whole, 1 - t);
-      const Point3 middle = at_fraction(segment, static_cast<std::uint32_t>((t + step / 2) * whole_segment));
+      const Point3 middle = at_fraction(segment, static_cast<std::uint32_t>((t + step / 2) * all_steps));
       t = 1 - t - step < 1e-9 ? 1 : t + step;
       passed.emplace_back(t, passed.back().second + step * whole / sizes_.at(middle));
     }
@@ -147,8 +149,8 @@ class Refiner {
       const auto& [from, before] = passed[i];
       const auto& [to, after] = passed[i + 1];
       const double t = from + (to - from) * (wanted - before) / (after - before);
-      const auto fraction = static_cast<std::uint32_t>(std::nearbyint(t * whole_segment));
-      if (fraction <= last || fraction >= whole_segment) continue;
+      const auto fraction = static_cast<std::uint32_t>(std::nearbyint(t * all_steps));
+      if (fraction <= last || fraction >= all_steps) continue;
       add_on_segment(segment, last_on(segment, last), VertexId(plc_.segments[segment].ends[1]), fraction);
       last = fraction;
     }
@@ -170,7 +172,7 @@ class Refiner {
 
   std::uint32_t fraction_of(std::uint32_t segment, VertexId v) const {
     if (v == plc_.segments[segment].ends[0]) return 0;
-    return v == plc_.segments[segment].ends[1] ? whole_segment : place_[v].fraction;
+    return v == plc_.segments[segment].ends[1] ? all_steps : place_[v].fraction;
   }
 
   std::uint32_t segment_of(VertexId a, VertexId b) const {
@@ -179,7 +181,7 @@ class Refiner {
     return segment_of_edge_.find(a, b);
   }
 
-  /// Halves an edge of a segment if that is long enough.
+  /// Halves an edge of a segment if it is long enough.
   bool halve(VertexId a, VertexId b) {
     if (length(points_[b] - points_[a]) < least_halved * 0.5 * (wanted_[a] + wanted_[b])) return false;
     const std::uint32_t segment = segment_of(a, b);
@@ -203,7 +205,7 @@ class Refiner {
     }
   };
 
-  /// Is the smallest angle one between segments? Then nothing helps.
+  /// Is the smallest angle between segments? Then nothing helps.
   bool has_input_angle(const planar::Triangulation& t, std::uint32_t triangle, std::uint32_t corner) const {
     return t.constrained[triangle][planar::next_corner(corner)] &&
            t.constrained[triangle][planar::previous_corner(corner)];
@@ -214,7 +216,7 @@ class Refiner {
     return (wanted_[a] + wanted_[b] + wanted_[c]) / 3;
   }
 
-  /// How bad a triangle is, from 1; too large ones come first. 0: good.
+  /// The badness of a triangle, from 1; too large ones come first. 0: good.
   double badness_of(std::uint32_t facet, std::uint32_t triangle) const {
     const std::array<Point3, 3> t = corners(facet, triangle);
     const Shape shape = shape_of(t);
@@ -243,13 +245,13 @@ class Refiner {
       const BadTriangle bad = queue_.top();
       queue_.pop();
       if (triangulation(bad.facet).triangles[bad.triangle] != bad.vertices) continue;
-      // A vertex on a segment may leave the triangle as it is.
+      // A vertex on a segment may leave the triangle unchanged.
       while (mend(bad.facet, bad.triangle) && triangulation(bad.facet).triangles[bad.triangle] == bad.vertices) {
       }
     }
   }
 
-  /// Tries to put a vertex where it makes a bad triangle disappear. False if nothing has changed.
+  /// Tries to add a vertex that removes a bad triangle. False if nothing changed.
   bool mend(std::uint32_t facet, std::uint32_t triangle) {
     const std::array<Point3, 3> t = corners(facet, triangle);
     const Shape shape = shape_of(t);
@@ -263,7 +265,7 @@ class Refiner {
     return put(facet, triangle, shape.circumcenter);
   }
 
-  /// Puts a vertex at a place in a facet, or halves an edge of a segment that is in the way. False if neither can be.
+  /// Adds a vertex at a place in a facet, or halves an edge of a segment in the way. False if neither is possible.
   bool put(std::uint32_t facet, std::uint32_t triangle, const Point3& place) {
     FacetTriangulation& f = facets_[facet];
     const double wanted = wanted_in(facet, triangle);
@@ -340,7 +342,8 @@ class Refiner {
     std::vector<std::uint32_t> in_facets;
     std::vector<std::vector<ChainVertex>> inside(plc_.segments.size());
     const std::span<const Point3> added = std::span(points_).subspan(of_input);
-    for (const std::uint32_t i : delaunay::hilbert_order(added)) {  // neighbors are near in it: searches are short
+    for (const std::uint32_t i :
+         delaunay::hilbert_order(added)) {  // neighbors are near each other in it, so searches are short
       const std::uint32_t v = of_input + i;
       if (place_[v].segment != none) continue;
       plc_.vertices.push_back(points_[v]);
@@ -350,13 +353,13 @@ class Refiner {
     for (std::uint32_t v = of_input; v < points_.size(); ++v) {
       if (place_[v].segment == none) continue;
       const VertexId id(plc_.vertices.size() + result.on_segments.size());
-      inside[place_[v].segment].push_back({id, place_[v].fraction, 0});
+      inside[place_[v].segment].push_back({id, place_[v].fraction * protection::usual_step, 0});
       result.on_segments.push_back(points_[v]);
     }
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
       auto& chain = inside[s];
       chain.push_back({plc_.segments[s].ends[0], 0, 0});
-      chain.push_back({plc_.segments[s].ends[1], whole_segment, 0});
+      chain.push_back({plc_.segments[s].ends[1], protection::whole_segment, 0});
       std::ranges::sort(chain, {}, &ChainVertex::fraction);
     }
     result.chains = std::move(inside);

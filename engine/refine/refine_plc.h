@@ -10,8 +10,10 @@
 namespace ccdt::refine {
 
 struct RefineOptions {
-  double edge_length = 0;  ///< longest edges that are wanted, in grid units; has to be positive
-  double grading = 0.5;    ///< growth of the edge length per unit of distance from where it has to be short
+  double edge_length = 0;  ///< longest wanted edges, in grid units; must be positive
+  double grading = 0.5;    ///< growth of the edge length per unit of distance from places where it is short
+  double most_tetrahedra =
+      8e6;  ///< approximate limit of tetrahedra from thin places; the thinnest then count as thicker
 };
 
 /// A PLC with more vertices and the same geometry.
@@ -29,8 +31,8 @@ struct RefinedPlc {
 /// of two steps in its plane (`plc::PlaneSteps`), so all are exactly in place. In a facet that is flat only within the
 /// tolerance, they are exactly in one of its triangles' planes.
 ///
-/// It ends at all angles: no edge is halved when it is shorter than the length that is wanted there, and no vertex is
-/// put nearer to another one than a part of that length.
+/// It terminates at all angles: no edge shorter than the length wanted there is halved, and no vertex is placed nearer
+/// to another one than a fraction of that length.
 RefinedPlc refine_plc(plc::Plc plc, const RefineOptions& options, const Progress& progress = {});
 
 }  // namespace ccdt::refine

@@ -1,31 +1,23 @@
 #pragma once
 
-#include <optional>
-
 #include "engine/base/point.h"
 #include "engine/lattice/size_field.h"
 #include "engine/plc/plc.h"
+#include "engine/refine/refine_plc.h"
 
 namespace ccdt::refine {
 
-/// The edge length that the surface should have at a place: at most the one of the options, less where segments are
-/// short, where two segments of a facet are near to each other and where the domain is thin between two facets.
-/// From there it grows with the distance, times the grading.
-///
-/// Where walls are so thin that the surface would get far too many triangles, lengths fit the thinnest ones no more.
-///
-/// Facets and segments that meet are not near to each other in this sense: at a small angle the length would go to
-/// zero.
+/// The wanted edge length of the surface at a place: at most that of the options, less at thin places
+/// (`find_thin_places`). From there it grows by the distance times the grading.
 class SurfaceSizes {
  public:
-  /// \param edge_length  positive, in grid units
-  SurfaceSizes(const plc::Plc& plc, double edge_length, double grading);
+  SurfaceSizes(const plc::Plc& plc, const RefineOptions& options);
 
   double at(const Point3& p) const;
 
  private:
   double largest_, grading_;
-  lattice::SizeTree sources_;
+  lattice::SizeTree places_;
 };
 
 }  // namespace ccdt::refine

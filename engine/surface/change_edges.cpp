@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "engine/base/count_work.h"
 #include "engine/surface/working_mesh.h"
@@ -34,8 +35,8 @@ bool starts_at_longest_edge(const std::array<Point3, 3>& p) {
 
 // May the triangles at an edge be split with the new vertex at a point where the surface has that normal?
 bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3& normal) {
-  // Where longest edges are split, angles stay above half of the least (Rivara 1984), and flips then mend the needles.
-  // Splits of other edges would make needles of needles without end.
+  // If longest edges are split, angles stay above half of the least (Rivara 1984), and flips then repair the needles.
+  // Splits of other edges would turn needles into thinner needles forever.
   constexpr double least_part_at_longest = 0.5;
   double least_part = least_part_at_longest;
   WorstFit before, after;
@@ -51,20 +52,27 @@ bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3
   return may_replace({least_part * before.worst.quality, before.worst.agreement}, after.worst, good_after_split);
 }
 
-// In the middle of an edge between places where such lengths are wanted. Long edges between short ones are no reason
-// for short ones all along them.
+// In the middle of an edge between places where such lengths are wanted. A long edge between short ones does not need
+// short edges all along it.
 double wanted_between(const WorkingMesh& m, const Point3& middle, double one, double other, double size) {
   return std::min(m.lengths.at(middle), std::min(one, other) + length_growth * 0.5 * size);
 }
 
-void split(WorkingMesh& m, EdgeHandle e, VertexHandle v) {
+// What splits have changed: the edges of the triangles around new vertices.
+using ChangedEdges = std::vector<EdgeHandle>;
+
+void split(WorkingMesh& m, EdgeHandle e, VertexHandle v, ChangedEdges& changed) {
   m.mesh.split(e, v);
   ++work_done.edges_split;
   m.face_is_frozen.resize(m.mesh.n_faces(), 0);
+  for (auto h = m.mesh.cvoh_iter(v); h.is_valid(); ++h) {
+    changed.emplace_back(m.mesh.edge_handle(*h).idx());
+    if (!m.mesh.is_boundary(*h)) changed.emplace_back(m.mesh.edge_handle(m.mesh.next_halfedge_handle(*h)).idx());
+  }
 }
 
 // The middle of the edge lies on the surface of before, if not on the original one, and is tried next.
-void try_split(WorkingMesh& m, EdgeHandle e) {
+bool try_split(WorkingMesh& m, EdgeHandle e, ChangedEdges& changed) {
   constexpr double most_step = 0.25;  // of a new vertex to the original surface, as a fraction of the edge's length
   const auto [a, b] = m.ends(e);
   const std::uint32_t patch = m.at(a).patch;
@@ -73,14 +81,15 @@ void try_split(WorkingMesh& m, EdgeHandle e) {
   const Point3 normal = m.closest.normal_at(foot);
   const bool is_near = foot.squared_distance <= most_step * most_step * squared_length(m.point(b) - m.point(a));
   if (!is_near || !may_split(m, e, foot.point, normal)) {
-    if (!may_split(m, e, middle, normal)) return;
+    if (!may_split(m, e, middle, normal)) return false;
     foot.point = middle;
   }
-  split(m, e,
-        add_vertex(m, patch, foot, wanted_between(m, middle, m.at(a).wanted, m.at(b).wanted, m.edge_length(a, b))));
+  const double wanted = wanted_between(m, middle, m.at(a).wanted, m.at(b).wanted, m.edge_length(a, b));
+  split(m, e, add_vertex(m, patch, foot, wanted), changed);
+  return true;
 }
 
-void try_split_link(WorkingMesh& m, std::uint32_t l) {
+bool try_split_link(WorkingMesh& m, std::uint32_t l, ChangedEdges& changed) {
   const WorkingMesh::Link link = m.links[l];
   const double arc = 0.5 * (link.arc[0] + link.arc[1]);
   const Point3 p = m.features.curves[link.curve].at(arc);
@@ -88,7 +97,7 @@ void try_split_link(WorkingMesh& m, std::uint32_t l) {
   for (const EdgeHandle e : edges) {
     const WorkingMesh::Vertex& end = m.at(m.ends(e)[0]);
     const Point3 normal = m.closest.normal_at(m.closest.on_patch(end.patch, p, end.near));
-    if (touches_frozen_face(m, e) || !may_split(m, e, p, normal)) return;
+    if (touches_frozen_face(m, e) || !may_split(m, e, p, normal)) return false;
   }
   const auto knot = static_cast<std::uint32_t>(m.knots.size());
   const auto new_link = static_cast<std::uint32_t>(m.links.size());
@@ -101,48 +110,92 @@ void try_split_link(WorkingMesh& m, std::uint32_t l) {
   m.knots[link.ends[1]].replace_link(l, new_link);
   for (const EdgeHandle e : edges) {
     const WorkingMesh::Vertex end = m.at(m.ends(e)[0]);
-    split(m, e, add_copy(m, end.patch, knot, end.near));
+    split(m, e, add_copy(m, end.patch, knot, end.near), changed);
   }
+  return true;
 }
 
-// The longest first: what is split then is the longest edge of its triangles, which keeps their angles (Rivara 1984).
-// With their negative lengths.
-std::vector<std::pair<double, EdgeHandle>> long_edges(const WorkingMesh& m) {
-  std::vector<std::pair<double, EdgeHandle>> found;
-  for (const EdgeHandle e : m.mesh.edges()) {
-    if (m.mesh.is_boundary(e) || touches_frozen_face(m, e)) continue;
-    const auto [a, b] = m.ends(e);
-    const double edge = m.edge_length(a, b);
-    if (edge > too_long * m.wanted_length(a, b)) found.emplace_back(-edge, e);
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+// The corners of the triangles at some edges, which tell together with the places of the vertices whether the edges may
+// be split.
+std::vector<int> corners_around(const WorkingMesh& m, const std::vector<EdgeHandle>& edges) {
+  std::vector<int> corners;
+  for (const EdgeHandle e : edges)
+    for (unsigned side = 0; side < 2; ++side) {
+      const HalfedgeHandle h = m.mesh.halfedge_handle(e, side);
+      if (m.mesh.is_boundary(h)) continue;
+      for (const VertexHandle v : m.corners(h)) corners.push_back(v.idx());
+    }
+  return corners;
 }
 
-// New links come at the end of the list; halves that are still too long are found in the next sweep.
-void split_long_links(WorkingMesh& m) {
-  std::size_t count = 0;
-  while (count != m.links.size()) {
-    count = m.links.size();
-    for (std::uint32_t l = 0; l < count; ++l) {
-      const WorkingMesh::Link& link = m.links[l];
-      if (link.is_alive && m.link_length(link) > too_long * m.wanted_length(link.ends[0], link.ends[1]))
-        try_split_link(m, l);
+// Splits long edges. A failed attempt is repeated only after a triangle at the edge has changed.
+class LongEdgeSplitter {
+ public:
+  explicit LongEdgeSplitter(WorkingMesh& m) : m_(m) {
+    for (const EdgeHandle e : m.mesh.edges()) open_.push_back(e);
+  }
+
+  // New links are added at the end of the list; halves that are still too long are found in the next sweep.
+  void split_links() {
+    std::size_t count = 0;
+    while (count != m_.links.size()) {
+      count = m_.links.size();
+      for (std::uint32_t l = 0; l < count; ++l) {
+        const WorkingMesh::Link& link = m_.links[l];
+        if (!link.is_alive || m_.link_length(link) <= too_long * m_.wanted_length(link.ends[0], link.ends[1])) continue;
+        try_unless_in_vain(failed_links_[l], copies_of_link(m_, l), [&] { return try_split_link(m_, l, open_); });
+      }
     }
   }
-}
 
-void split_long_inner_edges(WorkingMesh& m) {
-  std::size_t count = 0;
-  while (count != m.mesh.n_edges()) {
-    count = m.mesh.n_edges();
-    for (const auto& [negative_length, e] : long_edges(m)) try_split(m, e);
+  void split_inner_edges() {
+    for (std::size_t count = 0; count != m_.mesh.n_edges();) {
+      count = m_.mesh.n_edges();
+      const std::vector<std::pair<double, EdgeHandle>> edges = long_edges();
+      open_.clear();
+      for (const auto& [negative_length, e] : edges) {
+        const bool is_split =
+            try_unless_in_vain(failed_edges_[e.idx()], {e}, [&, edge = e] { return try_split(m_, edge, open_); });
+        if (!is_split) open_.push_back(e);
+      }
+    }
   }
-}
+
+ private:
+  // \param corners  those around the edges when they could not be split
+  // \return         whether they were split
+  template <class Try>
+  bool try_unless_in_vain(std::vector<int>& corners, const std::vector<EdgeHandle>& edges, const Try& run) {
+    std::vector<int> now = corners_around(m_, edges);
+    if (!now.empty() && corners == now) return false;
+    if (run()) return true;
+    corners = std::move(now);
+    return false;
+  }
+
+  // The longest first, sorted by negative lengths: then each split edge is the longest of its triangles, which keeps
+  // their angles (Rivara 1984).
+  std::vector<std::pair<double, EdgeHandle>> long_edges() const {
+    std::vector<std::pair<double, EdgeHandle>> found;
+    for (const EdgeHandle e : open_) {
+      if (m_.mesh.is_boundary(e) || touches_frozen_face(m_, e)) continue;
+      const auto [a, b] = m_.ends(e);
+      const double edge = m_.edge_length(a, b);
+      if (edge > too_long * m_.wanted_length(a, b)) found.emplace_back(-edge, e);
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+  WorkingMesh& m_;
+  ChangedEdges open_;  // that may be too long: all at first, then those that have changed and those that failed
+  std::unordered_map<int, std::vector<int>> failed_edges_, failed_links_;  // the corners around them then
+};
 
 // ---- Collapses ------------------------------------------------------------------------------------------------------
 
-// What a collapse is for: to have no short edges, or to make the worst triangle around better.
+// The purpose of a collapse: to remove short edges, or to improve the worst triangle around it.
 struct CollapseAim {
   TriangleMeasure measure;
   double longest;         // edge that it may make, in units of the wanted length
@@ -151,15 +204,15 @@ struct CollapseAim {
 constexpr CollapseAim no_short_edges = {TriangleMeasure::area, too_long, most_deviation};
 constexpr CollapseAim better_triangles = {TriangleMeasure::angle, 1.3 * too_long, most_deviation_of_improved};
 
-// Is this a vertex opposite of the halfedge's edge? There are one or two.
+// Is this a vertex opposite to the edge of the halfedge? There are one or two.
 bool is_apex(const WorkingMesh& m, HalfedgeHandle h, VertexHandle v) {
   for (const HalfedgeHandle side : {h, m.mesh.opposite_halfedge_handle(h)})
     if (!m.mesh.is_boundary(side) && m.corners(side)[2] == v) return true;
   return false;
 }
 
-// Would the start of the halfedge, drawn to its end, bring edges to where others are already? The halfedge mesh sees
-// only those of the same wedge.
+// Would collapsing the start of the halfedge to its end duplicate edges? The halfedge mesh sees only those of the same
+// wedge.
 bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t along_link) {
   const auto [from, to] = m.ends(h);
   if (m.at(to).knot == none) return false;
@@ -172,8 +225,8 @@ bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t alon
   return false;
 }
 
-// May there be an edge between n and `to` instead of the one between n and `from`? Bad triangles lose edges also where
-// those are no better.
+// May there be an edge between n and `to` instead of the one between n and `from`? Bad triangles lose edges even if the
+// new ones are not better.
 bool may_have_edge(const WorkingMesh& m, VertexHandle n, VertexHandle to, VertexHandle from, const CollapseAim& aim) {
   const bool may_be_alike = aim.measure == TriangleMeasure::angle;
   const double size = m.edge_length(n, to);
@@ -223,7 +276,7 @@ bool try_collapse(WorkingMesh& m, HalfedgeHandle h, const CollapseAim& aim) {
 }
 
 // The halfedge to the next knot from each copy of a knot that is not fixed. Nothing if they and the halfedges to the
-// previous knot do not lead to two different pairs of copies each: drawn together, they would be one edge.
+// previous knot do not lead to two different pairs of copies each: collapsed, they would be one edge.
 std::vector<HalfedgeHandle> halfedges_to(const WorkingMesh& m, std::uint32_t next, std::uint32_t knot) {
   std::vector<HalfedgeHandle> halfedges;
   std::vector<std::array<int, 2>> ends;
@@ -249,7 +302,7 @@ bool may_become_straight(const WorkingMesh& m, const KnotOnCurve& at, const Coll
   return !are_joined(m, a, b);
 }
 
-// Draws the knot along its link to the knot at the other end.
+// Collapses the knot along its link to the knot at the other end.
 bool try_collapse_knot(WorkingMesh& m, std::uint32_t knot, std::uint32_t link, const CollapseAim& aim) {
   if (m.knots[knot].is_fixed) return false;
   const KnotOnCurve at = on_curve(m, knot);
@@ -332,7 +385,7 @@ bool try_flip(WorkingMesh& m, EdgeHandle e, const Flip& f) {
   return true;
 }
 
-// How many neighbors a vertex on a feature should have: its wedge in equal parts near to 60 degrees.
+// The ideal number of neighbors of a vertex on a feature: its wedge divided into equal parts near 60 degrees.
 int ideal_valence(const WorkingMesh& m, VertexHandle v) {
   if (!m.mesh.is_boundary(v)) return 6;
   double angle = 0;
@@ -352,12 +405,13 @@ int square(int i) {
 
 void split_long_edges(WorkingMesh& m) {
   // A long link may have to wait for longer edges in its triangles, and these for links.
+  LongEdgeSplitter splitter(m);
   std::size_t links = 0, edges = 0;
   while (links != m.links.size() || edges != m.mesh.n_edges()) {
     links = m.links.size();
     edges = m.mesh.n_edges();
-    split_long_links(m);
-    split_long_inner_edges(m);
+    splitter.split_links();
+    splitter.split_inner_edges();
   }
 }
 
@@ -394,7 +448,7 @@ void flip_edges_for_valence(WorkingMesh& m) {
 }
 
 void flip_edges_for_quality(WorkingMesh& m) {
-  constexpr double least_gain = 1.001;  // rounding must not flip edges back and forth
+  constexpr double least_gain = 1.001;  // so that rounding does not flip edges back and forth
   constexpr int most_sweeps = 5;
   bool any = true;
   for (int sweep = 0; any && sweep < most_sweeps; ++sweep) {

@@ -53,7 +53,7 @@ class Chainer {
     return portable::pi - angle <= sharp_angle_;
   }
 
-  // Every wedge at a point that may move has to reach from one feature to the other.
+  // Every wedge at a movable point must reach from one feature to the other.
   void find_points_of_other_wedges() {
     std::vector<std::array<std::uint32_t, 2>> sides(surface_.wedge_points.size(), {none, none});
     for (std::uint32_t f = 0; f < surface_.features.size(); ++f)
@@ -115,7 +115,7 @@ Point3 FeatureCurve::at(double arc_length) const {
 }
 
 double FeatureCurve::at_bend(double arc_length, double reach) const {
-  constexpr double least_turn = 0.01;  // radians; less is rounding, or does not matter
+  constexpr double least_turn = 0.01;  // radians; less is rounding or irrelevant
   double best = arc_length;
   for (auto i = static_cast<std::size_t>(std::lower_bound(arc.begin(), arc.end(), arc_length - reach) - arc.begin());
        i < arc.size() && arc[i] <= arc_length + reach; ++i) {

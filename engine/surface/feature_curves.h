@@ -7,7 +7,7 @@
 
 namespace ccdt::surface {
 
-/// A chain of features from corner to corner, and how far along it each of its points is.
+/// A chain of features from corner to corner, and the arc length of each of its points.
 struct FeatureCurve {
   std::vector<Point3> points;
   std::vector<double> arc;  ///< length of the chain up to each point
@@ -25,7 +25,7 @@ struct FeatureCurve {
   double deviation(double from, double to) const;
 };
 
-/// Where on which curve a feature edge is.
+/// The curve of a feature edge, and its place on it.
 struct CurvePiece {
   std::uint32_t curve;
   std::array<double, 2> arc;  ///< at the ends of the feature, in its order

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
 
-// Where a vertex may go, with what the original surface is like there.
+// A possible position of a vertex, with properties of the original surface there.
 struct Spot {
   Point3 point;
   std::uint32_t near;
@@ -25,12 +25,12 @@ Foot foot_of(const WorkingMesh& m, VertexHandle v, const Point3& p) {
   return m.closest.on_patch(m.at(v).patch, p, m.at(v).near);
 }
 
-// The worst of the triangles around something, as they are and as a change would make them.
+// The worst of the affected triangles, before and after a change.
 struct FitChange {
   WorstFit before, after;
 };
 
-// Adds the triangles around a vertex that would go to a spot.
+// Adds the triangles around a vertex that would move to a spot.
 void add_triangles_around(const WorkingMesh& m, VertexHandle v, const Spot& spot, TriangleMeasure measure,
                           FitChange& fit) {
   for (auto h = m.mesh.cvoh_iter(v); h.is_valid(); ++h) {
@@ -41,7 +41,7 @@ void add_triangles_around(const WorkingMesh& m, VertexHandle v, const Spot& spot
   }
 }
 
-// Would all edges of the vertex be near to the original surface, but for those that are not anyway?
+// Would all edges of the vertex be near the original surface, except those that are not near it already?
 bool edges_would_stay_near(const WorkingMesh& m, VertexHandle v, const Point3& p) {
   if (m.is_flat(v)) return true;
   for (auto n = m.mesh.cvv_iter(v); n.is_valid(); ++n)
@@ -103,7 +103,7 @@ void relax_vertex(WorkingMesh& m, VertexHandle v) {
   const Point3 tangential = move - dot(move, normal) * normal;
   for (const double step : {1.0, 0.5}) {
     const Foot foot = foot_of(m, v, p + step * tangential);
-    // A foot farther away than the step is on another sheet of the surface.
+    // A foot farther away than the step is on a different sheet of the surface.
     if (foot.squared_distance > squared_length(step * tangential)) continue;
     const Spot spot = spot_at(m, foot);
     if (!may_relax(m, v, spot) || !edges_would_stay_near(m, v, spot.point)) continue;
@@ -138,7 +138,7 @@ constexpr double first_step = 0.25, last_step = 0.01;  // as fractions of the me
 constexpr int directions = 8;
 constexpr double diagonal = 0.70710678118654752;  // sine of 45 degrees
 
-// The smallest angle around a vertex if that was elsewhere; less than 0 if a triangle was turned over there.
+// The smallest angle around a vertex at another position; less than 0 if a triangle is turned over there.
 double angle_around(const WorkingMesh& m, VertexHandle v, const Point3& p) {
   double cosine = -1;
   const Point3 normal = m.at(v).normal;
@@ -214,7 +214,7 @@ double angle_around(const WorkingMesh& m, const WorkingMesh::Knot& knot, const P
   return angle;
 }
 
-// Would the links still be as near to the curve as they have to be, or as they are?
+// Would the links stay near enough to the curve, or at least as near as they are?
 bool follows_curve(const WorkingMesh& m, std::uint32_t knot, const KnotOnCurve& at, double arc, double now) {
   const FeatureCurve& curve = m.features.curves[at.curve];
   const Point3 p = curve.at(arc);

@@ -27,8 +27,8 @@ std::uint32_t corner_at(const plc::VertexTriple& corners, std::uint32_t point) {
   return corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
 }
 
-// The segments that the input itself names, among them the polygons of two vertices and the slits within its polygon
-// facets, split at all vertices that lie on them.
+// The segments that the input itself lists, including polygons of two vertices and slits within polygon facets, split
+// at all vertices on them.
 plc::SegmentSet declared_segments(const plc::InputPlc& input, const plc::Plc& plc, double tolerance) {
   plc::SegmentSet segments = plc::gather_segments(input, plc);
   plc::TriangleSet ignored;
@@ -37,7 +37,7 @@ plc::SegmentSet declared_segments(const plc::InputPlc& input, const plc::Plc& pl
   return segments;
 }
 
-// For each vertex of the PLC: the input lists it, but no facet or segment of the input has it as a corner.
+// For each vertex of the PLC: does the input list it although no facet or segment has it as a corner?
 std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const plc::Plc& plc) {
   std::vector<char> alone(plc.vertices.size(), 0);
   for (const VertexId v : plc.vertex_of_input) alone[v] = 1;
@@ -271,7 +271,7 @@ class SurfaceCutter {
   std::vector<plc::VertexTriple> corners_;
   plc::EdgeTable edges_;
   std::vector<char> is_feature_;
-  std::vector<char> is_turned_;  // by triangle: it runs the other way round than its facet's
+  std::vector<char> is_turned_;  // by triangle: is its orientation opposite to that of its facet?
   OriginalSurface surface_;
 };
 
@@ -310,7 +310,7 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   constexpr std::uint32_t leaf_size = 4;
   nodes_[node] = {box, begin, end - begin};
   if (end - begin <= leaf_size) {
-    // How the rest is ordered is up to the standard library.
+    // The order of the rest depends on the standard library.
     std::sort(items_.begin() + begin, items_.begin() + end);
     return;
   }
@@ -344,7 +344,7 @@ Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
   return foot;
 }
 
-// The nearest point, or the first that is found within a distance that is enough.
+// The nearest point, or the first one within a sufficient distance.
 Foot ClosestPoint::search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const {
   Foot best = foot_on(near, p);
   std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items, as each node is halved

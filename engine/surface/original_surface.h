@@ -11,15 +11,15 @@
 
 namespace ccdt::surface {
 
-/// An edge that remeshing keeps as a shape.
+/// An edge whose shape remeshing keeps.
 struct FeatureEdge {
   std::array<std::uint32_t, 2> ends;     ///< points
   std::vector<std::uint32_t> triangles;  ///< around it; none if no facet has this segment
-  bool is_segment = false;               ///< the input names it
+  bool is_segment = false;               ///< the input lists it
   int marker = 0;                        ///< of the segment
 };
 
-/// The surface as it was before remeshing, cut along its features.
+/// The surface before remeshing, cut along its features.
 ///
 /// A *patch* is a set of triangles that are joined through edges that are no features; all of them are oriented alike.
 /// A *wedge* (Hoppe 1998) is a patch's part at a point: the triangles around the point that are joined through edges at
@@ -45,7 +45,7 @@ struct OriginalSurface {
   std::vector<std::uint32_t> wedge_patches;
   std::vector<Point3> wedge_normals;  ///< of length one, mean of the triangles in the wedge by their angles
   std::vector<FeatureEdge> features;
-  std::vector<char> is_listed_alone;  ///< of each point: the input has it, but no facet or segment of the input uses it
+  std::vector<char> is_listed_alone;  ///< by point: the input lists it, but no facet or segment uses it
 };
 
 /// \param plc          of that input, built with the same flatness
@@ -68,7 +68,7 @@ class ClosestPoint {
   /// \param near  a triangle of the patch; the nearer it is, the faster
   Foot on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const { return search(patch, p, near, 0); }
 
-  /// Is the patch as near as that to a point? Faster than to find where.
+  /// Is the patch within this distance of a point? Faster than finding the nearest point.
   bool is_within(double distance, std::uint32_t patch, const Point3& p, std::uint32_t near) const;
 
   /// The normal of the surface at a foot, interpolated from those of the wedges; of length one.

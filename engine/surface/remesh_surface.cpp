@@ -19,16 +19,17 @@ namespace ccdt::surface {
 
 namespace {
 
-// Where triangles cross, the edges are halved once; then the old triangles stay, ever farther around.
-constexpr int halvings = 1;
-constexpr int most_attempts = 10;
+// If triangles cross, the edges there are halved at most this many times; then the old triangles stay, in a growing
+// neighborhood.
+constexpr int most_halvings = 8;
+constexpr int most_attempts = 9;
 
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   const Place place{.file = input.name};
   const bool is_positive = options.edge_length > 0 && std::isfinite(options.edge_length);
   if (!is_positive)
     throw InputError("the edge length for remeshing is not a positive number", place,
-                     "give the edge length that the surface shall have, in the units of the input");
+                     "give the edge length of the new surface, in the units of the input");
   const bool is_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
   if (!is_angle)
     throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place, "give one, 30 say");
@@ -36,7 +37,7 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
     throw InputError("remeshing needs at least one iteration", place, "give a greater number, 8 say");
 }
 
-/// What must be the same before and after: the regions, whatever their order.
+/// What must stay the same: the regions, in any order.
 std::vector<std::pair<bool, int>> regions_of(const plc::Plc& plc) {
   std::vector<std::pair<bool, int>> regions;
   for (const plc::Region& c : plc.regions) regions.emplace_back(c.inside, c.attribute);
@@ -44,11 +45,12 @@ std::vector<std::pair<bool, int>> regions_of(const plc::Plc& plc) {
   return regions;
 }
 
-// With their smallest angles, the worst first.
+// Triangles with their smallest angles, the worst first.
 std::vector<std::pair<double, FaceHandle>> bad_triangles(const WorkingMesh& m) {
   constexpr double good_angle = 36;  // degrees
   std::vector<std::pair<double, FaceHandle>> found;
   for (const FaceHandle f : m.mesh.faces()) {
+    if (m.is_frozen(f)) continue;
     const double angle = smallest_angle(m.points(m.corners(m.mesh.halfedge_handle(f))));
     if (angle < to_radians(good_angle)) found.emplace_back(angle, f);
   }
@@ -78,7 +80,7 @@ bool improve_triangle(WorkingMesh& m, FaceHandle f) {
   return false;
 }
 
-// The triangles that a change around a triangle may concern: those at neighbors of neighbors of its corners, in all
+// The triangles that a change around a triangle may affect: those at neighbors of neighbors of its corners, in all
 // patches.
 std::vector<FaceHandle> triangles_near(const WorkingMesh& m, FaceHandle f) {
   std::vector<VertexHandle> near;
@@ -103,8 +105,8 @@ std::vector<FaceHandle> triangles_near(const WorkingMesh& m, FaceHandle f) {
   return faces;
 }
 
-/// Flips, collapses and moves around triangles with small angles, the worst first and whatever the wanted lengths,
-/// until nothing helps. What could not be improved is tried again only when something near to it has changed.
+/// Flips, collapses and moves around triangles with small angles, the worst first, regardless of the wanted lengths,
+/// until nothing helps. Triangles that could not be improved are tried again only after a change nearby.
 void improve_worst_triangles(WorkingMesh& m) {
   constexpr int most_sweeps = 30;
   std::vector<char> is_settled(m.mesh.n_faces(), 0);
@@ -113,7 +115,7 @@ void improve_worst_triangles(WorkingMesh& m) {
     any = false;
     for (const auto& [angle, f] : bad_triangles(m)) {
       char& settled = is_settled[static_cast<std::size_t>(f.idx())];
-      if (settled || m.mesh.status(f).deleted() || m.is_frozen(f)) continue;
+      if (settled || m.mesh.status(f).deleted()) continue;
       const std::vector<FaceHandle> near = triangles_near(m, f);
       settled = 1;
       if (!improve_triangle(m, f)) continue;
@@ -159,17 +161,19 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
   const double tolerance = plc::tolerance_of(plc, flatness);
   const plc::FacetPatches facets = plc::find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
   const auto add = [&](const plc::Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
-  if (const auto covering = plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges))
-    add(*covering);
+  for (const plc::Overlap& o :
+       plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges, most_places))
+    add(o);
   const BoxTree tree(plc::boxes_of(plc.vertices, triangles));
-  for (const plc::Overlap& o : plc::find_overlaps(plc.vertices, triangles, facets, tree, most_places)) add(o);
+  const std::vector<plc::TrianglePair> close = plc::find_close_triangles(plc.vertices, triangles, tree);
+  for (const plc::Overlap& o : plc::find_overlaps(plc.vertices, triangles, facets, close, most_places)) add(o);
   for (const plc::Overlap& o :
        plc::find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
     add(o);
   return places;
 }
 
-/// Places that hinder the result from being built, and the words for them if there is nothing that can be done there.
+/// Places that prevent building the result, and the error message if nothing helps there.
 struct Defects {
   std::vector<Point3> places;
   std::string words;
@@ -181,7 +185,7 @@ Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const 
   try {
     const plc::Plc after = plc::build_plc(result, {options.flatness});
     if (regions_of(after) == regions_of(before)) return {};
-    defects.words = "the new surface divides space otherwise than the old one";
+    defects.words = "the new surface divides space differently from the old one";
     for (const plc::InputPlc::RegionSeed& region : result.regions) defects.places.push_back(region.seed);
     defects.places.insert(defects.places.end(), result.holes.begin(), result.holes.end());
   } catch (const InputError& error) {
@@ -192,13 +196,13 @@ Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const 
   return defects;
 }
 
-/// A place, and how long the edges are there.
+/// A place and the edge length there.
 struct SizedPlace {
   Point3 point;
   double edge;
 };
 
-/// One place for many that are near to each other, with the longest edge of the triangles there.
+/// Merges places near each other into one, with the longest edge of the triangles there.
 std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface, double usual) {
   const auto corners = [&](std::uint32_t t) {
     const auto& [a, b, c] = surface.triangles[t];
@@ -241,6 +245,34 @@ void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& plac
       place, "give a smaller edge length, or mesh the surface as it is");
 }
 
+/// Remeshes only near some places, with shorter edges.
+void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Progress& progress) {
+  constexpr double edges_around = 6;
+  constexpr int rounds = 3;
+  std::vector<Box> boxes;
+  for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
+  const BoxTree tree(std::move(boxes));
+  const std::vector<char> frozen_faces = m.face_is_frozen;
+  const std::vector<WorkingMesh::Vertex> vertices = m.vertices;
+  for (const FaceHandle f : m.mesh.faces()) {
+    const std::array<VertexHandle, 3> corners = m.corners(m.mesh.halfedge_handle(f));
+    bool is_near = false;
+    tree.for_each_meeting(bounding_box(m.points(corners)), [&](std::uint32_t) { is_near = true; });
+    if (is_near) continue;
+    m.face_is_frozen[static_cast<std::size_t>(f.idx())] = 1;
+    for (const VertexHandle v : corners) m.at(v).is_frozen = true;
+  }
+  remesh(m, rounds, progress);
+  std::copy(frozen_faces.begin(), frozen_faces.end(), m.face_is_frozen.begin());
+  for (std::size_t v = 0; v < vertices.size(); ++v) m.vertices[v].is_frozen = vertices[v].is_frozen;
+}
+
+void halve_lengths(const std::vector<SizedPlace>& places, EdgeLengths& lengths) {
+  std::vector<EdgeLengths::Ball> balls;
+  for (const SizedPlace& p : places) balls.push_back({p.point, 2 * p.edge, 0.5 * p.edge});
+  lengths.limit(balls);
+}
+
 }  // namespace
 
 plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
@@ -256,18 +288,19 @@ plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& op
   for (int attempt = 0;; ++attempt) {
     WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, thickness, frozen);
     remesh(mesh, options.iterations, progress);
-    note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
-    plc::InputPlc result = to_plc(mesh, input);
-    const Defects defects = find_defects(result, plc, options);
-    if (defects.places.empty()) return result;
-    if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
-    const std::vector<SizedPlace> places = thinned(defects.places, result, options.edge_length);
-    if (attempt < halvings) {
-      std::vector<EdgeLengths::Ball> balls;
-      for (const SizedPlace& p : places) balls.push_back({p.point, 2 * p.edge, 0.5 * p.edge});
-      lengths.limit(balls);
-    } else {
-      freeze(original, places, std::ldexp(1, attempt - halvings), frozen);
+    for (int halving = 0;; ++halving) {
+      note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
+      plc::InputPlc result = to_plc(mesh, input);
+      const Defects defects = find_defects(result, plc, options);
+      if (defects.places.empty()) return result;
+      const std::vector<SizedPlace> places = thinned(defects.places, result, options.edge_length);
+      if (halving == most_halvings) {
+        if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
+        freeze(original, places, std::ldexp(1, attempt), frozen);
+        break;
+      }
+      halve_lengths(places, lengths);
+      remesh_near(mesh, places, progress);
     }
   }
 }

@@ -7,15 +7,15 @@ namespace {
 
 constexpr double thickness_ratio = 2;  // of edges to the distance through a solid
 
-// The same through a gap between bent sheets: their edges are chords, and are not to cross.
+// The same through a gap between bent sheets: their edges are chords and must not cross.
 constexpr double gap_ratio = 4;
 
-// As parts of the usual length: edges do not get shorter for thickness, and what is thinner asks for nothing, as no
-// number of edges within reason would fit.
+// As fractions of the usual length: the shortest edges because of thickness, and the thickness below which nothing is
+// requested, because no reasonable number of edges would fit.
 constexpr double least_length = 0.15, least_thickness = 0.01;
 
-// A wedge that opens faster than edges may grow (`length_growth`) is no thin place: the sine of that slope's angle is
-// 0.287.
+// A wedge that opens faster than edges may grow (`length_growth`) is not a thin place: the sine of that slope's angle
+// is 0.287.
 constexpr double least_cosine = 0.958;
 
 // Nearer hits, as a fraction of the reach, are the sheet itself.

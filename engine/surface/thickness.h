@@ -8,22 +8,22 @@
 
 namespace ccdt::surface {
 
-/// The edge lengths that thin places ask for: those where the original surface has another sheet opposite of it,
-/// through the solid or through a gap.
+/// The edge lengths for thin places: those where the original surface has another sheet opposite, through the solid or
+/// a gap.
 ///
 ///     ------ x ------    the sheet that is asked
 ///            | distance
 ///     ------ * ------    the opposite one: nearly parallel, as the sides of a wedge are not
 class Thickness {
  public:
-  /// \param usual  the edge length that is wanted where no place asks for less
+  /// \param usual  the edge length wanted where no place needs less
   Thickness(const OriginalSurface& surface, double usual);
 
-  /// The edge length that a point asks for. A large triangle asks for no more than `most`; a small one is measured
-  /// once, at its center.
+  /// The edge length that a point needs. A large triangle needs at most `most`; a small one is measured once, at its
+  /// center.
   double wanted_at(const Foot& foot, double most) const;
 
-  /// No point asks for less.
+  /// No point needs less.
   double least_wanted() const;
 
  private:
@@ -33,7 +33,7 @@ class Thickness {
   const OriginalSurface& surface_;
   double usual_;
   BoxTree tree_;
-  mutable std::vector<double> of_small_triangles_;  // at their centers; less than 0 before it is asked for
+  mutable std::vector<double> of_small_triangles_;  // at their centers; less than 0: not computed yet
 };
 
 }  // namespace ccdt::surface

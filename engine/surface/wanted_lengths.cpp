@@ -8,9 +8,9 @@
 namespace ccdt::surface {
 namespace {
 
-constexpr double step = 0.9;  // from one length that is tried to the next
+constexpr double step = 0.9;  // from one tried length to the next
 
-// The pieces of the chain are no obstacle themselves: a vertex may be put on each bend.
+// The pieces of the chain are not an obstacle: a vertex may be put on each bend.
 double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
   const double whole = curve.arc.back();
   const double before = i > 0 ? curve.arc[i] - curve.arc[i - 1] : 0;
@@ -31,8 +31,8 @@ constexpr double width_ratio = 1.15;   // of edges along a strip to its width: e
 constexpr double least_width = 0.002;  // of the usual length: the shortest edges would not fit less
 constexpr double narrow_wedge = 0.5;   // its width by the distance from its tip
 
-// None of these makes edges shorter than such a part of the usual length: slits may be as narrow as they like, and
-// noise turns, too.
+// None of these makes edges shorter than this fraction of the usual length: slits may be arbitrarily narrow, and noise
+// has bends too.
 constexpr double least_by_curve = 0.02, least_by_width = 0.05, least_by_edge = 0.2, least_by_turn = 0.3;
 
 double& wanted_at(WorkingMesh& m, VertexHandle v) {
@@ -67,7 +67,7 @@ void limit_by_edges(WorkingMesh& m) {
   }
 }
 
-// Is a knot in reach of a corner that is also near to another knot? What lies between them there is no strip.
+// Is a knot within reach of a corner that is also near another knot? The space between them is not a strip.
 bool share_a_corner(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
   const auto is_corner_near = [&](std::uint32_t corner, std::uint32_t k) {
     return m.knots[corner].is_fixed && (corner == k || link_between(m, corner, k) != none);
@@ -87,7 +87,7 @@ bool is_in_narrow_wedge(const FeatureCurve& one, const FeatureCurve& other, cons
   return false;
 }
 
-// Between features that are near to each other, edges along them as long as the strip is wide.
+// Between features near each other, edges are as long as the strip is wide.
 void limit_by_width(WorkingMesh& m) {
   for (const HalfedgeHandle h : m.mesh.halfedges()) {
     if (m.mesh.is_boundary(h) || !m.mesh.is_boundary(m.mesh.opposite_halfedge_handle(h))) continue;
@@ -110,6 +110,7 @@ void limit_by_width(WorkingMesh& m) {
 
 void limit_by_thickness(WorkingMesh& m) {
   for (const FaceHandle f : m.mesh.faces()) {
+    if (m.is_frozen(f)) continue;
     const std::array<VertexHandle, 3> corners = m.corners(m.mesh.halfedge_handle(f));
     const double now = std::max({wanted_at(m, corners[0]), wanted_at(m, corners[1]), wanted_at(m, corners[2])});
     if (now <= m.thickness.least_wanted()) continue;

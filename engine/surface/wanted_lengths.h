@@ -9,18 +9,18 @@
 
 namespace ccdt::surface {
 
-/// How much longer edges may be wanted, per length of the way from a place where shorter ones are wanted.
+/// The growth of the wanted edge length per unit of distance from a place where shorter edges are wanted.
 inline constexpr double length_growth = 0.3;
 
-/// How far an edge may be from the original surface or feature in its middle, as a fraction of its length: a circle
-/// keeps eighteen edges at least.
+/// The largest distance between the middle of an edge and the original surface or feature, as a fraction of its length:
+/// a circle keeps at least eighteen edges.
 inline constexpr double most_deviation = 0.044;
 
 /// The same for the edges that improve bad triangles: a circle keeps fifteen edges.
 inline constexpr double most_deviation_of_improved = 0.055;
 
-/// The edge length that is wanted at each place: the one of the options but for some balls, where it is less; around
-/// them it grows gently.
+/// The wanted edge length at each place: that of the options, except in some balls, where it is less; around them it
+/// grows gently.
 class EdgeLengths {
  public:
   struct Ball {
@@ -37,14 +37,14 @@ class EdgeLengths {
  private:
   double usual_;
   std::vector<Ball> balls_;
-  BoxTree reaches_;  // of the balls: where they ask for less than the usual length
+  BoxTree reaches_;  // of the balls that need less than the usual length
 };
 
 /// The longest edges that feature curves allow: short curves between corners stay single edges, and a bent curve needs
 /// edges that stay near to it (`most_deviation`).
 class CurveLengths {
  public:
-  /// \param usual  the edge length that is wanted where the curve does not ask for less
+  /// \param usual  the edge length wanted where the curve does not need less
   CurveLengths(const FeatureCurves& features, double usual);
 
   double at(std::uint32_t curve, double arc) const;

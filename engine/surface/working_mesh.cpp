@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
 
-// By point; `none` for those that are in the middle of one patch and may move.
+// By point; `none` for those in the middle of one patch that may move.
 std::vector<std::uint32_t> add_knots(WorkingMesh& m) {
   const OriginalSurface& original = m.original;
   std::vector<char> has_feature(original.points.size(), 0);
@@ -57,8 +57,8 @@ void add_faces(WorkingMesh& m, const std::vector<char>& frozen) {
     if (m.mesh.add_face(corners[0], corners[1], corners[2]).is_valid()) continue;
     Place place;
     for (const std::uint32_t p : m.original.triangles[t]) place.points.push_back(as_array(m.original.points[p]));
-    throw MeshError("the surface cannot be remeshed: around a facet it is no manifold even between its features", place,
-                    "mesh the surface as it is");
+    throw MeshError("the surface cannot be remeshed: it is not a manifold around a facet, even between its features",
+                    place, "mesh the surface as it is");
   }
   m.face_is_frozen = frozen;
 }

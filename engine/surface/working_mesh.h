@@ -17,10 +17,10 @@
 
 namespace ccdt::surface {
 
-/// What the quality of a triangle is measured by: its area over its squared edges, or its smallest angle.
+/// The measure of a triangle's quality: its area over its squared edges, or its smallest angle.
 enum class TriangleMeasure { area, angle };
 
-/// How well shaped a triangle is, and how well it stands for the original surface at its corners.
+/// The shape of a triangle, and how well it represents the original surface at its corners.
 struct TriangleFit {
   double quality;    ///< 1 for the equilateral triangle, 0 for a degenerate one
   double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners
@@ -63,20 +63,20 @@ struct WorstFit {
   }
 };
 
-/// Do triangles of the fit `after` stand for the original surface as well as those of the fit `before`, or well enough?
+/// Do triangles of the fit `after` represent the original surface as well as those of the fit `before`, or well enough?
 inline bool may_stand_for(const TriangleFit& before, const TriangleFit& after) {
   constexpr double good_agreement = 0.65;  // 50 degrees: an equilateral triangle on a circle's hexagon has 40
   constexpr double least_agreement = 0.2;
   return after.agreement >= std::max(least_agreement, std::min(good_agreement, before.agreement));
 }
 
-/// May triangles of the fit `after` replace those of the fit `before`? They have to be good, or no worse; but they may
+/// May triangles of the fit `after` replace those of the fit `before`? They must be good, or not worse; but they must
 /// never be turned away from the original surface.
 inline bool may_replace(const TriangleFit& before, const TriangleFit& after, double good_quality) {
   return after.quality >= std::min(good_quality, before.quality) && may_stand_for(before, after);
 }
 
-/// Is the worst triangle really better after a change? Gains of rounding would go on for ever.
+/// Is the worst triangle really better after a change? Gains by rounding would continue forever.
 inline bool is_better(const TriangleFit& before, const TriangleFit& after) {
   constexpr double least_gain = 0.005;
   return after.quality >= before.quality + least_gain && may_stand_for(before, after);
@@ -95,7 +95,7 @@ using HalfedgeHandle = HalfedgeMesh::HalfedgeHandle;
 using EdgeHandle = HalfedgeMesh::EdgeHandle;
 using FaceHandle = HalfedgeMesh::FaceHandle;
 
-/// The surface while it is being remeshed.
+/// The surface during remeshing.
 ///
 /// All patches are in one halfedge mesh, which can only hold manifolds: they are cut from each other along the
 /// features, and every patch (every wedge, where one patch is there several times) has a copy of its own of the
@@ -106,7 +106,7 @@ using FaceHandle = HalfedgeMesh::FaceHandle;
 struct WorkingMesh {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-  /// What is known of a vertex of the halfedge mesh.
+  /// The data of a vertex of the halfedge mesh.
   struct Vertex {
     std::uint32_t knot = none;
     std::uint32_t patch = none;
@@ -118,7 +118,7 @@ struct WorkingMesh {
 
   struct Knot {
     Point3 position;
-    bool is_fixed = false;             ///< must neither move nor go
+    bool is_fixed = false;             ///< must neither move nor be removed
     std::vector<std::uint32_t> links;  ///< two if it is not fixed
     std::vector<VertexHandle> copies;
     double wanted = 0;  ///< length of edges there
@@ -211,11 +211,12 @@ struct KnotOnCurve {
 
 KnotOnCurve on_curve(const WorkingMesh& m, std::uint32_t knot);
 
-/// Could an edge between two vertices of a patch lie within the bound, to judge by the normals at its ends? An arc of
+/// Could an edge between two vertices of a patch lie within the bound, judging by the normals at its ends? An arc of
 /// half the angle a has a sagitta of tan(a/2)/2 of its chord, and its ends turn by a away from the chord.
 bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
 
-/// Is the middle of an edge between two vertices of a patch, or one and a place for another, within the bound?
+/// Is the middle of an edge between two vertices of a patch, or between one and a possible position of another, within
+/// the bound?
 bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, double most = most_deviation);
 inline bool is_near_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
   return is_near_surface(m, a, m.point(b));
@@ -226,44 +227,43 @@ inline TriangleFit fit_of(const WorkingMesh& m, const std::array<VertexHandle, 3
   return fit_of(m.points(v), {m.at(v[0]).normal, m.at(v[1]).normal, m.at(v[2]).normal}, measure);
 }
 
-/// The surface as a PLC: with the name, holes and regions of the input, and with markers where it has some.
+/// The surface as a PLC: with the name, holes and regions of the input, and with markers if it has any.
 plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
 
 /// \name The steps of isotropic remeshing (Botsch and Kobbelt 2004), each over the whole surface.
-/// An operation that would turn a triangle away from the original surface, make a triangle worse than a limit, or make
-/// two edges one, is left out.
+/// An operation is skipped if it would turn a triangle away from the original surface, make a triangle worse than a
+/// limit, or merge two edges.
 /// @{
 
-/// Gives every vertex and knot the edge length that is wanted there (`EdgeLengths`), but less around edges that are
-/// much shorter and could not be collapsed, because the surface is too narrow or too strongly curved there: long edges
-/// beside them would make needles of the triangles.
+/// Gives every vertex and knot the wanted edge length (`EdgeLengths`), but less around edges that are much shorter and
+/// could not be collapsed, because the surface is too narrow or too strongly curved there: long edges beside them would
+/// turn the triangles into needles.
 ///
-/// \param is_remeshed  false for the mesh as it was: its short edges, narrow strips and thin places do not count yet
+/// \param is_remeshed  false for the original mesh: its short edges, narrow strips and thin places do not count yet
 void find_wanted_lengths(WorkingMesh& m, bool is_remeshed);
 
-/// Splits edges longer than 4/3 of the wanted length, until there are none; new vertices are put on the original
-/// surface.
+/// Splits edges longer than 4/3 of the wanted length, until there are none; new vertices lie on the original surface.
 void split_long_edges(WorkingMesh& m);
 
 /// Collapses edges shorter than 4/5 of the wanted length, where that makes no edge longer than 4/3 of it.
 void collapse_short_edges(WorkingMesh& m);
 
-/// Flips edges so that vertices come near to their ideal number of neighbors: six, or fewer on a feature, as the angle
-/// there asks for.
+/// Flips edges so that vertices approach their ideal number of neighbors: six, or fewer on a feature, depending on the
+/// angle there.
 void flip_edges_for_valence(WorkingMesh& m);
 
-/// Flips edges where that makes the worse one of the two triangles better.
+/// Flips edges if that improves the worse of the two triangles.
 void flip_edges_for_quality(WorkingMesh& m);
 
 /// Moves vertices towards the center of their neighborhood, along the original surface or along their feature.
 void relax_vertices(WorkingMesh& m);
 /// @}
 
-/// \name Changes around bad triangles: each is made if it makes the smallest angle of all that it touches larger.
+/// \name Changes around bad triangles: each is made if it increases the smallest angle of all affected triangles.
 /// \return whether it was made
 /// @{
 bool improve_by_flip(WorkingMesh& m, EdgeHandle e);
-bool improve_by_collapse(WorkingMesh& m, HalfedgeHandle h);  ///< draws the start of the halfedge to its end
+bool improve_by_collapse(WorkingMesh& m, HalfedgeHandle h);  ///< collapses the start of the halfedge to its end
 bool improve_by_move(WorkingMesh& m, VertexHandle v);        ///< along the surface, or along the feature it is on
 /// @}
 

@@ -9,7 +9,7 @@
 namespace ccdt {
 namespace {
 
-/// Many keys with one home, and homes at the end of the array, where chains go round.
+/// Many keys with one home, and homes at the end of the array, where chains wrap around.
 struct CrowdedTraits {
   static std::uint32_t none() { return 0xFFFFFFFFu; }
   static std::size_t hash(std::uint32_t key) { return ~std::size_t{0} - key % 5; }

@@ -26,7 +26,7 @@ TEST(BuildDelaunay, GivesTheCellsOfTheDefinitionWhateverTheIdsAre) {
 TEST(BuildDelaunay, GivesTheCellsOfTheDefinitionForManySmallLattices) {
   int flat = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    auto points = shuffled(seed % 2 ? simple_cubic(2, 2) : face_centred(1, 2), seed);
+    auto points = shuffled(seed % 2 ? simple_cubic(2, 2) : face_centered(1, 2), seed);
     points.resize(std::min<std::size_t>(points.size(), 6 + seed % 7));
     try {
       const delaunay::Delaunay d = delaunay::build_delaunay(points);
@@ -49,7 +49,7 @@ TEST(BuildDelaunay, LeavesSpheresAndOuterHalfSpacesEmpty) {
 
 TEST(BuildDelaunay, KeepsItsStructureConsistentForManyPoints) {
   EXPECT_TRUE(is_consistent(delaunay::build_delaunay(random_points(30000, 21))));
-  EXPECT_TRUE(is_consistent(delaunay::build_delaunay(face_centred(18))));
+  EXPECT_TRUE(is_consistent(delaunay::build_delaunay(face_centered(18))));
 }
 
 TEST(BuildDelaunay, FillsACubeOfAnyLattice) {
@@ -64,8 +64,8 @@ TEST(BuildDelaunay, FillsACubeOfAnyLattice) {
     return six_fold / 6;
   };
   EXPECT_EQ(volume(delaunay::build_delaunay(simple_cubic(9, 2))), 18 * 18 * 18);
-  EXPECT_EQ(volume(delaunay::build_delaunay(body_centred(7, 2))), 14 * 14 * 14);
-  EXPECT_EQ(volume(delaunay::build_delaunay(face_centred(6, 2))), 12 * 12 * 12);
+  EXPECT_EQ(volume(delaunay::build_delaunay(body_centered(7, 2))), 14 * 14 * 14);
+  EXPECT_EQ(volume(delaunay::build_delaunay(face_centered(6, 2))), 12 * 12 * 12);
 }
 
 TEST(BuildDelaunay, KeepsPointsInTheirPlacesAndGivesEachARank) {

@@ -84,7 +84,7 @@ TEST(Insertion, KeepsTheStructureConsistentAfterEachVertex) {
 }
 
 TEST(Insertion, FindsTheSameCavityFromEveryCell) {
-  delaunay::Delaunay d = delaunay::build_delaunay(face_centred(2, 4));
+  delaunay::Delaunay d = delaunay::build_delaunay(face_centered(2, 4));
   delaunay::Insertion insertion(d);
   for (const Point3& p : {Point3{1, 1, 1}, {3, 4, 5}, {-1, 2, 2}, {4, 4, 9}, {2, 1, 0}}) {
     const std::uint32_t v = add_vertex(d, p);
@@ -141,7 +141,7 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
       d.vertices.pop_back();
       ASSERT_TRUE(are_equal(d, before)) << set.name;
     }
-    // The same insertion goes on as one that has never been abandoned.
+    // An abandoned insertion can be repeated like a new one.
     delaunay::Delaunay fresh = before;
     delaunay::Insertion never_abandoned(fresh);
     for (const Point3& p : std::span(set.points).last(10)) {
@@ -170,8 +170,8 @@ TEST(Insertion, NamesTheTwinOfAPointThatIsThere) {
   }
 }
 
-/// The centre of a sphere is in the circumsphere of every cell of points on it: its cavity has all vertices. The
-/// numbers of vertices are those around which the connection of the new cells changes its ways.
+/// The center of a sphere is in the circumsphere of every cell of points on it: its cavity has all vertices. The
+/// numbers of vertices are near those where the connection of new cells switches methods.
 TEST(Insertion, FillsCavitiesOfManyVertices) {
   const auto sphere = points_on_sphere(300);
   for (const std::size_t n : {62, 63, 64, 65, 66, 127, 128, 129, 253, 254, 255, 256, 257, 300}) {
@@ -179,8 +179,8 @@ TEST(Insertion, FillsCavitiesOfManyVertices) {
     points.resize(n);
     delaunay::Delaunay d = delaunay::build_delaunay(points);
     delaunay::Insertion insertion(d);
-    const std::uint32_t centre = add_vertex(d, {});
-    ASSERT_TRUE(insertion.find_cavity(centre, first_living_cell(d)));
+    const std::uint32_t center = add_vertex(d, {});
+    ASSERT_TRUE(insertion.find_cavity(center, first_living_cell(d)));
     EXPECT_EQ(cavity_vertices(insertion).size(), n);
     insertion.fill_cavity();
     EXPECT_TRUE(is_consistent(d)) << n;

@@ -16,7 +16,7 @@ bool before(const Point3& a, const Point3& b) {
   return as_array(a) < as_array(b);
 }
 
-/// Without repetitions, in an order that has nothing to do with where the points are.
+/// Without duplicates, in an order independent of the positions.
 std::vector<Point3> distinct(std::vector<Point3> points, std::uint64_t seed) {
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -59,15 +59,15 @@ std::vector<Point3> simple_cubic(int n, double step) {
   return lattice(n, step, [](int x, int y, int z) { return x % 2 == 0 && y % 2 == 0 && z % 2 == 0; });
 }
 
-std::vector<Point3> body_centred(int n, double step) {
+std::vector<Point3> body_centered(int n, double step) {
   return lattice(n, step, [](int x, int y, int z) { return x % 2 == y % 2 && y % 2 == z % 2; });
 }
 
-std::vector<Point3> face_centred(int n, double step) {
+std::vector<Point3> face_centered(int n, double step) {
   return lattice(n, step, [](int x, int y, int z) { return (x + y + z) % 2 == 0; });
 }
 
-std::vector<Point3> points_on_sphere(std::size_t n, const Point3& centre) {
+std::vector<Point3> points_on_sphere(std::size_t n, const Point3& center) {
   for (int square = 1;; ++square) {
     std::vector<Point3> points;
     int side = 0;
@@ -75,7 +75,7 @@ std::vector<Point3> points_on_sphere(std::size_t n, const Point3& centre) {
     for (int x = -side; x <= side; ++x)
       for (int y = -side; y <= side; ++y)
         for (int z = -side; z <= side; ++z)
-          if (x * x + y * y + z * z == square) points.push_back(centre + Point3{double(x), double(y), double(z)});
+          if (x * x + y * y + z * z == square) points.push_back(center + Point3{double(x), double(y), double(z)});
     if (points.size() >= n) return shuffled(std::move(points), 2);
   }
 }
@@ -126,9 +126,9 @@ std::vector<NamedPoints> tiny_sets() {
       {"random", random_points(30, 1)},
       {"cube", simple_cubic(1)},
       {"simple cubic lattice", simple_cubic(2)},
-      {"body-centred lattice", first(body_centred(2), 35)},
-      {"face-centred lattice", first(face_centred(2), 35)},
-      {"face-centred unit cell", face_centred(1)},
+      {"body-centered lattice", first(body_centered(2), 35)},
+      {"face-centered lattice", first(face_centered(2), 35)},
+      {"face-centered unit cell", face_centered(1)},
       {"sphere", points_on_sphere(24)},
       {"box", first(points_on_box(60, 5), 32)},
       {"lines", first(points_on_lines(60, 6), 28)},
@@ -138,16 +138,16 @@ std::vector<NamedPoints> tiny_sets() {
 }
 
 std::vector<NamedPoints> small_sets() {
-  auto sphere_and_centre = points_on_sphere(200);
-  sphere_and_centre.push_back({});
+  auto sphere_and_center = points_on_sphere(200);
+  sphere_and_center.push_back({});
   return {
       {"random", random_points(400, 11)},
       {"simple cubic lattice", simple_cubic(6)},
-      {"body-centred lattice", body_centred(5)},
-      {"face-centred lattice", face_centred(4)},
-      {"face-centred lattice of large steps", face_centred(4, 0x1p48)},
+      {"body-centered lattice", body_centered(5)},
+      {"face-centered lattice", face_centered(4)},
+      {"face-centered lattice of large steps", face_centered(4, 0x1p48)},
       {"sphere", points_on_sphere(200)},
-      {"sphere and centre", shuffled(std::move(sphere_and_centre), 8)},
+      {"sphere and center", shuffled(std::move(sphere_and_center), 8)},
       {"sphere far from the origin", points_on_sphere(150, {0x1p51 - 100, 0x1p50, -0x1p51 + 100})},
       {"box", points_on_box(500, 12)},
       {"lines", points_on_lines(250, 13)},

@@ -12,11 +12,11 @@ std::vector<Point3> random_points(int n, std::uint64_t seed);
 
 /// Lattices of n^3 unit cells, a unit cell being `step` wide.
 std::vector<Point3> simple_cubic(int n, double step = 1048576);
-std::vector<Point3> body_centred(int n, double step = 1048576);
-std::vector<Point3> face_centred(int n, double step = 1048576);
+std::vector<Point3> body_centered(int n, double step = 1048576);
+std::vector<Point3> face_centered(int n, double step = 1048576);
 
-/// At least n points (all of the integer points, a multiple of 8) exactly on one sphere around `centre`.
-std::vector<Point3> points_on_sphere(std::size_t n, const Point3& centre = {});
+/// At least n points (all of the integer points, a multiple of 8) exactly on one sphere around `center`.
+std::vector<Point3> points_on_sphere(std::size_t n, const Point3& center = {});
 
 /// Most points on the faces of a box, some of them on a grid, and few inside.
 std::vector<Point3> points_on_box(int n, std::uint64_t seed);

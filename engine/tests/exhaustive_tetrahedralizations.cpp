@@ -74,7 +74,7 @@ class Enumeration {
     };
     return any_pierces(edges_of(faces), surface_) || any_pierces(edges_of(surface_), faces);
   }
-  /// The tetrahedra that one by one hinder nothing. Some may be outside: nothing will ever ask for these.
+  /// The tetrahedra that are possible one by one. Some may be outside: these are never used.
   void list_candidates() {
     const auto n = static_cast<Vertex>(polyhedron_.vertices.size());
     for (Vertex a = 0; a < n; ++a)

@@ -9,7 +9,7 @@
 #include "engine/tests/real_parts.h"
 #include "models/solids.h"
 
-// The front makes the same tetrahedra whoever finds its vertices, with the check and without.
+// The front makes the same tetrahedra with every locator, with and without the check.
 
 namespace ccdt {
 namespace {

@@ -203,7 +203,7 @@ TEST(Improving, ThatFindsNoMoreSwapsLeavesNone) {
     const improve::QualityGoal goal = improve::goal_of(c.options);
     improve::CellComplex x = complex_of(c.cube.model, goal);
     std::uint64_t changes = 0;
-    do {  // it gives cells up that were tried several times; another run tries them all
+    do {  // it gives up cells after several attempts; another run tries all of them
       changes = x.change_count();
       improve::improve_cells(x, c.freedom(), c.options);
     } while (x.change_count() != changes);

@@ -41,7 +41,7 @@ bool plan_removal(const improve::CellComplex& x, std::uint32_t a, std::uint32_t 
   return improve::plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);
 }
 
-/// Makes the change and expects that all is well after it.
+/// Makes the change and expects a consistent result.
 void apply_checked(improve::CellComplex& x, const improve::Change& change) {
   const Invariants before = invariants_of(x);
   ASSERT_TRUE(x.all_positive(change));
@@ -133,7 +133,7 @@ TEST(Changes, RingThatGivesWayToMoreTetrahedraCountsAsARemovedEdge) {
 
 TEST(Changes, LongerRingIsLeftAlone) {
   improve::CellComplex x = complex_of(ring_of(improve::longest_ring + 1), by_shape);
-  // Not for want of something better: of all triangles of the ring none is smaller than one that cuts off a corner.
+  // Not for lack of something better: of all triangles of the ring, none is smaller than one that cuts off a corner.
   EXPECT_GT(x.quality_of({2, 3, 4, 1}), x.quality(0));
   improve::Change change;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)

@@ -7,7 +7,7 @@
 
 #include "engine/improve/topological_changes.h"
 
-/// What every change of a mesh has to leave as it is, found without the means of the engine.
+/// The invariants of every change of a mesh, computed without the engine.
 namespace ccdt::improve_test {
 
 using Integer = boost::multiprecision::cpp_int;
@@ -46,8 +46,8 @@ struct Invariants {
 
 Invariants invariants_of(const improve::CellComplex& complex);
 
-/// All that the complex says of itself is right: neighbors are mutual and share three vertices, walls are exactly at
-/// the faces on facets and at the boundary, cells are exactly positive and of the quality that they say, regions end at
+/// The data of the complex are consistent: neighbors are mutual and share three vertices, walls are exactly at the
+/// faces on facets and at the boundary, cells are exactly positive and of the quality that they say, regions end at
 /// walls, each vertex knows one of its cells, and segments are edges of cells.
 void expect_consistent(const improve::CellComplex& complex);
 
@@ -59,8 +59,8 @@ struct PlanCounts {
   int total() const { return edge_removals + face_removals + insertions + collapses; }
 };
 
-/// Makes each change that any cell can have part in, in a copy of the complex, and expects that it is for the better,
-/// that all is consistent, and that the invariants hold.
+/// Makes each change that any cell can have part in, in a copy of the complex, and expects that it is an improvement,
+/// that everything is consistent, and that the invariants hold.
 PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex);
 
 /// The tetrahedra that live, with sorted vertices.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <random>
+#include <set>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
@@ -10,9 +12,11 @@
 #include "engine/mesher.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/build_plc.h"
+#include "engine/protection/harmless_points.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/exhaustive_tetrahedralizations.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "models/solids.h"
 
 // The paper: "Insertion of interior points does not affect CDT existence". It does: an edge of the PLC that is a
 // Delaunay edge need not have an empty diametral sphere, and then an interior point outside that sphere can still be in
@@ -52,10 +56,10 @@ InputPlc segment_in_large_cube() {
   InputPlc plc = tetrahedron_with_segment();
   plc.triangles.clear();
   constexpr double half = 16;
-  const Point3 centre{3, 3, 3};
+  const Point3 center{3, 3, 3};
   const auto corner = static_cast<std::uint32_t>(plc.vertices.size());
   for (int i = 0; i < 8; ++i)
-    plc.vertices.push_back(centre + half * Point3{i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
+    plc.vertices.push_back(center + half * Point3{i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
   for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{
            {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
     const auto middle = static_cast<std::uint32_t>(plc.vertices.size());
@@ -65,7 +69,7 @@ InputPlc segment_in_large_cube() {
   return plc;
 }
 
-/// An input with its edges protected, and an interior point that is yet to come.
+/// An input with protected edges, and an interior point to insert.
 struct Protected {
   plc::Plc plc;
   protection::ProtectedDelaunay surface;
@@ -79,7 +83,7 @@ struct Protected {
     point = (1 / plc.grid.unit) * (interior - plc.grid.origin);
   }
 
-  bool has_edge(std::uint32_t a, std::uint32_t b) { return delaunay::CellStar(delaunay).has_edge(a, b); }
+  bool has_edge(std::uint32_t a, std::uint32_t b) const { return delaunay::has_edge(delaunay, a, b); }
   /// \return  how many Steiner vertices it takes
   std::uint64_t protect(Protection strategy) {
     const std::size_t before = delaunay.vertices.size();
@@ -88,11 +92,9 @@ struct Protected {
   }
   /// With regard to edges, or without.
   std::uint64_t insert(bool with_regard) {
-    protection::ProtectedDelaunay start = surface;
-    if (!with_regard) start.must_be_chain.assign(start.must_be_chain.size(), false);
-    const std::size_t before = delaunay.vertices.size();
-    surface.delaunay = protection::insert_interior(std::vector{point}, std::move(start));
-    return delaunay.vertices.size() - before;
+    if (with_regard && protection::harmless_points(std::vector{point}, surface).empty()) return 0;
+    insert_points(surface.delaunay, std::vector{point});
+    return 1;
   }
   front::FrontResult advance() const {
     const facets::FacetMesh facets = facets::triangulate_facets(plc, surface.chains, delaunay);
@@ -100,7 +102,7 @@ struct Protected {
   }
 };
 
-bool is_in_ball(const lattice::Ball& ball, const Point3& p) {
+bool is_in_ball(const Ball& ball, const Point3& p) {
   return std::sqrt(squared_length(p - ball.center)) <= ball.radius;
 }
 
@@ -213,6 +215,59 @@ TEST(InteriorPoints, ProtectionAfterInsertionBringsExistenceBack) {
     EXPECT_GT(p.protect(strategy), 0u);
     EXPECT_TRUE(finds_constrained_delaunay(p));
   }
+}
+
+/// Points in the box of the vertices: half of them anywhere, the others on a coarse grid, where many are cospherical
+/// and some are where a vertex is.
+std::vector<Point3> random_points(const plc::Plc& plc, std::size_t count, std::mt19937& random) {
+  const Box box = bounding_box(plc.vertices);
+  const Point3 size = box.high - box.low;
+  std::set<std::array<double, 3>> points;
+  while (points.size() < count) {
+    const double steps = points.size() < count / 2 ? 0x1p30 : 12;
+    const auto at = [&](double low, double extent) {
+      return std::round(low + extent * static_cast<double>(random() % static_cast<std::uint64_t>(steps + 1)) / steps);
+    };
+    points.insert({at(box.low.x, size.x), at(box.low.y, size.y), at(box.low.z, size.z)});
+  }
+  std::vector<Point3> result;
+  for (const auto& [x, y, z] : points) result.push_back({x, y, z});
+  std::ranges::shuffle(result, random);
+  return result;
+}
+
+TEST(InteriorPoints, HarmlessOnesKeepAllProtectedEdgesWhicheverAreInserted) {
+  std::mt19937 random(8);
+  std::size_t kept = 0, left_out = 0;
+  const std::vector<InputPlc> inputs = {cube_with_turnstile(),
+                                        two_bars(),
+                                        gridded_plate(5, 0.01),
+                                        gridded_cube(4),
+                                        cube_within_cube(),
+                                        random_voxels(3, 2, random),
+                                        in_perspective(random_voxels(3, 3, random), 3),
+                                        roughened(models::make_solid("sphere", 0.5), 0.3, random)};
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    SCOPED_TRACE("input " + std::to_string(i));
+    const Protected p(inputs[i], {});
+    for (const std::size_t count : {10, 100, 1000}) {
+      const std::vector<Point3> points = random_points(p.plc, count, random);
+      std::vector<Point3> harmless;
+      for (const std::uint32_t index : protection::harmless_points(points, p.surface))
+        harmless.push_back(points[index]);
+      delaunay::Delaunay d = p.delaunay;
+      insert_points(d, harmless);
+      for (std::size_t s = 0; s < p.surface.chains.size(); ++s) {
+        const auto& chain = p.surface.chains[s];
+        for (std::size_t k = 1; p.surface.must_be_chain[s] && k < chain.size(); ++k)
+          ASSERT_TRUE(delaunay::has_edge(d, chain[k - 1].vertex, chain[k].vertex)) << count << " points";
+      }
+      kept += harmless.size();
+      left_out += points.size() - harmless.size();
+    }
+  }
+  EXPECT_GT(kept, 1000u);
+  EXPECT_GT(left_out, 1000u);
 }
 
 TEST(InteriorPoints, ThatWereDroppedAreCounted) {

@@ -35,7 +35,7 @@ void damage_and_read(const std::string& good, const std::filesystem::path& file,
 TEST(DamagedFiles, PlcReadersReadOrRefuse) {
   const Folder folder;
   for (const std::string name :
-       {"a.poly", "a.smesh", "a.mesh", "a.off", "a.obj", "a.ply", "a.stl", "a.node", "text.stl"}) {
+       {"a.poly", "a.smesh", "a.mesh", "a.meshb", "a.off", "a.obj", "a.ply", "a.stl", "a.node", "text.stl"}) {
     SCOPED_TRACE(name);
     plc::InputPlc plc = name == "a.poly" ? rich_plc() : awkward_surface();
     if (name == "a.stl") plc.polygon_facets.clear(), plc.vertices.assign(5, {1, 2, 3});
@@ -53,7 +53,7 @@ TEST(DamagedFiles, PlcReadersReadOrRefuse) {
 
 TEST(DamagedFiles, TetMeshReadersReadOrRefuse) {
   const Folder folder;
-  for (const std::string name : {"a.mesh", "a.vtu", "a.msh"}) {
+  for (const std::string name : {"a.mesh", "a.meshb", "a.vtu", "a.msh", "a.msh4"}) {
     SCOPED_TRACE(name);
     io::write_tet_mesh(small_mesh(), folder / name);
     damage_and_read(bytes_of(folder / name), folder / name, [&] { io::read_tet_mesh(folder / name); });

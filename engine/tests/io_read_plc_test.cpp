@@ -205,7 +205,7 @@ TEST(ReadPly, ErrorsHaveTheirPlace) {
                  {"vertex 2: a coordinate is not a finite number", {}, end - 18});
   expect_refused("a.ply", binary_ply(false, 1, 3), {"facet 0: vertex index 3 is out of range", {}, end - 2, 0});
   expect_refused("a.ply", binary_ply(false, 1, -1), {"vertex index -1 is out of range", {}, end - 2, 0});
-  expect_refused("a.ply", good.substr(0, good.size() - 1), {"ends within facet 0", {}, end - 1, 0});
+  expect_refused("a.ply", good.substr(0, good.size() - 1), {"ends within or before facet 0", {}, end - 1, 0});
   expect_refused("a.ply", good + "more", {"more bytes follow", {}, end});
   std::string claims = good;
   claims.replace(claims.find("vertex 3"), 8, "vertex 4000000000");

@@ -16,7 +16,7 @@ std::string sol(const std::string& head, const std::string& values) {
   return "MeshVersionFormatted 2\n\nDimension 3\n\nSolAtVertices\n" + head + "\n" + values + "\nEnd\n";
 }
 
-/// Refused with this line of this file, and with a remedy.
+/// Expects an error with this line of this file, and with a remedy.
 void expect_refused(const std::filesystem::path& file, const std::string& bad_file, long long line) {
   SCOPED_TRACE(bad_file);
   try {

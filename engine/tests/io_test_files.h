@@ -17,7 +17,7 @@
 
 namespace ccdt::io_test {
 
-/// A folder of its own for a test, gone when the test is over.
+/// A temporary folder for a test, removed at its end.
 class Folder {
  public:
   Folder() {
@@ -50,7 +50,7 @@ inline std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What a PLC file of this name and content holds.
+/// Reads a PLC file of this name and content.
 inline plc::InputPlc plc_of(const std::string& name, std::string_view bytes) {
   const Folder folder;
   return io::read_plc(put(folder / name, bytes));
@@ -61,7 +61,7 @@ inline mesh::TetMesh mesh_of(const std::string& name, std::string_view bytes) {
   return io::read_tet_mesh(put(folder / name, bytes));
 }
 
-/// The place that an error should have; what is not given is not compared.
+/// The expected place of an error; missing parts are not compared.
 struct Expected {
   std::string_view words;  ///< part of the message
   std::optional<long long> line = std::nullopt, byte = std::nullopt, facet = std::nullopt;

@@ -92,7 +92,7 @@ TEST(ReadMedit, ErrorsHaveTheirPlace) {
   expect_refused("a.mesh", "solid\n", {"expected 'MeshVersionFormatted'", 1});
 }
 
-TEST(ReadTetgenMesh, ZeroBasedWithoutMarkersAndWithNeighbours) {
+TEST(ReadTetgenMesh, ZeroBasedWithoutMarkersAndWithNeighbors) {
   const Folder folder;
   put(folder / "a.1.node", cube_corner_nodes);
   put(folder / "a.1.ele", "1 4 0\n0 0 1 2 3\n");

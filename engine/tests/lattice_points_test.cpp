@@ -128,13 +128,13 @@ TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
 }
 
 /// How many points are next to p, and how far they are.
-struct Neighbours {
+struct Neighbors {
   int count = 0;
   double distance = HUGE_VAL;
 };
 
-Neighbours nearest(const std::vector<Point3>& points, const Point3& p) {
-  Neighbours found;
+Neighbors nearest(const std::vector<Point3>& points, const Point3& p) {
+  Neighbors found;
   for (const Point3& q : points) {
     if (q == p) continue;
     const double distance = std::sqrt(squared_length(q - p));
@@ -146,7 +146,7 @@ Neighbours nearest(const std::vector<Point3>& points, const Point3& p) {
   return found;
 }
 
-TEST(LatticePoints, HaveTheNeighboursOfTheirLattice) {
+TEST(LatticePoints, HaveTheNeighborsOfTheirLattice) {
   struct Case {
     lattice::Lattice kind;
     int neighbors;
@@ -162,7 +162,7 @@ TEST(LatticePoints, HaveTheNeighboursOfTheirLattice) {
     for (const Point3& p : points) {
       if (squared_length(p) > std::pow(2.5 * edge_length, 2)) continue;
       ++inner;
-      const Neighbours found = nearest(points, p);
+      const Neighbors found = nearest(points, p);
       EXPECT_EQ(found.count, c.neighbors);
       EXPECT_NEAR(found.distance / edge_length, c.distance, 0.004);
     }
@@ -302,10 +302,10 @@ TEST(CellSize, HasFewBitsAndIsNear) {
 }
 
 TEST(SmallestBall, TouchesTheCornersOfAnAcuteTriangleAndTheLongestEdgeOfAnObtuseOne) {
-  const lattice::Ball acute = lattice::smallest_ball(lattice::TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
+  const Ball acute = lattice::smallest_ball(lattice::TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
   for (const Point3& p : {Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}})
     EXPECT_NEAR(std::sqrt(squared_length(p - acute.center)), acute.radius, 1e-7);
-  const lattice::Ball obtuse = lattice::smallest_ball(lattice::TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
+  const Ball obtuse = lattice::smallest_ball(lattice::TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
   EXPECT_NEAR(obtuse.center.x, 5, 1e-12);
   EXPECT_NEAR(obtuse.center.y, 0, 1e-12);
   EXPECT_NEAR(obtuse.radius, 5, 1e-7);

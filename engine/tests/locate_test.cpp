@@ -23,12 +23,12 @@ struct Scene {
   Scene(std::uint32_t count, bool graded, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> part(-1, 1), power(0, 25);
-    std::vector<Point3> centres;
+    std::vector<Point3> centers;
     while (vertices.size() + 3 <= count) {
       const double scale = side * (graded ? std::exp2(-power(random)) : 1);
-      const Point3 centre{scale * part(random), scale * part(random), scale * part(random)};
+      const Point3 center{scale * part(random), scale * part(random), scale * part(random)};
       for (int i = 0; i < 3; ++i) {
-        const Point3 p = centre + (0.3 * scale) * Point3{part(random), part(random), part(random)};
+        const Point3 p = center + (0.3 * scale) * Point3{part(random), part(random), part(random)};
         vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0, 0});
       }
       const auto n = static_cast<std::uint32_t>(vertices.size());
@@ -60,15 +60,15 @@ void expect_vertices_of_caps(const Scene& scene, const Locator& locator, unsigne
     const Point3 &a = scene.corner(t, 0), &b = scene.corner(t, 1), &c = scene.corner(t, 2);
     locate::Cap cap(a, b, c);
     // It shrinks to a ball around a vertex after some visits, as it does when a candidate is found.
-    const Point3 centre = scene.vertices[random() % scene.vertices.size()].point;
-    const double radius = std::sqrt(squared_length(centre - a)) * (round % 4 + 1) / 4;
+    const Point3 center = scene.vertices[random() % scene.vertices.size()].point;
+    const double radius = std::sqrt(squared_length(center - a)) * (round % 4 + 1) / 4;
     const unsigned visits_before = random() % 3 == 0 ? 1000000 : random() % 20;
     std::vector<int> visits(scene.vertices.size(), 0);
     unsigned count = 0;
     locator.visit_nearest_first(a, cap, [&](const locate::LocatedVertex& v) {
       EXPECT_TRUE(v.point == scene.vertices[v.id].point);
       ++visits[v.id];
-      if (count++ == visits_before) cap.shrink_to(centre, radius);
+      if (count++ == visits_before) cap.shrink_to(center, radius);
     });
     for (std::size_t v = 0; v < visits.size(); ++v) {
       EXPECT_LE(visits[v], 1);

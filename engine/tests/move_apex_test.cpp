@@ -13,7 +13,7 @@ namespace {
 using test::jittered_stars;
 using test::Star;
 
-/// Goals that no star reaches, so that the search goes to its end.
+/// Goals that no star reaches, so that the search runs to its end.
 const improve::QualityGoal best_r{improve::Objective::r, 1.1, 1.1}, best_sine{improve::Objective::dihedral, 1.1, 1.1};
 const improve::QualityGoal best_sine_of_good_r{improve::Objective::r, 0.5, 1.1},
     usual{improve::Objective::r, 0.5, 0.34};
@@ -27,7 +27,7 @@ bool all_positive(const Star& star) {
                      [&](const improve::StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, star.apex) > 0; });
 }
 
-/// Moves the apex and checks all that holds of every move; gives the quality before and after.
+/// Moves the apex and checks the invariants of every move; returns the quality before and after.
 std::array<double, 2> move_checked(const improve::QualityGoal& goal, const improve::Freedom& freedom, Star& star) {
   EXPECT_TRUE(all_positive(star));
   const Point3 from = star.apex;
@@ -58,11 +58,11 @@ double best_of_grids(const Star& star, const improve::QualityGoal& goal, std::sp
   double step = radius(star) / 6;
   for (int level = 0; level < 8; ++level, step *= 0.4) {
     const int n = level == 0 ? 6 : 2;
-    const Point3 centre = best;
+    const Point3 center = best;
     for (int i = -n; i <= n; ++i) {
       for (int j = dimensions > 1 ? -n : 0; j <= (dimensions > 1 ? n : 0); ++j) {
         for (int k = dimensions > 2 ? -n : 0; k <= (dimensions > 2 ? n : 0); ++k) {
-          Point3 there = centre + (step * i) * directions[0];
+          Point3 there = center + (step * i) * directions[0];
           if (dimensions > 1) there = there + (step * j) * directions[1];
           if (dimensions > 2) there = there + (step * k) * directions[2];
           if (const double w = improve::worst_of_star(star.faces, goal, there); w > quality) quality = w, best = there;
@@ -197,7 +197,7 @@ TEST(ProximalStep, EndsWhereFourModelsMeet) {
   EXPECT_NEAR(found.least, 2, 1e-2);
 }
 
-/// The promise is kept by all models, and it is no less than any of many random steps with their costs would have.
+/// All models keep the prediction, and it is not less than that of many random steps with their costs.
 TEST(ProximalStep, IsBetterThanOtherSteps) {
   std::mt19937_64 random(5);
   const auto number = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
@@ -223,7 +223,7 @@ TEST(ProximalStep, IsBetterThanOtherSteps) {
   }
 }
 
-TEST(MoveApex, FindsTheCentreOfAnOctahedron) {
+TEST(MoveApex, FindsTheCenterOfAnOctahedron) {
   const double size = 0x1p40;
   for (const improve::QualityGoal& goal : {best_r, best_sine}) {
     for (const Point3& start : {Point3{0.3, 0.2, -0.1}, Point3{-0.6, 0.1, 0.2}, Point3{0, 0, 0.95}}) {

@@ -76,13 +76,13 @@ std::array<Point3, 6> draw_segments(Random& random) {
 }
 
 std::array<Point3, 6> draw_sphere(Random& random) {
-  const Vector centre = draw_vector(random, largest_coordinate / 2),
+  const Vector center = draw_vector(random, largest_coordinate / 2),
                radius = draw_vector(random, draw_power(random, 49));
   return six([&] {
     Vector v = radius;
     for (int i = 2; i > 0; --i) std::swap(v[i], v[draw_between(random, 0, i)]);
     for (std::int64_t& x : v) x = random() % 2 ? x : -x;
-    return combine(centre, 1, v, 0, v);
+    return combine(center, 1, v, 0, v);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "engine/base/point.h"
+#include "engine/tests/sanitized.h"
 
 namespace ccdt::test {
 
@@ -29,8 +30,8 @@ inline constexpr std::array all_families = {Family::anywhere, Family::box_of_any
 
 /// The number of cases of a test: all in a release build, fewer where code is slow on purpose.
 inline constexpr int cases(int in_release) {
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
-  return in_release;
+#ifdef NDEBUG
+  return is_sanitized ? in_release / 100 : in_release;
 #else
   return in_release / 100;
 #endif

@@ -125,8 +125,7 @@ inline std::vector<planar::Edge> constrained_edges(const planar::Triangulation& 
   return {edges.begin(), edges.end()};
 }
 
-/// Everything that must always hold of a triangulation: adjacency from both sides, maps that find what is there,
-/// counterclockwise triangles.
+/// The invariants of a triangulation: mutual adjacency, correct maps, counterclockwise triangles.
 inline void expect_sound(const planar::Triangulation& t, const IntegerPlane& plane) {
   ASSERT_EQ(t.neighbors.size(), t.triangles.size());
   ASSERT_EQ(t.constrained.size(), t.triangles.size());

@@ -122,7 +122,7 @@ TEST(PlanarSplitEdge, HandsTheConstraintToTheHalves) {
   EXPECT_FALSE(planar::split_edge(t, VertexId(0u), VertexId(2u), VertexId(4u), plane));
 }
 
-/// Bisects the constrained edges of a triangulation over and over; new vertices are appended to the plane.
+/// Bisects the constrained edges of a triangulation repeatedly; new vertices are appended to the plane.
 std::size_t bisect_constraints(planar::Triangulation& t, IntegerPlane& plane, int rounds) {
   std::size_t splits = 0;
   for (int round = 0; round < rounds; ++round) {

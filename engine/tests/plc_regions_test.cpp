@@ -26,7 +26,7 @@ plc::InputPlc cube_in_cube() {
   return plc;
 }
 
-/// Two unit cubes side by side in x; the face that they share is there once.
+/// Two unit cubes side by side in x; their common face occurs once.
 plc::InputPlc two_cubes() {
   plc::InputPlc plc = unit_cube();
   plc::InputPlc second = box({1, 0, 0}, {2, 1, 1});
@@ -217,7 +217,7 @@ TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRejected) {
     input.holes = {seed};
     EXPECT_THROW(plc::build_plc(input), InputError);
   }
-  // Within the box of all vertices, but outside all the same.
+  // Within the box of all vertices, but outside the solid.
   plc::InputPlc input = l_shape();
   input.inside = Inside::seeds;
   input.holes = {{1.5, 1.5, 0.5}};

@@ -54,7 +54,7 @@ plc::InputPlc surface_of(const Voxels& voxels, std::mt19937& random) {
   return plc;
 }
 
-/// What the regions of equal labels that do not reach the outside come to.
+/// The volumes of the regions of equal labels that do not reach the outside.
 struct Regions {
   std::vector<double> volumes;  // sorted
   std::vector<bool> inside;     // of each voxel
@@ -144,7 +144,7 @@ TEST(PlcVoxels, RegionsAndSegmentsAreThoseThatTheLabelsGive) {
     if (!turn) {
       EXPECT_EQ(grazeable_count(plc), segments.grazeable) << "round " << round;
     }
-    // Turned, 180 degrees become a little more or less, and both is right.
+    // After rotation, 180 degrees become a little more or less, and both are right.
     EXPECT_GE(grazeable_count(plc), segments.with_270) << "round " << round;
     EXPECT_LE(grazeable_count(plc), segments.grazeable) << "round " << round;
   }

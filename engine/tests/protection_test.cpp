@@ -1,14 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
 #include <numeric>
+#include <set>
 
 #include "engine/base/errors.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/thin_plates.h"
 #include "models/solids.h"
 
 namespace ccdt {
@@ -81,8 +86,41 @@ TEST(Protection, SchoenhardtPolyhedronNeedsAtMostFourSteinerVerticesOnShells) {
   EXPECT_LE(result.counts.steiner_vertices, 4u);
 }
 
-/// A thin plate with a fan of long triangles inside, the corners of which are nearly on lines. Their edges are not
-/// quite parallel, so that the feet of the vertices of one on another one move on with each split.
+/// The pieces of the segments that are edges of no cell, found without walks.
+std::size_t count_missing(const plc::Plc& plc, const protection::SegmentChains& chains, const delaunay::Delaunay& d) {
+  std::set<std::uint64_t> edges;
+  for (std::uint32_t c = 0; c < d.cells.size(); ++c)
+    for (int i = 1; i < 4 && d.is_finite(c); ++i)
+      for (int j = 0; j < i; ++j) edges.insert(edge_key(d.cells[c].vertices[i], d.cells[c].vertices[j]));
+  std::size_t missing = 0;
+  for (std::size_t s = 0; s < plc.segments.size(); ++s)
+    for (std::size_t i = 0; i + 1 < chains[s].size(); ++i)
+      missing += !edges.contains(edge_key(chains[s][i].vertex, chains[s][i + 1].vertex));
+  return missing;
+}
+
+TEST(Protection, EverySegmentIsADelaunayEdgeOrSplitOrLeftToTheFront) {
+  std::vector<InputPlc> inputs = inputs_with_reflex_edges();
+  inputs.push_back(two_bars());
+  front::SegmentCounts sum;
+  for (const InputPlc& input : inputs) {
+    const front::SegmentCounts counts = bare_mesh(input).counts.segments.value();
+    const plc::Plc plc = plc::build_plc(input);
+    const auto [delaunay, chains, grazeable] = protection::protect_edges(
+        plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), Protection::shell);
+    EXPECT_EQ(counts.all, plc.segments.size());
+    EXPECT_EQ(counts.all, counts.delaunay + counts.split + counts.front);
+    EXPECT_EQ(counts.grazeable, std::ranges::count(grazeable, true));
+    EXPECT_EQ(counts.pieces - counts.split, delaunay.vertices.size() - plc.vertices.size());
+    EXPECT_EQ(counts.front, count_missing(plc, chains, delaunay));
+    sum.split += counts.split, sum.front += counts.front;
+  }
+  EXPECT_GT(sum.split, 30u);
+  EXPECT_GT(sum.front, 3u);
+}
+
+/// A thin plate with a fan of long triangles inside, whose corners are nearly collinear. Their edges are not quite
+/// parallel, so that the feet of the vertices of one edge on another move with each split.
 InputPlc plate_with_narrow_fan() {
   InputPlc plate;
   plate.name = "plate with a narrow fan";
@@ -125,51 +163,6 @@ TEST(Protection, OfSegmentsThatAreNotQuiteParallelEnds) {
   expect_verified(plate, result.mesh);
 }
 
-/// A stack of rotated plates with a thickness of 1e-5 of their length and coordinates that are rounded to 1e-7 of it.
-/// Vertices next to the ends of the long edges have their feet within 1e-6 of these.
-InputPlc stack_of_thin_plates() {
-  InputPlc stack;
-  stack.name = "stack of thin plates";
-  stack.vertices = {{-3.480911254882812e-08, 2.1338462829589843e-08, 2.372264862060547e-08},
-                    {0.3589743354305243, 0.8717948340651317, -0.33333329810698825},
-                    {0.31250000089406965, 0.874999990940094, -0.37500003224611284},
-                    {-0.04647441238012069, 0.003205156278915894, -0.04166665563980738},
-                    {-0.6105768980429723, 0.4903845797410378, 0.6250000494718552},
-                    {-0.5641025867523292, 0.4871794681656055, 0.6666666428844134},
-                    {-0.20512819237281113, 1.358974312840364, 0.33333328612645463},
-                    {-0.25160257000342395, 1.3621795255648785, 0.2916666755477587},
-                    {-1.174679482709139, 0.977564106855637, 1.2916666786472002},
-                    {-1.1282050924423412, 0.9743590049957618, 1.3333333412011463},
-                    {-0.7692307821649771, 1.846153823384872, 1.000000028014183},
-                    {-0.8157051813724714, 1.8493589462255822, 0.958333303173383},
-                    {-1.1746880462429463, 0.9775715847917091, 1.2916768936117489},
-                    {-1.128213781265112, 0.9743664109890278, 1.3333434717655182},
-                    {-0.7692393781237113, 1.846161224848185, 1.000010162929694},
-                    {-0.8157137387073958, 1.849366386789542, 0.9583434969782829},
-                    {-1.1746967294628803, 0.9775789619959318, 1.2916870124340054},
-                    {-1.1282223701308935, 0.974373829022432, 1.3333536968032518},
-                    {-0.7692479668702834, 1.846168695393281, 1.0000203627546627},
-                    {-0.8157223968337743, 1.8493738047037367, 0.9583537152806917},
-                    {-1.1747138653519826, 0.9775938834761961, 1.2917073174913722},
-                    {-1.1282395196098547, 0.9743887013288645, 1.3333740328550339},
-                    {-0.7692652585659271, 1.8461836046545934, 1.0000406980911891},
-                    {-0.8157395468491774, 1.8493887643905786, 0.9583739798069},
-                    {-1.1747310847471921, 0.9776086672697312, 1.2917276494304337},
-                    {-1.1282567303027862, 0.9744035935432483, 1.3333943652709324},
-                    {-0.7692824535828369, 1.8461984993127676, 1.0000610157847405},
-                    {-0.8157567521776907, 1.8494035348922777, 0.9583943401177724}};
-  const std::vector<std::vector<std::uint32_t>> quads = {
-      {0, 1, 2, 3},     {0, 3, 4, 5},     {0, 5, 6, 1},     {1, 2, 7, 6},     {3, 4, 7, 2},     {5, 6, 7, 4},
-      {5, 4, 8, 9},     {5, 9, 10, 6},    {6, 7, 11, 10},   {4, 8, 11, 7},    {9, 10, 11, 8},   {9, 8, 12, 13},
-      {9, 13, 14, 10},  {10, 11, 15, 14}, {8, 12, 15, 11},  {13, 14, 15, 12}, {13, 12, 16, 17}, {13, 17, 18, 14},
-      {14, 15, 19, 18}, {12, 16, 19, 15}, {17, 18, 19, 16}, {17, 16, 20, 21}, {17, 21, 22, 18}, {18, 19, 23, 22},
-      {16, 20, 23, 19}, {21, 22, 23, 20}, {21, 20, 24, 25}, {21, 25, 26, 22}, {22, 23, 27, 26}, {20, 24, 27, 23},
-      {25, 26, 27, 24}};
-  for (const std::vector<std::uint32_t>& quad : quads)
-    stack.polygon_facets.push_back({{quad}, {}, 0, static_cast<std::uint32_t>(stack.polygon_facets.size())});
-  return stack;
-}
-
 TEST(Protection, OfALongEdgeWithFeetNextToItsEndsEnds) {
   const InputPlc stack = stack_of_thin_plates();
   const plc::Plc plc = plc::build_plc(plc::triangulate_bent_facets(stack).value_or(stack));
@@ -202,7 +195,6 @@ TEST(Protection, EveryGrazeableSegmentBecomesAChainOfDelaunayEdgesThatLieOnIt) {
       const plc::Plc plc = plc::build_plc(input);
       const auto [delaunay, chains, grazeable] = protection::protect_edges(
           plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), strategy);
-      delaunay::CellStar star(delaunay);
       for (std::size_t s = 0; s < chains.size(); ++s) {
         const Point3 &a = plc.vertices[plc.segments[s].ends[0]], &b = plc.vertices[plc.segments[s].ends[1]];
         EXPECT_EQ(chains[s].front().fraction, 0u);
@@ -215,13 +207,13 @@ TEST(Protection, EveryGrazeableSegmentBecomesAChainOfDelaunayEdgesThatLieOnIt) {
           EXPECT_EQ(delaunay.point(v.vertex), a + v.fraction * (1.0 / protection::whole_segment * (b - a)));
           if (i == 0) continue;
           EXPECT_LT(chains[s][i - 1].fraction, v.fraction);
-          EXPECT_TRUE(!grazeable[s] || star.has_edge(chains[s][i - 1].vertex, v.vertex));
+          EXPECT_TRUE(!grazeable[s] || has_edge(delaunay, chains[s][i - 1].vertex, v.vertex));
         }
       }
     }
 }
 
-/// Slits like the pages of a book that is hardly open, in a cube.
+/// Slits in a cube, like the pages of a barely open book.
 InputPlc cube_with_pages(int pages, double angle) {
   InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{0.5, 1.5, 1}, {0.5, 1.5, 2}});
@@ -266,6 +258,44 @@ TEST(Protection, ShellsTerminateWhereSegmentsMeetAtSmallAngles) {
     EXPECT_GT(expect_agreement(book, Lattice::none).counts.steiner_vertices, 0u);
     expect_agreement(rotated(oblique, book), Lattice::none);
   }
+}
+
+/// A cube with segments side by side, a little skew.
+InputPlc cube_with_bundle(double spacing) {
+  std::mt19937 random(1);
+  const auto offset = [&] { return spacing * static_cast<double>(random() % 8) / 8; };
+  InputPlc plc = seeded_cube();
+  for (std::uint32_t v = 8; v < 24; ++v) {
+    const double x = v % 2 == 0 ? 0.5 : 2.5, dx = offset(), dy = offset(), dz = offset();
+    plc.vertices.push_back({x + dx, 1.5 + dy, 1.5 + dz});
+    if (v % 2 == 1) plc.segments.push_back({v - 1, v});
+  }
+  return plc;
+}
+
+TEST(Protection, SegmentsSideBySideAreSplitSideBySide) {
+  EXPECT_LT(expect_agreement(cube_with_bundle(0x1p-14), Lattice::none).counts.steiner_vertices, 2000u);
+  EXPECT_LT(expect_agreement(cube_with_bundle(0x1p-18), Lattice::none).counts.steiner_vertices, 10000u);
+}
+
+TEST(Protection, FractionsFinerThanUsualAreOnTheGrid) {
+  const plc::Plc plc = plc::build_plc(cube_with_bundle(0x1p-16));
+  const auto [delaunay, chains, grazeable] = protection::protect_edges(
+      plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), Protection::shell);
+  std::size_t fine = 0;
+  for (std::size_t s = 0; s < chains.size(); ++s)
+    for (const protection::ChainVertex& v : chains[s]) {
+      fine += v.fraction % protection::usual_step != 0;
+      const auto& [a, b] = plc.segments[s].ends;
+      const std::uint32_t parts = protection::whole_segment >> std::min(30, std::countr_zero(v.fraction));
+      for (const double along : as_array(plc.vertices[b] - plc.vertices[a])) EXPECT_EQ(std::fmod(along, parts), 0);
+    }
+  EXPECT_GT(fine, 0u);
+}
+
+TEST(Protection, SegmentsSideBySideMayBeTooCloseForTheirPlacesOnTheGrid) {
+  EXPECT_NO_THROW(bare_mesh(rotated(oblique, cube_with_bundle(0x1p-12))));
+  EXPECT_THROW(bare_mesh(rotated(oblique, cube_with_bundle(0x1p-18))), LimitError);
 }
 
 TEST(Protection, MidpointsGiveUpWithTheSegmentWhereThePiecesWouldGetTooSmall) {

@@ -15,13 +15,12 @@ inline std::filesystem::path shared_folder(const char* variable, const char* nam
   return told ? std::filesystem::path(told) : std::filesystem::path(CCDT_SOURCE_DIR) / ".." / "shared" / name;
 }
 
-/// Where real surfaces are, if there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
+/// Real surfaces, if there are any: the folder of the variable CCDT_PARTS, or one beside the checkout.
 inline std::filesystem::path folder_of_parts() {
   return shared_folder("CCDT_PARTS", "parts");
 }
 
-/// Where surfaces are that have made the engine fail: the folder of the variable CCDT_HARD_PARTS, or one beside the
-/// checkout.
+/// Surfaces that once made the engine fail: the folder of the variable CCDT_HARD_PARTS, or one beside the checkout.
 inline std::filesystem::path folder_of_hard_parts() {
   return shared_folder("CCDT_HARD_PARTS", "hard");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/count_work.h"
 #include "engine/base/portable_math.h"
 #include "engine/numbers/predicates.h"
 #include "engine/refine/refine_plc.h"
@@ -20,10 +21,11 @@ struct Refined {
 };
 
 /// \param edge_length  in the units of the input
-Refined refined(const InputPlc& input, double edge_length) {
+Refined refined(const InputPlc& input, double edge_length, RefineOptions options = {}) {
   Refined r;
   r.before = plc::build_plc(input);
-  r.after = refine_plc(r.before, {edge_length / r.before.grid.unit});
+  options.edge_length = edge_length / r.before.grid.unit;
+  r.after = refine_plc(r.before, options);
   return r;
 }
 
@@ -82,6 +84,12 @@ InputPlc wedge(double width) {
   return plc_test::prism({{0, 0}, {10, 0}, {10, width}});
 }
 
+/// A prism over a square whose corners are cut off, so that narrow strips run along its height.
+InputPlc beveled_square(double bevel) {
+  const double near = bevel, far = 4 - bevel;
+  return plc_test::prism({{near, 0}, {far, 0}, {4, near}, {4, far}, {far, 4}, {near, 4}, {0, far}, {0, near}});
+}
+
 /// In degrees, of the faces of a mesh.
 double least_angle_of_faces(const TetMesh& mesh) {
   double least = 180;
@@ -123,6 +131,55 @@ TEST(Refine, VerticesThatSplitSegmentsAreNoSteinerVertices) {
 
 TEST(Refine, EdgesOfAThinPlateFitItsThickness) {
   EXPECT_LE(longest_piece(refined(box({0, 0, 0}, {2, 2, 0.1}), 0.5).after), 0.2);
+}
+
+TEST(Refine, NarrowStripsGetEdgesThatFit) {
+  MeshOptions options = refining(0.5);
+  options.lattice = Lattice::none;
+  EXPECT_GE(least_angle_of_faces(mesh_plc(beveled_square(0.01), options).mesh), 20);
+}
+
+TEST(Refine, TheNarrowestStripsDoNotCostMillionsOfTetrahedra) {
+  const Refined r = refined(beveled_square(0.00002), 0.5, {.most_tetrahedra = 1e6});
+  expect_exactly_in_place(r);
+  EXPECT_GT(all_points(r.after).size(), 1000u);
+  EXPECT_LT(all_points(r.after).size(), 60000u);
+}
+
+/// A cone over a circle of that many edges.
+InputPlc cone(std::uint32_t edges) {
+  InputPlc plc;
+  plc.vertices = {{0, 0, 1}};
+  plc.polygon_facets.emplace_back().polygons.emplace_back();
+  for (std::uint32_t i = 0; i < edges; ++i) {
+    const double angle = to_radians(360.0 * i / edges);
+    plc.vertices.push_back({portable::cosine(angle), portable::cosine(angle - to_radians(90)), 0});
+    plc.polygon_facets[0].polygons[0].push_back(i + 1);
+    plc.triangles.push_back({0, i + 1, (i + 1) % edges + 1});
+  }
+  return plc;
+}
+
+TEST(Refine, ManyShortSegmentsDoNotCostMoreThanIsAllowed) {
+  const std::size_t without_limit = all_points(refined(cone(400), 0.5).after).size();
+  const Refined r = refined(cone(400), 0.5, {.most_tetrahedra = 2e4});
+  expect_exactly_in_place(r);
+  EXPECT_LT(3 * all_points(r.after).size(), 2 * without_limit);
+}
+
+TEST(Refine, TheThicknessOfAFlatPlateIsMeasuredOnce) {
+  std::vector<std::array<double, 2>> circle;
+  for (int i = 0; i < 60; ++i)
+    circle.push_back({10 * portable::cosine(to_radians(6.0 * i)), 10 * portable::cosine(to_radians(6.0 * i - 90))});
+  const std::uint64_t nodes = work_done.box_tree_nodes;
+  const Refined r = refined(plc_test::prism(circle), 2);
+  EXPECT_LT(work_done.box_tree_nodes - nodes, 1000 * all_points(r.after).size());
+}
+
+TEST(Refine, WallsAsThinAsYouLikeAreNotMeasuredForEver) {
+  const std::uint64_t nodes = work_done.box_tree_nodes;
+  refined(box({0, 0, 0}, {4, 4, 1e-5}), 0.2);
+  EXPECT_LT(work_done.box_tree_nodes - nodes, 60'000'000u);
 }
 
 TEST(Refine, VerticesInsideFacetsGetEdgesThatFit) {

@@ -73,7 +73,7 @@ inline double sharp_length(const InputPlc& plc, double degrees) {
   return sum;
 }
 
-/// Which part of the edges is between 0.7 and 1.4 of a length.
+/// The share of edges between 0.7 and 1.4 of a length.
 inline double share_of_good_edges(const InputPlc& plc, double length) {
   double good = 0, all = 0;
   for (const auto& [edge, triangles] : triangles_at_edges(plc)) {
@@ -100,7 +100,7 @@ inline std::vector<double> smallest_angles(const InputPlc& plc) {
   return smallest;
 }
 
-/// The angle, in degrees, that one triangle in a hundred has a smaller one than.
+/// The 1% quantile of the smallest angles, in degrees.
 inline double smallest_angle_of_99_percent(const InputPlc& plc) {
   const std::vector<double> smallest = smallest_angles(plc);
   return smallest[smallest.size() / 100];

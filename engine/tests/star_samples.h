@@ -29,10 +29,10 @@ inline Star star_of(const delaunay::Delaunay& delaunay, delaunay::CellStar& cell
   return star;
 }
 
-/// Stars from the Delaunay tetrahedralization of a face-centred lattice whose points have been moved.
+/// Stars from the Delaunay tetrahedralization of a face-centered lattice whose points have been moved.
 ///
 /// \param jitter  by how much, in units of the spacing `step` of its cubes
-inline std::vector<Star> jittered_stars(double jitter, std::uint64_t seed, double step = 0x1p40, Point3 centre = {}) {
+inline std::vector<Star> jittered_stars(double jitter, std::uint64_t seed, double step = 0x1p40, Point3 center = {}) {
   constexpr int side = 8, middle = 4;
   std::mt19937_64 random(seed);
   const auto noise = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
@@ -41,13 +41,13 @@ inline std::vector<Star> jittered_stars(double jitter, std::uint64_t seed, doubl
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
       for (int k = i % 2 == j % 2 ? 0 : 1; k < side; k += 2)
-        points.push_back(centre + Point3{place(i), place(j), place(k)});
+        points.push_back(center + Point3{place(i), place(j), place(k)});
   const delaunay::Delaunay delaunay = delaunay::build_delaunay(points);
   delaunay::CellStar cells(delaunay);
   std::vector<Star> stars;
   for (std::uint32_t v = 0; v < points.size(); ++v) {
-    const Point3 from_centre = points[v] - centre;
-    if (std::max({std::fabs(from_centre.x), std::fabs(from_centre.y), std::fabs(from_centre.z)}) > 2 * step) continue;
+    const Point3 from_center = points[v] - center;
+    if (std::max({std::fabs(from_center.x), std::fabs(from_center.y), std::fabs(from_center.z)}) > 2 * step) continue;
     Star star = star_of(delaunay, cells, v);
     if (!star.faces.empty()) stars.push_back(std::move(star));
   }

@@ -57,7 +57,7 @@ Point3 rounded(const Point3& p, double step) {
   return {std::rint(p.x / step) * step, std::rint(p.y / step) * step, std::rint(p.z / step) * step};
 }
 
-/// Rounded to a billionth: flat sides are slanted, and flat to a hair only.
+/// Rounded to a billionth: flat sides are slanted, and only nearly flat.
 std::vector<Point3> turned(std::vector<Point3> points) {
   for (Point3& p : points) {
     const double x = 0.8 * p.x - 0.6 * p.y, y = 0.6 * p.x + 0.8 * p.y;
@@ -88,14 +88,14 @@ std::vector<Point3> graded(int n) {
 /// Clusters far from each other.
 std::vector<Point3> scattered(int n) {
   std::vector<Point3> points = random_points(n, 43);
-  const std::vector<Point3> centres = random_points(7, 44);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = rounded(0.9 * centres[i % 7] + 0.001 * points[i], 1);
+  const std::vector<Point3> centers = random_points(7, 44);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = rounded(0.9 * centers[i % 7] + 0.001 * points[i], 1);
   return distinct(std::move(points));
 }
 
 /// A lattice with a deep slot from above.
 std::vector<Point3> slotted_lattice() {
-  std::vector<Point3> points = face_centred(9, 1024);
+  std::vector<Point3> points = face_centered(9, 1024);
   std::erase_if(points, [](const Point3& p) { return std::fabs(p.x - 4608) < 2000 && p.z > 600; });
   return points;
 }
@@ -122,7 +122,7 @@ std::vector<NamedPoints> hard_sets() {
       {"turned slotted lattice", turned(slotted_lattice())},
       {"two planes", two_planes()},
       {"large simple cubic lattice", simple_cubic(14)},
-      {"large face-centred lattice", face_centred(9)},
+      {"large face-centered lattice", face_centered(9)},
       {"large random", random_points(20000, 47)},
   };
 }
@@ -179,7 +179,7 @@ TEST(WrapDelaunay, ObeysAnyRanks) {
   std::mt19937_64 random(48);
   for (const NamedPoints& set : small_sets()) {
     for (int round = 0; round < 3; ++round) {
-      // Ranks with gaps, given in an order that has nothing to do with where the points are.
+      // Ranks with gaps, in an order independent of the positions.
       std::vector<std::uint32_t> ranks(set.points.size());
       std::iota(ranks.begin(), ranks.end(), 0u);
       std::array<std::uint32_t, 4> low{};  // the vertices of the first ranks

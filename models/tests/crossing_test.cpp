@@ -21,7 +21,7 @@ TEST(Crossings, AreFoundWhereAnEdgePiercesATriangle) {
   EXPECT_EQ(crossings(vertices, triangles).size(), 1u);
 }
 
-TEST(Crossings, AreFoundWhereATriangleIsFoldedOntoItsNeighbour) {
+TEST(Crossings, AreFoundWhereATriangleIsFoldedOntoItsNeighbor) {
   const std::vector<Point3> vertices{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}};
   const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}, {1, 0, 3}};
   EXPECT_EQ(crossings(vertices, triangles).size(), 1u);

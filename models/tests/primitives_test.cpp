@@ -77,7 +77,7 @@ TEST(GradedCube, IsTheSameEachTime) {
   expect_same_each_time("graded-cube", 0.25);
 }
 
-TEST(RoughSphere, IsAClosedSurfaceThatEveryRayFromTheCentreMeetsOnce) {
+TEST(RoughSphere, IsAClosedSurfaceThatEveryRayFromTheCenterMeetsOnce) {
   for (const double edge_length : {1.2, 0.3, 0.05}) {
     const plc::InputPlc input = models::make_solid("rough-sphere", edge_length);
     expect_closed_surface_of_a_ball(input);

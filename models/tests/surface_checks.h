@@ -21,7 +21,7 @@ inline constexpr int slit_marker = 9;
 Triangles boundary_triangles(const plc::InputPlc& input);
 Triangles triangles_with_marker(const plc::InputPlc& input, int marker);
 
-/// How often an edge is used in the direction from its smaller to its greater vertex, and against it.
+/// How often an edge is used from its smaller to its greater vertex, and in the opposite direction.
 struct EdgeUse {
   std::array<std::uint32_t, 2> ends;
   int forwards = 0, backwards = 0;

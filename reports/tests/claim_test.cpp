@@ -31,9 +31,11 @@ TEST(ClaimVerdict, FollowsFromTheMeasuresAlone) {
 
 TEST(ClaimVerdict, NamesWhatSpeaksAgainstTheClaim) {
   EXPECT_NE(claim_of({{yes, yes}, {no, no}}).reason.find("m1"), std::string::npos);
-  EXPECT_NE(claim_of({{yes, yes}, {no, yes}}).reason.find("A weaker one. Not as the paper has it: m1."),
-            std::string::npos);
-  EXPECT_NE(claim_of({{open, open}}).reason.find("are too wide: m0"), std::string::npos);
+  const std::string weaker = claim_of({{yes, yes}, {no, yes}}).reason;
+  EXPECT_NE(weaker.find("A weaker one."), std::string::npos);
+  EXPECT_NE(weaker.find("m1"), std::string::npos);
+  EXPECT_EQ(weaker.find("m0"), std::string::npos);
+  EXPECT_NE(claim_of({{open, open}}).reason.find("m0"), std::string::npos);
   EXPECT_NE(claim_of({}).reason.find("table1"), std::string::npos);
 }
 

@@ -18,7 +18,7 @@ using bench::Json;
 struct Input {
   std::string name, model;
   double edge_length = 0;
-  double size = 0;  ///< about how many tetrahedra it gives
+  double size = 0;  ///< approximate number of tetrahedra
 };
 
 struct MadeUpCase {

@@ -19,7 +19,8 @@ bool has_type(const Json& value, const std::string& type) {
   return type == "number" && value.is_number();
 }
 
-/// The words of JSON Schema that our schema uses, less `pattern`. Appends what is wrong, each with its path.
+/// Validates with the keywords of JSON Schema that our schemas use, except `pattern`. Appends the errors with their
+/// paths.
 void validate(const Json& schema, const Json& value, const std::string& path, std::vector<std::string>& wrong) {
   if (schema.contains("const") && value != schema["const"]) wrong.push_back(path + ": not " + schema["const"].dump());
   if (schema.contains("enum") && std::ranges::find(schema["enum"], value) == schema["enum"].end())
@@ -60,6 +61,7 @@ TEST(RunSchema, AcceptsTheRecordOfARun) {
   record.notes = {"a note"};
   record.samples = {{"mesh", {1, 2}}};
   record.counts.splits_by_level = {2, 1};
+  record.counts.segments = {18, 7, 12, 2, 5, 4};
   EXPECT_EQ(faults_of(Json::parse(bench::to_json(record))), std::vector<std::string>());
 }
 
@@ -78,6 +80,9 @@ TEST(RunSchema, RefusesARecordThatLacksAFixedNameOrHasAWrongType) {
   Json negative = good;
   negative["counts"]["splits_by_level"] = {1, -1};
   EXPECT_EQ(faults_of(negative).size(), 1u);
+  Json partial = good;
+  partial["counts"]["segments"] = {{"all", 18}, {"split", -2}};
+  EXPECT_EQ(faults_of(partial).size(), 5u);  // four names are missing
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ class MeasuringGate : public Gate {
     write("cases.json", R"({"schema": "ccdt.sweep/1", "inputs": [{"model": "bracket", "edge_length": 10}],
                             "options": {"lattice": ["none", "bcc"], "improve": ["none"]}})");
     std::filesystem::create_symlink(CCDT_PROGRAM, work() / "ccdt");
-    // A program that meshes worse than was asked for.
+    // A program that meshes worse than requested.
     write("worse",
           "#!/bin/sh\nfor word; do shift; [ \"$word\" = bcc ] && word=sc; set -- \"$@\" \"$word\"; done\n"
           "exec '" +

@@ -5,7 +5,7 @@
 #include "engine/tests/mesh_test_solids.h"
 #include "tools/tests/program.h"
 
-// Improvement as a person asks for it, by the options of the program.
+// Improvement through the options of the program.
 
 namespace ccdt {
 namespace {

@@ -11,7 +11,7 @@ namespace {
 using baselines::FailureKind;
 using Json = nlohmann::json;
 
-/// A person's own mesher that does not do as it should. Each of its ways has one kind, whatever its words are.
+/// A user's mesher that misbehaves. Each way of misbehaving has one kind of failure, whatever its messages.
 class MisbehavingMesher : public Program {
  protected:
   MisbehavingMesher() {
@@ -49,7 +49,7 @@ class MisbehavingMesher : public Program {
     return std::string(name_of(record.kind.value()));
   }
 
-  /// The same where somebody runs it with limits.
+  /// The same when it runs with limits.
   FailureKind kind_with(const baselines::Limits& limits) const {
     const baselines::TemporaryFolder scratch;
     const auto report = work() / "r.json";

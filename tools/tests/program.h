@@ -12,7 +12,7 @@
 
 namespace ccdt {
 
-/// What a call of the program did.
+/// The outcome of a call of the program.
 struct Outcome {
   int exit_code = -1;
   std::string out, err;

@@ -37,9 +37,10 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// What must be equal in two records of one run: all but times, memory and the state of the machine.
+/// The parts that must be equal in two records of one run: everything except times, memory and the state of the
+/// machine.
 Json deterministic(Json record) {
-  for (const char* name : {"seconds", "peak_rss_bytes", "environment", "reason"}) record.erase(name);
+  for (const char* name : {"seconds", "cpu_seconds", "peak_rss_bytes", "environment", "reason"}) record.erase(name);
   if (record.contains("verification")) record["verification"].erase("seconds");
   return record;
 }
@@ -72,7 +73,7 @@ class Sweep : public Program {
     return Json::parse(text_of(work() / folder / "runs" / name), nullptr, false);
   }
 
-  /// The program in a process of its own, without output.
+  /// The program in a separate process, without output.
   pid_t start(std::vector<std::string> words) const {
     words.insert(words.begin(), CCDT_PROGRAM);
     std::vector<char*> arguments;
@@ -144,7 +145,7 @@ class Sweep : public Program {
     write("spec.json", spec.dump());
   }
 
-  /// What was finished is there still, and was not written again.
+  /// Finished records still exist and were not written again.
   static void expect_kept(const Files& before, const Files& after) {
     for (const auto& [name, state] : before) {
       ASSERT_TRUE(after.contains(name)) << name << " is lost";
@@ -156,7 +157,7 @@ class Sweep : public Program {
     for (const auto& [name, state] : files) EXPECT_EQ(record(folder, name).value("schema", ""), "ccdt.run/1") << name;
   }
 
-  /// Nobody is left of those that were killed.
+  /// No killed process is left.
   int processes_here() const {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc"))

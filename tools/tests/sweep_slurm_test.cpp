@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int program_missing = 3;
 
-/// Sweeps on a Slurm of two nodes on this machine, which ends with the test, however that ends.
+/// Sweeps on a Slurm cluster of two nodes on this machine, which ends with the test in any case.
 class SlurmSweep : public Program {
  protected:
   void SetUp() override {
@@ -67,7 +67,7 @@ class SlurmSweep : public Program {
     return all;
   }
 
-  /// How many tasks were ever started, by their logs.
+  /// The number of tasks ever started, by their logs.
   std::size_t task_count() const {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(work() / "out" / "slurm"))
@@ -135,7 +135,7 @@ TEST_F(SlurmSweep, AccountsForEveryCaseThoughANodeDiesAndACaseRunsOutOfMemory) {
   ASSERT_EQ(loopback("kill-node", "n2"), 0);
   ASSERT_LT(records().size(), static_cast<std::size_t>(cases));
 
-  // Slurm starts the tasks again somewhere else, or gives them up; what is in its queue is not submitted again.
+  // Slurm restarts the tasks elsewhere or gives them up; queued tasks are not submitted again.
   EXPECT_TRUE(wait_for(75, [&] {
     submit();
     return status().at("missing") == 0;

@@ -63,7 +63,7 @@ class SweepCommand : public Program {
 
   Json sweep_json() const { return Json::parse(text_of(work() / "out/sweep.json"), nullptr, false); }
 
-  /// The program with a byte more: it does the same, but is another one.
+  /// The program with one more byte: it does the same but is a different program.
   int other_program(const std::string& arguments) const {
     const auto other = work() / "other-ccdt";
     std::filesystem::copy_file(CCDT_PROGRAM, other, std::filesystem::copy_options::overwrite_existing);

@@ -53,9 +53,9 @@ test("a mesher looks the same whoever else is in the chart", () => {
   assert.deepEqual(alone, among);
 });
 
-test("series of one chart differ in colour, shape and dashes", () => {
+test("series of one chart differ in color, shape and dashes", () => {
   const styles = seriesStyles(["ccdt", "tetgen", "cgal-mesh3", "with check", "new mesher", "another"]);
-  for (const part of ["colour", "shape", "dash"])
+  for (const part of ["color", "shape", "dash"])
     assert.equal(new Set(styles.map((style) => String(style[part]))).size, styles.length, part);
 });
 

@@ -2,17 +2,17 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { meshPicture } from "../src/viewer/mesh_picture.mjs";
-import { colourOf, MEASURES, regionColours } from "../src/viewer/palette.mjs";
+import { colorOf, MEASURES, regionColors } from "../src/viewer/palette.mjs";
 import { visibleFaces } from "../src/viewer/visible_faces.mjs";
 import { block, kept, meshOf, twoTetrahedra } from "./small_meshes.mjs";
 
 const fills = (svg) => [...svg.matchAll(/fill="(#[0-9a-f]{6})"/g)].map((match) => match[1]);
-const isReddish = (colour) => parseInt(colour.slice(1, 3), 16) > parseInt(colour.slice(5, 7), 16);
+const isReddish = (color) => parseInt(color.slice(1, 3), 16) > parseInt(color.slice(5, 7), 16);
 
 test("a block cut open shows blue outside and orange inside", async () => {
-  const colours = fills(await meshPicture(kept(block(4, 4, 4))));
-  assert.ok(colours.some(isReddish));
-  assert.ok(colours.some((colour) => !isReddish(colour)));
+  const colors = fills(await meshPicture(kept(block(4, 4, 4))));
+  assert.ok(colors.some(isReddish));
+  assert.ok(colors.some((color) => !isReddish(color)));
 });
 
 test("a picture has no faces that others hide", async () => {
@@ -47,20 +47,20 @@ test("what is seen comes from far to near", () => {
   assert.deepEqual(visibleFaces(new Uint32Array([0, 1, 2, 3, 4, 5, 6, 7, 8]), coordinates, 60, 30), [1, 2, 0]);
 });
 
-test("regions have colours of their own, in the order of their numbers", () => {
-  const colours = regionColours(twoTetrahedra.regions);
-  assert.deepEqual([...colours.keys()], [1, 7]);
-  assert.notEqual(colours.get(1).surface, colours.get(7).surface);
-  assert.notEqual(colours.get(1).cut, colours.get(7).cut);
+test("regions have colors of their own, in the order of their numbers", () => {
+  const colors = regionColors(twoTetrahedra.regions);
+  assert.deepEqual([...colors.keys()], [1, 7]);
+  assert.notEqual(colors.get(1).surface, colors.get(7).surface);
+  assert.notEqual(colors.get(1).cut, colors.get(7).cut);
 });
 
 test("good cells are lighter than bad ones, and the scale ends where it says", () => {
-  const lightness = (colour) => [1, 3, 5].reduce((sum, at) => sum + parseInt(colour.slice(at, at + 2), 16), 0);
+  const lightness = (color) => [1, 3, 5].reduce((sum, at) => sum + parseInt(color.slice(at, at + 2), 16), 0);
   for (const measure of Object.values(MEASURES)) {
     const half = (measure.best + measure.worst) / 2;
-    const [best, middle, worst] = [measure.best, half, measure.worst].map((value) => colourOf(measure, value));
+    const [best, middle, worst] = [measure.best, half, measure.worst].map((value) => colorOf(measure, value));
     assert.ok(lightness(best) > lightness(middle) && lightness(middle) > lightness(worst));
-    assert.equal(colourOf(measure, measure.worst + (measure.worst - measure.best)), worst);
+    assert.equal(colorOf(measure, measure.worst + (measure.worst - measure.best)), worst);
   }
-  assert.equal(colourOf(MEASURES.r, Infinity), colourOf(MEASURES.r, 3));
+  assert.equal(colorOf(MEASURES.r, Infinity), colorOf(MEASURES.r, 3));
 });

@@ -41,11 +41,11 @@ test("a chart's data are the rows that pass, and the chart itself is not changed
   assert.deepEqual(chart, before);
 });
 
-test("series have the colours of the theme, ours first", () => {
+test("series have the colors of the theme, ours first", () => {
   const { domain, range } = encoding({ theme: "dark" }).color.scale;
   assert.deepEqual(domain, ["ccdt", "tetgen"]);
   assert.notDeepEqual(range, encoding({ theme: "light" }).color.scale.range);
-  assert.deepEqual(encoding({ theme: "page" }).color.scale.range, ["var(--chart-blue)", "var(--chart-vermillion)"]);
+  assert.deepEqual(encoding({ theme: "page" }).color.scale.range, ["var(--chart-blue)", "var(--chart-vermilion)"]);
 });
 
 test("a scale that a chart says itself is kept", () => {

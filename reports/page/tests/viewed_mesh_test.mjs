@@ -32,8 +32,8 @@ test("positions are those of the vertices, in their order", () => {
 });
 
 test("the sphere around a block is the one around its corners", () => {
-  const { centre, radius } = sphereAround(block(4, 2, 4).points);
-  assert.deepEqual(centre, [2, 1, 2]);
+  const { center, radius } = sphereAround(block(4, 2, 4).points);
+  assert.deepEqual(center, [2, 1, 2]);
   assert.equal(radius, 3);
 });
 

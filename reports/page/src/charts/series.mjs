@@ -1,8 +1,8 @@
 import config from "../../../charts/config.json" with { type: "json" };
 
 /**
- * How a series looks, the same in all charts: in colour, in grey (by shape and dashes), light and dark.
- * @typedef {{colour: string, shape: string, dash: number[]}} SeriesStyle
+ * How a series looks, the same in all charts: in color, in gray (by shape and dashes), light and dark.
+ * @typedef {{color: string, shape: string, dash: number[]}} SeriesStyle
  */
 
 /** Where the configuration has a name, or what the name starts with; after all if it does not. */
@@ -29,15 +29,15 @@ export function inSeriesOrder(values) {
  */
 export function seriesStyles(values) {
   const taken = new Set();
-  const take = (style) => (taken.add(style.colour), { colour: style.colour, shape: style.shape, dash: style.dash });
+  const take = (style) => (taken.add(style.color), { color: style.color, shape: style.shape, dash: style.dash });
   const styles = values.map((value) => {
     const style = config.series[rankOf(value)];
-    return style && !taken.has(style.colour) ? take(style) : null;
+    return style && !taken.has(style.color) ? take(style) : null;
   });
   let next = 0;
   return styles.map((style) => {
     if (style) return style;
-    const spare = config.spareSeries.find(({ colour }) => !taken.has(colour));
+    const spare = config.spareSeries.find(({ color }) => !taken.has(color));
     return take(spare ?? config.spareSeries[next++ % config.spareSeries.length]);
   });
 }

@@ -4,7 +4,7 @@ import { inSeriesOrder, seriesStyles } from "./series.mjs";
 import { FIRST_ROOM, sized } from "./sizes.mjs";
 import { textsOf } from "./texts.mjs";
 import { textWidth } from "./text_width.mjs";
-import { chartConfig, colourIn, textScale } from "./themes.mjs";
+import { chartConfig, colorIn, textScale } from "./themes.mjs";
 
 const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
 const PLACES = ["x", "y"];
@@ -66,8 +66,8 @@ function legendColumns(values, theme, width, room) {
 
 function styleSeries(channel, definition, values, { theme, width, symbol }) {
   const styles = seriesStyles(values);
-  const range = styles.map(({ colour, shape, dash }) =>
-    channel === "shape" ? shape : channel === "strokeDash" ? dash : colourIn(theme, colour),
+  const range = styles.map(({ color, shape, dash }) =>
+    channel === "shape" ? shape : channel === "strokeDash" ? dash : colorIn(theme, color),
   );
   definition.scale = { domain: values, range };
   if (definition.legend !== null)

@@ -1,7 +1,7 @@
 import config from "../../../charts/config.json" with { type: "json" };
 
 /**
- * Light and dark hold their colours; "page" asks the page's style for them, so that a chart follows its theme.
+ * Light and dark hold their colors; "page" asks the page's style for them, so that a chart follows its theme.
  * @typedef {"light"|"dark"|"page"} Theme
  */
 
@@ -12,8 +12,8 @@ export function textScale(theme) {
   return theme === "page" ? PAGE_TEXT_SCALE : 1;
 }
 
-function fromPage(colours) {
-  return Object.fromEntries(Object.keys(colours).map((name) => [name, `var(--chart-${name})`]));
+function fromPage(colors) {
+  return Object.fromEntries(Object.keys(colors).map((name) => [name, `var(--chart-${name})`]));
 }
 
 function paletteOf(theme) {
@@ -25,7 +25,7 @@ function frameOf(theme) {
 }
 
 /** @returns {string} */
-export function colourIn(theme, name) {
+export function colorIn(theme, name) {
   return paletteOf(theme)[name];
 }
 
@@ -84,7 +84,7 @@ export function chartConfig(theme, font = config.font) {
     title: { color: text, fontSize: size(12), anchor: "start", fontWeight: "bold", offset: 8 },
     point: { tooltip: { content: "data" }, filled: true, size: 42, opacity: 1, color: named.blue },
     line: { strokeWidth: 1.6, color: named.blue },
-    rule: { tooltip: { content: "data" }, strokeWidth: 1.2, color: named.grey },
+    rule: { tooltip: { content: "data" }, strokeWidth: 1.2, color: named.gray },
     tick: { color: named.ink, thickness: 1.6 },
     bar: { tooltip: { content: "data" }, color: named.blue },
     text: { color: text, fontSize: size(10) },

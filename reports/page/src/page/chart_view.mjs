@@ -57,7 +57,7 @@ export function chartView(report, section, chart) {
     if (width !== drawnWidth) room = undefined;
     drawnWidth = width;
     if (!hasData) {
-      drawing.replaceChildren(element("p.quiet", {}, "Nothing passes the filters."));
+      drawing.replaceChildren(element("p.quiet", {}, "No row passes the filters."));
       return;
     }
     const container = element("div", { "aria-hidden": "true" });

@@ -76,7 +76,7 @@ export function environmentSection(report) {
     { id: "environment", "aria-labelledby": "environment-title" },
     element("h2", { id: "environment-title" }, "Environment and meshers"),
     environments.map((entry) => environmentEntry(entry, environments.length === 1)),
-    element("h3.minor", {}, "Meshers, with all settings of their runs"),
+    element("h3.minor", {}, "Meshers and all settings of their runs"),
     element(
       "div.scroll",
       { tabindex: 0, role: "region", "aria-label": "Meshers" },
@@ -91,7 +91,7 @@ export function environmentSection(report) {
             {},
             ["Mesher", "Version"].map((head) => element("th", { scope: "col" }, head)),
             element("th.number", { scope: "col" }, "Runs"),
-            element("th", { scope: "col" }, "Settings, in the mesher's own words"),
+            element("th", { scope: "col" }, "Settings, in the terms of the mesher"),
           ),
         ),
         element("tbody", {}, meshers.map(mesherRow)),

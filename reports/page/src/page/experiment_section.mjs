@@ -39,7 +39,7 @@ function missingSection(section) {
     element(
       "p.problem",
       { "data-missing": section.name },
-      `This experiment is missing: ${(section.reason || "it has not been made").replace(/\.?$/, ".")}`,
+      `This experiment is missing: ${(section.reason || "it has not been measured").replace(/\.?$/, ".")}`,
     ),
     element("p.label", {}, "This command makes it:"),
     commandLine(section.command),
@@ -100,7 +100,7 @@ function results(report, section) {
 
 function failure(section) {
   return section.status === "failed"
-    ? element("p.problem", {}, section.reason || "Something of our own went wrong here; see below.")
+    ? element("p.problem", {}, section.reason || "ccdt itself failed here, or gave a wrong result; see below.")
     : null;
 }
 
@@ -129,7 +129,7 @@ export function experimentSection(report, section, keptMeshes) {
           failure(section),
           findings(section),
           section.problems.length > 0
-            ? element("div.problem", {}, element("h3.minor", {}, "What went wrong"), list("ul", section.problems))
+            ? element("div.problem", {}, element("h3.minor", {}, "Problems"), list("ul", section.problems))
             : null,
           meshPictures(section, keptMeshes),
           section.meshes.length > 0
@@ -140,7 +140,7 @@ export function experimentSection(report, section, keptMeshes) {
             ? element(
                 "details.definitions",
                 {},
-                element("summary", {}, "What the rows mean"),
+                element("summary", {}, "Definitions"),
                 list("ul", section.definitions),
               )
             : null,

@@ -18,7 +18,7 @@ export function meshSection(report, keptMeshes, mount) {
     element(
       "p.lead",
       {},
-      "Turn them, cut them with a plane, colour them by quality, and look at the worst tetrahedra alone.",
+      "Turn them, cut them with a plane, color them by quality, and look at the worst tetrahedra alone.",
     ),
     place,
   );

@@ -7,7 +7,7 @@ import { experimentSection } from "./experiment_section.mjs";
 import { meshSection } from "./mesh_section.mjs";
 import { counted } from "./numbers.mjs";
 import { rawFilesSection } from "./raw_files_section.mjs";
-import { defineChartColours, themeSwitch } from "./theme.mjs";
+import { defineChartColors, themeSwitch } from "./theme.mjs";
 import { verdictCounts, verdictSection } from "./verdicts.mjs";
 
 /** "3 experiments and 120 runs", "2,000 cases and 10,000 runs" */
@@ -56,7 +56,7 @@ function footer() {
         {},
         "An algorithm for tetrahedral mesh generation based on conforming constrained Delaunay tetrahedralization",
       ),
-      ", Computers & Graphics 29 (2005). This page is one file and loads nothing.",
+      ", Computers & Graphics 29 (2005). This page is one file and needs no network.",
     ),
   );
 }
@@ -96,11 +96,11 @@ function show(report) {
   follow();
 }
 
-defineChartColours();
+defineChartColors();
 embeddedReport().then((report) => {
   if (report) return show(report);
   append(
     document.getElementById("page"),
-    element("p", {}, "There is no report in this page: ccdt report puts one in."),
+    element("p", {}, "This page contains no report: ccdt report adds one."),
   );
 });

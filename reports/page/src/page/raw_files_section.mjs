@@ -65,11 +65,11 @@ export function rawFilesSection(report) {
     element(
       "p.lead",
       {},
-      "All that this page shows was computed from JSON files; ccdt report makes the page from them again.",
+      "Everything on this page was computed from JSON files; ccdt report makes the page from them again.",
       report.raw_runs === false
-        ? " The records of the runs are not in this page, as they are many, but in its folder: in runs, a file for each."
+        ? " The records of the runs are not in this page, because there are many; each is a file in the folder runs."
         : "",
-      isSweep ? " runs.csv and runs.jsonl have a line for each run, for pandas and R." : "",
+      isSweep ? " runs.csv and runs.jsonl have one line per run, for pandas and R." : "",
     ),
     isSweep
       ? element(

@@ -9,9 +9,9 @@ export function pageFont() {
 }
 
 /**
- * The colours of charts, as custom properties that follow the theme: a chart in the page is drawn once for both.
+ * The colors of charts, as custom properties that follow the theme: a chart in the page is drawn once for both.
  */
-export function defineChartColours() {
+export function defineChartColors() {
   const style = document.documentElement.style;
   for (const [name, light] of Object.entries(config.palettes.light))
     style.setProperty(`--chart-${name}`, `light-dark(${light}, ${config.palettes.dark[name]})`);

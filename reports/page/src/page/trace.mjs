@@ -56,7 +56,7 @@ function runEntry(file, run, open) {
         " ",
         element("span.quiet", {}, `${run.mesher} ${run.version}`),
       ),
-      element("p.label", {}, "This command repeats it, in the folder of the report:"),
+      element("p.label", {}, "To repeat it, run this command in the folder of the report:"),
       commandLine(run.command),
       settings ? element("p.quiet", {}, `Settings: ${settings}`) : null,
       rawJson(file),
@@ -86,8 +86,7 @@ function openDialog(title, ...content) {
 }
 
 /**
- * Shows what a number stands on: each run, the command that repeats it, its raw JSON.
- * @param {object} report
+ * Shows the source of a number: each run, the command that repeats it, and its raw JSON. @param {object} report
  * @param {string} title    what the number is of
  * @param {string[]} facts  what else is to be said of it
  * @param {string[]} files  of the runs

@@ -4,10 +4,17 @@ import { cellText, counted } from "./numbers.mjs";
 import { openTrace, traceButton } from "./trace.mjs";
 
 const VERDICTS = ["confirmed", "confirmed with a reservation", "refuted", "not testable here"];
+/** The words for verdicts that people read differently from the names in JSON. */
+const WORDS = {
+  "confirmed with a reservation": "partly confirmed",
+  "not testable here": "not testable at this scale",
+};
 const SIGNS = { confirmed: "✓", "confirmed with a reservation": "≈", refuted: "✕", "not testable here": "–" };
 
-/** The verdict in words, with a sign and a colour beside them. */
-function badge(verdict, text = verdict) {
+const wordsOf = (verdict) => WORDS[verdict] ?? verdict;
+
+/** The verdict in words, with a sign and a color beside them. */
+function badge(verdict, text = wordsOf(verdict)) {
   return element(
     "span.badge",
     { "data-verdict": verdict },
@@ -113,7 +120,7 @@ export function verdictCounts(report) {
     count: report.claims.filter((claim) => claim.verdict === verdict).length,
   }))
     .filter(({ count }) => count > 0)
-    .map(({ verdict, count }) => badge(verdict, `${count} ${verdict}`));
+    .map(({ verdict, count }) => badge(verdict, `${count} ${wordsOf(verdict)}`));
 }
 
 /** The section of the verdicts; none without claims. */
@@ -126,7 +133,7 @@ export function verdictSection(report) {
     element(
       "p.lead",
       {},
-      "Each claim of the paper, what was measured for it here, and what follows. ",
+      "Each claim of the paper, with its measurements here and the verdict. ",
       "Verdicts are computed from the measurements.",
     ),
     report.claims.map((claim) => claimEntry(report, claim)),

@@ -7,8 +7,8 @@ const FACES = [1, 2, 3, 0, 3, 2, 0, 1, 3, 0, 2, 1];
  * @param {number} vertexCount
  * @returns {Int32Array} four a cell, the face opposite corner i at i; -1: the face is on the boundary
  */
-export function neighboursOf(cells, vertexCount) {
-  const neighbours = new Int32Array(cells.length).fill(-1);
+export function neighborsOf(cells, vertexCount) {
+  const neighbors = new Int32Array(cells.length).fill(-1);
   // Faces seen once, in lists by their smallest vertex.
   const first = new Int32Array(vertexCount).fill(-1);
   const next = new Int32Array(cells.length);
@@ -33,12 +33,12 @@ export function neighboursOf(cells, vertexCount) {
       first[low] = face;
       continue;
     }
-    neighbours[face] = seen >> 2;
-    neighbours[seen] = cell;
+    neighbors[face] = seen >> 2;
+    neighbors[seen] = cell;
     if (previous < 0) first[low] = next[seen];
     else next[previous] = next[seen];
   }
-  return neighbours;
+  return neighbors;
 }
 
 /**
@@ -51,12 +51,12 @@ export function neighboursOf(cells, vertexCount) {
 
 /**
  * @param {Uint32Array} cells
- * @param {Int32Array} neighbours  of neighboursOf
+ * @param {Int32Array} neighbors  of neighborsOf
  * @param {Uint8Array} shown       1 a cell that counts, 0 one that does not
  * @returns {Faces}
  */
-export function boundaryOf(cells, neighbours, shown) {
-  const onBoundary = (face) => shown[face >> 2] && (neighbours[face] < 0 || !shown[neighbours[face]]);
+export function boundaryOf(cells, neighbors, shown) {
+  const onBoundary = (face) => shown[face >> 2] && (neighbors[face] < 0 || !shown[neighbors[face]]);
   let count = 0;
   for (let face = 0; face < cells.length; ++face) if (onBoundary(face)) ++count;
   const faces = { corners: new Uint32Array(3 * count), cell: new Uint32Array(count), cut: new Uint8Array(count) };
@@ -66,7 +66,7 @@ export function boundaryOf(cells, neighbours, shown) {
     const cell = face >> 2, corner = 3 * (face & 3);
     for (let i = 0; i < 3; ++i) faces.corners[3 * at + i] = cells[4 * cell + FACES[corner + i]];
     faces.cell[at] = cell;
-    faces.cut[at] = neighbours[face] < 0 ? 0 : 1;
+    faces.cut[at] = neighbors[face] < 0 ? 0 : 1;
     ++at;
   }
   return faces;

@@ -5,7 +5,7 @@ export const POSITION_STEPS = 400;
 export const COUNT_STEPS = 300;
 
 const AXES = [["none", "none"], ["x", "x"], ["y", "y"], ["z", "z"], ["view", "as seen"]];
-const COLOURINGS = [["plain", "surface, inside"], ["r", "measure r"], ["dihedral", "dihedral angle"]];
+const COLORINGS = [["plain", "surface, inside"], ["r", "measure r"], ["dihedral", "dihedral angle"]];
 const PARTS = [["none", "all"], ["r", "the worst by r"], ["dihedral", "the worst by angle"]];
 
 /**
@@ -15,16 +15,16 @@ const PARTS = [["none", "all"], ["r", "the worst by r"], ["dihedral", "the worst
  */
 export function createControls(titles) {
   return element("form.viewer-controls", { onsubmit: (event) => event.preventDefault() },
-    labelled("Mesh", select("mesh", titles.map((title, i) => [i, title]))),
+    labeled("Mesh", select("mesh", titles.map((title, i) => [i, title]))),
     group("Cut across",
       element("span.viewer-choices", {}, AXES.map(([value, text]) => radio("cut-axis", value, text))),
-      labelled("Position", slider("cut-position", POSITION_STEPS), output("cut-position")),
-      checkbox("cut-flip", "take the other side away")),
+      labeled("Position", slider("cut-position", POSITION_STEPS), output("cut-position")),
+      checkbox("cut-flip", "show the other side")),
     group("Show",
-      labelled("Tetrahedra", select("worst", PARTS)),
-      labelled("How many", slider("worst-count", COUNT_STEPS), output("worst-count")),
-      labelled("Worse than", element("input", { type: "number", step: "any", "data-control": "worst-threshold" }))),
-    group("Colour", labelled("By", select("colour", COLOURINGS)), checkbox("edges", "edges", true)),
+      labeled("Tetrahedra", select("worst", PARTS)),
+      labeled("How many", slider("worst-count", COUNT_STEPS), output("worst-count")),
+      labeled("Worse than", element("input", { type: "number", step: "any", "data-control": "worst-threshold" }))),
+    group("Color", labeled("By", select("color", COLORINGS)), checkbox("edges", "edges", true)),
     element("span.viewer-buttons", {},
       button("zoom-in", "Zoom in"), button("zoom-out", "Zoom out"), button("reset", "Reset view")));
 }
@@ -52,7 +52,7 @@ export const countAt = (step, all) => Math.round(Math.max(1, all) ** (step / COU
 export const stepOf = (count, all) => (all > 1 ? Math.round((COUNT_STEPS * Math.log(Math.max(1, count))) / Math.log(all)) : COUNT_STEPS);
 
 const group = (title, ...children) => element("fieldset", {}, element("legend", {}, title), children);
-const labelled = (text, ...children) => element("label", {}, element("span", {}, text), children);
+const labeled = (text, ...children) => element("label", {}, element("span", {}, text), children);
 const slider = (name, steps) => element("input", { type: "range", min: 0, max: steps, step: 1, "data-control": name });
 const output = (name) => element("output", { "data-output": name });
 const button = (name, text) => element("button.small", { type: "button", "data-control": name }, text);

@@ -3,7 +3,7 @@ import { takePlane } from "./choices.mjs";
 import { control } from "./controls.mjs";
 import { edgesOf, positionsOf } from "./geometry.mjs";
 import { legendOf } from "./legend.mjs";
-import { colourOf, MEASURES } from "./palette.mjs";
+import { colorOf, MEASURES } from "./palette.mjs";
 import { unmark } from "./picking.mjs";
 import { readoutOf } from "./readout.mjs";
 import * as scene from "./scene.mjs";
@@ -30,30 +30,30 @@ export function update(viewer) {
   viewer.updateAsked = false;
   const { viewed, form, container } = viewer;
   const worst = control(form, "worst").value;
-  const colouring = control(form, "colour").value;
+  const coloring = control(form, "color").value;
   const { faces, count } = shownPart(viewed, { plane: takePlane(viewer), worst, count: viewer.worstCount });
   viewer.faces = faces;
-  buildScene(viewer, { faces, worst, colouring });
+  buildScene(viewer, { faces, worst, coloring });
   unmark(viewer);
-  viewer.legend.replaceChildren(...legendOf(colouring, viewed.colours));
+  viewer.legend.replaceChildren(...legendOf(coloring, viewed.colors));
   viewer.readout.replaceChildren(readoutOf(viewed, count));
-  Object.assign(container.dataset, { shownTetrahedra: count, shownFaces: faces.cell.length, colour: colouring });
+  Object.assign(container.dataset, { shownTetrahedra: count, shownFaces: faces.cell.length, color: coloring });
   draw(viewer);
 }
 
-function buildScene(viewer, { faces, worst, colouring }) {
+function buildScene(viewer, { faces, worst, coloring }) {
   const { viewed, form } = viewer;
   const at = (vertices) => positionsOf(viewed.mesh.points, vertices);
   const edges = control(form, "edges").checked ? edgesOf(faces.corners) : NOTHING;
-  scene.setTriangles(viewer.scene, at(faces.corners), faceColours(viewed, faces, colouring), at(edges));
+  scene.setTriangles(viewer.scene, at(faces.corners), faceColors(viewed, faces, coloring), at(edges));
   if (worst === "none") scene.setOutline(viewer.scene, at(NOTHING), at(NOTHING));
   else scene.setOutline(viewer.scene, at(viewed.surface.corners), at(viewed.outline()));
 }
 
-function faceColours({ mesh, values, colours }, faces, colouring) {
-  const ofCell = colouring === "plain"
-    ? (cell, face) => colours.get(mesh.regions[cell])[faces.cut[face] ? "cut" : "surface"]
-    : (cell) => colourOf(MEASURES[colouring], values[colouring][cell]);
+function faceColors({ mesh, values, colors }, faces, coloring) {
+  const ofCell = coloring === "plain"
+    ? (cell, face) => colors.get(mesh.regions[cell])[faces.cut[face] ? "cut" : "surface"]
+    : (cell) => colorOf(MEASURES[coloring], values[coloring][cell]);
   return Array.from(faces.cell, ofCell);
 }
 

@@ -28,7 +28,7 @@ export function edgesOf(corners) {
 export function sphereAround(points) {
   const extents = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => extentAlong(points, axis));
   return {
-    centre: extents.map(({ low, high }) => (low + high) / 2),
+    center: extents.map(({ low, high }) => (low + high) / 2),
     radius: Math.hypot(...extents.map(({ low, high }) => (high - low) / 2)) || 1,
   };
 }

@@ -35,11 +35,11 @@ async function unpackPlainMesh(kept) {
 }
 
 function expectConsistent(mesh, kept) {
-  if (mesh.points.length !== 3 * kept.vertices) throw new Error("The mesh has another number of vertices than it says.");
+  if (mesh.points.length !== 3 * kept.vertices) throw new Error("The number of vertices differs from the stated one.");
   if (mesh.cells.length !== 4 * kept.tetrahedra || mesh.regions.length !== kept.tetrahedra) {
-    throw new Error("The mesh has another number of tetrahedra than it says.");
+    throw new Error("The number of tetrahedra differs from the stated one.");
   }
   for (const vertex of mesh.cells) {
-    if (vertex >= kept.vertices) throw new Error("A tetrahedron of the mesh has a vertex that is not there.");
+    if (vertex >= kept.vertices) throw new Error("A tetrahedron of the mesh has a vertex that does not exist.");
   }
 }

@@ -1,7 +1,7 @@
-import { boundaryOf, neighboursOf } from "./boundary.mjs";
+import { boundaryOf, neighborsOf } from "./boundary.mjs";
 import { allCells, centroidsOf, cutAway, extentAlong } from "./cut.mjs";
 import { unpackMesh } from "./kept_mesh.mjs";
-import { regionColours } from "./palette.mjs";
+import { regionColors } from "./palette.mjs";
 import { shadesOf } from "./shading.mjs";
 import { visibleFaces } from "./visible_faces.mjs";
 
@@ -10,7 +10,7 @@ const EDGE_WIDTH = { smallest: 0.06, largest: 0.35, share: 0.05 };
 
 /**
  * Draws a mesh cut open, as papers do: the quarter towards the observer is taken away, in whole tetrahedra, or the half
- * where the quarter shows the inside of some of the regions only. What is laid open has another colour than the surface.
+ * where the quarter shows the inside of some of the regions only. What is laid open has another color than the surface.
  * @param {object} kept  a mesh of schema `ccdt.mesh/1`
  * @param {object} [options]
  * @param {number} [options.size]       of the longer side of the picture, in its units; the other follows from the mesh
@@ -29,7 +29,7 @@ export async function meshPicture(kept, { size = 480, azimuth = -62, elevation =
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
 function cutOpen(mesh, vertexCount, azimuth) {
-  const neighbours = neighboursOf(mesh.cells, vertexCount);
+  const neighbors = neighborsOf(mesh.cells, vertexCount);
   const centroids = centroidsOf(mesh);
   const regionCount = new Set(mesh.regions).size;
   const quarter = planesTowards(mesh.points, azimuth);
@@ -38,7 +38,7 @@ function cutOpen(mesh, vertexCount, azimuth) {
   for (const planes of [quarter, half]) {
     const shown = allCells(mesh.regions.length);
     cutAway(centroids, planes, shown);
-    faces = boundaryOf(mesh.cells, neighbours, shown);
+    faces = boundaryOf(mesh.cells, neighbors, shown);
     const laidOpen = new Set(faces.cell.filter((_, face) => faces.cut[face]).map((cell) => mesh.regions[cell]));
     if (laidOpen.size === regionCount) break;
   }
@@ -83,15 +83,15 @@ function project(points, drawn, { right, up, towards }, size) {
 
 function svgOf(mesh, faces, { coordinates, width, height }) {
   const order = visibleFaces(faces.corners, coordinates, width, height);
-  const colours = regionColours(mesh.regions);
+  const colors = regionColors(mesh.regions);
   const shades = new Map();
   const paths = [];
   let edgeLengths = 0;
   for (const face of order) {
     const [a, b, c] = [0, 1, 2].map((i) => 3 * faces.corners[3 * face + i]);
-    const colour = colours.get(mesh.regions[faces.cell[face]])[faces.cut[face] ? "cut" : "surface"];
-    if (!shades.has(colour)) shades.set(colour, shadesOf(colour));
-    paths.push(`<path fill="${shades.get(colour)(coordinates, a, b, c)}" d="${outline(coordinates, a, b, c)}"/>`);
+    const color = colors.get(mesh.regions[faces.cell[face]])[faces.cut[face] ? "cut" : "surface"];
+    if (!shades.has(color)) shades.set(color, shadesOf(color));
+    paths.push(`<path fill="${shades.get(color)(coordinates, a, b, c)}" d="${outline(coordinates, a, b, c)}"/>`);
     edgeLengths += Math.hypot(coordinates[b] - coordinates[a], coordinates[b + 1] - coordinates[a + 1]);
   }
   const edge = (EDGE_WIDTH.share * edgeLengths) / Math.max(1, order.length);

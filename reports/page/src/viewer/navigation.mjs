@@ -34,8 +34,8 @@ export function navigate(canvas, camera, on) {
     if (event.button === 0 && moved < CLICK) on.clicked(event);
   });
   return {
-    startFrom: (centre) => {
-      orbit.target.set(...centre);
+    startFrom: (center) => {
+      orbit.target.set(...center);
       orbit.update();
       orbit.saveState();
     },

@@ -9,7 +9,7 @@ const FIRST_VIEW = new Vector3(0.41, -0.78, 0.47).normalize();
 /** Of the sphere around a mesh the mesh itself seldom fills more. */
 const FILLED = 0.86;
 
-/** Edges are drawn fainter where they are so dense that they would hide the colours: by their length in pixels. */
+/** Edges are drawn fainter where they are so dense that they would hide the colors: by their length in pixels. */
 const EDGE_OPACITY = { faintest: 0.12, strongest: 0.65, pixels: 16 };
 
 /**
@@ -41,12 +41,12 @@ export function createScene(canvas) {
 }
 
 /** Puts the camera where it was at first, so that all of a sphere is in view. */
-export function lookAt({ camera }, { centre, radius }) {
-  camera.position.set(...centre).addScaledVector(FIRST_VIEW, 4 * radius);
+export function lookAt({ camera }, { center, radius }) {
+  camera.position.set(...center).addScaledVector(FIRST_VIEW, 4 * radius);
   camera.near = 0.1 * radius;
   camera.far = 20 * radius;
   camera.zoom = 1;
-  camera.lookAt(...centre);
+  camera.lookAt(...center);
 }
 
 /** Fits the picture to the size of the canvas in the page, and to a mesh within a sphere of this radius. */
@@ -60,12 +60,12 @@ export function fit(stage, width, height, radius) {
 
 /**
  * @param {Float32Array} positions  x y z of three corners a triangle
- * @param {string[]} colours        one a triangle
+ * @param {string[]} colors        one a triangle
  * @param {Float32Array} edges      x y z of two ends an edge
  */
-export function setTriangles(stage, positions, colours, edges) {
+export function setTriangles(stage, positions, colors, edges) {
   const { triangles, edges: lines } = stage.parts;
-  replaceGeometry(triangles, positions).setAttribute("color", new BufferAttribute(cornerColours(colours), 3));
+  replaceGeometry(triangles, positions).setAttribute("color", new BufferAttribute(cornerColors(colors), 3));
   replaceGeometry(lines, edges);
   stage.edgeLength = meanLength(edges);
 }
@@ -79,8 +79,8 @@ export function setOutline({ parts }, hull, outline) {
 /** The edges of the marked cell; an empty array: none is marked. */
 export const setMarked = ({ parts }, edges) => replaceGeometry(parts.marked, edges);
 
-/** Takes colours of lines from the page's theme. */
-export function setLineColours({ parts }, { edge, outline, marked }) {
+/** Takes colors of lines from the page's theme. */
+export function setLineColors({ parts }, { edge, outline, marked }) {
   parts.edges.material.color.set(edge);
   for (const part of [parts.hull, parts.outline]) part.material.color.set(outline);
   parts.marked.material.color.set(marked);
@@ -113,10 +113,10 @@ function replaceGeometry(object, positions) {
   return object.geometry;
 }
 
-function cornerColours(colours) {
+function cornerColors(colors) {
   const known = new Map();
-  const values = new Float32Array(9 * colours.length);
-  colours.forEach((name, face) => {
+  const values = new Float32Array(9 * colors.length);
+  colors.forEach((name, face) => {
     if (!known.has(name)) known.set(name, new Color(name).toArray());
     for (let corner = 0; corner < 3; ++corner) values.set(known.get(name), 9 * face + 3 * corner);
   });

@@ -6,7 +6,7 @@ const LIGHT = normalized([-0.35, -0.6, 0.72]);
 /** How bright a face in full shadow is, and how bright one that looks into the light. */
 const BRIGHTNESS = { shadow: 0.62, light: 1.06 };
 
-/** Few enough shades that neighbouring faces share them, enough that none sees steps. */
+/** Few enough shades that neighboring faces share them, enough that none sees steps. */
 const SHADES = 48;
 
 function normalized(v) {
@@ -15,18 +15,18 @@ function normalized(v) {
 }
 
 /**
- * Shades of one colour for flat faces.
- * @param {string} colour
- * @returns {(coordinates: Float32Array, a: number, b: number, c: number) => string} the colour of the face whose
+ * Shades of one color for flat faces.
+ * @param {string} color
+ * @returns {(coordinates: Float32Array, a: number, b: number, c: number) => string} the color of the face whose
  *          corners' coordinates begin at a, b and c
  */
-export function shadesOf(colour) {
-  const shades = Array.from({ length: SHADES }, (_, i) => shade(colour, i / (SHADES - 1)));
+export function shadesOf(color) {
+  const shades = Array.from({ length: SHADES }, (_, i) => shade(color, i / (SHADES - 1)));
   return (coordinates, a, b, c) => shades[Math.round((SHADES - 1) * lightOn(coordinates, a, b, c))];
 }
 
-function shade(colour, light) {
-  const { r, g, b } = rgb(colour);
+function shade(color, light) {
+  const { r, g, b } = rgb(color);
   const factor = BRIGHTNESS.shadow + (BRIGHTNESS.light - BRIGHTNESS.shadow) * light;
   return rgb(factor * r, factor * g, factor * b).clamp().formatHex();
 }

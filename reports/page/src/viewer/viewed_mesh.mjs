@@ -1,8 +1,8 @@
-import { boundaryOf, neighboursOf } from "./boundary.mjs";
+import { boundaryOf, neighborsOf } from "./boundary.mjs";
 import { allCells, centroidsOf, cutAway, extentAlong } from "./cut.mjs";
 import { sphereAround } from "./geometry.mjs";
 import { unpackMesh } from "./kept_mesh.mjs";
-import { MEASURES, regionColours } from "./palette.mjs";
+import { MEASURES, regionColors } from "./palette.mjs";
 import { sharpEdges } from "./sharp_edges.mjs";
 import { qualityOfCells } from "./tetrahedron_quality.mjs";
 import { keepOnly, worstFirst } from "./worst_cells.mjs";
@@ -22,17 +22,17 @@ import { keepOnly, worstFirst } from "./worst_cells.mjs";
 export async function viewedMesh(kept) {
   const mesh = await unpackMesh(kept);
   const quality = qualityOfCells(mesh);
-  const neighbours = neighboursOf(mesh.cells, kept.vertices);
-  const surface = boundaryOf(mesh.cells, neighbours, allCells(mesh.regions.length));
+  const neighbors = neighborsOf(mesh.cells, kept.vertices);
+  const surface = boundaryOf(mesh.cells, neighbors, allCells(mesh.regions.length));
   const values = { r: quality.r, dihedral: quality.smallestDihedral };
   return {
     mesh,
     values,
-    neighbours,
+    neighbors,
     surface,
     centroids: centroidsOf(mesh),
     sphere: sphereAround(mesh.points),
-    colours: regionColours(mesh.regions),
+    colors: regionColors(mesh.regions),
     outline: onDemand(() => sharpEdges(mesh.points, surface.corners)),
     worst: {
       r: onDemand(() => worstFirst(values.r, MEASURES.r.largestIsWorst)),
@@ -56,7 +56,7 @@ export function shownPart(viewed, { plane, worst, count }) {
   if (plane) cutAway(viewed.centroids, [plane], shown);
   if (worst !== "none") keepOnly(viewed.worst[worst](), count, shown);
   return {
-    faces: boundaryOf(viewed.mesh.cells, viewed.neighbours, shown),
+    faces: boundaryOf(viewed.mesh.cells, viewed.neighbors, shown),
     count: shown.reduce((sum, cell) => sum + cell, 0),
   };
 }

@@ -11,11 +11,11 @@ import * as scene from "./scene.mjs";
 import { viewedMesh } from "./viewed_mesh.mjs";
 
 /**
- * Puts a viewer of the kept meshes into a container: turned by mouse, touch and keys, cut by a plane, coloured by
+ * Puts a viewer of the kept meshes into a container: turned by mouse, touch and keys, cut by a plane, colored by
  * quality, reduced to the worst tetrahedra. It draws only when something has changed.
  *
  * For tests, the container tells by its data: `viewerMesh` (the file that is drawn, absent until then),
- * `shownTetrahedra`, `shownFaces`, `cameraPosition`, `colour`, `pickedTetrahedron`.
+ * `shownTetrahedra`, `shownFaces`, `cameraPosition`, `color`, `pickedTetrahedron`.
  *
  * @param {HTMLElement} container
  * @param {Object<string, object>} keptMeshes  JSON of schema `ccdt.mesh/1`, by file
@@ -25,7 +25,7 @@ export function mountViewer(container, keptMeshes, { meshes, runs }) {
   container.classList.add("viewer");
   container.dataset.viewer = "";
   const available = meshes.filter(({ file }) => keptMeshes[file]);
-  const absence = available.length === 0 ? "This report has no meshes to look at."
+  const absence = available.length === 0 ? "This report has no meshes."
     : hasWebGl() ? "" : "Meshes are drawn with WebGL, which this browser does not offer.";
   if (absence) {
     container.append(element("p.viewer-absent", {}, absence));
@@ -89,7 +89,7 @@ function listenToControls(viewer, open) {
   on("worst", "change", thenUpdate(() => setWorstCount(viewer, viewer.worstCount)));
   on("worst-count", "input", thenUpdate(() => takeWorstCount(viewer)));
   on("worst-threshold", "change", thenUpdate(() => takeThreshold(viewer)));
-  for (const name of ["cut-position", "cut-flip", "colour", "edges"]) on(name, "input", () => askUpdate(viewer));
+  for (const name of ["cut-position", "cut-flip", "color", "edges"]) on(name, "input", () => askUpdate(viewer));
   on("zoom-in", "click", navigation.zoomIn);
   on("zoom-out", "click", navigation.zoomOut);
   on("reset", "click", navigation.reset);
@@ -99,8 +99,8 @@ function listenToPage(viewer) {
   new ResizeObserver(() => resize(viewer)).observe(viewer.stage);
   const takeTheme = () => {
     const style = getComputedStyle(viewer.container);
-    const colour = (name) => style.getPropertyValue(`--viewer-${name}`).trim();
-    scene.setLineColours(viewer.scene, { edge: colour("edge"), outline: colour("outline"), marked: colour("marked") });
+    const color = (name) => style.getPropertyValue(`--viewer-${name}`).trim();
+    scene.setLineColors(viewer.scene, { edge: color("edge"), outline: color("outline"), marked: color("marked") });
     askDraw(viewer);
   };
   document.addEventListener("themechange", takeTheme);
@@ -121,7 +121,7 @@ async function openMesh(viewer, keptMeshes, { file, title, run }, runs) {
   if (viewer.opening !== file) return;
   viewer.viewed = viewed;
   scene.lookAt(viewer.scene, viewed.sphere);
-  viewer.navigation.startFrom(viewed.sphere.centre);
+  viewer.navigation.startFrom(viewed.sphere.center);
   resize(viewer);
   resetChoices(viewer);
   update(viewer);

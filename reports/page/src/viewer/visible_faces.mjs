@@ -32,7 +32,7 @@ export function visibleFaces(corners, coordinates, width, height) {
   return [...seen].sort((first, second) => depthOf[first] - depthOf[second]);
 }
 
-// Visits the pixels whose centres are in a triangle that looks at the observer, with the triangle's depth there.
+// Visits the pixels whose centers are in a triangle that looks at the observer, with the triangle's depth there.
 function forEachPixel(a, b, c, columns, rows, visit) {
   const twiceArea = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   if (!(twiceArea < 0)) return;

@@ -141,8 +141,8 @@ visitTest("on a phone nothing is wider than the window", { viewport: PHONE, isMo
 
 laptopTest("the viewer draws a mesh, and turns it by mouse and by keys", async (page) => {
   const { canvas, control, state } = await viewerOf(page);
-  const { drawn, colours } = await pixelsOf(page, canvas);
-  assert.ok(drawn > 0.05 && colours > 20, `${drawn} of the pixels are drawn, in ${colours} colours`);
+  const { drawn, colors } = await pixelsOf(page, canvas);
+  assert.ok(drawn > 0.05 && colors > 20, `${drawn} of the pixels are drawn, in ${colors} colors`);
 
   const first = (await state()).cameraPosition;
   const { x, y, width, height } = await canvas.boundingBox();
@@ -175,14 +175,14 @@ laptopTest("the viewer cuts the mesh: fewer and fewer tetrahedra are shown", asy
   await control("cut-flip").click();
   await changed(page, "shownTetrahedra", String(third));
   assert.equal(third + (await shown()), whole, "what one side lacks the other has");
-  assert.equal((await state()).colour, "plain");
+  assert.equal((await state()).color, "plain");
 });
 
-laptopTest("the viewer colours by quality, and shows only the worst tetrahedra", async (page) => {
+laptopTest("the viewer colors by quality, and shows only the worst tetrahedra", async (page) => {
   const { canvas, control, shown, viewer } = await viewerOf(page);
   const whole = await uncut(page);
-  await control("colour").selectOption("dihedral");
-  await changed(page, "colour", "plain");
+  await control("color").selectOption("dihedral");
+  await changed(page, "color", "plain");
   assert.ok((await viewer.locator(".viewer-legend").textContent()).includes("smallest dihedral angle"));
   await viewer.screenshot({ path: picture("viewer-dihedral") });
 
@@ -197,8 +197,8 @@ laptopTest("the viewer colours by quality, and shows only the worst tetrahedra",
   assert.ok((await pixelsOf(page, canvas)).drawn > 0);
   await viewer.screenshot({ path: picture("viewer-worst") });
   await control("worst").selectOption("none");
-  await control("colour").selectOption("plain");
-  await changed(page, "colour", "dihedral");
+  await control("color").selectOption("plain");
+  await changed(page, "color", "dihedral");
 });
 
 laptopTest("a click on the mesh tells about the tetrahedron there", async (page) => {

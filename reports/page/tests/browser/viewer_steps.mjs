@@ -41,7 +41,7 @@ export async function slide(locator, share) {
   }, share);
 }
 
-/** How many pixels of the canvas are not background, and how many colours they have; taken from a picture of it. */
+/** How many pixels of the canvas are not background, and how many colors they have; taken from a picture of it. */
 export async function pixelsOf(page, canvas) {
   const picture = (await canvas.screenshot()).toString("base64");
   const result = await page.evaluate(async (data) => {
@@ -54,7 +54,7 @@ export async function pixelsOf(page, canvas) {
     const values = new Uint32Array(drawing.getImageData(0, 0, width, height).data.buffer);
     // Nothing is drawn in the corner above on the right.
     const background = values[width * 8 - 8];
-    return { drawn: values.filter((value) => value !== background).length / values.length, colours: new Set(values).size };
+    return { drawn: values.filter((value) => value !== background).length / values.length, colors: new Set(values).size };
   }, picture);
   assert.ok(Number.isFinite(result.drawn));
   return result;

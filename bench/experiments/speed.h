@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bench/experiments/experiment.h"
+
+namespace ccdt::experiments {
+
+/// A mesher with a task, on some threads.
+struct SpeedRow : CaseRow {
+  std::string task, model;
+  unsigned threads = 1;
+  bool is_weak = false;  ///< the model has as many times more tetrahedra as there are threads
+};
+
+/// Measures speed beside other meshers, with memory and quality in the same rows: the surface alone and end to end, on
+/// the paper's models and the user's files; ccdt on 1, 2, 4, ... threads, also on models that grow with the threads.
+ExperimentResult measure_speed(const ExperimentOptions& options, cases::Runner& runner);
+
+ExperimentResult speed_result(std::span<const SpeedRow> rows);
+
+}  // namespace ccdt::experiments

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/mesh/tet_mesh.h"
+#include "engine/plc/input.h"
+
+namespace ccdt::verify {
+
+/// An input and its mesh as they are inside the engine: the vertices of the input are rounded to the dyadic grid, by at
+/// most 2^-32 of the box, and so are the mesh's vertices that are among them. The grid's origin is that of the
+/// coordinates, so that they are exact.
+struct OnGrid {
+  plc::InputPlc input;
+  mesh::TetMesh mesh;
+};
+
+OnGrid put_on_grid(const plc::InputPlc& input, const mesh::TetMesh& mesh);
+
+}  // namespace ccdt::verify

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "engine/base/count_work.h"
+#include "engine/base/thread_backend.h"
+
+namespace ccdt {
+
+/// Calls `run()`, whose loops then use so many threads.
+///
+/// \param threads  0: one for each core that the process may use
+/// \return  what `run` returns
+template <class Run>
+auto with_threads(unsigned threads, const Run& run) {
+  return thread_backend::run_on(threads == 0 ? thread_backend::core_count() : threads, run);
+}
+
+/// How many threads the loops of the running thread use.
+inline unsigned thread_count() {
+  return thread_backend::thread_count();
+}
+
+/// The most threads that have worked on one loop of this thread since its innermost `ThreadScope` began.
+inline constinit thread_local unsigned threads_at_work = 1;
+
+/// Raises a number to that of the threads which work on a loop in the scope's life.
+class ThreadScope {
+ public:
+  explicit ThreadScope(unsigned& threads) : threads_(threads) { threads_at_work = 1; }
+  ~ThreadScope() { threads_ = std::max(threads_, threads_at_work); }
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  unsigned& threads_;
+};
+
+/// Calls `work(begin, end)` for ranges that cover 0 .. count, on several threads, in any order. What the calls count
+/// (base/count_work.h) is the caller's work.
+///
+/// \param grain  a range that is not longer is not divided
+/// \throw ...    an exception of `work`; the other ranges may be left out then
+template <class Work>
+void parallel_ranges(std::size_t count, std::size_t grain, const Work& work) {
+  if (count == 0) return;
+  if (thread_count() == 1 || count <= grain) {
+    work(std::size_t{0}, count);
+    return;
+  }
+  struct alignas(64) Share {
+    ccdt::Work work;
+    bool has_worked = false;
+  };
+  std::vector<Share> shares(thread_count());
+  thread_backend::for_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+    Share& share = shares[thread_backend::thread_number()];
+    share.has_worked = true;
+    const WorkElsewhere scope(share.work);
+    work(begin, end);
+  });
+  for (const Share& share : shares) work_done += share.work;
+  threads_at_work =
+      std::max(threads_at_work, static_cast<unsigned>(std::ranges::count(shares, true, &Share::has_worked)));
+}
+
+/// Calls `work(i)` for each i below `count`, as `parallel_ranges` does.
+template <class Work>
+void parallel_for(std::size_t count, std::size_t grain, const Work& work) {
+  parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i);
+  });
+}
+
+/// Calls `work(begin, end)` for ranges of this length that cover 0 .. count, as `parallel_ranges` does. The ranges do
+/// not depend on the number of threads.
+///
+/// \return  what the calls return, in the order of the ranges
+template <class Work>
+auto parallel_chunks(std::size_t count, std::size_t length, const Work& work) {
+  std::vector<decltype(work(count, count))> results((count + length - 1) / length);
+  parallel_for(results.size(), 1,
+               [&](std::size_t i) { results[i] = work(i * length, std::min(count, (i + 1) * length)); });
+  return results;
+}
+
+}  // namespace ccdt

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace ccdt {
+
+/// Disjoint sets of 0, 1, ..., n-1 that several threads may join and find at the same time. As in `UnionFind`, the
+/// representative of a set is its smallest member, whatever the order of the joins.
+///
+/// Once a member has a smaller parent, each parent that it ever gets is one of the set on the way down to the
+/// representative. So old parents that a thread reads or writes back do no harm, and only the join of a representative
+/// must be atomic (Jayanti and Tarjan 2016).
+class SharedUnionFind {
+ public:
+  explicit SharedUnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  std::uint32_t find(std::uint32_t i) {
+    for (std::uint32_t parent = load(i); parent != i; parent = load(i)) {
+      const std::uint32_t above = load(parent);
+      if (above != parent) at(i).store(above, std::memory_order_relaxed);
+      i = above;
+    }
+    return i;
+  }
+
+  void join(std::uint32_t i, std::uint32_t j) {
+    for (;;) {
+      i = find(i);
+      j = find(j);
+      if (i == j) return;
+      if (i < j) std::swap(i, j);
+      std::uint32_t expected = i;  // no thread has joined it with another in the meantime
+      if (at(i).compare_exchange_strong(expected, j, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
+  std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
+
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace ccdt

@@ -1,0 +1,118 @@
+#include "engine/delaunay/insert_in_parts.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
+
+namespace ccdt::delaunay {
+namespace {
+
+/// A smaller part has too much of a border.
+constexpr std::size_t least_part = 2000;
+/// Passes with other parts are worth their trouble for more waiting vertices than one for so many cells.
+constexpr std::size_t cells_for_one = 200;
+/// Of one pass after the other. The vertices that wait are near the planes of the pass before, and only few of them are
+/// near planes in quite other directions.
+constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                         {{{2, 2, 1}, {-2, 1, 2}, {1, -2, 2}}},
+                                         {{{6, 2, 3}, {-3, 6, 2}, {-2, -3, 6}}}}};
+constexpr std::size_t sample_size = 4096;
+/// More than this many cells per new vertex are rare; then the rest of a part waits.
+constexpr std::size_t cells_of_vertex = 8;
+constexpr std::size_t report_every = 4096;
+
+}  // namespace
+
+PartedInsertion::PartedInsertion(Delaunay& d) : d_(d), part_(d.vertices.size()) {
+  marks_.local.resize(d.vertices.size(), InsertionMarks::no_local);
+}
+
+std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t> vertices, std::size_t done,
+                                                   std::size_t total, const Progress& progress) {
+  SharedProgress shared(progress, "delaunay", done, total);
+  std::vector<std::uint32_t> waiting(vertices.begin(), vertices.end());
+  for (std::size_t p = 0; p < bases.size(); ++p) {
+    const std::size_t parts = std::min<std::size_t>(thread_count(), waiting.size() / least_part);
+    if (parts < 2 || (p > 0 && waiting.size() < d_.cells.size() / cells_for_one)) break;
+    cut(waiting, static_cast<std::uint32_t>(parts), bases[p]);
+    mark_cells();
+    waiting = pass(waiting, p == 0 ? Ties::greatest_rank : Ties::any_rank, shared);
+  }
+  return waiting;
+}
+
+void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis) {
+  std::vector<Point3> sample;
+  for (std::size_t i = 0; i < vertices.size(); i += vertices.size() / sample_size + 1)
+    sample.push_back(d_.point(vertices[i]));
+  const SpaceCut space(sample, parts, basis);
+  parallel_for(part_.size(), 4096,
+               [&](std::size_t v) { part_[v] = static_cast<Part>(space.part_of(d_.vertices[v].point)); });
+  start_ = std::vector<std::atomic<std::uint32_t>>(parts);
+  for (auto& start : start_) start = no_cell;
+}
+
+void PartedInsertion::mark_cells() {
+  marks_.cells.resize(d_.cells.size());
+  parallel_for(d_.cells.size(), 4096, [&](std::size_t i) {
+    const auto c = static_cast<std::uint32_t>(i);
+    marks_.cells[c] = InsertionMarks::Cell::unknown;
+    if (d_.is_dead(c)) return;
+    const auto& v = d_.cells[c].vertices;
+    const Part part = part_[v[0]];
+    if (part_[v[1]] != part || part_[v[2]] != part || (v[3] != ghost_vertex && part_[v[3]] != part))
+      marks_.cells[c] = InsertionMarks::Cell::shared;
+    else if (start_[part].load(std::memory_order_relaxed) == no_cell)
+      start_[part].store(c, std::memory_order_relaxed);
+  });
+}
+
+std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, Ties ties,
+                                                 SharedProgress& progress) {
+  std::vector<std::vector<std::uint32_t>> of_part(start_.size());
+  for (const std::uint32_t v : vertices) of_part[part_[v]].push_back(v);
+  const std::size_t old = d_.cells.size(), chunk = CellPool::chunk;
+  const std::size_t room = (cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
+  d_.cells.resize(old + room);
+  marks_.cells.resize(old + room, InsertionMarks::Cell::unknown);
+  CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
+  parallel_for(start_.size(), 1, [&](std::size_t part) {
+    of_part[part] = insert_part(static_cast<Part>(part), of_part[part], ties, pool, progress);
+  });
+  d_.cells.resize(std::min(pool.next.load(), pool.end));
+  for (const std::uint32_t c : unused_) {
+    d_.cells[c] = {{}, {no_neighbor}};
+    d_.free_cells.push_back(c);
+  }
+  unused_.clear();
+  note_bytes(bytes_of(vertices, d_.vertices, d_.cells, d_.free_cells, part_, marks_.cells, marks_.local));
+  std::vector<std::uint32_t> waiting;
+  for (const auto& of_one : of_part) waiting.insert(waiting.end(), of_one.begin(), of_one.end());
+  std::ranges::sort(waiting);
+  return waiting;
+}
+
+/// \return  the vertices that wait
+std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<const std::uint32_t> vertices, Ties ties,
+                                                        CellPool& pool, SharedProgress& progress) {
+  std::uint32_t last = start_[part];
+  if (last == no_cell) return {vertices.begin(), vertices.end()};
+  Insertion insertion(d_, marks_, pool);
+  std::vector<std::uint32_t> waiting;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (i % report_every == report_every - 1 && !progress.add(report_every)) break;
+    if (insertion.find_cavity(vertices[i], last, ties) && insertion.has_room()) {
+      last = insertion.fill_cavity();
+    } else {
+      insertion.discard_cavity();
+      waiting.push_back(vertices[i]);
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  unused_.insert(unused_.end(), insertion.unused_places().begin(), insertion.unused_places().end());
+  return waiting;
+}
+
+}  // namespace ccdt::delaunay

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "engine/base/shared_progress.h"
+#include "engine/delaunay/cut_space.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/delaunay/insertion.h"
+
+namespace ccdt::delaunay {
+
+/// Inserts vertices on several threads, without locks (after Marot, Pellerin and Remacle 2019, "One machine, one
+/// minute, three billion tetrahedra", who cut along a space-filling curve).
+///
+/// Planes cut space into parts. A cell belongs to a part if all its finite vertices do, else
+/// it is shared. A thread inserts the vertices of one part. It removes only cells of its part, and all cells that it
+/// makes belong to its part too, because the border of its cavities has no other vertices. Shared cells stay: everybody
+/// may read their vertices, and each of their neighbor codes is written only by the one part that has the face. A
+/// vertex whose cavity would contain a shared cell waits, and is tried again with other parts.
+///
+/// The Delaunay tetrahedralization is unique, so its cells do not depend on the parts or the threads. The order of the
+/// cells does.
+class PartedInsertion {
+ public:
+  /// \param d  with a list of all vertices; must outlive this
+  explicit PartedInsertion(Delaunay& d);
+
+  /// \param vertices     in the order of their ranks, which are greater than those of all vertices that have cells
+  /// \param done, total  what to report of the whole stage
+  /// \return  the vertices that still wait, too few for several threads; in the order of their ranks
+  std::vector<std::uint32_t> insert(std::span<const std::uint32_t> vertices, std::size_t done, std::size_t total,
+                                    const Progress& progress);
+
+ private:
+  using Part = std::uint16_t;
+
+  void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
+  void mark_cells();
+  std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, Ties ties, SharedProgress& progress);
+  std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, Ties ties, CellPool& pool,
+                                         SharedProgress& progress);
+
+  Delaunay& d_;
+  std::vector<Part> part_;                         ///< by vertex
+  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell of it; `no_cell` if there is none
+  InsertionMarks marks_;
+  std::mutex mutex_;
+  std::vector<std::uint32_t> unused_;  ///< places for cells that a pass has left over; guarded by the mutex
+};
+
+}  // namespace ccdt::delaunay

@@ -1,0 +1,69 @@
+#include "engine/delaunay/insert_vertices.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
+#include "engine/delaunay/hilbert_order.h"
+#include "engine/delaunay/insert_in_parts.h"
+#include "engine/delaunay/insertion.h"
+
+namespace ccdt::delaunay {
+namespace {
+
+/// Inserts vertices one after the other.
+/// \param done, total  what to report of the whole stage
+void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties ties, std::size_t done,
+                     std::size_t total, const Progress& progress) {
+  Insertion insertion(d);
+  std::uint32_t last = d.vertices[0].cell;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    insertion.find_cavity(vertices[i], last, ties);
+    last = insertion.fill_cavity();
+    if ((i & 0xFFFF) == 0) report(progress, "delaunay", done + i, total);
+  }
+  note_bytes(bytes_of(vertices, d.vertices, d.cells, d.free_cells) + insertion.bytes());
+}
+
+/// Fewer vertices are not worth the trouble of several threads.
+constexpr std::size_t least_for_threads = 5000;
+
+}  // namespace
+
+void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {
+  d.cells.reserve(d.cells.size() + 7 * vertices.size() + 64);
+  if (thread_count() == 1 || vertices.size() < least_for_threads) {
+    insert_in_order(d, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
+    return;
+  }
+  // About the rounds of `hilbert_order`: each one fills the gaps that the one before has left all over the place.
+  const std::size_t first = vertices.size() / 64;
+  insert_in_order(d, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
+  PartedInsertion parted(d);
+  for (std::size_t begin = first, end = 0; begin < vertices.size(); begin = end) {
+    end = 16 * begin < vertices.size() ? 8 * begin : vertices.size();
+    const auto left = parted.insert(vertices.subspan(begin, end - begin), begin, vertices.size(), progress);
+    insert_in_order(d, left, Ties::any_rank, end - left.size(), vertices.size(), progress);
+  }
+}
+
+std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points) {
+  std::vector<std::uint32_t> order = hilbert_order(points);
+  const std::size_t first = d.vertices.size();
+  d.vertices.resize(first + points.size());
+  parallel_for(points.size(), 4096, [&](std::size_t i) {
+    d.vertices[first + i] = {points[order[i]], static_cast<std::uint32_t>(first + i), no_cell};
+  });
+  return order;
+}
+
+void insert_points(Delaunay& d, std::span<const Point3> points, const Progress& progress) {
+  const auto first = static_cast<std::uint32_t>(d.vertices.size());
+  append_vertices(d, points);
+  std::vector<std::uint32_t> added(points.size());
+  std::iota(added.begin(), added.end(), first);
+  insert_vertices(d, added, progress);
+}
+
+}  // namespace ccdt::delaunay

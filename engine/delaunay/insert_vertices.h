@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/base/progress.h"
+#include "engine/delaunay/delaunay.h"
+
+namespace ccdt::delaunay {
+
+/// Inserts vertices that are in the list of `d` but have no cells yet.
+///
+/// \param vertices  in the order of their ranks, which are greater than those of all vertices that have cells. Several
+///                  rounds along a Hilbert curve are best, as `append_vertices` arranges them. No two vertices are at
+///                  the same place.
+void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress = {});
+
+}  // namespace ccdt::delaunay

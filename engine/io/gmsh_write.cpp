@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <map>
+
+#include "engine/io/formats.h"
+#include "engine/io/gmsh_types.h"
+
+namespace ccdt::io {
+
+namespace {
+
+/// Lines "number type 2 physical elementary nodes...". The physical tag is the marker as it is; the elementary tag,
+/// which Gmsh wants positive, numbers the different markers.
+template <std::size_t Corners>
+void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& elements, const std::vector<int>& markers,
+                    std::int64_t type, std::size_t& number, OutputFile& out) {
+  std::map<int, std::size_t> elementary;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const int marker = attribute_of(markers, i);
+    const std::size_t entity = elementary.try_emplace(marker, elementary.size() + 1).first->second;
+    out << ++number << ' ' << type << " 2 " << marker << ' ' << entity;
+    write_corners(elements[i], out);
+    out << '\n';
+  }
+}
+
+/// The geometric entities of one dimension by their markers, each with its elements. Nodes belong to an entity, so
+/// there is one even if there are no elements.
+using Entities = std::map<int, std::vector<std::uint32_t>>;
+
+Entities entities_of(std::size_t elements, const std::vector<int>& markers, bool at_least_one = false) {
+  Entities entities;
+  if (at_least_one && elements == 0) entities.try_emplace(0);
+  for (std::size_t i = 0; i < elements; ++i)
+    entities[attribute_of(markers, i)].push_back(static_cast<std::uint32_t>(i));
+  return entities;
+}
+
+OutputFile& put_integer(std::int32_t value, OutputFile& out) {
+  return out.raw(value);
+}
+OutputFile& put_size(std::size_t value, OutputFile& out) {
+  return out.raw(static_cast<std::uint64_t>(value));
+}
+
+/// "tag box physical-tags bounding-entities" for each entity, numbered from 1. All have the box of the whole mesh. The
+/// marker 0 is no physical tag.
+void write_entities(const Entities& entities, const std::array<Point3, 2>& box, OutputFile& out) {
+  std::int32_t tag = 0;
+  for (const auto& [marker, elements] : entities) {
+    put_integer(++tag, out);
+    for (const Point3& corner : box) out.raw(corner.x).raw(corner.y).raw(corner.z);
+    put_size(marker == 0 ? 0 : 1, out);
+    if (marker != 0) put_integer(marker, out);
+    put_size(0, out);
+  }
+}
+
+/// A block "dimension tag type count", then "number nodes ..." an element, for each entity. The numbers of the elements
+/// continue `before` in the order of the mesh, so that a reader can put them into that order.
+template <std::size_t Corners>
+void write_blocks(const Entities& entities, const std::vector<std::array<std::uint32_t, Corners>>& elements,
+                  std::int32_t type, std::size_t before, OutputFile& out) {
+  std::int32_t tag = 0;
+  for (const auto& [marker, members] : entities) {
+    put_integer(Corners - 1, out).raw(++tag).raw(type);
+    put_size(members.size(), out);
+    for (const std::uint32_t i : members) {
+      put_size(before + i + 1, out);
+      for (const std::uint32_t v : elements[i]) put_size(std::size_t{v} + 1, out);
+    }
+  }
+}
+
+/// One block of all nodes, in the first volume.
+void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {
+  out << "$Nodes\n";
+  for (const std::size_t n : {std::size_t{1}, vertices.size(), std::size_t{1}, vertices.size()}) put_size(n, out);
+  put_integer(3, out).raw(std::int32_t{1}).raw(std::int32_t{0});
+  put_size(vertices.size(), out);
+  for (std::size_t i = 1; i <= vertices.size(); ++i) put_size(i, out);
+  for (const Point3& p : vertices) out.raw(p.x).raw(p.y).raw(p.z);
+  out << "\n$EndNodes\n";
+}
+
+std::array<Point3, 2> box_of(const std::vector<Point3>& points) {
+  std::array<Point3, 2> box;
+  if (!points.empty()) box = {points[0], points[0]};
+  for (const Point3& p : points) box = {componentwise_min(box[0], p), componentwise_max(box[1], p)};
+  return box;
+}
+
+}  // namespace
+
+void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out) {
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+  out << "$Nodes\n" << mesh.vertices.size() << '\n';
+  write_numbered(mesh.vertices, out);
+  out << "$EndNodes\n$Elements\n" << mesh.edges.size() + mesh.faces.size() + mesh.tetrahedra.size() << '\n';
+  std::size_t number = 0;
+  write_elements(mesh.edges, mesh.edge_markers, gmsh_line, number, out);
+  write_elements(mesh.faces, mesh.face_markers, gmsh_triangle, number, out);
+  write_elements(mesh.tetrahedra, mesh.regions, gmsh_tetrahedron, number, out);
+  out << "$EndElements\n";
+}
+
+void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
+  const Entities curves = entities_of(mesh.edges.size(), mesh.edge_markers),
+                 surfaces = entities_of(mesh.faces.size(), mesh.face_markers),
+                 volumes = entities_of(mesh.tetrahedra.size(), mesh.regions, true);
+  out << "$MeshFormat\n4.1 1 8\n";
+  put_integer(1, out) << "\n$EndMeshFormat\n";
+  if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+
+  const std::array<Point3, 2> box = box_of(mesh.vertices);
+  out << "$Entities\n";
+  for (const std::size_t n : {std::size_t{0}, curves.size(), surfaces.size(), volumes.size()}) put_size(n, out);
+  for (const Entities* entities : {&curves, &surfaces, &volumes}) write_entities(*entities, box, out);
+  out << "\n$EndEntities\n";
+
+  write_nodes(mesh.vertices, out);
+
+  const std::size_t edges = mesh.edges.size(), faces = mesh.faces.size();
+  const std::size_t elements = edges + faces + mesh.tetrahedra.size();
+  out << "$Elements\n";
+  for (const std::size_t n : {curves.size() + surfaces.size() + volumes.size(), elements, std::size_t{1}, elements})
+    put_size(n, out);
+  write_blocks(curves, mesh.edges, gmsh_line, 0, out);
+  write_blocks(surfaces, mesh.faces, gmsh_triangle, edges, out);
+  write_blocks(volumes, mesh.tetrahedra, gmsh_tetrahedron, edges + faces, out);
+  out << "\n$EndElements\n";
+}
+
+}  // namespace ccdt::io

@@ -1,0 +1,266 @@
+// Medit's binary format, .meshb, as the library libMeshb defines it: the number 1, which shows the byte order, the
+// version, and then sections "keyword, byte of the next keyword, contents" up to the keyword End. A version says how
+// wide the numbers are.
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/io/byte_scanner.h"
+#include "engine/io/formats.h"
+#include "engine/io/medit.h"
+
+namespace ccdt::io {
+
+namespace {
+
+enum Keyword : std::int32_t {
+  dimension_keyword = 3,
+  vertices_keyword = 4,
+  edges_keyword = 5,
+  triangles_keyword = 6,
+  quadrilaterals_keyword = 7,
+  tetrahedra_keyword = 8,
+  end_keyword = 54
+};
+
+constexpr std::int32_t own_order = 1, other_order = 1 << 24;
+
+/// The widths of the numbers in a version, in bytes.
+struct Version {
+  std::int32_t number = 2;
+
+  std::size_t real() const { return number == 1 ? 4 : 8; }
+  std::size_t integer() const { return number == 4 ? 8 : 4; }
+  std::size_t position() const { return number >= 3 ? 8 : 4; }
+  std::size_t head() const { return 4 + position() + integer(); }  ///< of a section with a count
+  std::size_t vertex() const { return 3 * real() + integer(); }
+  std::size_t element(std::size_t corners) const { return (corners + 1) * integer(); }
+};
+
+class MeditReader {
+ public:
+  explicit MeditReader(const FileBytes& file) : size_(file.bytes.size()), in_(file) {}
+
+  /// \param with_tetrahedra  false: they are skipped
+  MeditFile read(bool with_tetrahedra) {
+    read_head();
+    while (true) {
+      const std::size_t begin = in_.position();
+      const std::int32_t keyword = in_.next<std::int32_t>("keyword");
+      const std::size_t next = read_position();
+      if (keyword == end_keyword) break;
+      if (next <= begin || next > size_)
+        in_.fail("section",
+                 "the next one is said to be at byte " + std::to_string(next) + " of " + std::to_string(size_),
+                 "the file is truncated or damaged: export it again");
+      read_section(keyword, with_tetrahedra);
+      in_.move_to(next);
+    }
+    return std::move(medit_);
+  }
+
+ private:
+  void read_head() {
+    const Item head = "header";
+    const std::int32_t order = in_.next<std::int32_t>(head);
+    if (order != own_order && order != other_order) in_.fail(head, "this is no binary Medit file", "check the ending");
+    in_.set_big_endian(order == other_order);
+    version_.number = in_.next<std::int32_t>(head);
+    if (version_.number < 1 || version_.number > 4)
+      in_.fail(head, "version " + std::to_string(version_.number) + " is not known",
+               "write one of the versions 1 to 4");
+    if (const std::int32_t keyword = in_.next<std::int32_t>(head); keyword != dimension_keyword)
+      in_.fail(head, "the first keyword is " + std::to_string(keyword) + ", not that of the dimension");
+    read_position();
+    if (const std::int32_t dimension = in_.next<std::int32_t>(head); dimension != 3)
+      in_.fail(head, "the dimension is " + std::to_string(dimension), "give a mesh in three dimensions");
+  }
+
+  void read_section(std::int32_t keyword, bool with_tetrahedra) {
+    mesh::TetMesh& mesh = medit_.mesh;
+    const std::size_t facets = mesh.faces.size() + medit_.quadrilaterals.size();
+    if (keyword == vertices_keyword) {
+      version_.real() == 4 ? read_vertices<float>() : read_vertices<double>();
+    } else if (keyword == edges_keyword) {
+      read_elements({"edge", mesh.edges.size()}, mesh.edges, mesh.edge_markers);
+    } else if (keyword == triangles_keyword) {
+      medit_.first_triangle = facets;
+      read_elements({"facet", facets}, mesh.faces, mesh.face_markers);
+    } else if (keyword == quadrilaterals_keyword) {
+      medit_.first_quadrilateral = facets;
+      read_elements({"facet", facets}, medit_.quadrilaterals, medit_.quadrilateral_references);
+    } else if (keyword == tetrahedra_keyword && with_tetrahedra) {
+      read_elements({"tetrahedron", mesh.tetrahedra.size()}, mesh.tetrahedra, mesh.regions);
+    }
+  }
+
+  template <class Real>
+  void read_vertices() {
+    const std::size_t count = read_count("number of vertices", version_.vertex());
+    std::vector<Point3>& vertices = medit_.mesh.vertices;
+    vertices.reserve(vertices.size() + count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Item vertex{"vertex", i};
+      vertices.push_back(in_.point<Real>(vertex));
+      in_.skip(vertex, version_.integer());  // its reference
+    }
+  }
+
+  /// \param item  the first element
+  template <std::size_t Corners>
+  void read_elements(const Item& item, std::vector<std::array<std::uint32_t, Corners>>& elements,
+                     std::vector<int>& references) {
+    const std::size_t count = read_count("number of elements", version_.element(Corners));
+    elements.reserve(elements.size() + count);
+    references.reserve(references.size() + count);
+    if (version_.integer() == 4)
+      read_elements_of<std::int32_t>(item, count, elements, references);
+    else
+      read_elements_of<std::int64_t>(item, count, elements, references);
+  }
+
+  template <class Integer, std::size_t Corners>
+  void read_elements_of(Item item, std::size_t count, std::vector<std::array<std::uint32_t, Corners>>& elements,
+                        std::vector<int>& references) {
+    for (std::size_t i = 0; i < count; ++i, ++item.number) {
+      for (std::uint32_t& corner : elements.emplace_back()) corner = read_index<Integer>(item);
+      references.push_back(in_.attribute<Integer>(item));
+    }
+  }
+
+  template <class Integer>
+  std::uint32_t read_index(const Item& item) {
+    const Integer index = in_.next<Integer>(item);
+    const std::size_t vertices = medit_.mesh.vertices.size();
+    if (index < 1 || static_cast<std::size_t>(index) > vertices)
+      in_.fail(item, "vertex index " + std::to_string(index) + " is out of range: " + std::to_string(vertices) +
+                         " vertices come before it, counted from 1");
+    return static_cast<std::uint32_t>(index - 1);
+  }
+
+  std::size_t read_count(const Item& item, std::size_t bytes_each) {
+    return version_.integer() == 4 ? in_.count<std::int32_t>(item, bytes_each)
+                                   : in_.count<std::int64_t>(item, bytes_each);
+  }
+  std::size_t read_position() {
+    const Item item = "position";
+    return version_.position() == 4 ? in_.next<std::uint32_t>(item) : in_.next<std::uint64_t>(item);
+  }
+
+  std::size_t size_;
+  ByteScanner in_;
+  Version version_;
+  MeditFile medit_;
+};
+
+class MeditWriter {
+ public:
+  /// \param surface  null, or has quadrilaterals besides the mesh, which is its own
+  MeditWriter(const mesh::TetMesh& mesh, const MeditFile* surface, OutputFile& out)
+      : mesh_(mesh), surface_(surface), out_(out) {
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+    if (std::max({mesh.vertices.size(), mesh.tetrahedra.size(), mesh.faces.size(), mesh.edges.size(),
+                  quadrilaterals()}) > most)
+      version_.number = 4;
+    else if (file_size() > most)
+      version_.number = 3;
+  }
+
+  /// \param claim  stands behind the end, where other readers do not look
+  void write(std::string_view claim) {
+    out_.raw(own_order).raw(version_.number);
+    begin_section(dimension_keyword, dimension_size());
+    out_.raw(std::int32_t{3});
+    begin_section(vertices_keyword, mesh_.vertices.size(), version_.vertex());
+    for (const Point3& p : mesh_.vertices) {
+      out_.raw(p.x).raw(p.y).raw(p.z);
+      write_integer(0);
+    }
+    write_elements(edges_keyword, mesh_.edges, mesh_.edge_markers);
+    write_elements(triangles_keyword, mesh_.faces, mesh_.face_markers);
+    if (surface_) write_elements(quadrilaterals_keyword, surface_->quadrilaterals, surface_->quadrilateral_references);
+    write_elements(tetrahedra_keyword, mesh_.tetrahedra, mesh_.regions);
+    out_.raw(std::int32_t{end_keyword});
+    write_position(0);
+    out_ << claim;
+  }
+
+ private:
+  std::size_t quadrilaterals() const { return surface_ ? surface_->quadrilaterals.size() : 0; }
+  std::size_t dimension_size() const { return 8 + version_.position(); }
+
+  /// Or a little more: sections without elements are not written.
+  std::size_t file_size() const {
+    return 1000 + mesh_.vertices.size() * version_.vertex() + mesh_.edges.size() * version_.element(2) +
+           mesh_.faces.size() * version_.element(3) +
+           (mesh_.tetrahedra.size() + quadrilaterals()) * version_.element(4);
+  }
+
+  template <std::size_t Corners>
+  void write_elements(Keyword keyword, const std::vector<std::array<std::uint32_t, Corners>>& elements,
+                      const std::vector<int>& references) {
+    if (elements.empty()) return;
+    begin_section(keyword, elements.size(), version_.element(Corners));
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      for (const std::uint32_t v : elements[i]) write_integer(std::int64_t{v} + 1);
+      write_integer(attribute_of(references, i));
+    }
+  }
+
+  void begin_section(Keyword keyword, std::size_t bytes) {
+    position_ += bytes;
+    out_.raw(static_cast<std::int32_t>(keyword));
+    write_position(position_);
+  }
+  void begin_section(Keyword keyword, std::size_t count, std::size_t bytes_each) {
+    begin_section(keyword, version_.head() + count * bytes_each);
+    write_integer(static_cast<std::int64_t>(count));
+  }
+  void write_position(std::size_t position) {
+    if (version_.position() == 4)
+      out_.raw(static_cast<std::uint32_t>(position));
+    else
+      out_.raw(static_cast<std::uint64_t>(position));
+  }
+  void write_integer(std::int64_t value) {
+    if (version_.integer() == 4)
+      out_.raw(static_cast<std::int32_t>(value));
+    else
+      out_.raw(value);
+  }
+
+  const mesh::TetMesh& mesh_;
+  const MeditFile* surface_;
+  OutputFile& out_;
+  Version version_;
+  std::size_t position_ = 8;  ///< behind the version: where the next section begins
+};
+
+bool ends_with_claim(const FileBytes& file, std::string_view claim) {
+  return file.bytes.ends_with(claim);
+}
+
+}  // namespace
+
+plc::InputPlc read_meditb_plc(const FileBytes& file) {
+  using Inside = plc::InputPlc::Inside;
+  return plc_of(MeditReader(file).read(false),
+                ends_with_claim(file, even_odd_claim) ? Inside::even_odd : Inside::seeds);
+}
+
+mesh::TetMesh read_meditb_mesh(const FileBytes& file) {
+  mesh::TetMesh mesh = MeditReader(file).read(true).mesh;
+  mesh.constrained_delaunay = ends_with_claim(file, constrained_delaunay_claim);
+  return mesh;
+}
+
+void write_meditb_plc(const plc::InputPlc& plc, OutputFile& out) {
+  const MeditFile medit = medit_of(plc);
+  MeditWriter(medit.mesh, &medit, out).write(plc.inside == plc::InputPlc::Inside::even_odd ? even_odd_claim : "");
+}
+
+void write_meditb_mesh(const mesh::TetMesh& mesh, OutputFile& out) {
+  MeditWriter(mesh, nullptr, out).write(mesh.constrained_delaunay ? constrained_delaunay_claim : "");
+}
+
+}  // namespace ccdt::io

@@ -1,0 +1,251 @@
+#include "engine/io/vtk_arrays.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "engine/io/text_scanner.h"
+#include "engine/io/vtk_bytes.h"
+
+namespace ccdt::io {
+
+namespace {
+
+constexpr const char* outline_remedy = "export the file again as a VTK XML unstructured grid";
+
+/// Where the tag of the appended data begins. What follows it is data, which may look like tags.
+constexpr std::string_view appended_tag = "<AppendedData", appended_end_tag = "</AppendedData";
+
+template <class Stored, class Value>
+std::vector<Value> convert(std::string_view bytes, bool big_endian) {
+  std::vector<Value> values(bytes.size() / sizeof(Stored));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Stored stored = number_at<Stored>(bytes.data() + i * sizeof(Stored), big_endian);
+    if constexpr (std::is_floating_point_v<Stored> && std::is_integral_v<Value>)
+      values[i] = std::fabs(stored) < 9e18 ? static_cast<Value>(stored) : -1;  // -1 is no index and no cell type
+    else
+      values[i] = static_cast<Value>(stored);
+  }
+  return values;
+}
+
+template <class Value>
+constexpr std::pair<std::string_view, std::vector<Value> (*)(std::string_view, bool)> converters[] = {
+    {"Float32", convert<float, Value>},      {"Float64", convert<double, Value>},
+    {"Int8", convert<std::int8_t, Value>},   {"UInt8", convert<std::uint8_t, Value>},
+    {"Int16", convert<std::int16_t, Value>}, {"UInt16", convert<std::uint16_t, Value>},
+    {"Int32", convert<std::int32_t, Value>}, {"UInt32", convert<std::uint32_t, Value>},
+    {"Int64", convert<std::int64_t, Value>}, {"UInt64", convert<std::uint64_t, Value>},
+};
+
+std::string_view attribute_of(pugi::xml_node node, const char* name) {
+  return node.attribute(name).value();
+}
+
+std::string name_of(pugi::xml_node array) {
+  const std::string_view name = attribute_of(array, "Name");
+  return "array " + in_quotes(name.empty() ? array.parent().name() : name);
+}
+
+bool is_appended(pugi::xml_node array) {
+  return attribute_of(array, "format") == "appended";
+}
+
+}  // namespace
+
+VtkArrays::VtkArrays(const FileBytes& file) : file_(file) {
+  load_outline();
+  header_ = document_.child("VTKFile");
+  check_header();
+  const pugi::xml_node grid = header_.child("UnstructuredGrid");
+  piece_ = grid.child("Piece");
+  if (!piece_) fail(0, "it has no Piece", outline_remedy);
+  if (piece_.next_sibling("Piece"))
+    fail(static_cast<std::size_t>(piece_.next_sibling("Piece").offset_debug()), "it has several pieces",
+         "merge the pieces into one file");
+  big_endian_ = attribute_of(header_, "byte_order") == "BigEndian";
+  length_size_ = attribute_of(header_, "header_type") == "UInt64" ? 8 : 4;
+}
+
+/// Parses the XML up to the appended data.
+void VtkArrays::load_outline() {
+  std::string_view xml = file_.bytes;
+  std::string closed;
+  if (const std::size_t tag = xml.find(appended_tag); tag != std::string_view::npos) {
+    const std::size_t data = xml.find('>', tag), underscore = xml.find('_', data);
+    appended_end_ = xml.rfind(appended_end_tag);
+    if (underscore >= appended_end_ || appended_end_ == std::string_view::npos)
+      fail(xml.size(), "the file is truncated: its appended data have no end", outline_remedy);
+    appended_begin_ = underscore + 1;
+    closed = std::string(xml.substr(0, data + 1));
+    if (!closed.ends_with("/>")) closed += "</AppendedData>";
+    xml = closed += "</VTKFile>";
+  }
+  const auto result = document_.load_buffer(xml.data(), xml.size(), pugi::parse_minimal, pugi::encoding_utf8);
+  if (!result)
+    throw InputError(std::string("this is no XML, or the file is truncated: ") + result.description(),
+                     line_of_byte(file_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
+                     outline_remedy);
+  appended_ = document_.child("VTKFile").child("AppendedData");
+}
+
+void VtkArrays::check_header() const {
+  if (attribute_of(header_, "type") != "UnstructuredGrid")
+    fail(0, "this is no VTK XML unstructured grid", outline_remedy);
+}
+
+VtkArrays::Array VtkArrays::find(const char* parent, std::string_view name) const {
+  for (const pugi::xml_node place : {piece_, piece_.parent()})
+    for (const Array array : place.child(parent).children("DataArray"))
+      if (name.empty() || attribute_of(array, "Name") == name) return array;
+  return {};
+}
+
+VtkArrays::Array VtkArrays::required(const char* parent, std::string_view name) const {
+  const Array array = find(parent, name);
+  if (!array) fail(0, "it has no array " + in_quotes(name.empty() ? parent : name) + " in " + parent);
+  return array;
+}
+
+std::size_t VtkArrays::claimed(const char* name) const {
+  const std::string_view text = attribute_of(piece_, name);
+  const std::optional<std::uint32_t> count = parse_whole<std::uint32_t>(text);
+  if (!count) fail(0, name + (" is " + in_quotes(text)) + ", not a number below 2^32");
+  return *count;
+}
+
+void VtkArrays::check_size(Array array, std::size_t found, std::size_t due) const {
+  if (found != due)
+    fail(begin_of(array),
+         "array " + in_quotes(attribute_of(array, "Name")) + " has " + std::to_string(found) + " values, not " +
+             std::to_string(due),
+         "the file is damaged: export it again");
+}
+
+template <class Value>
+std::vector<Value> VtkArrays::read(Array array) const {
+  const std::string_view type = attribute_of(array, "type"), format = attribute_of(array, "format");
+  if (format.empty() || format == "ascii") {
+    std::vector<Value> values;
+    const std::string_view text = text_of(array);
+    const std::size_t begin = begin_of(array);
+    TextScanner in(file_, TextScanner::no_comments, begin, begin + text.size());
+    const std::string name = name_of(array);
+    while (!in.at_end()) {
+      if constexpr (std::is_integral_v<Value>)
+        values.push_back(in.integer(std::string_view(name)));
+      else
+        values.push_back(in.number(std::string_view(name)));
+    }
+    return values;
+  }
+  for (const auto& [name, convert_bytes] : converters<Value>)
+    if (type == name) return convert_bytes(bytes_of(array), big_endian_);
+  fail(begin_of(array), name_of(array) + ": unknown type " + in_quotes(type));
+}
+
+template std::vector<double> VtkArrays::read<double>(Array array) const;
+template std::vector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
+
+/// An array's text ends with the next tag: its own end, or that of remarks which ParaView puts behind the numbers.
+std::string_view VtkArrays::text_of(Array array) const {
+  const pugi::xml_node text = array.first_child();
+  return text.type() == pugi::node_pcdata ? text.value() : std::string_view();
+}
+
+std::size_t VtkArrays::begin_of(Array array) const {
+  const pugi::xml_node text = array.first_child();
+  const pugi::xml_node place = text.type() == pugi::node_pcdata ? text : array;
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(place.offset_debug(), 0));
+}
+
+std::size_t VtkArrays::appended_begin(Array array) const {
+  const std::string_view offset = attribute_of(array, "offset");
+  const std::optional<std::uint64_t> value = parse_whole<std::uint64_t>(offset);
+  if (!value || *value > appended_end_ - appended_begin_)
+    fail(begin_of(array), name_of(array) + ": its offset " + in_quotes(offset) + " is not within the appended data");
+  return appended_begin_ + static_cast<std::size_t>(*value);
+}
+
+/// What the file has of an array, perhaps with what follows.
+std::string_view VtkArrays::encoded_bytes(Array array) const {
+  if (!is_appended(array)) return text_of(array);
+  const std::size_t begin = appended_begin(array);
+  std::size_t end = appended_end_;
+  // Appended arrays follow each other; in base64 this one's end is where its padding or the next offset is.
+  for (const pugi::xml_node place : {piece_, piece_.parent()})
+    for (const pugi::xml_node group : place.children())
+      for (const Array other : group.children("DataArray"))
+        if (is_appended(other) && appended_begin(other) > begin) end = std::min(end, appended_begin(other));
+  return std::string_view(file_.bytes).substr(begin, end - begin);
+}
+
+std::string VtkArrays::bytes_of(Array array) const {
+  const std::string_view compressor = attribute_of(header_, "compressor");
+  if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+    fail(0, "its data are compressed by " + in_quotes(compressor) + ", which is not supported",
+         "export the file again, compressed by zlib or not compressed");
+  const std::string_view encoded = encoded_bytes(array);
+  std::string decoded;
+  std::string_view bytes = encoded;
+  if (!is_appended(array) || attribute_of(appended_, "encoding") != "raw") {
+    std::optional<std::string> binary = decode_base64(encoded);
+    if (!binary) fail(begin_of(array), name_of(array) + " is not valid base64");
+    decoded = std::move(*binary);
+    bytes = decoded;
+  }
+  return compressor.empty() ? without_length(array, bytes) : decompressed(array, bytes);
+}
+
+/// One of the numbers before the bytes of an array.
+std::uint64_t VtkArrays::length_at(std::string_view bytes, std::size_t index, Array array) const {
+  if (bytes.size() / length_size_ <= index)
+    fail(begin_of(array), "the file is truncated: " + name_of(array) + " has no length");
+  const char* at = bytes.data() + index * length_size_;
+  return length_size_ == 8 ? number_at<std::uint64_t>(at, big_endian_) : number_at<std::uint32_t>(at, big_endian_);
+}
+
+/// Cuts the length, which comes first, off the bytes, and what follows behind the array.
+std::string VtkArrays::without_length(Array array, std::string_view bytes) const {
+  const std::uint64_t length = length_at(bytes, 0, array);
+  bytes.remove_prefix(length_size_);
+  if (length > bytes.size())
+    fail(begin_of(array),
+         name_of(array) + " claims " + std::to_string(length) + " bytes, but only " + std::to_string(bytes.size()) +
+             " bytes follow",
+         "the file is truncated or its header is wrong: export it again");
+  return std::string(bytes.substr(0, length));
+}
+
+/// The bytes as `CompressedBlocks` says.
+std::string VtkArrays::decompressed(Array array, std::string_view bytes) const {
+  const std::uint64_t blocks = length_at(bytes, 0, array);
+  if (blocks == 0) return {};
+  const std::uint64_t whole = length_at(bytes, 1, array), rest = length_at(bytes, 2, array);
+  if (blocks > bytes.size() / length_size_ || 3 + blocks > bytes.size() / length_size_)
+    fail(begin_of(array),
+         name_of(array) + " claims " + std::to_string(blocks) + " compressed blocks, which its " +
+             std::to_string(bytes.size()) + " bytes cannot hold",
+         "the file is truncated or its header is wrong: export it again");
+  std::string result;
+  std::size_t at = (3 + static_cast<std::size_t>(blocks)) * length_size_;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const std::uint64_t size = length_at(bytes, 3 + i, array);
+    const bool is_last = i + 1 == blocks;
+    const auto block = size > bytes.size() - at
+                           ? std::nullopt
+                           : decompress_block(bytes.substr(at, size), is_last && rest > 0 ? rest : whole);
+    if (!block)
+      fail(begin_of(array), name_of(array) + ": block " + std::to_string(i) + " of its compressed data is damaged");
+    result += *block;
+    at += static_cast<std::size_t>(size);
+  }
+  return result;
+}
+
+void VtkArrays::fail(std::size_t byte, const std::string& what, const std::string& remedy) const {
+  fail_at_byte(file_, byte, what, remedy);
+}
+
+}  // namespace ccdt::io

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/io/files.h"
+
+namespace ccdt::io {
+
+/// The arrays of a VTK XML unstructured grid of one piece: as text, in base64 or appended, compressed by zlib or not,
+/// of any type and byte order, with lengths of 32 or 64 bits.
+class VtkArrays {
+ public:
+  using Array = pugi::xml_node;  ///< a DataArray
+
+  /// \throw InputError  this is no such file, it is damaged, or it has several pieces
+  explicit VtkArrays(const FileBytes& file);
+
+  /// \param parent  Points, Cells, CellData or FieldData
+  /// \param name    empty: any
+  /// \return        an empty one if there is none
+  Array find(const char* parent, std::string_view name) const;
+  /// \throw InputError  there is none
+  Array required(const char* parent, std::string_view name) const;
+
+  /// A count that the Piece claims.
+  std::size_t claimed(const char* name) const;
+  void check_size(Array array, std::size_t found, std::size_t due) const;
+
+  /// The numbers of an array. Value is double or std::int64_t.
+  template <class Value>
+  std::vector<Value> read(Array array) const;
+
+  /// The place of an array in the file.
+  std::size_t begin_of(Array array) const;
+  [[noreturn]] void fail(std::size_t byte, const std::string& what, const std::string& remedy = damaged_remedy) const;
+
+  static constexpr const char* damaged_remedy = "export the file again";
+
+ private:
+  void load_outline();
+  void check_header() const;
+  std::string_view text_of(Array array) const;
+  std::size_t appended_begin(Array array) const;
+  std::string_view encoded_bytes(Array array) const;
+  std::string bytes_of(Array array) const;
+  std::uint64_t length_at(std::string_view bytes, std::size_t index, Array array) const;
+  std::string without_length(Array array, std::string_view bytes) const;
+  std::string decompressed(Array array, std::string_view bytes) const;
+
+  const FileBytes& file_;
+  pugi::xml_document document_;
+  pugi::xml_node header_, piece_, appended_;
+  std::size_t appended_begin_ = 0, appended_end_ = 0;
+  bool big_endian_ = false;
+  std::size_t length_size_ = 4;  ///< of the numbers before an array, in bytes
+};
+
+extern template std::vector<double> VtkArrays::read<double>(Array array) const;
+extern template std::vector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
+
+}  // namespace ccdt::io

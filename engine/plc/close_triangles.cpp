@@ -1,0 +1,64 @@
+#include "engine/plc/close_triangles.h"
+
+#include <array>
+
+#include "engine/numbers/filters.h"
+
+namespace ccdt::plc {
+namespace {
+
+/// The corners of two triangles, those that they share first.
+struct CornerPairs {
+  std::array<VertexTriple, 2> corners;
+  int common = 0;
+
+  CornerPairs(const VertexTriple& s, const VertexTriple& t) : corners{s, t} {
+    for (int i = 0; i < 3; ++i)
+      for (int j = common; j < 3; ++j)
+        if (corners[0][i] == corners[1][j]) {
+          std::swap(corners[0][i], corners[0][common]);
+          std::swap(corners[1][j], corners[1][common]);
+          ++common;
+          break;
+        }
+  }
+};
+
+/// Are the corners of a triangle, from the given one on, on the same side of another's plane, for sure?
+bool are_on_one_side(std::span<const Point3> vertices, const VertexTriple& plane, const VertexTriple& corners,
+                     int from) {
+  using numbers::Sign;
+  const Point3 &a = vertices[plane[0]], &b = vertices[plane[1]], &c = vertices[plane[2]];
+  const Sign first = numbers::orient3d_filter(a, b, c, vertices[corners[from]]);
+  if (first != Sign::plus && first != Sign::minus) return false;
+  for (int i = from + 1; i < 3; ++i)
+    if (numbers::orient3d_filter(a, b, c, vertices[corners[i]]) != first) return false;
+  return true;
+}
+
+/// With what they share, for which both signs would be zero, in that plane.
+bool are_apart(std::span<const Point3> vertices, const CornerPairs& pair) {
+  const auto& [s, t] = pair.corners;
+  if (pair.common == 3) return true;
+  return are_on_one_side(vertices, t, s, pair.common) || are_on_one_side(vertices, s, t, pair.common);
+}
+
+}  // namespace
+
+std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const VertexTriple& t : triangles.corners) boxes.push_back(bounding_box(points_of(vertices, t)));
+  return boxes;
+}
+
+std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
+                                               const BoxTree& tree) {
+  std::vector<TrianglePair> close;
+  tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+    if (!are_apart(vertices, {triangles.corners[i], triangles.corners[j]})) close.push_back({i, j});
+  });
+  return close;
+}
+
+}  // namespace ccdt::plc

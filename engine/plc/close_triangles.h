@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/box_tree.h"
+#include "engine/plc/edge_table.h"
+
+namespace ccdt::plc {
+
+/// The boxes of triangles.
+std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
+
+/// Two different triangles, by their indices.
+struct TrianglePair {
+  std::uint32_t first, second;
+};
+
+/// All pairs of triangles that may have more in common than corners and edges of both. Most of those whose boxes meet
+/// are neighbors, and floating point shows that one of the two is on one side of the other's plane: these are left out.
+///
+/// \param triangles  with an area
+/// \param tree       over `boxes_of(vertices, triangles)`
+std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
+                                               const BoxTree& tree);
+
+}  // namespace ccdt::plc

@@ -1,0 +1,107 @@
+#include "engine/protection/voronoi_face.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ccdt::protection {
+namespace {
+
+using delaunay::Delaunay;
+
+std::uint32_t place_of(const Delaunay& d, std::uint32_t cell, std::uint32_t v) {
+  const auto& vertices = d.cells[cell].vertices;
+  return static_cast<std::uint32_t>(std::ranges::find(vertices, v) - vertices.begin());
+}
+
+/// Centers farther from the edge than so many times its half length are left out: their spheres are nearly half-spaces.
+constexpr double farthest = 100;
+
+}  // namespace
+
+void gather_ring(const Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring) {
+  ring.cells.clear(), ring.vertices.clear();
+  const std::uint32_t first = delaunay::find_edge(d, a, b);
+  std::uint32_t here = first, exit = 0;
+  while (d.cells[first].vertices[exit] == a || d.cells[first].vertices[exit] == b) ++exit;
+  do {
+    ring.cells.push_back(here);
+    // The places of the four vertices add up to 6.
+    const std::uint32_t stays = d.cells[here].vertices[6 - place_of(d, here, a) - place_of(d, here, b) - exit];
+    if (stays != delaunay::ghost_vertex) ring.vertices.push_back(stays);
+    here = delaunay::cell_of(d.cells[here].neighbors[exit]);
+    exit = place_of(d, here, stays);
+  } while (here != first);
+}
+
+void VoronoiFace::make(const Delaunay& d, std::uint32_t a, std::uint32_t b, const EdgeRing& ring) {
+  const Point3 along = d.point(b) - d.point(a);
+  middle_ = 0.5 * (d.point(a) + d.point(b));
+  squared_half_ = 0.25 * squared_length(along);
+  const Point3 across = std::abs(along.x) < std::abs(along.y) ? Point3{1, 0, 0} : Point3{0, 1, 0};
+  u_ = normalized(cross(along, across)), w_ = normalized(cross(along, u_));
+  halves_.clear();
+  for (const std::uint32_t v : ring.vertices) {
+    const Point3 to = d.point(v) - middle_;
+    halves_.push_back({{ccdt::dot(u_, to), ccdt::dot(w_, to)}, 0.5 * (squared_length(to) - squared_half_)});
+  }
+}
+
+bool VoronoiFace::is_empty(const Place& center) const {
+  const double slack = margin * squared_radius(center);
+  return std::ranges::all_of(halves_, [&](const HalfPlane& h) { return dot(h.normal, center) + slack < h.bound; });
+}
+
+Ball VoronoiFace::ball(const Place& center) const {
+  return {middle_ + center.x * u_ + center.y * w_, std::sqrt(squared_radius(center) * (1 + margin))};
+}
+
+Ball VoronoiFace::covering_ball() {
+  const double far = farthest * std::sqrt(squared_half_);
+  make_polygon(margin * far * far);  // with all of the true polygon that is not too far away
+  const Place center = center_of_polygon();
+  double reach = 0;
+  if (polygon_.empty()) return {middle_, HUGE_VAL};
+  for (const Place& p : polygon_) {
+    if (std::max(std::abs(p.x), std::abs(p.y)) >= far) return {middle_, HUGE_VAL};
+    reach = std::max(reach, std::sqrt(dot(p - center, p - center)) + std::sqrt(squared_radius(p)));
+  }
+  return {middle_ + center.x * u_ + center.y * w_, (1 + margin) * reach};
+}
+
+/// \param slack  added to the bounds
+void VoronoiFace::make_polygon(double slack) {
+  const double far = farthest * std::sqrt(squared_half_);
+  polygon_.assign({{far, far}, {-far, far}, {-far, -far}, {far, -far}});
+  for (const HalfPlane& half : halves_) clip({half.normal, half.bound + slack});
+}
+
+VoronoiFace::Place VoronoiFace::center_of_polygon() const {
+  Place center;
+  for (const Place& p : polygon_) center = center + (1.0 / static_cast<double>(polygon_.size())) * p;
+  return center;
+}
+
+void VoronoiFace::clip(const HalfPlane& half) {
+  clipped_.clear();
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const Place &a = polygon_[i], &b = polygon_[i + 1 < polygon_.size() ? i + 1 : 0];
+    const double over_a = dot(half.normal, a) - half.bound, over_b = dot(half.normal, b) - half.bound;
+    if (over_a <= 0) clipped_.push_back(a);
+    if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0))
+      clipped_.push_back(a + (over_a / (over_a - over_b)) * (b - a));
+  }
+  polygon_.swap(clipped_);
+}
+
+VoronoiFace::Place VoronoiFace::nearest_to_middle() const {
+  Place best = polygon_[0];
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const Place &a = polygon_[i], along = polygon_[i + 1 < polygon_.size() ? i + 1 : 0] - a;
+    const double squared = dot(along, along);
+    const Place p = a + (squared > 0 ? std::clamp(-dot(a, along) / squared, 0.0, 1.0) : 0) * along;
+    if (dot(p, p) < dot(best, best)) best = p;
+  }
+  return best;
+}
+
+}  // namespace ccdt::protection

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/box.h"
+#include "engine/delaunay/delaunay.h"
+
+namespace ccdt::protection {
+
+/// The cells around a Delaunay edge, in their order, and their vertices that are not on the edge, without the ghost.
+struct EdgeRing {
+  std::vector<std::uint32_t> cells, vertices;
+};
+
+/// \param d  has the edge ab
+void gather_ring(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring);
+
+/// The face of the Voronoi diagram that is dual to a Delaunay edge: the centers of the spheres through the edge's ends
+/// that hold no vertex. A convex polygon in the plane that halves the edge. Computed in floating point: all spheres
+/// that it gives away are empty nevertheless, by a margin, so it has none if the polygon is too small.
+class VoronoiFace {
+ public:
+  /// \param d     points in grid units
+  /// \param ring  of the edge ab
+  void make(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, const EdgeRing& ring);
+
+  /// Calls visit(ball) for a few of the empty spheres, the smallest one first, until `visit` returns false. The balls
+  /// are enlarged by much more than their rounding, so that a point that is not in one is outside of the true sphere.
+  template <class Visit>
+  void visit_empty_balls(const Visit& visit) {
+    if (is_empty({}) && !visit(ball({}))) return;
+    make_polygon(0);
+    if (polygon_.empty()) return;
+    const Place center = center_of_polygon();
+    const auto visit_near = [&](const Place& p) {
+      const Place inner = p + inwards * (center - p);
+      return !is_empty(inner) || visit(ball(inner));
+    };
+    if (!visit_near(nearest_to_middle()) || !visit_near(center)) return;
+    for (const Place& corner : polygon_)
+      if (!visit_near(corner)) return;
+  }
+
+  /// A ball that holds the spheres of all cells around the edge.
+  Ball covering_ball();
+
+ private:
+  /// A place in the plane of the face, seen from the middle of the edge.
+  struct Place {
+    double x = 0, y = 0;
+
+    friend Place operator+(const Place& a, const Place& b) { return {a.x + b.x, a.y + b.y}; }
+    friend Place operator-(const Place& a, const Place& b) { return {a.x - b.x, a.y - b.y}; }
+    friend Place operator*(double s, const Place& a) { return {s * a.x, s * a.y}; }
+    friend double dot(const Place& a, const Place& b) { return a.x * b.x + a.y * b.y; }
+  };
+  /// The centers that are not nearer to a vertex than to the edge's ends: the places p with normal . p <= bound.
+  struct HalfPlane {
+    Place normal;
+    double bound;
+  };
+  static constexpr double margin = 1e-9;   ///< of squared radii
+  static constexpr double inwards = 1e-3;  ///< so much of the way to its center, a place of the polygon is moved
+
+  double squared_radius(const Place& center) const { return squared_half_ + dot(center, center); }
+  bool is_empty(const Place& center) const;
+  Ball ball(const Place& center) const;
+  void make_polygon(double slack);
+  Place center_of_polygon() const;
+  void clip(const HalfPlane& half);
+  Place nearest_to_middle() const;
+
+  Point3 middle_, u_, w_;    ///< of the edge; unit vectors of the plane
+  double squared_half_ = 0;  ///< of the edge's length
+  std::vector<HalfPlane> halves_;
+  std::vector<Place> polygon_, clipped_;
+};
+
+}  // namespace ccdt::protection

@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "engine/base/parallel.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/io/plc_files.h"
+#include "engine/mesher.h"
+#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/real_parts.h"
+#include "engine/tests/sanitized.h"
+#include "models/solids.h"
+
+// The mesh is the same, byte for byte, on any number of threads.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+constexpr std::array<unsigned, 3> several_threads = {2, 3, 8};
+
+// ---- Delaunay tetrahedralizations
+
+constexpr std::size_t point_count = is_sanitized ? 12000 : 40000;
+
+std::vector<Point3> random_points(std::mt19937_64& random) {
+  std::vector<Point3> points(point_count);
+  for (Point3& p : points) {
+    const auto coordinate = [&] { return static_cast<double>(random() >> 24); };
+    p = {coordinate(), coordinate(), coordinate()};
+  }
+  return points;
+}
+
+/// Cospherical by eights, in random order.
+std::vector<Point3> lattice_points(std::mt19937_64& random) {
+  std::vector<Point3> points;
+  const auto side = static_cast<int>(std::cbrt(point_count));
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      for (int k = 0; k < side; ++k) points.push_back({256.0 * i, 256.0 * j, 256.0 * k});
+  std::ranges::shuffle(points, random);
+  return points;
+}
+
+/// All but a few on one line of clusters, so that planes cut through the midst of them.
+std::vector<Point3> clustered_points(std::mt19937_64& random) {
+  std::vector<Point3> points = random_points(random);
+  for (std::size_t i = 100; i < points.size(); ++i) points[i] = {0x1p-20 * points[i].x, points[i].y, points[i].y + 1};
+  std::ranges::sort(points, {}, [](const Point3& p) { return as_array(p); });
+  for (Point3& p : points) p = {std::round(p.x), p.y, p.z};
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::ranges::shuffle(points, random);
+  return points;
+}
+
+/// The cells, each with its corners sorted, in order.
+std::vector<std::array<std::uint32_t, 4>> sorted_cells(const delaunay::Delaunay& d) {
+  std::vector<std::array<std::uint32_t, 4>> cells;
+  for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
+    if (d.is_dead(c)) continue;
+    cells.push_back(d.cells[c].vertices);
+    std::ranges::sort(cells.back());
+  }
+  std::ranges::sort(cells);
+  return cells;
+}
+
+void expect_sound(const delaunay::Delaunay& d) {
+  for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
+    if (d.is_dead(c)) continue;
+    for (std::uint32_t f = 0; f < 4; ++f)
+      ASSERT_EQ(d.across(d.cells[c].neighbors[f]), delaunay::face_code(c, f)) << "cell " << c;
+  }
+  for (std::uint32_t v = 0; v < d.vertices.size(); ++v)
+    ASSERT_TRUE(std::ranges::count(d.cells[d.vertices[v].cell].vertices, v) == 1) << "vertex " << v;
+}
+
+TEST(Threads, MakeOneDelaunayTetrahedralization) {
+  std::mt19937_64 random(3);
+  for (const auto& points : {random_points(random), lattice_points(random), clustered_points(random)}) {
+    const auto one = with_threads(1, [&] { return delaunay::build_delaunay(points); });
+    for (const unsigned threads : several_threads) {
+      const auto several = with_threads(threads, [&] { return delaunay::build_delaunay(points); });
+      EXPECT_TRUE(sorted_cells(one) == sorted_cells(several)) << threads << " threads";
+      expect_sound(several);
+    }
+  }
+}
+
+// ---- Meshes
+
+void expect_same_bytes(const TetMesh& a, const TetMesh& b) {
+  EXPECT_TRUE(a.vertices == b.vertices);
+  EXPECT_TRUE(a.tetrahedra == b.tetrahedra);
+  EXPECT_TRUE(a.regions == b.regions);
+  EXPECT_TRUE(a.faces == b.faces);
+  EXPECT_TRUE(a.face_markers == b.face_markers);
+  EXPECT_TRUE(a.edges == b.edges);
+  EXPECT_TRUE(a.edge_markers == b.edge_markers);
+  EXPECT_EQ(a.constrained_delaunay, b.constrained_delaunay);
+}
+
+void expect_one_mesh(const std::string& name, const InputPlc& input, MeshOptions options) {
+  SCOPED_TRACE(name);
+  options.threads = 1;
+  const MeshResult one = mesh_plc(input, options);
+  EXPECT_FALSE(one.mesh.tetrahedra.empty());
+  for (const unsigned threads : several_threads) {
+    SCOPED_TRACE(std::to_string(threads) + " threads");
+    options.threads = threads;
+    expect_same_bytes(one.mesh, mesh_plc(input, options).mesh);
+  }
+}
+
+struct Case {
+  std::string name;
+  InputPlc input;
+  double edge_length = 0;
+};
+
+std::vector<Case> cases() {
+  std::mt19937 random(6);
+  const double fine = is_sanitized ? 2.5 : 1.4;
+  std::vector<Case> all = {{"piston", models::make_solid("piston", 2.5 * fine)},
+                           {"uniform sphere", models::make_solid("sphere", 0.08 * fine), 0.08 * fine},
+                           {"gridded cube", gridded_cube(is_sanitized ? 6 : 16)},
+                           {"random voxels", random_voxels(3, 3, random), 0.15 * fine},
+                           {"rough sphere", roughened(models::make_solid("sphere", 0.12 * fine), 0.3, random)},
+                           {"cube with a turnstile", cube_with_turnstile(), 0.15 * fine}};
+  if (is_sanitized || !there_are_parts()) return all;
+  for (const char* part : {"turbine", "rotor", "elephant"})
+    all.push_back({part, io::read_plc(folder_of_parts() / (std::string(part) + ".off"))});
+  return all;
+}
+
+TEST(Threads, MakeOneMesh) {
+  for (const Case& c : cases()) {
+    MeshOptions options;
+    options.edge_length = c.edge_length;
+    for (const DelaunayMethod method : {DelaunayMethod::core, DelaunayMethod::insert}) {
+      options.delaunay = method, options.least_core = 0;
+      expect_one_mesh(c.name + ", improved, " + std::string(name_of(method)), c.input, options);
+    }
+    options.lattice = Lattice::none;
+    expect_one_mesh(c.name + ", surface alone", c.input, options);
+  }
+}
+
+TEST(Threads, MakeOneMeshOfARefinedSurface) {
+  MeshOptions options;
+  options.refine_surface = true;
+  expect_one_mesh("bracket", models::make_solid("bracket", 10), options);
+  options.lattice = Lattice::bcc;
+  expect_one_mesh("cube", cube_with_slit(), options);
+}
+
+TEST(Threads, StopWhenProgressThrows) {
+  struct Canceled {};
+  MeshOptions options;
+  options.threads = 4;
+  const InputPlc input = models::make_solid("piston", is_sanitized ? 5 : 2.5);
+  for (const std::string_view stage : {"delaunay", "lattice"}) {
+    const auto cancel = [&](std::string_view now, std::uint64_t, std::uint64_t) {
+      if (now == stage) throw Canceled();
+    };
+    EXPECT_THROW(mesh_plc(input, options, cancel), Canceled) << stage;
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
