@@ -40,7 +40,7 @@ struct MesherDescription {
   /// any other on PATH.
   std::vector<std::string> command;
   std::string input_format;                                     ///< poly, smesh, stl, off, obj, ply or mesh
-  std::string output;                                           ///< a file with an ending that `read_tet_mesh` knows
+  std::string output;                                           ///< a file with an extension that `read_tet_mesh` knows
   std::vector<std::pair<std::string, std::string>> files = {};  ///< written beside the input: name, text
   std::vector<Choice> choices = {};                             ///< placeholders of its own
   std::vector<std::string> version_command = {};                ///< prints the version; may be empty
@@ -61,7 +61,7 @@ MesherDescription read_mesher_description(const std::filesystem::path& file);
 /// | name          | stands for                                                                                 |
 /// |---------------|--------------------------------------------------------------------------------------------|
 /// | `input`       | the file with the input; the program runs in the folder where it is                        |
-/// | `stem`        | its name without the ending                                                                |
+/// | `stem`        | its name without the extension                                                             |
 /// | `folder`      | that folder, which nothing else uses                                                       |
 /// | `here`        | the folder of the description                                                              |
 /// | `edge_length` | the target edge length, in the units of the input                                          |

@@ -8,7 +8,7 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "usage: mesh_file INPUT OUTPUT\n");
     return 2;
   }
-  // The file endings determine the formats. Lengths are in the units of the file.
+  // The file extensions determine the formats. Lengths are in the units of the file.
   const double edge_length = 0.25;
   const ccdt::InputPlc input = ccdt::read_plc(argv[1]);
   const ccdt::InputPlc surface = ccdt::remesh_surface(input, {.edge_length = edge_length});

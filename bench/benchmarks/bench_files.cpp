@@ -1,10 +1,10 @@
-// What is measured: read_plc and read_tet_mesh, from a file in the cache of the system to the surface or mesh in
-// memory. bytes_per_second are those of the file.
+// What is measured: read_plc and read_tet_mesh, from a file in the system's cache to the surface or mesh in
+// memory. bytes_per_second counts the bytes of the file.
 //
 //   read/surface/FORMAT/sheet/N     a bent sheet of N triangles
 //   read/surface/FORMAT/piston/N    the surface of a mesh of about N vertices
 //   read/mesh/FORMAT/piston/N       that mesh
-//   read/surface/FORMAT/FILE, read/mesh/FORMAT/FILE    the same of a file given by --input
+//   read/surface/FORMAT/FILE, read/mesh/FORMAT/FILE    the same for a file given by --input
 //
 // "vertices" are those that are read, "cells" the tetrahedra. Before anything is timed, what is read must be what was
 // written.
@@ -133,7 +133,7 @@ std::filesystem::path file_of(const std::string& name, const std::string& ending
   return file;
 }
 
-/// All bytes that are read for a file: TetGen's meshes are of several.
+/// All bytes that are read: a mesh of TetGen consists of several files.
 std::size_t bytes_of(const std::filesystem::path& file) {
   std::size_t bytes = std::filesystem::file_size(file);
   if (file.extension() != ".ele") return bytes;

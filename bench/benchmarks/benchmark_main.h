@@ -14,7 +14,7 @@
 
 /// The common parts of the benchmark programs: names, sizes, counters and command line.
 ///
-/// The arguments of each program are those of Google Benchmark, `--input FILE` as often as wanted, `--largest N` and
+/// The arguments of each program are those of Google Benchmark, `--input FILE` any number of times, `--largest N` and
 /// `--no-complexity`. Repetitions are interleaved by default, so that all strategies see the same machine. The exit
 /// code is 1 if a benchmark found a fault, 2 if the arguments are wrong.
 namespace ccdt::benchmarks {

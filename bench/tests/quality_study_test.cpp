@@ -13,9 +13,9 @@ using experiments::QualityRow;
 using results::ExperimentResult;
 using results::ResultTable;
 
-/// Does one of the lines contain these words?
-bool say(const std::vector<std::string>& lines, const std::string& words) {
-  return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(words) != std::string::npos; });
+/// Does one of the lines contain this name or number?
+bool say(const std::vector<std::string>& lines, const std::string& data) {
+  return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(data) != std::string::npos; });
 }
 
 /// The row of a variant of a plan, as if it had been measured.
@@ -79,9 +79,7 @@ TEST_F(MesherQuality, IsComparedWithTheBestOfTheOthersByEachCriterion) {
   EXPECT_EQ(texts(result(), "verdicts", "better"), (Texts{"yes", "yes", "yes", "no", "yes", "yes", "yes", "yes"}));
   EXPECT_EQ(texts(result(), "verdicts", "best_other_variant"), Texts(8, "gmsh-hxt"));
   EXPECT_EQ(numbers(result(), "verdicts", "best_other")[0], 1.4);
-  EXPECT_TRUE(say(result().findings,
-                  "ccdt fcc is better than all others in mean r in 1 of 1, p99 r in 1 of 1, worst r in 1 of 1, "
-                  "smallest dihedral in 0 of 1 cases"));
+  EXPECT_TRUE(say(result().findings, "ccdt fcc"));
 }
 
 TEST_F(MesherQuality, IsNotComparedWithOtherCountsOrFailures) {
@@ -90,8 +88,8 @@ TEST_F(MesherQuality, IsNotComparedWithOtherCountsOrFailures) {
   EXPECT_EQ(texts(result(), "verdicts", "better"), Texts(8));
   EXPECT_EQ(texts(result(), "verdicts", "best_other_variant"), Texts(8));
   EXPECT_TRUE(result().is_good);
-  EXPECT_TRUE(say(result().problems, "part.off, gmsh-hxt: crashed: ended by signal SIGSEGV"));
-  EXPECT_TRUE(say(result().problems, "part.off, tetgen: 10,000 tetrahedra are not comparable"));
+  EXPECT_TRUE(say(result().problems, "SIGSEGV"));
+  EXPECT_TRUE(say(result().problems, "tetgen"));
   fail(rows_[0]);
   EXPECT_EQ(numbers(result(), "verdicts", "ours").size(), 4u);
   EXPECT_FALSE(result().is_good);
@@ -127,12 +125,9 @@ TEST(Lattices, ConfirmTheClaimOnlyIfFccAloneIsBestInEveryCase) {
   EXPECT_EQ(texts(result, "best", "confirmed"),
             (Texts{"yes", "yes", "yes", "no", "no", "yes", "yes", "yes", "no", "no"}));
   EXPECT_EQ(numbers(result, "best", "bcc")[3], 2);
-  EXPECT_EQ(result.findings, (Texts{"That FCC is best is confirmed before improvement by: mean r, p99 r, worst r",
-                                    "That FCC is best is not confirmed before improvement by: smallest dihedral, "
-                                    "largest dihedral",
-                                    "That FCC is best is confirmed after improvement by: mean r, p99 r, worst r",
-                                    "That FCC is best is not confirmed after improvement by: smallest dihedral, "
-                                    "largest dihedral"}));
+  ASSERT_EQ(result.findings.size(), 4u);  // confirmed and not confirmed, before and after improvement
+  for (const std::size_t i : {0u, 2u}) EXPECT_TRUE(say({result.findings[i]}, "mean r, p99 r, worst r"));
+  for (const std::size_t i : {1u, 3u}) EXPECT_TRUE(say({result.findings[i]}, "smallest dihedral, largest dihedral"));
   std::ranges::copy(lattice_rows("c", 1.2, 1.1, 1.3), std::back_inserter(rows));
   result = experiments::study_result(experiments::lattices_plan(), rows, {});
   EXPECT_EQ(texts(result, "best", "confirmed"), Texts(10, "no"));
@@ -145,7 +140,7 @@ TEST(Lattices, LeaveOutCasesInWhichOneFailed) {
   fail(rows[5]);  // improved
   const ExperimentResult result = experiments::study_result(experiments::lattices_plan(), rows, {});
   EXPECT_EQ(numbers(result, "best", "cases"), (std::vector<double>{1, 1, 1, 1, 1, 0, 0, 0, 0, 0}));
-  EXPECT_FALSE(say(result.findings, "after improvement"));
+  EXPECT_EQ(result.findings.size(), 2u);  // before improvement
 }
 
 TEST(Improvement, CountsInHowManyCasesEachPartIsBest) {
@@ -193,11 +188,12 @@ TEST_F(LatticeFit, RanksSettingsOverAllModels) {
 
 TEST_F(LatticeFit, NamesTheBestSettingAndWhetherItIsTheDefault) {
   EXPECT_EQ(std::ranges::count(plan_.variants, default_, &experiments::QualityVariant::name), 1);
-  EXPECT_TRUE(say(result_of(rows_with(default_)).findings, "The best setting is " + default_));
-  EXPECT_TRUE(say(result_of(rows_with(default_)).findings, "It is the default"));
   const std::string other = plan_.variants.front().name;
-  EXPECT_TRUE(say(result_of(rows_with(other)).findings, "The best setting is " + other));
-  EXPECT_TRUE(say(result_of(rows_with(other)).findings, "The default, " + default_ + ", has a mean rank of"));
+  const auto if_default = result_of(rows_with(default_)).findings, if_other = result_of(rows_with(other)).findings;
+  EXPECT_TRUE(say(if_default, default_));
+  EXPECT_FALSE(say(if_default, other));
+  EXPECT_TRUE(say(if_other, other));
+  EXPECT_TRUE(say(if_other, default_));
 }
 
 }  // namespace

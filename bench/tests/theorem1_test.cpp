@@ -262,7 +262,7 @@ TEST(Theorem1, ResultNamesCounterexamplesAndDisagreements) {
   const results::ExperimentResult result = experiments::theorem1_result(std::vector{trials});
   EXPECT_FALSE(result.is_good);
   ASSERT_EQ(result.problems.size(), 1u);
-  EXPECT_NE(result.problems[0].find("two answers: vertices (0 0 0)"), std::string::npos);
+  EXPECT_NE(result.problems[0].find("(0 0 0)"), std::string::npos);
   const results::ResultTable& table = result.tables.front();
   EXPECT_NE(results::text_in(table, table.rows[0], "counterexample").find("(-50 -31 1)"), std::string::npos);
   const std::vector<std::pair<const char*, double>> counts = {
@@ -270,8 +270,8 @@ TEST(Theorem1, ResultNamesCounterexamplesAndDisagreements) {
       {"against_if", 0}, {"edges_alone", 1}, {"engine_agrees", 3}};
   for (const auto& [column, count] : counts)
     EXPECT_EQ(results::number_in(table, table.rows[0], column), count) << column;
-  EXPECT_EQ(result.findings[0].find("If: 3 of 3 "), 0u);
-  EXPECT_EQ(result.findings[1].find("Only if: 3 of 4 "), 0u);
+  EXPECT_NE(result.findings[0].find("3 of 3 "), std::string::npos);
+  EXPECT_NE(result.findings[1].find("3 of 4 "), std::string::npos);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ IndexLists make_index_lists(std::size_t count, const VisitPairs& visit_pairs) {
   return lists;
 }
 
-/// The same from one pair for each item: lists of the items 0, 1, ..., item_count - 1, on all threads.
+/// The same where each item is in one list: distributes the items 0, 1, ..., item_count - 1, on all threads.
 ///
 /// \param list_of  of an item; called twice for each
 template <class ListOf>

@@ -9,7 +9,7 @@
 
 namespace ccdt {
 
-/// Calls `run()`, whose loops then use so many threads.
+/// Calls `run()` with this many threads for its loops.
 ///
 /// \param threads  0: one for each core that the process may use
 /// \return  what `run` returns
@@ -18,15 +18,15 @@ auto with_threads(unsigned threads, const Run& run) {
   return thread_backend::run_on(threads == 0 ? thread_backend::core_count() : threads, run);
 }
 
-/// How many threads the loops of the running thread use.
+/// How many threads the loops of the calling thread use.
 inline unsigned thread_count() {
   return thread_backend::thread_count();
 }
 
-/// The most threads that have worked on one loop of this thread since its innermost `ThreadScope` began.
+/// The largest number of threads that have worked on one loop of this thread since its innermost `ThreadScope` began.
 inline constinit thread_local unsigned threads_at_work = 1;
 
-/// Raises a number to that of the threads which work on a loop in the scope's life.
+/// When the scope ends, raises a number to the largest number of threads that worked on one loop in it.
 class ThreadScope {
  public:
   explicit ThreadScope(unsigned& threads) : threads_(threads) { threads_at_work = 1; }
@@ -39,10 +39,10 @@ class ThreadScope {
 };
 
 /// Calls `work(begin, end)` for ranges that cover 0 .. count, on several threads, in any order. What the calls count
-/// (base/count_work.h) is the caller's work.
+/// (base/count_work.h) is added to the caller's work.
 ///
-/// \param grain  a range that is not longer is not divided
-/// \throw ...    an exception of `work`; the other ranges may be left out then
+/// \param grain  ranges up to this length are not divided
+/// \throw ...    what `work` throws; then some of the other ranges may be skipped
 template <class Work>
 void parallel_ranges(std::size_t count, std::size_t grain, const Work& work) {
   if (count == 0) return;

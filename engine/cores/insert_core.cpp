@@ -107,8 +107,8 @@ class Joiner {
   std::vector<std::uint32_t> inside_;
 };
 
-/// Puts the core into the tetrahedralization of the other vertices: cells of that within the core go, found by a flood
-/// from the core's border, and those outside become neighbors of the core's.
+/// Puts the core into the tetrahedralization of the other vertices. A flood fill from the core's border removes the old
+/// cells within the core; the cells outside become neighbors of those of the core.
 ///
 /// \param d  the Delaunay tetrahedralization of at least all vertices that are not deep; its list of vertices has all
 void insert_core(const LatticeCore& core, Delaunay& d) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t no_cavity = locate::CavityLocator::no_cavity;
 
-/// For tables.
+/// Hashes faces.
 struct OrientedFaceTraits {
   static OrientedFace none() { return {ghost_vertex, ghost_vertex, ghost_vertex}; }
   static std::size_t hash(const OrientedFace& f) {
@@ -130,11 +130,11 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 /// The front: sides of PLC faces as bits, because most of them are Delaunay and never looked at again; a table for
 /// those that the front may meet and for the faces that it makes.
 ///
-/// The vertices near a face nearly always have its apex, but not surely. That the tetrahedra fit proves them right:
-/// they are positive, share their faces, end at the facets, hold no further vertices, and their inner faces are locally
-/// Delaunay, so they are the constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk 2008). Where one
-/// does not fit, its apex is searched for among all vertices, and those that it still contradicts are taken back and
-/// searched for likewise.
+/// The vertices near a face nearly always include its apex, but this is not certain. If the tetrahedra fit together,
+/// they are right: they are positive, share their faces, end at the facets, contain no other vertices, and their inner
+/// faces are locally Delaunay, so they are the constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk
+/// 2008). Where one does not fit, its apex is searched for among all vertices. Tetrahedra that it still contradicts are
+/// taken back, and their apexes are searched for in the same way.
 class Front {
  public:
   Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
@@ -418,7 +418,7 @@ class Front {
   std::size_t finder_bytes_ = 0;
 };
 
-/// The front that need not advance: all faces of the PLC.
+/// The front when no face is missing: all faces of the PLC.
 FrontResult standing_front(const FrontInput& in) {
   FrontResult result;
   result.open.reserve(2 * in.codes.size());

@@ -45,11 +45,11 @@ class ByteScanner {
   int attribute(const Item& item) {
     const Integer value = next<Integer>(item);
     if (!std::in_range<int>(value))
-      fail(item, std::to_string(value) + " does not fit 32 bits", "number regions and markers by smaller numbers");
+      fail(item, std::to_string(value) + " does not fit 32 bits", "use smaller numbers for regions and markers");
     return static_cast<int>(value);
   }
 
-  /// How many of something follow. Each needs so many bytes, which the rest of the file must have.
+  /// The number of items that follow. Each needs this many bytes, and the rest of the file must be long enough.
   template <class Integer>
   std::size_t count(const Item& item, std::size_t bytes_each) {
     const Integer value = next<Integer>(item);
@@ -58,7 +58,7 @@ class ByteScanner {
     const std::size_t result = static_cast<std::size_t>(value);
     if (result * bytes_each > remaining())
       fail(item,
-           std::to_string(result) + " claimed, which need " + std::to_string(result * bytes_each) +
+           std::to_string(result) + " are claimed, which need " + std::to_string(result * bytes_each) +
                " bytes, but only " + std::to_string(remaining()) + " bytes follow",
            "the file is truncated or its header is wrong: export it again");
     return result;

@@ -33,7 +33,7 @@ void check_is_file(const std::filesystem::path& file);
 /// \throw LimitError  it does not fit into memory
 FileBytes read_whole_file(const std::filesystem::path& file);
 
-/// The ending of a file's name in lower case, with its dot.
+/// The extension of a file's name in lower case, with its dot.
 std::string lower_ending(const std::filesystem::path& file);
 
 /// The place of an error of which only the file is known.

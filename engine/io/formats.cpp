@@ -103,12 +103,12 @@ const Format* format_of(const std::filesystem::path& file, const Format (&format
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& known_endings) {
   check_is_file(file);  // "no such file" is the better message
-  throw InputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
-                   "known are " + known_endings + ": convert or rename the file");
+  throw InputError("unknown file extension '" + lower_ending(file) + "'", place_in(file.string()),
+                   "convert the file, or rename it to one of " + known_endings);
 }
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, const std::string& known_endings) {
-  throw OutputError("unknown ending '" + lower_ending(file) + "'", place_in(file.string()),
+  throw OutputError("unknown file extension '" + lower_ending(file) + "'", place_in(file.string()),
                     "choose one of " + known_endings);
 }
 

@@ -75,7 +75,7 @@ class GmshReader {
     const std::int64_t size = text.integer(item);
     if (mode == 0) return;
     if (mode != 1) text.fail(item, "it is neither text nor binary", version_remedy);
-    if (size != 8) text.fail(item, "its numbers are of " + std::to_string(size) + " bytes, not of 8", version_remedy);
+    if (size != 8) text.fail(item, "its numbers have " + std::to_string(size) + " bytes, not 8", version_remedy);
     in_.become_binary(item);
   }
 

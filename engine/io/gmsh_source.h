@@ -6,7 +6,7 @@
 namespace ccdt::io {
 
 /// The numbers of a section of a Gmsh file, which are the same in text and in binary: Gmsh's integers have 32 bits in
-/// binary, its sizes 64. The names of the sections, and what is before the first one, are text always.
+/// binary, its sizes 64. The names of the sections, and what is before the first one, are always text.
 class GmshSource {
  public:
   explicit GmshSource(const FileBytes& file) : text_(file, TextScanner::no_comments), bytes_(file), file_(file) {}
@@ -24,21 +24,21 @@ class GmshSource {
   }
   bool is_binary() const { return binary_; }
 
-  /// The numbers begin in the next line.
+  /// Moves to the next line, where the numbers begin.
   void begin_numbers() {
     if (!binary_) return;
     text_.skip_line();
     bytes_.move_to(text_.position());
   }
-  /// Text follows.
+  /// Continues with text.
   void end_numbers() {
     if (binary_) text_.move_to(bytes_.position());
   }
-  /// The rest of a line, if there are lines, says nothing.
+  /// Skips the rest of the line, if there are lines; nothing there is needed.
   void skip_line() {
     if (!binary_) text_.skip_line();
   }
-  /// Goes behind the text, wherever it is.
+  /// Moves to the next occurrence of this text.
   void skip_to(std::string_view end, const Item& item) {
     const std::size_t found = file_.bytes.find(end, text_.position());
     if (found == std::string_view::npos) text_.fail_truncated(item);
@@ -49,7 +49,7 @@ class GmshSource {
   std::int64_t size(const Item& item) { return binary_ ? bytes_.next<std::int64_t>(item) : text_.integer(item); }
   Point3 point(const Item& item) { return binary_ ? bytes_.point<double>(item) : text_.point(item); }
   int attribute(const Item& item) { return binary_ ? bytes_.attribute<std::int32_t>(item) : text_.attribute(item); }
-  /// Real numbers that say nothing.
+  /// Skips real numbers that are not needed.
   void skip_numbers(const Item& item, std::size_t count) {
     if (binary_) return bytes_.skip(item, count * sizeof(double));
     for (std::size_t k = 0; k < count; ++k) text_.word(item);

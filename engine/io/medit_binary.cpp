@@ -63,7 +63,8 @@ class MeditReader {
   void read_head() {
     const Item head = "header";
     const std::int32_t order = in_.next<std::int32_t>(head);
-    if (order != own_order && order != other_order) in_.fail(head, "this is no binary Medit file", "check the ending");
+    if (order != own_order && order != other_order)
+      in_.fail(head, "this is not a binary Medit file", "check the file extension");
     in_.set_big_endian(order == other_order);
     version_.number = in_.next<std::int32_t>(head);
     if (version_.number < 1 || version_.number > 4)

@@ -39,7 +39,7 @@ class VertexMerger {
 
   explicit VertexMerger(std::vector<Point3>& vertices) : vertices_(vertices) {}
 
-  /// To be told how many different points come, roughly.
+  /// Prepares for about this many different points.
   void reserve(std::size_t points) {
     vertices_.reserve(points);
     indices_.reserve(points);
@@ -48,8 +48,8 @@ class VertexMerger {
   /// The index of the point in the list, to which it is added if it is new.
   std::uint32_t index_of(const Corner& corner) { return index_of(corner, bits_of(corner)); }
 
-  /// The indices of many points. The table is large and the points are anywhere in it, so all places are on their way
-  /// to the processor before the first one is looked at.
+  /// The indices of many points. The table is large and the points are anywhere in it, so all places are prefetched
+  /// before the first one is read.
   void indices_of(std::span<const Corner> corners, std::span<std::uint32_t> indices) {
     for (const Corner& corner : corners) indices_.prefetch(bits_of(corner));
     std::ranges::transform(corners, indices.begin(), [&](const Corner& corner) { return index_of(corner); });

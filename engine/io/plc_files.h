@@ -6,23 +6,23 @@
 
 namespace ccdt::io {
 
-/// Can `read_plc` read files with this ending?
+/// Can `read_plc` read files with this extension?
 bool is_plc_file(const std::filesystem::path& file);
 
-/// Reads a surface or a piecewise linear complex. The ending determines the format: .stl (text and binary,
+/// Reads a surface or a piecewise linear complex. The extension determines the format: .stl (text and binary,
 /// distinguished by content), .off, .obj, .ply (text and binary), .poly, .smesh, .node (TetGen), .mesh (Medit, text)
 /// and .meshb (Medit, binary).
 ///
-/// \throw InputError  no such file, a directory, unknown ending, empty, truncated, malformed, NaN or infinite
+/// \throw InputError  no such file, a directory, unknown extension, empty, truncated, malformed, NaN or infinite
 ///                    coordinates, index out of range, counts that contradict the size of the file; with file, line or
 ///                    byte, and a remedy
 plc::InputPlc read_plc(const std::filesystem::path& file);
 
-/// Writes a surface or PLC. The ending determines the format: .stl (binary), .off, .obj, .ply (binary), .poly, .smesh,
-/// .mesh, .meshb. The file appears completely or not at all (it is written under a temporary name and renamed).
+/// Writes a surface or PLC. The extension determines the format: .stl (binary), .off, .obj, .ply (binary), .poly,
+/// .smesh, .mesh, .meshb. The file appears completely or not at all (it is written under a temporary name and renamed).
 ///
-/// \throw OutputError  cannot be written, unknown ending, or the format cannot hold the PLC (segments, holes, regions
-/// in .stl)
+/// \throw OutputError  cannot be written, unknown extension, or the format cannot hold the PLC (segments, holes,
+/// regions in .stl)
 void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file);
 
 }  // namespace ccdt::io

@@ -105,7 +105,7 @@ lattice::BackgroundSizes read_sizes(const std::filesystem::path& file) {
   const std::string ending = lower_ending(file);
   check_is_file(file);
   if (ending != ".sol" && ending != ".mtr")
-    throw InputError("the ending of the name is not that of a size function", place_in(file.string()),
+    throw InputError("unknown file extension '" + ending + "' of a size function", place_in(file.string()),
                      "use one of .sol .mtr");
   lattice::BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
   sizes.name = file.string();

@@ -13,8 +13,9 @@ namespace ccdt::io {
 ///     .mtr  TetGen, one value per vertex: vertices of the .node, .poly or .smesh beside it, the first that there is;
 ///           tetrahedra of the .ele that belongs to the .node (if any)
 ///
-/// \throw InputError  unknown ending, unreadable, no background beside it, a wrong number of vertices, not one scalar
-/// per vertex, a size that is not a number > 0; with file and line \throw LimitError  it does not fit into memory
+/// \throw InputError  unknown extension, unreadable, no background beside it, a wrong number of vertices, not one
+/// scalar per vertex, a size that is not a number > 0; with file and line \throw LimitError  it does not fit into
+/// memory
 lattice::BackgroundSizes read_sizes(const std::filesystem::path& file);
 
 }  // namespace ccdt::io

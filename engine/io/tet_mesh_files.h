@@ -6,15 +6,15 @@
 
 namespace ccdt::io {
 
-/// Can `write_tet_mesh` write files with this ending? Check it before hours of work.
+/// Can `write_tet_mesh` write files with this extension? Check it before hours of work.
 bool is_tet_mesh_file(const std::filesystem::path& file);
 
-/// Writes a mesh; the ending determines the format: .mesh (Medit, text), .meshb (Medit, binary), .vtu (VTK,
+/// Writes a mesh; the extension determines the format: .mesh (Medit, text), .meshb (Medit, binary), .vtu (VTK,
 /// compressed), .msh (Gmsh 2.2, text), .msh4 (Gmsh 4.1, binary), .node, .ele or .face (TetGen: all three and .edge are
 /// written). Coordinates are written so that they read back bit for bit. Regions, face and edge markers are written
 /// too. The file appears completely or not at all.
 ///
-/// \throw OutputError  cannot be written, unknown ending
+/// \throw OutputError  cannot be written, unknown extension
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
 /// Reads a mesh that any mesher wrote in one of these formats: Medit text, .meshb of the versions 1 to 4, .vtu in text,

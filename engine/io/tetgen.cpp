@@ -27,7 +27,7 @@ TetgenNodes read_nodes(TextScanner& in) {
     if (nodes.first != 0 && nodes.first != 1)
       in.fail(vertex, "the first vertex has the number " + std::to_string(number), "number the vertices from 0 or 1");
     if (const std::int64_t expected = nodes.first + vertex.number; number != expected)
-      in.fail(vertex, "it has the number " + std::to_string(number) + " where " + std::to_string(expected) + " is due",
+      in.fail(vertex, "its number is " + std::to_string(number) + ", but " + std::to_string(expected) + " was expected",
               "number the vertices without gaps");
     nodes.vertices.push_back(in.point(vertex));
     in.skip_line();

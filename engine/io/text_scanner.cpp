@@ -168,7 +168,7 @@ int TextScanner::attribute(const Item& item) {
   const double value = number(item);
   if (value != std::floor(value) || value < INT_MIN || value > INT_MAX)
     fail(item, expected("a whole number of 32 bits", text_.substr(word_begin_, position_ - word_begin_)),
-         "number regions and markers by whole numbers");
+         "use whole numbers for regions and markers");
   return static_cast<int>(value);
 }
 
@@ -190,7 +190,7 @@ std::size_t TextScanner::count(const Item& item, std::size_t least_bytes_each) {
   if (result > most_things) fail(item, std::to_string(value) + " is more than " + std::to_string(most_things));
   if (result * least_bytes_each > remaining() + 1)  // the last line needs no line end
     fail(item,
-         std::to_string(value) + " claimed, which need at least " + std::to_string(result * least_bytes_each) +
+         std::to_string(value) + " are claimed, which need at least " + std::to_string(result * least_bytes_each) +
              " bytes, but only " + std::to_string(remaining()) + " bytes follow",
          "the file is truncated or its header is wrong: export it again");
   return result;

@@ -16,7 +16,7 @@ class VtkArrays {
  public:
   using Array = pugi::xml_node;  ///< a DataArray
 
-  /// \throw InputError  this is no such file, it is damaged, or it has several pieces
+  /// \throw InputError  the file has another format, is damaged, or has several pieces
   explicit VtkArrays(const FileBytes& file);
 
   /// \param parent  Points, Cells, CellData or FieldData

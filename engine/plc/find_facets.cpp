@@ -128,7 +128,8 @@ class PatchFinder {
     return facet_of_[next] == none && round_of_[next] != round_ ? next : none;
   }
 
-  // Is the neighbor in the plane and, turned as its neighbor demands, counterclockwise in the projection?
+  // Is the neighbor in the plane and, when oriented like the triangle it was reached from, counterclockwise in the
+  // projection?
   bool accept(std::uint32_t next, std::uint32_t e, std::uint32_t t, const Plane& plane) {
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[next], a, b);

@@ -37,7 +37,7 @@ struct NamedPoints {
 
 /// Sets of up to 35 points, small enough to look at all quadruples.
 std::vector<NamedPoints> tiny_sets();
-/// Sets of some hundred points, small enough to look at all pairs of a cell and a point.
+/// Sets of several hundred points, small enough to look at all pairs of a cell and a point.
 std::vector<NamedPoints> small_sets();
 
 }  // namespace ccdt::test

@@ -182,7 +182,7 @@ TEST(FindFreedom, IsolatedVerticesStay) {
   EXPECT_EQ(find(plc).counts(), (std::array{9, 0, 0, 0}));
 }
 
-/// A straight line of three vertices within the cube, with whatever else meets at its middle.
+/// A straight line of three vertices within the cube, and other parts that meet it at its middle.
 plc::InputPlc cube_with_line() {
   plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1}, {1.5, 1.5, 1.5}, {2, 2, 2}});
@@ -218,7 +218,7 @@ TEST(FindFreedom, AChangeOfMarkersHoldsTheMiddle) {
   EXPECT_EQ(find(plc).counts(), (std::array{10, 1, 0, 0}));
 }
 
-/// The line goes through a facet, of which its middle is a vertex: there it must stay.
+/// The line passes through a facet. Its middle is a vertex of that facet, so it must stay there.
 TEST(FindFreedom, AFacetThatIsCrossedHoldsTheMiddle) {
   plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1.5}, {2, 1, 1.5}, {2, 2, 1.5}, {1, 2, 1.5}, {1.5, 1.5, 1.5}});
@@ -229,7 +229,7 @@ TEST(FindFreedom, AFacetThatIsCrossedHoldsTheMiddle) {
   EXPECT_EQ(find(plc).dimensions_at({1.5, 1.5, 1.5}), 0);
 }
 
-/// A line that is part of the facet, on both of whose sides the facet goes on.
+/// A line within the facet: the facet continues on both sides of it.
 TEST(FindFreedom, AVertexOnALineWithinAFacetSlidesAlongTheLine) {
   plc::InputPlc plc = gridded_cube(4);
   std::map<std::array<double, 3>, std::uint32_t> vertex;

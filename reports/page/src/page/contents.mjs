@@ -1,6 +1,6 @@
 import { element } from "./dom.mjs";
 
-/** Marks in the contents which section is being read. */
+/** Marks in the table of contents the section that is being read. */
 function followReading(links) {
   const visible = new Set();
   const observer = new IntersectionObserver(
@@ -20,7 +20,7 @@ function followReading(links) {
 }
 
 /**
- * The contents of the page: beside it where there is room, else folded on top.
+ * The table of contents: beside the page where there is room, otherwise folded at the top.
  * @param {Array<{id: string, title: string, note?: string}>} entries
  * @returns {{node: Element, follow: () => void}}  `follow` once the sections are in the page
  */

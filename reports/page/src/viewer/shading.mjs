@@ -1,12 +1,12 @@
 import { rgb } from "d3-color";
 
-/** From where the light comes, as seen by the observer: x to the right, y downwards, z towards the observer. */
+/** Where the light comes from, as the viewer sees it: x to the right, y down, z toward the viewer. */
 const LIGHT = normalized([-0.35, -0.6, 0.72]);
 
 /** How bright a face in full shadow is, and how bright one that looks into the light. */
 const BRIGHTNESS = { shadow: 0.62, light: 1.06 };
 
-/** Few enough shades that neighboring faces share them, enough that none sees steps. */
+/** Few enough shades that neighboring faces share them, and enough that no steps are visible. */
 const SHADES = 48;
 
 function normalized(v) {

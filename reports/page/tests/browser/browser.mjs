@@ -5,10 +5,10 @@ import { chromium } from "playwright-core";
 
 const PROGRAM = process.env.CCDT_CHROMIUM ?? "/usr/bin/chromium";
 
-/** What Chromium says of its own way of computing WebGL, when a picture is taken of it: no word of the page. */
+/** A warning of Chromium about its own WebGL, when a screenshot is taken. The page did not cause it. */
 const DRIVER_MESSAGE = /GL Driver Message \(OpenGL, Performance,/;
 
-/** Without a screen, a graphics card and a word to anybody: WebGL is computed by SwiftShader. */
+/** No screen, no graphics card, no network: SwiftShader computes WebGL on the processor. */
 const FLAGS = [
   "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
   "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -20,14 +20,13 @@ export const PHONE = { width: 390, height: 844 };
 /** @throws {Error} that says what to install */
 export async function startBrowser() {
   if (!existsSync(PROGRAM)) {
-    throw new Error(`This test looks at the page with ${PROGRAM}, which is not here; "tools/setup test" installs it.`);
+    throw new Error(`This test looks at the page with ${PROGRAM}, which is not installed; "tools/setup test" installs it.`);
   }
   return chromium.launch({ executablePath: PROGRAM, args: FLAGS });
 }
 
 /**
- * Opens a page from disk. All that it must not do is collected as text: errors, warnings, and asking for anything but
- * itself.
+ * Opens a page from disk. Collects as text what it must not do: errors, warnings, and requests for anything but itself.
  * @param {import("playwright-core").Browser} browser
  * @param {string} file
  * @param {object} [options]  of the browser's context: `viewport`, `colorScheme`, ...
