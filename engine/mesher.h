@@ -116,7 +116,7 @@ struct MeshCounts {
   std::uint64_t front_tetrahedra = 0;  ///< tetrahedra built by the front
   /// Steiner vertices on segments, by level from 1: how many splits led to the piece that they split, and one more.
   std::vector<std::uint64_t> splits_by_level = {};
-  std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that would have destroyed a protected edge
+  std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that could have destroyed a protected edge
   std::uint64_t core_tetrahedra = 0;            ///< of the Delaunay tetrahedra, those of lattice cores (`core` only)
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
   std::uint64_t refined_on_segments = 0;       ///< vertices that refinement gave to segments

@@ -290,7 +290,7 @@ void add_existence_claims(Results results, std::vector<PaperClaim>& claims) {
   add_zeros(rows_of(results, "interior-points", "existence"), "family", "lost", "cases",
             "with a CDT that one interior point destroys", harmless);
   add_zeros(rows_of(results, "interior-points", "rules", {{"lattice", "all"}}), "rule", "harmed", "cases",
-            "with protected edges that points would destroy", harmless);
+            "with protected edges that points could destroy", harmless);
   claims.push_back(harmless);
 }
 

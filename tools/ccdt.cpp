@@ -5,6 +5,7 @@
 #include "engine/version.h"
 #include "tools/commands.h"
 #include "tools/error_words.h"
+#include "tools/usage_words.h"
 
 int main(int argc, char** argv) {
   using namespace ccdt::tools;
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "ccdt " + std::string(ccdt::engine_version), "print the version and exit");
     app.set_help_flag("-h,--help", "print this help and exit");
     app.require_subcommand(1);
+    app.failure_message([](const CLI::App* failed, const CLI::Error& error) { return usage_in_words(*failed, error); });
     app.footer(
         "Exit codes: 0 done; 1 the result failed a check; 2 wrong usage; 3 invalid input, or a file cannot be read "
         "or\nwritten; 4 a limit (time, memory, subdivision) was reached; 5 undecided.\n\nExample: mesh a part and "

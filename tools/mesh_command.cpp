@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "baselines/mesher.h"
+#include "baselines/mesher_options.h"
 #include "bench/fingerprint.h"
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
@@ -44,6 +45,7 @@ struct MeshCommand {
   MeshOptions options;
   Surface surface = Surface::keep;
   double sharp_angle = surface::RemeshOptions().sharp_angle;
+  std::vector<std::string> given;  ///< the options on the command line, by their names without dashes
 };
 
 void check_surface_options(const MeshCommand& command) {
@@ -83,11 +85,26 @@ std::string note_of(const InputPlc::Bent& bent) {
          deviation + ": triangulated so that they bend least";
 }
 
+/// Another mesher leaves out what only ccdt can do. Its user should know.
+std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
+  const baselines::Mesher& chosen = baselines::mesher(command.mesher);
+  if (chosen.name == "ccdt") return {};
+  std::vector<std::string> used = {"surface", "sizes"};  // they have messages of their own
+  if (command.surface == Surface::remesh) used.insert(used.end(), {"edge-length", "flatness", "sharp-angle"});
+  for (const baselines::OptionUse& option : chosen.options) used.push_back(option.name);
+  std::vector<std::string> notes;
+  for (const std::string& name : command.given)
+    if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
+      notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
+  return notes;
+}
+
 bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
   bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), input, command.options);
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
+  for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
   if (command.surface != Surface::keep) record.set_option("surface", std::string(name_of(command.surface)));
   if (command.surface == Surface::remesh) {
     record.set_option("sharp_angle", command.sharp_angle);
@@ -355,7 +372,9 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   add_options(*verb, *command);
   verb->footer(meshers_of_build);
   verb->footer(footer);
-  verb->callback([command, &exit_code] {
+  verb->callback([command, verb, &exit_code] {
+    for (const CLI::Option* option : verb->get_options())
+      if (option->count() > 0 && !option->get_lnames().empty()) command->given.push_back(option->get_lnames().front());
     run(*command);
     exit_code = done;
   });

@@ -13,6 +13,8 @@
 namespace ccdt::tools {
 namespace {
 
+constexpr unsigned most_threads = 1024;  ///< starting more takes longer than meshing
+
 /// \return  the message for CLI11 if the text is not such a number; empty if it is
 std::string complaint(const std::string& text, double least, bool least_itself) {
   double value = 0;
@@ -41,8 +43,12 @@ CLI::Validator non_negative_number() {
 }
 
 CLI::Validator one_of(const std::vector<std::string>& names, bool ignore_case) {
-  CLI::Validator validator = ignore_case ? CLI::IsMember(names, CLI::ignore_case) : CLI::IsMember(names);
-  return validator.description("").name(validator_name(names));
+  const CLI::Validator member = ignore_case ? CLI::IsMember(names, CLI::ignore_case) : CLI::IsMember(names);
+  return CLI::Validator(
+      [member, names](std::string& text) {
+        return member(text).empty() ? "" : text + " is not one of " + CLI::detail::join(names, ", ");
+      },
+      "", validator_name(names));
 }
 
 std::vector<std::string> choices_of(CLI::Option& option) {
@@ -65,14 +71,20 @@ CLI::Validator known_mesher() {
   return CLI::Validator(
       [names](std::string& text) {
         if (baselines::is_mesher_description(text)) return std::string();  // reading it reports its errors
-        return CLI::IsMember(names)(text);
+        return one_of(names)(text);
       },
       "", validator_name(names));
 }
 
 void add_threads(CLI::App& verb, unsigned& threads) {
   verb.add_option("--threads", threads, "the most threads that work at the same time; the result is the same")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            unsigned number = 0;
+            const bool is_count = CLI::detail::lexical_cast(text, number) && number >= 1 && number <= most_threads;
+            return is_count ? "" : text + " is not a whole number from 1 to " + std::to_string(most_threads);
+          },
+          ""))
       ->default_str("all cores");
 }
 

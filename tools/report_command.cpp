@@ -101,7 +101,7 @@ void make_report(const std::filesystem::path& folder) {
       std::fputs(reports::to_terminal(section.result, most_rows).c_str(), stdout);
   for (const reports::ReportSection& section : report.sections)
     if (section.is_missing)
-      std::printf("\nMissing: %s %s\n  %s\n", section.result.title.c_str(), section.reason.c_str(),
+      std::printf("\nMissing: %s\n  %s\n  %s\n", section.result.title.c_str(), section.reason.c_str(),
                   section.result.how.command.c_str());
   write_and_print(report, folder);
 }

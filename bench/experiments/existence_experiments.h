@@ -50,7 +50,7 @@ ExperimentResult measure_termination(const ExperimentOptions& options, cases::Ru
 ExperimentResult termination_result(std::span<const TerminationRow> rows);
 
 /// One input with one lattice and one rule that keeps interior points away from the surface. Its counts say how many
-/// points were placed, and how many were dropped because they would have destroyed a protected edge.
+/// points were placed, and how many were left out because they could have destroyed a protected edge.
 struct InteriorRow : CaseRow {
   std::string model;
   double edge_length = 0;  ///< of one of our solids; 0: a file

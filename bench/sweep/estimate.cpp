@@ -191,10 +191,10 @@ bench::Json to_json(const SweepEstimate& estimate) {
 std::string in_words(const SweepEstimate& estimate) {
   using results::with_separators;
   std::string text = with_separators(estimate.cases) + " cases, " + with_separators(estimate.runs) +
-                     " runs; missing are " + with_separators(estimate.missing_cases) + " cases, " +
+                     " runs; missing: " + with_separators(estimate.missing_cases) + " cases, " +
                      with_separators(estimate.missing_runs) + " runs\n";
   if (estimate.missing_runs == 0) return text;
-  text += "time    about " + duration(estimate.seconds);
+  text += "time    " + std::string(estimate.seconds < 1 ? "" : "about ") + duration(estimate.seconds);
   if (estimate.most_seconds > 1.05 * estimate.seconds)
     text += ", up to " + duration(estimate.most_seconds) + " if times spread";
   text += "\nmemory  about " + bytes_words(estimate.memory_bytes) + " for the largest run\ndisk    about " +

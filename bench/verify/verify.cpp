@@ -232,7 +232,7 @@ Check check_boundary(const Topology& topology, const FacetMatches& matches) {
   Check check{.name = "boundary faces on input facets", .checked = topology.boundary_faces.size()};
   for (const std::uint32_t f : matches.stray_faces) {
     fail(check, [&] {
-      return "on no facet of the input lies the boundary face" + text(topology.mesh.vertices, topology.faces[f]);
+      return "boundary face" + text(topology.mesh.vertices, topology.faces[f]) + " lies on no facet of the input";
     });
   }
   return check;
