@@ -129,7 +129,11 @@ std::string zsh_script(const ProgramText& program) {
          "  shift words\n"
          "  ((CURRENT--))\n"
          "  case $words[1] in\n" +
-         cases + "  esac\n}\n_" + name + " \"$@\"\n";
+         cases +
+         "  esac\n}\n# In a folder of $fpath, this file is the function; a shell that sources it has to be told.\n" +
+         "if [[ $funcstack[1] == _" + name + " ]]; then\n  _" + name + " \"$@\"\nelse\n" +
+         "  (($+functions[compdef])) || { autoload -Uz compinit && compinit }\n  compdef _" + name + " " + name +
+         "\nfi\n";
 }
 
 std::string fish_script(const ProgramText& program) {
@@ -142,7 +146,7 @@ std::string fish_script(const ProgramText& program) {
     const std::string within = start + quoted("__fish_seen_subcommand_from " + verb.name, "\\'");
     for (const OptionText& option : verb.options) {
       if (option.is_positional) {
-        if (!option.choices.empty()) text += within + " -a " + quoted(joined(option.choices), "\\'") + "\n";
+        if (!option.choices.empty()) text += within + " -f -a " + quoted(joined(option.choices), "\\'") + "\n";
         continue;
       }
       text += within;

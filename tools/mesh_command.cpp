@@ -45,7 +45,7 @@ struct MeshCommand {
   MeshOptions options;
   Surface surface = Surface::keep;
   double sharp_angle = surface::RemeshOptions().sharp_angle;
-  std::vector<std::string> given;  ///< the options on the command line, by their names without dashes
+  baselines::NamedOptions given;  ///< the options on the command line
 };
 
 void check_surface_options(const MeshCommand& command) {
@@ -91,11 +91,16 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   if (chosen.name == "ccdt") return {};
   std::vector<std::string> used = {"surface", "sizes"};  // they have messages of their own
   if (command.surface == Surface::remesh) used.insert(used.end(), {"edge-length", "flatness", "sharp-angle"});
-  for (const baselines::OptionUse& option : chosen.options) used.push_back(option.name);
   std::vector<std::string> notes;
-  for (const std::string& name : command.given)
-    if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
-      notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
+  for (const auto& [name, value] : command.given) {
+    const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
+    if (use == chosen.options.end()) {
+      if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
+        notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
+    } else if (use->only_none && value != "none") {
+      notes.push_back("--" + name + " " + value + ": " + chosen.name + " knows only none and its own way");
+    }
+  }
   return notes;
 }
 
@@ -374,7 +379,8 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   verb->footer(footer);
   verb->callback([command, verb, &exit_code] {
     for (const CLI::Option* option : verb->get_options())
-      if (option->count() > 0 && !option->get_lnames().empty()) command->given.push_back(option->get_lnames().front());
+      if (option->count() > 0 && !option->get_lnames().empty())
+        command->given[option->get_lnames().front()] = option->results().front();
     run(*command);
     exit_code = done;
   });

@@ -37,7 +37,10 @@ void add_completion_command(CLI::App& app, ExitCode& exit_code) {
       ->check(one_of({std::begin(known_shells), std::end(known_shells)}));
   verb->footer(
       "Example: complete verbs, options and their values in this shell\n"
-      "  source <(ccdt completion bash)\n");
+      "  source <(ccdt completion bash)\n"
+      "Example: the same in zsh and in fish\n"
+      "  source <(ccdt completion zsh)\n"
+      "  ccdt completion fish | source\n");
   verb->callback([shell, &app, &exit_code] {
     std::fputs(completion_script(text_of(app), *shell).c_str(), stdout);
     exit_code = done;

@@ -60,7 +60,10 @@ std::string usage_in_words(const CLI::App& app, const CLI::Error& error) {
   const std::string remedy = "`ccdt " + verbs.front()->get_name() + " --help` lists the options";
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !verbs.front()->remaining().empty())
     return unexpected_word(*verbs.front(), remedy) + "\n";
-  return "ccdt: " + std::string(error.what()) + "\n  " + remedy + "\n";
+  std::string what = error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)  // "--output: 1 required TEXT missing"
+    what = what.substr(0, what.find(':')) + " needs a value";
+  return "ccdt: " + what + "\n  " + remedy + "\n";
 }
 
 }  // namespace ccdt::tools
