@@ -81,6 +81,14 @@ TEST(ReadMedit, OtherSectionsAreSkipped) {
   EXPECT_FALSE(mesh.constrained_delaunay);
 }
 
+TEST(ReadMedit, AWholeMeshMayLeaveOutEnd) {
+  EXPECT_EQ(mesh_of("a.mesh", medit_head + "Tetrahedra\n1\n1 2 3 4 7\n").regions, std::vector<int>{7});
+  const auto read = [](const std::string& tail) { mesh_of("a.mesh", medit_head + tail); };
+  EXPECT_THROW(read("Tetrahedra\n1\n1 2 3 4 7"), InputError) << "7 may be the start of a longer number";
+  EXPECT_THROW(read("Tetrahedra\n2\n1 2 3 4 7\n"), InputError);
+  EXPECT_THROW(read("Triangles\n1\n1 2 3 5\n"), InputError) << "tetrahedra are to follow";
+}
+
 TEST(ReadMedit, ErrorsHaveTheirPlace) {
   expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 5 0\nEnd\n", {"5", 12, {}, 0});
   expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 0 0\nEnd\n", {"0", 12, {}, 0});

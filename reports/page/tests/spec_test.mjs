@@ -52,6 +52,13 @@ test("a scale that a chart says itself is kept", () => {
   assert.deepEqual(encoding().shape.scale, { range: ["circle", "square"] });
 });
 
+test("series that a chart computes have the colors of the theme in the order of their domain", () => {
+  const computed = { tables: ["times"], spec: { data: { name: "times" }, encoding: { color: { field: "stage", type: "nominal", scale: { domain: ["lattice", "ccdt"] } } } } };
+  const { domain, range } = completeSpec(section, computed, { theme: "page" }).encoding.color.scale;
+  assert.deepEqual(domain, ["lattice", "ccdt"]);
+  assert.equal(range[1], "var(--chart-blue)");
+});
+
 test("facets come in the order of the table, as many side by side as there is room for", () => {
   const wide = completeSpec(section, chart, { width: 700 }),
     narrow = completeSpec(section, chart, { width: 300 });

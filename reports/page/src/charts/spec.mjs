@@ -105,7 +105,8 @@ function datumsOf(spec, channel) {
 
 /**
  * What a chart leaves to us: series look as in the configuration, texts come in the order of the tables.
- * A channel with a scale or an order of its own keeps it.
+ * A channel with a scale or an order of its own keeps it. A scale with only a domain names series that are not texts of
+ * the tables.
  */
 function completeChannels(spec, data, { theme, width, room }) {
   const legend = { theme, width: width - room, symbol: symbolRoom(spec) };
@@ -114,10 +115,11 @@ function completeChannels(spec, data, { theme, width, room }) {
       styleSeries(channel, definition, datumsOf(spec, channel), legend);
     if (definition.scale?.type === "log" && PLACES.includes(channel)) completeLogarithmic(definition);
     if (!isText(definition)) return;
-    const values = textsOf(data, definition.field);
+    const named = definition.scale?.range ? undefined : definition.scale?.domain;
+    const values = named ?? textsOf(data, definition.field);
     if (values.length === 0) return;
-    if (SERIES_CHANNELS.includes(channel) && definition.scale === undefined)
-      styleSeries(channel, definition, inSeriesOrder(values), legend);
+    if (SERIES_CHANNELS.includes(channel) && (named || definition.scale === undefined))
+      styleSeries(channel, definition, named ?? inSeriesOrder(values), legend);
     if (channel === "y") wrapLabels(definition, values, theme, width);
     if (definition.sort !== undefined) return;
     if (TABLE_ORDER.includes(channel)) definition.sort = values;
