@@ -155,7 +155,7 @@ double in_digits_of_single_precision(double value) {
 }
 
 /// The ways in which programs and formats round, the finest first.
-constexpr std::array<Rounding, 5> roundings = {in_digits<16>, in_digits<15>, in_single_precision,
+constexpr std::array<Rounding, 6> roundings = {in_digits<16>, in_digits<15>, in_digits<11>, in_single_precision,
                                                in_digits_of_single_precision<16>, in_digits_of_single_precision<9>};
 
 /// Adding zero turns -0 into +0, so that equal coordinates also compare and sort as equal.

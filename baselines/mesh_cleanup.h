@@ -8,7 +8,7 @@ namespace ccdt::baselines {
 void orient_positively(TetMesh& mesh);
 
 /// Restores the coordinates of the input in a mesh that went through files. A vertex gets the coordinates of an input
-/// vertex that equals it in 16 or 15 digits, or in single precision, if all tetrahedra around it certainly stay
+/// vertex that equals it in 16, 15 or 11 digits, or in single precision, if all tetrahedra around it certainly stay
 /// positively oriented.
 /// \return  the number of vertices that changed
 std::size_t restore_coordinates(const std::vector<Point3>& input, TetMesh& mesh);

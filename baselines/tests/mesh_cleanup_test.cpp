@@ -55,6 +55,14 @@ TEST(RestoreCoordinates, GivesBackWhatWasRounded) {
   EXPECT_EQ(baselines::restore_coordinates(plc.vertices, mesh), 0u) << "that is no rounding";
 }
 
+TEST(RestoreCoordinates, KnowsElevenDigits) {
+  std::vector<Point3> input = shapes::cube().vertices;
+  TetMesh mesh = shapes::cube_mesh();
+  input[7] = {1.0000000000049, 1, 1};  // "%.10E" writes 1.0000000000E+00
+  EXPECT_EQ(baselines::restore_coordinates(input, mesh), 1u);
+  EXPECT_EQ(as_array(mesh.vertices[7]), as_array(input[7]));
+}
+
 TEST(RestoreCoordinates, SpoilsNoTetrahedron) {
   const double tiny = 0x1p-40;
   const std::vector<Point3> input = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1 + tiny}};

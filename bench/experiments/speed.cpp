@@ -204,7 +204,7 @@ ExperimentResult speed_result(std::span<const SpeedRow> rows) {
     const SpeedRow* one = on_one_thread(rows, row);
     if (!row.is_weak) compared.push_back({row, one != nullptr ? ratio_of(row, *one) : std::nullopt});
     if (!is_ours(row)) continue;
-    stages.push_back(row);
+    if (!row.is_weak) stages.push_back(row);
     if (one == nullptr || row.threads == 1) continue;
     if (const auto found = scaling_of(row, *one)) scaling.push_back(*found);
   }
