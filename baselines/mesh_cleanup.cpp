@@ -53,7 +53,7 @@ struct Neighbor {
   bool is_across_facet = false;
 };
 
-/// The neighbors of each tetrahedron across its faces, by the opposite corner.
+/// The neighbors of each tetrahedron across its faces, by the opposite corner; `none` outside the mesh.
 std::vector<std::array<Neighbor, 4>> neighbors_of(const TetMesh& mesh) {
   std::vector<Face> facets;
   facets.reserve(mesh.faces.size());
@@ -62,19 +62,26 @@ std::vector<std::array<Neighbor, 4>> neighbors_of(const TetMesh& mesh) {
 
   const std::vector<Side> sides = sides_of(mesh);
   std::vector<std::array<Neighbor, 4>> neighbors(mesh.tetrahedra.size());
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &a = sides[i], &b = sides[i + 1];
-    if (a.sorted != b.sorted) continue;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side& a = sides[i];
     const bool is_facet = std::ranges::binary_search(facets, a.sorted);
+    neighbors[a.tetrahedron][a.opposite_corner].is_across_facet = is_facet;
+    if (i + 1 == sides.size() || sides[i + 1].sorted != a.sorted) continue;
+    const Side& b = sides[++i];
     neighbors[a.tetrahedron][a.opposite_corner] = {b.tetrahedron, is_facet};
     neighbors[b.tetrahedron][b.opposite_corner] = {a.tetrahedron, is_facet};
   }
   return neighbors;
 }
 
-/// For each tetrahedron: is an odd number of facets between it and infinity?
+/// For each tetrahedron: is an odd number of facets between it and infinity? Some programs fill the convex hull, and list
+/// facets only. Others list no face of the outside; it then consists of facets.
 std::vector<char> find_parities(const TetMesh& mesh) {
   const auto neighbors = neighbors_of(mesh);
+  const auto is_outside = [](const Neighbor& next) { return next.tetrahedron == none; };
+  const bool lists_outside = std::ranges::any_of(neighbors, [&](const auto& around) {
+    return std::ranges::any_of(around, [&](const Neighbor& n) { return is_outside(n) && n.is_across_facet; });
+  });
   std::vector<char> parity(mesh.tetrahedra.size(), -1);
   std::deque<std::uint32_t> open;  // a breadth-first fill from the hull inwards
   const auto visit = [&](std::uint32_t t, int value) {
@@ -83,8 +90,9 @@ std::vector<char> find_parities(const TetMesh& mesh) {
     open.push_back(t);
   };
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    if (std::ranges::find(neighbors[t], none, &Neighbor::tetrahedron) == neighbors[t].end()) continue;
-    visit(t, 1);
+    const auto outside = std::ranges::find_if(neighbors[t], is_outside);
+    if (outside == neighbors[t].end()) continue;
+    visit(t, static_cast<int>(!lists_outside || outside->is_across_facet));
     while (!open.empty()) {
       const std::uint32_t here = open.front();
       open.pop_front();

@@ -23,6 +23,17 @@ TEST(KeepOddRegions, KeepsAllOfAMeshWithoutInnerFacets) {
   EXPECT_EQ(mesh.vertices.size(), 5u);
 }
 
+TEST(KeepOddRegions, DropsWhatLiesBetweenTheSurfaceAndItsConvexHull) {
+  TetMesh mesh = two_tetrahedra();
+  mesh.faces = {{1, 2, 3}, {1, 2, 4}, {2, 3, 4}, {1, 3, 4}};  // the second tetrahedron
+  baselines::keep_odd_regions(mesh);
+  EXPECT_EQ(mesh.regions, std::vector<int>{6});
+  mesh = two_tetrahedra();
+  mesh.faces = {{1, 2, 3}, {0, 1, 2}, {0, 2, 3}, {0, 1, 3}};
+  baselines::keep_odd_regions(mesh);
+  EXPECT_EQ(mesh.regions, std::vector<int>{5});
+}
+
 TEST(OrientPositively, TurnsAMeshThatIsInsideOut) {
   TetMesh mesh = two_tetrahedra();
   mesh.tetrahedra = {{1, 0, 2, 3}};
