@@ -74,8 +74,8 @@ std::vector<std::array<Neighbor, 4>> neighbors_of(const TetMesh& mesh) {
   return neighbors;
 }
 
-/// For each tetrahedron: is an odd number of facets between it and infinity? Some programs fill the convex hull, and list
-/// facets only. Others list no face of the outside; it then consists of facets.
+/// For each tetrahedron: is an odd number of facets between it and infinity? Some programs fill the convex hull, and
+/// list facets only. Others list no face of the outside; it then consists of facets.
 std::vector<char> find_parities(const TetMesh& mesh) {
   const auto neighbors = neighbors_of(mesh);
   const auto is_outside = [](const Neighbor& next) { return next.tetrahedron == none; };
@@ -163,8 +163,12 @@ double in_digits_of_single_precision(double value) {
 }
 
 /// The ways in which programs and formats round, the finest first.
-constexpr std::array<Rounding, 6> roundings = {in_digits<16>, in_digits<15>, in_digits<11>, in_single_precision,
-                                               in_digits_of_single_precision<16>, in_digits_of_single_precision<9>};
+constexpr std::array<Rounding, 6> roundings = {in_digits<16>,
+                                               in_digits<15>,
+                                               in_digits<11>,
+                                               in_single_precision,
+                                               in_digits_of_single_precision<16>,
+                                               in_digits_of_single_precision<9>};
 
 /// Adding zero turns -0 into +0, so that equal coordinates also compare and sort as equal.
 Coordinates key(const Point3& p) {

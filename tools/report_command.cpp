@@ -19,11 +19,12 @@ struct ReportCommand {
 
 constexpr std::size_t most_rows = 20;  ///< rows of a sweep's table, on a terminal
 
+/// The verdicts on the claims that were measured; empty if none was.
 std::string verdicts(const reports::Report& report) {
   reports::TextTable table = {{"the paper's claim", "verdict"}};
   for (const reports::PaperClaim& claim : report.claims)
-    table.push_back({claim.sentence, std::string(words_of(claim.verdict))});
-  return reports::to_terminal(table);
+    if (!claim.measured.empty()) table.push_back({claim.sentence, std::string(words_of(claim.verdict))});
+  return table.size() > 1 ? reports::to_terminal(table) : "";
 }
 
 /// Writes a report, and prints what could not be made and, last, where the report is.
@@ -95,7 +96,7 @@ std::filesystem::path share_folder() {
 
 void make_report(const std::filesystem::path& folder) {
   const reports::Report report = reports::read_report(folder, reports::read_charts(share_folder() / "charts"));
-  if (!report.claims.empty()) std::fputs(verdicts(report).c_str(), stdout);
+  std::fputs(verdicts(report).c_str(), stdout);
   for (const reports::ReportSection& section : report.sections)
     if (section.result.name == sweep_results::sweep_name)
       std::fputs(reports::to_terminal(section.result, most_rows).c_str(), stdout);

@@ -68,7 +68,8 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
       in.fail("keyword", "expected a keyword, found " + in_quotes(keyword));
     }
   }
-  // Some programs leave out 'End'. The counts tell that the sections are whole; the line break, that the last number is.
+  // Some programs leave out 'End'. The counts tell that the sections are whole; the line break, that the last number
+  // is.
   const bool is_whole_mesh = !mesh.tetrahedra.empty() && file.bytes.back() == line_end_of(file.bytes);
   if (!ended && !is_whole_mesh) in.fail_truncated("keyword 'End'");
   return medit;
