@@ -193,9 +193,15 @@ std::string measure_words(const bench::Quality::Measure& m) {
   return "mean " + rounded(m.mean) + ", 99% below " + rounded(m.p99) + ", worst " + rounded(m.max);
 }
 
+/// Rounded down where rounding would make it 180 degrees, which no tetrahedron has.
+std::string largest_angle(const bench::Quality& quality) {
+  const double angle = quality.dihedral_degrees.max;
+  return angle >= 179.5 ? rounded(std::floor(100 * angle) / 100, 5) : rounded(angle);
+}
+
 std::string quality_lines(const bench::Quality& q) {
   return "quality     r: " + measure_words(q.r) + "; dihedral angles " + rounded(q.dihedral_degrees.min) + " to " +
-         rounded(q.dihedral_degrees.max) + " degrees\n            aspect ratio: " + measure_words(q.aspect_ratio) +
+         largest_angle(q) + " degrees\n            aspect ratio: " + measure_words(q.aspect_ratio) +
          "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
 }
 
@@ -363,8 +369,8 @@ std::string summarize(const bench::RunRecord& r) {
 
 std::string in_one_line(const bench::RunRecord& r) {
   return with_separators(r.counts.tetrahedra) + " tetrahedra in " + rounded(r.seconds.mesh) + " s, dihedral angles " +
-         rounded(r.quality.dihedral_degrees.min) + " to " + rounded(r.quality.dihedral_degrees.max) +
-         " degrees, worst r " + rounded(r.quality.r.max);
+         rounded(r.quality.dihedral_degrees.min) + " to " + largest_angle(r.quality) + " degrees, worst r " +
+         rounded(r.quality.r.max);
 }
 
 std::string summarize(const verify::Verification& verification) {

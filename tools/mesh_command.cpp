@@ -98,7 +98,7 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
       if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
         notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
     } else if (use->only_none && value != "none") {
-      notes.push_back("--" + name + " " + value + ": " + chosen.name + " knows only none and its own way");
+      notes.push_back("--" + name + " was not used: " + chosen.name + " knows only none and its own way");
     }
   }
   return notes;

@@ -64,7 +64,7 @@ CaseFigures& case_named(const std::string& name, Recording& recording);
 /// Benchmark are "seconds.real_time", "seconds.cpu_time" and its counters' own, those of hyperfine "seconds.elapsed"
 /// and "exit_codes".
 ///
-/// 	hrow InputError  it cannot be read, is none of these, or has no cases; names the file and the place in it
+/// \throw InputError  it cannot be read, is none of these, or has no cases; names the file and the place in it
 Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace ccdt::gate
