@@ -75,10 +75,9 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   return lattice::place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
 }
 
-/// Leaves out the points that might destroy a protected edge.
-void keep_harmless(const protection::ProtectedDelaunay& surface, lattice::LatticePoints& lattice) {
+void keep_only(const std::vector<std::uint32_t>& those, lattice::LatticePoints& lattice) {
   std::size_t kept = 0;
-  for (const std::uint32_t i : protection::harmless_points(lattice.points, surface)) {
+  for (const std::uint32_t i : those) {
     lattice.points[kept] = lattice.points[i];
     lattice.levels[kept++] = lattice.levels[i];
   }
@@ -177,22 +176,33 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay), std::move(t.chains)),
                                      options.protection, progress);
   });
-  t.chains = surface.chains;
-  t.first_interior = surface.delaunay.vertices.size();
-  t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size() - t.counts.refined_on_segments;
-  t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
+  const auto count_steiner_vertices = [&] {
+    t.chains = surface.chains;
+    t.first_interior = surface.delaunay.vertices.size();
+    t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size() - t.counts.refined_on_segments;
+    t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
+  };
+  count_steiner_vertices();
 
-  facets::FacetMesh facets = measured(costs, mesh_stage::facets, [&] {
-    return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
-  });
+  facets::FacetMesh facets;
+  const auto triangulate_facets = [&] {
+    facets = measured(costs, mesh_stage::facets, [&] {
+      return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
+    });
+  };
+  triangulate_facets();
   lattice::LatticePoints lattice;
   if (options.lattice != Lattice::none) {
     measured(costs, mesh_stage::lattice, [&] {
       lattice = place_points(t.plc, surface, facets, options, progress);
       t.counts.dropped_interior_vertices = lattice.points.size();
-      keep_harmless(surface, lattice);
+      keep_only(protection::split_costly_edges(lattice.points, t.plc, options.protection, surface, progress), lattice);
       t.counts.dropped_interior_vertices -= lattice.points.size();
     });
+  }
+  if (t.first_interior < surface.delaunay.vertices.size()) {
+    count_steiner_vertices();
+    triangulate_facets();
   }
   delaunay = measured(costs, mesh_stage::delaunay,
                       [&] { return add_points(lattice, std::move(surface.delaunay), options, progress, t.counts); });
@@ -240,7 +250,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   improve.improvement = improvement_of(options);
   if (improve.improvement != Improvement::none) {
     improve::ImproveInput mesh{t.plc, t.chains, std::move(t.facet_of_face), t.first_interior};
-    if (options.refine_surface) mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
+    mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
     t.counts.improve = measured(costs, mesh_stage::improve, [&] {
       return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress);
     });

@@ -365,7 +365,12 @@ bool plan_insertion(const CellComplex& x, std::uint32_t cell, double least, Plan
   Point3 apex = rounded(origin + 0.25 * sum);
   double worst = 0;
   for (int round = 0; round < most_insertion_rounds; ++round) {
-    if (!grow(x, wanted_quality(goal, least), apex, marks, cavity)) return false;
+    const std::size_t size = cavity.cells.size();
+    if (!grow(x, wanted_quality(goal, least), apex, marks, cavity)) {
+      if (round == 0) return false;
+      cavity.cells.resize(size);  // the hull is still theirs
+      break;
+    }
     worst = worst_of_star(cavity.faces, goal, apex);
     const double before = worst;
     worst = move_apex(cavity.faces, goal, {}, worst, move, apex);

@@ -4,8 +4,10 @@
 #include <array>
 #include <atomic>
 #include <optional>
+#include <utility>
 
 #include "engine/base/box_tree.h"
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/numbers/predicates.h"
 #include "engine/protection/voronoi_face.h"
@@ -13,10 +15,17 @@
 namespace ccdt::protection {
 namespace {
 
-using Edge = std::array<std::uint32_t, 2>;
+/// If the smallest sphere of an edge holds more points, other spheres hardly ever hold fewer.
+constexpr std::size_t few_points = 8;
 
-std::vector<Edge> protected_edges(const ProtectedDelaunay& p) {
-  std::vector<Edge> edges;
+/// Least number of points that a split must spare.
+constexpr std::size_t points_per_split = 20;
+
+/// The halves of an edge may be costly as well. After this many rounds, few are.
+constexpr int most_rounds = 3;
+
+std::vector<PieceEnds> protected_edges(const ProtectedDelaunay& p) {
+  std::vector<PieceEnds> edges;
   for (std::size_t s = 0; s < p.chains.size(); ++s)
     for (std::size_t i = 0; p.must_be_chain[s] && i + 1 < p.chains[s].size(); ++i)
       edges.push_back({p.chains[s][i].vertex, p.chains[s][i + 1].vertex});
@@ -36,8 +45,8 @@ class HarmSearch {
   HarmSearch(std::span<const Point3> points, const BoxTree& tree, const delaunay::Delaunay& d)
       : points_(points), tree_(tree), d_(d) {}
 
-  /// Adds the points in the edge's sphere.
-  void find(const Edge& edge, std::vector<std::uint32_t>& harmful) {
+  /// \return  the points in the edge's sphere
+  std::vector<std::uint32_t> find(const PieceEnds& edge) {
     gather_ring(d_, edge[0], edge[1], ring_);
     face_.make(d_, edge[0], edge[1], ring_);
     std::optional<std::size_t> fewest;
@@ -48,10 +57,10 @@ class HarmSearch {
         fewest = inside_.size();
         best_.swap(inside_);
       }
-      return *fewest > 0;
+      return *fewest > 0 && *fewest <= few_points;
     });
     if (!fewest) find_in_ring();
-    if (!fewest || *fewest > 0) harmful.insert(harmful.end(), best_.begin(), best_.end());
+    return best_;
   }
 
  private:
@@ -80,25 +89,94 @@ class HarmSearch {
   std::vector<std::uint32_t> inside_, best_;  ///< points in the ball of the moment; in the best one
 };
 
+/// The points that may harm each protected edge.
+std::vector<std::vector<std::uint32_t>> find_harmful(std::span<const Point3> points, const BoxTree& tree,
+                                                     const std::vector<PieceEnds>& edges,
+                                                     const delaunay::Delaunay& delaunay) {
+  std::vector<std::vector<std::uint32_t>> harmful(edges.size());
+  parallel_ranges(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
+    HarmSearch search(points, tree, delaunay);
+    for (std::size_t i = begin; i < end; ++i) harmful[i] = search.find(edges[i]);
+  });
+  return harmful;
+}
+
+/// What points do to the protected edges of a surface.
+struct Harm {
+  std::vector<PieceEnds> edges;
+  std::vector<std::vector<std::uint32_t>> points;  ///< that may harm each edge
+  std::vector<std::uint32_t> edge_count;           ///< by point: the edges that it may harm
+
+  Harm(std::span<const Point3> all, const BoxTree& tree, const ProtectedDelaunay& surface)
+      : edges(protected_edges(surface)),
+        points(find_harmful(all, tree, edges, surface.delaunay)),
+        edge_count(all.size()) {
+    for (const auto& harmful : points)
+      for (const std::uint32_t i : harmful) ++edge_count[i];
+  }
+
+  std::size_t harmful_points() const { return edge_count.size() - std::ranges::count(edge_count, 0u); }
+
+  /// The edges that have so many points for their own, where edges share those that may harm several.
+  std::vector<PieceEnds> costly_edges() const {
+    std::vector<PieceEnds> costly;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      double own = 0;
+      for (const std::uint32_t i : points[e]) own += 1.0 / edge_count[i];
+      if (own > points_per_split) costly.push_back(edges[e]);
+    }
+    return costly;
+  }
+};
+
+/// The points that harm no edge and are not where a vertex is.
+std::vector<std::uint32_t> harmless(const Harm& harm, const BoxTree& tree, const delaunay::Delaunay& delaunay) {
+  std::vector<std::uint8_t> is_vertex(harm.edge_count.size(), false);
+  parallel_for(delaunay.vertices.size(), 1024, [&](std::size_t v) {
+    tree.for_each_meeting(box_of(delaunay.vertices[v].point), [&](std::uint32_t i) {
+      std::atomic_ref(is_vertex[i]).store(true, std::memory_order_relaxed);
+    });
+  });
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t i = 0; i < harm.edge_count.size(); ++i)
+    if (harm.edge_count[i] == 0 && !is_vertex[i]) result.push_back(i);
+  return result;
+}
+
+/// The surface with these edges split; none if one of them, or of those that must be split then, cannot be.
+std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges, const plc::Plc& plc,
+                                            Protection strategy, const ProtectedDelaunay& surface,
+                                            const Progress& progress) {
+  try {
+    return protect_edges(plc, surface, strategy, progress, edges);
+  } catch (const LimitError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> harmless_points(std::span<const Point3> points, const ProtectedDelaunay& surface) {
   const BoxTree tree(boxes_of(points));
-  std::vector<std::uint8_t> is_harmful(points.size(), false);
-  const auto note = [&](std::uint32_t i) { std::atomic_ref(is_harmful[i]).store(true, std::memory_order_relaxed); };
-  const std::vector<Edge> edges = protected_edges(surface);
-  parallel_ranges(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
-    HarmSearch search(points, tree, surface.delaunay);
-    std::vector<std::uint32_t> harmful;
-    for (std::size_t i = begin; i < end; ++i) search.find(edges[i], harmful);
-    std::ranges::for_each(harmful, note);
-  });
-  const auto& vertices = surface.delaunay.vertices;
-  parallel_for(vertices.size(), 1024, [&](std::size_t v) { tree.for_each_meeting(box_of(vertices[v].point), note); });
-  std::vector<std::uint32_t> harmless;
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    if (!is_harmful[i]) harmless.push_back(i);
-  return harmless;
+  return harmless(Harm(points, tree, surface), tree, surface.delaunay);
+}
+
+std::vector<std::uint32_t> split_costly_edges(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
+                                              ProtectedDelaunay& surface, const Progress& progress) {
+  const BoxTree tree(boxes_of(points));
+  Harm harm(points, tree, surface);
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<PieceEnds> costly = harm.costly_edges();
+    if (costly.empty()) break;
+    std::optional<ProtectedDelaunay> split = with_split(costly, plc, strategy, surface, progress);
+    if (!split) break;
+    Harm less(points, tree, *split);
+    const std::size_t splits = split->delaunay.vertices.size() - surface.delaunay.vertices.size();
+    if (less.harmful_points() + points_per_split * splits > harm.harmful_points()) break;
+    surface = std::move(*split);
+    harm = std::move(less);
+  }
+  return harmless(harm, tree, surface.delaunay);
 }
 
 }  // namespace ccdt::protection

@@ -26,6 +26,13 @@ class Protector {
         add({s, state.chains[s][i], state.chains[s][i + 1]});
   }
 
+  void split_those_that_can_be(std::span<const PieceEnds> pieces) {
+    for (const PieceEnds& ends : pieces) {
+      const Subsegment* piece = pieces_.find(edge_key(ends[0], ends[1]));
+      if (piece != nullptr && splitter_.can_split(*piece)) split(*piece);
+    }
+  }
+
   void protect(const Progress& progress) {
     for (std::uint64_t done = 0; !stack_.empty(); ++done) {
       if ((done & 0xFFF) == 0) report(progress, "protect", done, done + stack_.size());
@@ -81,8 +88,10 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 }
 
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
-                                const Progress& progress) {
-  Protector(plc, strategy, start).protect(progress);
+                                const Progress& progress, std::span<const PieceEnds> to_split) {
+  Protector protector(plc, strategy, start);
+  protector.split_those_that_can_be(to_split);
+  protector.protect(progress);
   note_bytes(bytes_of(start.delaunay.vertices, start.delaunay.cells, start.delaunay.free_cells));
   return start;
 }

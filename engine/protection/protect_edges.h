@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/progress.h"
@@ -17,6 +19,9 @@ struct ProtectedDelaunay {
   SegmentChains chains;
   std::vector<bool> must_be_chain;  ///< by segment: must its pieces be Delaunay edges?
 };
+
+/// The vertices at the ends of a piece of a segment, in the order of its chain.
+using PieceEnds = std::array<std::uint32_t, 2>;
 
 /// The state before protection, in which the grazeable segments must still become chains of Delaunay edges.
 ///
@@ -36,10 +41,11 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 /// between round coordinates.
 ///
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices
+/// \param to_split  pieces that are split first, whether they are edges or not; those that are too short stay
 /// \return          the same with the Steiner vertices, whose ids follow the existing ones
 /// \throw LimitError  a segment would need a split that is not on the grid; carries the place
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
-                                const Progress& progress = {});
+                                const Progress& progress = {}, std::span<const PieceEnds> to_split = {});
 
 /// How many vertices were put on segments at each level, from level 1; for `midpoint` that is the depth of the
 /// bisection.

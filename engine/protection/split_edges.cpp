@@ -91,8 +91,12 @@ EdgeSplitter::EdgeSplitter(const plc::Plc& plc, Protection strategy, delaunay::D
     for (std::size_t i = 1; i + 1 < chains[s].size(); ++i) segment_of_[chains[s][i].vertex - plc.vertices.size()] = s;
 }
 
+bool EdgeSplitter::can_split(const Subsegment& piece) const {
+  return piece.to.fraction - piece.from.fraction >= 2 * step_of(piece.segment);
+}
+
 ChainVertex EdgeSplitter::split(const Subsegment& piece) {
-  if (piece.to.fraction - piece.from.fraction < 2 * step_of(piece.segment))
+  if (!can_split(piece))
     refuse_further_splits(plc_, piece, "it would have to be split at places that are not on the grid");
   if (d_.vertices.size() > most_vertices_)
     refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
