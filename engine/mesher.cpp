@@ -186,9 +186,8 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
 
   facets::FacetMesh facets;
   const auto triangulate_facets = [&] {
-    facets = measured(costs, mesh_stage::facets, [&] {
-      return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress);
-    });
+    facets = measured(costs, mesh_stage::facets,
+                      [&] { return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
   };
   triangulate_facets();
   lattice::LatticePoints lattice;

@@ -37,13 +37,13 @@ constexpr auto names_of(Objective) {
 
 /// What happens to the vertices on the boundary and on interior facets.
 enum class BoundaryRule {
-  keep,  ///< they stay where they are
+  keep,  ///< those of the input stay where they are
   slide  ///< those inside a facet may move in it, those inside a segment along it
 };
 
 constexpr auto names_of(BoundaryRule) {
   return std::to_array<NamedValue<BoundaryRule>>(
-      {{BoundaryRule::keep, "keep", "vertices on facets and segments stay where they are"},
+      {{BoundaryRule::keep, "keep", "vertices of the input stay; those that split segments may move along them"},
        {BoundaryRule::slide, "slide", "vertices inside facets and segments may move along them"}});
 }
 

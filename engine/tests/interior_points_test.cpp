@@ -270,6 +270,39 @@ TEST(InteriorPoints, HarmlessOnesKeepAllProtectedEdgesWhicheverAreInserted) {
   EXPECT_GT(left_out, 1000u);
 }
 
+/// A segment with a vertex beside its middle, so that its spheres without that vertex are large.
+InputPlc segment_with_vertex_beside_it() {
+  InputPlc plc = seeded_cube();
+  plc.vertices.insert(plc.vertices.end(), {{1, 1.5, 1.5}, {2, 1.5, 1.5}, {1.5, 1.6875, 1.5}});
+  plc.segments = {{8, 9}};
+  return plc;
+}
+
+TEST(InteriorPoints, OneSplitOfAnEdgeSparesManyOfThem) {
+  std::mt19937 random(3);
+  for (const Protection strategy : {Protection::midpoint, Protection::shell}) {
+    Protected p(segment_with_vertex_beside_it(), {});
+    EXPECT_TRUE(p.has_edge(8, 9));
+    const std::vector<Point3> points = random_points(p.plc, 1000, random);
+    const std::size_t before = protection::harmless_points(points, p.surface).size();
+    const auto harmless = protection::split_costly_edges(points, p.plc, strategy, p.surface);
+    EXPECT_EQ(p.delaunay.vertices.size(), p.plc.vertices.size() + 1);
+    EXPECT_GE(harmless.size(), before + 20);
+    EXPECT_EQ(harmless, protection::harmless_points(points, p.surface));
+    EXPECT_TRUE(p.has_edge(8, 11) && p.has_edge(11, 9));
+  }
+}
+
+TEST(InteriorPoints, EdgesThatHarmFewOfThemAreNotSplit) {
+  std::mt19937 random(4);
+  Protected p(segment_with_vertex_beside_it(), {});
+  const std::vector<Point3> points = random_points(p.plc, 100, random);
+  const auto harmless = protection::split_costly_edges(points, p.plc, Protection::shell, p.surface);
+  EXPECT_EQ(p.delaunay.vertices.size(), p.plc.vertices.size());
+  EXPECT_LT(harmless.size(), points.size());
+  EXPECT_EQ(harmless, protection::harmless_points(points, p.surface));
+}
+
 TEST(InteriorPoints, ThatWereDroppedAreCounted) {
   // Without the sphere rule and close to the surface, some of the lattice's points harm reflex edges.
   MeshOptions options;
