@@ -1,23 +1,47 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/box.h"
 #include "engine/base/point.h"
-#include "engine/lattice/size_field.h"
 #include "engine/plc/plc.h"
 #include "engine/refine/refine_plc.h"
+#include "engine/refine/thin_places.h"
 
 namespace ccdt::refine {
 
-/// The wanted edge length of the surface at a place: at most that of the options, less at thin places
+/// The wanted edge length of the surface at a point: at most that of the options, less at thin places
 /// (`find_thin_places`). From there it grows by the distance times the grading.
+///
+/// An octree has in each leaf the places that have a say there. It is built where points are asked for.
 class SurfaceSizes {
  public:
   SurfaceSizes(const plc::Plc& plc, const RefineOptions& options);
 
-  double at(const Point3& p) const;
+  double at(const Point3& p);
 
  private:
+  struct Node {
+    Point3 low;
+    double side;
+    std::uint32_t first = 0, count = 0;  ///< of its part of `listed_`
+    std::uint32_t first_child = 0;       ///< eight in a row; 0: not split
+    bool is_listed = false;
+    double least = 0;  ///< size of its places
+  };
+
+  /// Splits the node first if it has many places.
+  bool has_children(std::uint32_t node);
+  /// Lists those places of the parent that may be decisive in the child.
+  void list(std::uint32_t parent, std::uint32_t child);
+
   double largest_, grading_;
-  lattice::SizeTree places_;
+  std::vector<SizedPoint> places_;  ///< in Morton order
+  std::vector<Node> nodes_;         ///< the root first
+  std::vector<std::uint32_t> listed_;
+  std::vector<double> at_center_;  ///< working memory of `list`
 };
 
 }  // namespace ccdt::refine

@@ -6,6 +6,8 @@
 #include "engine/base/portable_math.h"
 #include "engine/numbers/predicates.h"
 #include "engine/refine/refine_plc.h"
+#include "engine/refine/surface_sizes.h"
+#include "engine/refine/thin_places.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "models/solids.h"
@@ -137,6 +139,25 @@ TEST(Refine, NarrowStripsGetEdgesThatFit) {
   MeshOptions options = refining(0.5);
   options.lattice = Lattice::none;
   EXPECT_GE(least_angle_of_faces(mesh_plc(beveled_square(0.01), options).mesh), 20);
+}
+
+TEST(Refine, SizesAreTheLeastOfAllThinPlaces) {
+  const plc::Plc plc = plc::build_plc(beveled_square(0.01));
+  const RefineOptions options{0.5 / plc.grid.unit, 0.3};
+  const std::vector<SizedPoint> places = find_thin_places(plc, options.edge_length, options.most_tetrahedra);
+  ASSERT_GT(places.size(), 1000u);
+  SurfaceSizes sizes(plc, options);
+  for (const plc::Facet& facet : plc.facets) {
+    for (const auto& t : facet.triangles) {
+      const auto [a, b, c] = corners(t, plc.vertices);
+      for (const Point3& p : {a, 0.5 * (b + c), 0.01 * (99 * a + b), (1.0 / 3) * (a + b + c)}) {
+        double least = options.edge_length;
+        for (const SizedPoint& place : places)
+          least = std::min(least, place.size + options.grading * length(place.point - p));
+        EXPECT_EQ(sizes.at(p), least);
+      }
+    }
+  }
 }
 
 TEST(Refine, TheNarrowestStripsDoNotCostMillionsOfTetrahedra) {
