@@ -237,7 +237,7 @@ void add_measuring_options(CLI::App& verb, GateCommand& command) {
   verb.add_option("--seed", command.seed, "seed of the order of the runs; default: a new one in each call");
   verb.add_flag("--calibrate", command.calibrate, "measure how noisy the base is; writes DIR/calibration.json");
   verb.add_option("--pairs", command.pairs, "number of pairs of runs of each case in a calibration")
-      ->check(CLI::Range(5, 100000))
+      ->check(whole_number(5, 100000))
       ->capture_default_str();
   verb.add_option("--calibration", command.calibration,
                   "file that --calibrate wrote: raises the thresholds of noisy cases")

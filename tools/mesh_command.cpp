@@ -277,7 +277,7 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
   add_choice(verb, "--surface", command.surface, "surface of the mesh");
   verb.add_option("--sharp-angle", command.sharp_angle,
                   "remeshing keeps edges between facets whose normals differ by more than this, in degrees")
-      ->check(CLI::Range(1.0, 179.0))
+      ->check(number_between(1, 179))
       ->capture_default_str();
   add_threads(verb, command.options.threads);
 }
@@ -289,12 +289,10 @@ void add_improvement(CLI::App& verb, ImproveOptions& options) {
   add_choice(verb, "--boundary", options.boundary, "whether improvement may move boundary vertices");
   verb.add_option("--target-dihedral", options.target_dihedral,
                   "improve until all dihedral angles are between this and 180 minus this, in degrees")
-      ->check(CLI::Range(0.0, 60.0))
-      ->check(non_negative_number())  // a range accepts nan
+      ->check(number_between(0, 60))
       ->capture_default_str();
   verb.add_option("--target-r", options.target_r, "improve until no tetrahedron has a greater r; with --objective r")
-      ->check(CLI::Range(1.0, 1e6))
-      ->check(positive_number())
+      ->check(number_between(1, 1e6))
       ->capture_default_str();
   verb.add_option("--improve-time", options.time, "stop improvement after this many seconds; 0: no limit")
       ->check(non_negative_number())
@@ -321,7 +319,7 @@ void add_numbers(CLI::App& verb, MeshOptions& options) {
       ->check(non_negative_number())
       ->capture_default_str();
   verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size of the paper's uniform grids")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(number_between(0.1, 100))
       ->capture_default_str();
   verb.add_option("--flatness", options.flatness,
                   "tolerance for triangles in one plane to be one facet, as a fraction of the bounding box")

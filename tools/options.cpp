@@ -8,12 +8,11 @@
 #include <string_view>
 
 #include "baselines/mesher.h"
+#include "engine/base/digits.h"
 #include "engine/io/files.h"
 
 namespace ccdt::tools {
 namespace {
-
-constexpr unsigned most_threads = 1024;  ///< starting more takes longer than meshing
 
 /// \return  the message for CLI11 if the text is not such a number; empty if it is
 std::string complaint(const std::string& text, double least, bool least_itself) {
@@ -40,6 +39,27 @@ CLI::Validator positive_number() {
 
 CLI::Validator non_negative_number() {
   return CLI::Validator([](std::string& text) { return complaint(text, 0, true); }, ">= 0");
+}
+
+CLI::Validator number_between(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) {
+        double value = 0;
+        const bool is_in = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        return is_in ? "" : text + " is not a number from " + digits(least) + " to " + digits(most);
+      },
+      "from " + digits(least) + " to " + digits(most));
+}
+
+CLI::Validator whole_number(int least, int most) {
+  return CLI::Validator(
+      [least, most](std::string& text) {
+        int value = 0;
+        const bool is_in = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        return is_in ? ""
+                     : text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+      },
+      "from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 CLI::Validator one_of(const std::vector<std::string>& names, bool ignore_case) {
@@ -78,13 +98,7 @@ CLI::Validator known_mesher() {
 
 void add_threads(CLI::App& verb, unsigned& threads) {
   verb.add_option("--threads", threads, "the most threads that work at the same time; the result is the same")
-      ->check(CLI::Validator(
-          [](std::string& text) {
-            unsigned number = 0;
-            const bool is_count = CLI::detail::lexical_cast(text, number) && number >= 1 && number <= most_threads;
-            return is_count ? "" : text + " is not a whole number from 1 to " + std::to_string(most_threads);
-          },
-          ""))
+      ->check(whole_number(1, 1024))  // starting more takes longer than meshing
       ->default_str("all cores");
 }
 

@@ -14,6 +14,10 @@ namespace ccdt::tools {
 CLI::Validator positive_number();
 /// A finite number that is not negative.
 CLI::Validator non_negative_number();
+/// A number from the least to the most, both included; not NaN.
+CLI::Validator number_between(double least, double most);
+/// A whole number from the least to the most, both included.
+CLI::Validator whole_number(int least, int most);
 
 /// One of these names. Shells complete them.
 CLI::Validator one_of(const std::vector<std::string>& names, bool ignore_case = false);

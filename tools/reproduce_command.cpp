@@ -228,7 +228,7 @@ void add_limits(CLI::App& verb, ReproduceCommand& command) {
 
 void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
   verb.add_option("--runs", command.options.runs, "number of counted runs of each case")
-      ->check(CLI::Range(5, 1000))
+      ->check(whole_number(5, 1000))
       ->capture_default_str();
   verb.add_option("--scale", command.options.scale,
                   "quick, paper, large, or the approximate number of tetrahedra per model")

@@ -272,7 +272,7 @@ void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
   verb->add_option("--input", command->inputs, "files or patterns to mesh instead of the spec's files");
   verb->add_option("--jobs", command->jobs,
                    "number of cases to run at the same time; their times are then not reliable")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, 1024))
       ->capture_default_str();
   verb->add_flag("--retry-failed", command->retry_failed, "run failed cases again");
   auto* refresh = verb->add_flag("--refresh", command->refresh,
