@@ -170,7 +170,7 @@ bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
 bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& change) {
   const std::uint32_t a = ring.a, b = ring.b, first = ring.vertices[0], last = ring.vertices[ring.size];
   const std::uint32_t facet = facet_at(x, a, b, first);
-  if (facet == no_neighbor || facet != facet_at(x, a, b, last) || x.is_segment(a, b)) return false;
+  if (facet == no_neighbor || facet != facet_at(x, a, b, last)) return false;
   Ring other(a, b);
   if (!find_other_side(x, ring, other) || !add_ring(x, ring, least, change)) return false;
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
@@ -184,17 +184,17 @@ constexpr std::uint32_t most_faces = 6;
 /// The faces between two vertices, grown from one of them across its edges, and their edges at the rim.
 class SandwichedFaces {
  public:
-  SandwichedFaces(const CellComplex& x, std::uint32_t above, std::uint32_t below, Change& change)
-      : x_(x), above_(above), below_(below), change_(change) {}
+  SandwichedFaces(const CellComplex& x, std::uint32_t above, std::uint32_t below, double least, Change& change)
+      : x_(x), above_(above), below_(below), least_(least), change_(change) {}
 
   /// Adds a face by the cells on its two sides. Its edges are at the rim, or further faces are removed as well.
-  /// \return the quality of the worst new cell
+  /// \return the quality of the worst new cell; when that is not above `least`, not all of them were made
   double add_face(std::uint32_t upper, std::uint32_t lower, const std::array<std::uint32_t, 3>& corners, int edges) {
     change_.old_cells.push_back(upper);
     change_.old_cells.push_back(lower);
-    double worst = add_edge(upper, lower, corners[0], corners[1], corners[2]);
-    worst = std::min(worst, add_edge(upper, lower, corners[1], corners[2], corners[0]));
-    if (edges == 3) worst = std::min(worst, add_edge(upper, lower, corners[2], corners[0], corners[1]));
+    double worst = infinity;
+    for (int i = 0; i < edges && worst > least_; ++i)
+      worst = std::min(worst, add_edge(upper, lower, corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]));
     return worst;
   }
 
@@ -230,6 +230,7 @@ class SandwichedFaces {
 
   const CellComplex& x_;
   std::uint32_t above_, below_;
+  double least_;
   Change& change_;
 };
 
@@ -247,9 +248,8 @@ bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t e
   const auto& corner = edge_corners[edge];
   const auto& v = x.cell(cell).vertices;
   Ring ring(v[corner[0]], v[corner[1]]);
-  if (!find_ring(x, cell, v[corner[2]], v[corner[3]], ring)) return false;
-  if (!ring.is_closed) return plan_flip(x, ring, least, change);
-  return !x.is_segment(ring.a, ring.b) && add_ring(x, ring, least, change);
+  if (x.is_segment(ring.a, ring.b) || !find_ring(x, cell, v[corner[2]], v[corner[3]], ring)) return false;
+  return ring.is_closed ? add_ring(x, ring, least, change) : plan_flip(x, ring, least, change);
 }
 
 bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t face, double least, Change& change) {
@@ -258,7 +258,7 @@ bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t f
   const std::uint32_t code = face_code(cell, face);
   if (x.is_wall(code)) return false;
   const std::uint32_t other = x.across(code);
-  SandwichedFaces faces(x, x.apex_of(code), x.apex_of(other), change);
+  SandwichedFaces faces(x, x.apex_of(code), x.apex_of(other), least, change);
   return faces.add_face(cell, cell_of(other), corners_of_face(x.cell(cell).vertices, face), 3) > least;
 }
 
