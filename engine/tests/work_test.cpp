@@ -231,7 +231,7 @@ finish.peak_bytes 5520
 improve.cells_created 59
 improve.cells_destroyed 77
 improve.changes_tried 220
-improve.quality_evaluations 1140
+improve.quality_evaluations 1011
 improve.peak_bytes 18738
 )");
 }
@@ -377,7 +377,7 @@ improve.changes_tried 1228
 improve.moves_tried 185
 improve.vertices_moved 34
 improve.ascent_steps 214
-improve.quality_evaluations 25241
+improve.quality_evaluations 24180
 improve.peak_bytes 21548
 )");
 }
