@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/box.h"
 #include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
 
 namespace ccdt {
 
@@ -27,11 +29,44 @@ class BoxTree {
 
   /// Calls visit(i, j) once for every pair of different items whose boxes meet.
   template <class Visit>
-  void for_each_pair(Visit&& visit) const {
+  void for_each_pair(const Visit& visit) const {
     if (!items_.empty()) descend_self(1, visit);
   }
 
+  /// Calls collect(found, i, j) for these pairs, on several threads, to add to a list.
+  ///
+  /// \return  the lists, one after the other as `for_each_pair` comes to their pairs
+  template <class Item, class Collect>
+  std::vector<Item> collect_from_pairs(const Collect& collect) const {
+    std::vector<Search> searches;
+    if (!items_.empty()) plan_searches(1, searches);
+    return parallel_collect<Item>(searches.size(), 1,
+                                  [&](std::size_t begin, std::size_t end, std::vector<Item>& found) {
+                                    const auto visit = [&](std::uint32_t i, std::uint32_t j) { collect(found, i, j); };
+                                    for (const auto& [a, b] : std::span(searches).subspan(begin, end - begin))
+                                      if (a == b)
+                                        descend_self(a, visit);
+                                      else if (nodes_[a].meets(nodes_[b]))
+                                        descend_both(a, b, visit);
+                                  });
+  }
+
  private:
+  /// For the pairs within one node or between two.
+  using Search = std::array<std::uint32_t, 2>;
+
+  void plan_searches(std::uint32_t node, std::vector<Search>& searches) const {
+    constexpr std::uint32_t first_alone = 128;
+    if (is_leaf(node) || node >= first_alone || thread_count() == 1) {
+      searches.push_back({node, node});
+      return;
+    }
+    ++work_done.box_tree_nodes;
+    plan_searches(2 * node, searches);
+    plan_searches(2 * node + 1, searches);
+    searches.push_back({2 * node, 2 * node + 1});
+  }
+
   static constexpr std::uint32_t leaf_size = 4;
 
   bool is_leaf(std::uint32_t node) const { return node >= leaf_count_; }
@@ -58,7 +93,7 @@ class BoxTree {
   }
 
   template <class Visit>
-  void descend_self(std::uint32_t node, Visit& visit) const {
+  void descend_self(std::uint32_t node, const Visit& visit) const {
     ++work_done.box_tree_nodes;
     if (!is_leaf(node)) {
       descend_self(2 * node, visit);
@@ -72,7 +107,7 @@ class BoxTree {
   }
 
   template <class Visit>
-  void visit_if_meeting(std::size_t i, std::size_t j, Visit& visit) const {
+  void visit_if_meeting(std::size_t i, std::size_t j, const Visit& visit) const {
     if (!boxes_[i].meets(boxes_[j])) return;
     ++work_done.box_pairs;
     visit(items_[i], items_[j]);
@@ -80,7 +115,7 @@ class BoxTree {
 
   /// The two meet.
   template <class Visit>
-  void descend_both(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+  void descend_both(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
     ++work_done.box_tree_nodes;
     if (!is_leaf(a)) {  // both are on the same level
       for (const std::uint32_t i : {2 * a, 2 * a + 1})

@@ -86,4 +86,27 @@ auto parallel_chunks(std::size_t count, std::size_t length, const Work& work) {
   return results;
 }
 
+/// Calls `work(begin, end, found)` for ranges that cover 0 .. count, as `parallel_ranges` does, to add to a list.
+///
+/// \param length  of the ranges if there are several threads
+/// \return  what the calls found, in the order of the ranges
+template <class Item, class Work>
+std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const Work& work) {
+  std::vector<Item> all;
+  if (thread_count() == 1 || count <= length) {
+    work(std::size_t{0}, count, all);
+    return all;
+  }
+  const auto parts = parallel_chunks(count, length, [&](std::size_t begin, std::size_t end) {
+    std::vector<Item> found;
+    work(begin, end, found);
+    return found;
+  });
+  std::size_t size = 0;
+  for (const std::vector<Item>& part : parts) size += part.size();
+  all.reserve(size);
+  for (const std::vector<Item>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 }  // namespace ccdt

@@ -17,6 +17,12 @@ class UnionFind {
     return i;
   }
 
+  /// Of each i. A parent is never greater than its child, so one pass finds all.
+  std::vector<std::uint32_t> take_representatives() && {
+    for (std::uint32_t& parent : parent_) parent = parent_[parent];
+    return std::move(parent_);
+  }
+
   std::size_t bytes() const { return parent_.size() * sizeof(parent_[0]); }
 
   /// \return  the representative of both

@@ -1,12 +1,15 @@
 #include "engine/improve/improve_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <iterator>
 #include <tuple>
 
 #include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
 #include "engine/improve/find_freedom.h"
+#include "engine/improve/find_step.h"
 #include "engine/improve/topological_changes.h"
 
 namespace ccdt::improve {
@@ -27,17 +30,29 @@ struct BadCell {
 /// of the bad cells.
 constexpr int most_tries = 3;
 
-/// The effort for a cell.
-enum class Effort { usual, greatest };
+/// A step that was found ahead of its turn.
+struct EarlyStep {
+  Step step;
+  std::uint32_t generation = 0;    ///< of the cell
+  std::uint64_t change_count = 0;  ///< when it was found
+  bool is_known = false;
+  Work work;
+};
+
+/// How many steps are found ahead at a time: enough for several threads, few enough that most are still right at their
+/// turn.
+constexpr std::size_t most_early = 512;
+/// Fewer are not worth the trouble of several threads.
+constexpr std::size_t least_early = 32;
 
 class Improver {
  public:
   Improver(CellComplex& x, const std::vector<Freedom>& freedom, const ImproveOptions& options)
       : x_(x),
-        freedom_(freedom),
         options_(options),
         improvement_(options.improvement.value_or(Improvement::all)),
-        begin_(Clock::now()) {}
+        begin_(Clock::now()),
+        finders_(thread_count(), StepFinder(x, freedom, improvement_)) {}
 
   ImproveCounts run(const Progress& progress) {
     for (std::uint32_t c = 0; c < x_.cell_count(); ++c) add_bad(c);
@@ -94,6 +109,8 @@ class Improver {
     const std::uint64_t changes = x_.change_count();
     std::uint64_t done = 0;
     for (BadCell& bad : queue_) {
+      if (done % most_early == 0) find_early(done, effort);
+      const EarlyStep* const early = early_.empty() ? nullptr : &early_[done % most_early];
       if (done++ % 256 == 0) {
         report(progress, "improve", done, queue_.size());
         if (time_is_up()) {
@@ -103,7 +120,7 @@ class Improver {
       }
       if (is_stale(bad)) continue;
       if (should_be_tried(bad)) {
-        if (improve(bad.cell, effort) && is_stale(bad)) continue;
+        if (improve(bad.cell, effort, early) && is_stale(bad)) continue;
         bad.tried_at = x_.change_count() + 1;
         ++bad.tries;
       }
@@ -112,38 +129,56 @@ class Improver {
     return x_.change_count() != changes;
   }
 
-  bool improve(std::uint32_t cell, Effort effort) {
-    const bool swaps = improvement_ != Improvement::smooth;
-    const bool smooths = improvement_ != Improvement::swap;
-    if (swaps && swap(cell)) return true;
+  /// Finds the next steps of the queue on several threads. Each is used at its turn if it is still right then, so they
+  /// all are what one thread finds.
+  void find_early(std::size_t begin, Effort effort) {
+    const std::size_t count = std::min(most_early, queue_.size() - begin);
+    if (finders_.size() == 1) return;
+    early_.resize(most_early);
+    for (EarlyStep& early : early_) early.is_known = false;
+    if (count < least_early) return;
+    std::atomic<std::size_t> next = 0;
+    parallel_for(finders_.size(), 1, [&](std::size_t f) {
+      for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < count;
+           i = next.fetch_add(1, std::memory_order_relaxed)) {
+        const BadCell& bad = queue_[begin + i];
+        EarlyStep& early = early_[i];
+        if (is_stale(bad) || !should_be_tried(bad)) continue;
+        early.work = {};
+        const WorkElsewhere scope(early.work);
+        early.generation = bad.generation;
+        early.change_count = x_.change_count();
+        early.is_known = true;
+        finders_[f].find(bad.cell, effort, early.step);
+      }
+    });
+  }
+
+  bool improve(std::uint32_t cell, Effort effort, const EarlyStep* early) {
+    const Step* step = &step_;
+    if (early != nullptr && early->is_known && early->generation == x_.generation(cell) &&
+        finders_[0].is_unchanged_since(early->change_count, cell)) {
+      work_done += early->work;
+      step = &early->step;
+    } else {
+      finders_[0].find(cell, effort, step_);
+    }
+    if (step->kind == Step::Kind::swap) {
+      ++(counts_.*step->count);
+      counts_.facet_flips += step->change.flips.size();
+      apply(step->change);
+      return true;
+    }
     bool improved = false;
-    if (smooths && smooth(cell, effort)) {
+    while (step->kind == Step::Kind::move) {
       improved = true;
+      move(cell, *step);
       if (!is_bad(cell)) return true;
+      finders_[0].find_move(cell, step->corner + 1, effort, step_);
+      step = &step_;
     }
     const bool everything = effort == Effort::greatest && improvement_ == Improvement::all;
     return (everything && insert_or_collapse(cell)) || improved;
-  }
-
-  /// The best of all swaps that involve a cell.
-  bool swap(std::uint32_t cell) {
-    double least = x_.quality(cell);
-    std::uint64_t* count = nullptr;  // worst quality of the cells that the best plan removes
-    const auto consider = [&](bool is_better, std::uint64_t& removed) {
-      if (!is_better) return;
-      least = worst_of(plan_.new_cells);
-      count = &removed;
-      std::swap(plan_, best_);
-    };
-    for (std::uint32_t edge = 0; edge < 6; ++edge)
-      consider(plan_edge_removal(x_, cell, edge, least, plan_), counts_.removed_edges);
-    for (std::uint32_t face = 0; face < 4; ++face)
-      consider(plan_face_removal(x_, cell, face, least, plan_), counts_.removed_faces);
-    if (count == nullptr || !x_.all_positive(best_)) return false;
-    ++*count;
-    counts_.facet_flips += best_.flips.size();
-    apply(best_);
-    return true;
   }
 
   void apply(const Change& change) {
@@ -151,36 +186,13 @@ class Improver {
     for (const std::uint32_t c : new_cells_) add_bad(c);
   }
 
-  bool smooth(std::uint32_t cell, Effort effort) {
-    bool moved = false;
-    const auto corners = x_.cell(cell).vertices;
-    for (const std::uint32_t v : corners) {
-      if (!move(v, effort)) continue;
-      moved = true;
-      if (!is_bad(cell)) break;
-    }
-    return moved;
-  }
-
-  /// Interior vertices first: those on the boundary slide only if that is not enough.
-  bool move(std::uint32_t vertex, Effort effort) {
-    Freedom freedom;
-    if (!x_.is_interior(vertex)) {
-      if (effort == Effort::usual || freedom_.empty() || freedom_[vertex].dimensions == 0) return false;
-      freedom = freedom_[vertex];
-    }
-    ++work_done.moves_tried;
-    gather_star(x_, vertex, scratch_.marks, star_);
-    const double worst = x_.worst_of(star_.cells);
-    Point3 apex = x_.point(vertex);
-    if (!(move_apex(star_.faces, x_.goal(), freedom, worst, scratch_.move, apex) > worst)) return false;
+  void move(std::uint32_t cell, const Step& step) {
     good_cells_.clear();
-    std::ranges::copy_if(star_.cells, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
-    x_.move_vertex(vertex, apex, star_.cells);
+    std::ranges::copy_if(step.star, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
+    x_.move_vertex(x_.cell(cell).vertices[step.corner], step.place, step.star);
     ++counts_.moved_vertices;
     ++work_done.vertices_moved;
     for (const std::uint32_t c : good_cells_) add_bad(c);
-    return true;
   }
 
   bool insert_or_collapse(std::uint32_t cell) {
@@ -197,7 +209,6 @@ class Improver {
   }
 
   CellComplex& x_;
-  const std::vector<Freedom>& freedom_;
   const ImproveOptions& options_;
   const Improvement improvement_;
   const Clock::time_point begin_;
@@ -205,9 +216,11 @@ class Improver {
   std::vector<BadCell> queue_, found_;  ///< of this pass, the worst first; of the next pass
 
   // Working memory.
-  Change plan_, best_;
+  std::vector<StepFinder> finders_;  ///< one for each thread
+  std::vector<EarlyStep> early_;
+  Step step_;
+  Change plan_;
   PlanScratch scratch_;
-  VertexStar star_;
   std::vector<std::uint32_t> new_cells_, good_cells_;
 };
 

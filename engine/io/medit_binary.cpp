@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/io/byte_scanner.h"
 #include "engine/io/formats.h"
 #include "engine/io/medit.h"
@@ -121,21 +123,35 @@ class MeditReader {
   }
 
   template <class Integer, std::size_t Corners>
-  void read_elements_of(Item item, std::size_t count, std::vector<std::array<std::uint32_t, Corners>>& elements,
+  void read_elements_of(const Item& first, std::size_t count, std::vector<std::array<std::uint32_t, Corners>>& elements,
                         std::vector<int>& references) {
-    for (std::size_t i = 0; i < count; ++i, ++item.number) {
-      for (std::uint32_t& corner : elements.emplace_back()) corner = read_index<Integer>(item);
-      references.push_back(in_.attribute<Integer>(item));
+    const std::size_t place = in_.position(), old = elements.size();
+    elements.resize(old + count);
+    references.resize(old + count);
+    const auto read = [&](std::size_t begin, std::size_t end) {
+      ByteScanner in = in_;
+      in.move_to(place + begin * version_.element(Corners));
+      for (std::size_t i = begin; i < end; ++i) {
+        const Item item(first.kind, static_cast<std::size_t>(first.number) + i);
+        for (std::uint32_t& corner : elements[old + i]) corner = read_index<Integer>(item, in);
+        references[old + i] = in.attribute<Integer>(item);
+      }
+    };
+    try {
+      parallel_ranges(count, 8192, read);
+    } catch (const InputError&) {
+      read(0, count);  // the first error of the file is the one to report
     }
+    in_.move_to(place + count * version_.element(Corners));
   }
 
   template <class Integer>
-  std::uint32_t read_index(const Item& item) {
-    const Integer index = in_.next<Integer>(item);
+  std::uint32_t read_index(const Item& item, ByteScanner& in) const {
+    const Integer index = in.next<Integer>(item);
     const std::size_t vertices = medit_.mesh.vertices.size();
     if (index < 1 || static_cast<std::size_t>(index) > vertices)
-      in_.fail(item, "vertex index " + std::to_string(index) + " is out of range: " + std::to_string(vertices) +
-                         " vertices come before it, counted from 1");
+      in.fail(item, "vertex index " + std::to_string(index) + " is out of range: " + std::to_string(vertices) +
+                        " vertices come before it, counted from 1");
     return static_cast<std::uint32_t>(index - 1);
   }
 

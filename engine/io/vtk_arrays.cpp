@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/parallel.h"
 #include "engine/io/text_scanner.h"
 #include "engine/io/vtk_bytes.h"
 
@@ -18,20 +19,20 @@ constexpr const char* outline_remedy = "export the file again as a VTK XML unstr
 constexpr std::string_view appended_tag = "<AppendedData", appended_end_tag = "</AppendedData";
 
 template <class Stored, class Value>
-std::vector<Value> convert(std::string_view bytes, bool big_endian) {
-  std::vector<Value> values(bytes.size() / sizeof(Stored));
-  for (std::size_t i = 0; i < values.size(); ++i) {
+RawVector<Value> convert(std::string_view bytes, bool big_endian) {
+  RawVector<Value> values(bytes.size() / sizeof(Stored));
+  parallel_for(values.size(), 16384, [&](std::size_t i) {
     const Stored stored = number_at<Stored>(bytes.data() + i * sizeof(Stored), big_endian);
     if constexpr (std::is_floating_point_v<Stored> && std::is_integral_v<Value>)
       values[i] = std::fabs(stored) < 9e18 ? static_cast<Value>(stored) : -1;  // -1 is no index and no cell type
     else
       values[i] = static_cast<Value>(stored);
-  }
+  });
   return values;
 }
 
 template <class Value>
-constexpr std::pair<std::string_view, std::vector<Value> (*)(std::string_view, bool)> converters[] = {
+constexpr std::pair<std::string_view, RawVector<Value> (*)(std::string_view, bool)> converters[] = {
     {"Float32", convert<float, Value>},      {"Float64", convert<double, Value>},
     {"Int8", convert<std::int8_t, Value>},   {"UInt8", convert<std::uint8_t, Value>},
     {"Int16", convert<std::int16_t, Value>}, {"UInt16", convert<std::uint16_t, Value>},
@@ -124,10 +125,10 @@ void VtkArrays::check_size(Array array, std::size_t found, std::size_t due) cons
 }
 
 template <class Value>
-std::vector<Value> VtkArrays::read(Array array) const {
+RawVector<Value> VtkArrays::read(Array array) const {
   const std::string_view type = attribute_of(array, "type"), format = attribute_of(array, "format");
   if (format.empty() || format == "ascii") {
-    std::vector<Value> values;
+    RawVector<Value> values;
     const std::string_view text = text_of(array);
     const std::size_t begin = begin_of(array);
     TextScanner in(file_, TextScanner::no_comments, begin, begin + text.size());
@@ -141,12 +142,15 @@ std::vector<Value> VtkArrays::read(Array array) const {
     return values;
   }
   for (const auto& [name, convert_bytes] : converters<Value>)
-    if (type == name) return convert_bytes(bytes_of(array), big_endian_);
+    if (type == name) {
+      const RawVector<char> bytes = bytes_of(array);
+      return convert_bytes({bytes.data(), bytes.size()}, big_endian_);
+    }
   fail(begin_of(array), name_of(array) + ": unknown type " + in_quotes(type));
 }
 
-template std::vector<double> VtkArrays::read<double>(Array array) const;
-template std::vector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
+template RawVector<double> VtkArrays::read<double>(Array array) const;
+template RawVector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
 
 /// An array's text ends with the next tag: its own end, or that of remarks which ParaView puts behind the numbers.
 std::string_view VtkArrays::text_of(Array array) const {
@@ -181,7 +185,7 @@ std::string_view VtkArrays::encoded_bytes(Array array) const {
   return std::string_view(file_.bytes).substr(begin, end - begin);
 }
 
-std::string VtkArrays::bytes_of(Array array) const {
+RawVector<char> VtkArrays::bytes_of(Array array) const {
   const std::string_view compressor = attribute_of(header_, "compressor");
   if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
     fail(0, "its data are compressed by " + in_quotes(compressor) + ", which is not supported",
@@ -207,7 +211,7 @@ std::uint64_t VtkArrays::length_at(std::string_view bytes, std::size_t index, Ar
 }
 
 /// Cuts the length, which comes first, off the bytes, and what follows behind the array.
-std::string VtkArrays::without_length(Array array, std::string_view bytes) const {
+RawVector<char> VtkArrays::without_length(Array array, std::string_view bytes) const {
   const std::uint64_t length = length_at(bytes, 0, array);
   bytes.remove_prefix(length_size_);
   if (length > bytes.size())
@@ -215,11 +219,11 @@ std::string VtkArrays::without_length(Array array, std::string_view bytes) const
          name_of(array) + " claims " + std::to_string(length) + " bytes, but only " + std::to_string(bytes.size()) +
              " bytes follow",
          "the file is truncated or its header is wrong: export it again");
-  return std::string(bytes.substr(0, length));
+  return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)};
 }
 
 /// The bytes as `CompressedBlocks` says.
-std::string VtkArrays::decompressed(Array array, std::string_view bytes) const {
+RawVector<char> VtkArrays::decompressed(Array array, std::string_view bytes) const {
   const std::uint64_t blocks = length_at(bytes, 0, array);
   if (blocks == 0) return {};
   const std::uint64_t whole = length_at(bytes, 1, array), rest = length_at(bytes, 2, array);
@@ -228,19 +232,28 @@ std::string VtkArrays::decompressed(Array array, std::string_view bytes) const {
          name_of(array) + " claims " + std::to_string(blocks) + " compressed blocks, which its " +
              std::to_string(bytes.size()) + " bytes cannot hold",
          "the file is truncated or its header is wrong: export it again");
-  std::string result;
-  std::size_t at = (3 + static_cast<std::size_t>(blocks)) * length_size_;
+  struct Block {
+    std::string_view compressed;
+    std::size_t begin, size;
+  };
+  std::vector<Block> found;  // up to the first one that cannot be right
+  std::size_t at = (3 + static_cast<std::size_t>(blocks)) * length_size_, size = 0;
   for (std::size_t i = 0; i < blocks; ++i) {
-    const std::uint64_t size = length_at(bytes, 3 + i, array);
-    const bool is_last = i + 1 == blocks;
-    const auto block = size > bytes.size() - at
-                           ? std::nullopt
-                           : decompress_block(bytes.substr(at, size), is_last && rest > 0 ? rest : whole);
-    if (!block)
-      fail(begin_of(array), name_of(array) + ": block " + std::to_string(i) + " of its compressed data is damaged");
-    result += *block;
-    at += static_cast<std::size_t>(size);
+    const std::uint64_t compressed = length_at(bytes, 3 + i, array), due = i + 1 == blocks && rest > 0 ? rest : whole;
+    if (compressed > bytes.size() - at || !may_hold(compressed, due)) break;
+    found.push_back({bytes.substr(at, compressed), size, static_cast<std::size_t>(due)});
+    at += static_cast<std::size_t>(compressed);
+    size += static_cast<std::size_t>(due);
   }
+  RawVector<char> result(size);
+  const auto bad = parallel_collect<std::size_t>(
+      found.size(), 1, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& some) {
+        for (; i < end; ++i)
+          if (!decompress_block(found[i].compressed, {result.data() + found[i].begin, found[i].size}))
+            some.push_back(i);
+      });
+  if (const std::size_t first = bad.empty() ? found.size() : bad.front(); first < blocks)
+    fail(begin_of(array), name_of(array) + ": block " + std::to_string(first) + " of its compressed data is damaged");
   return result;
 }
 

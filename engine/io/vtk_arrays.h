@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/io/files.h"
 
 namespace ccdt::io {
@@ -32,7 +33,7 @@ class VtkArrays {
 
   /// The numbers of an array. Value is double or std::int64_t.
   template <class Value>
-  std::vector<Value> read(Array array) const;
+  RawVector<Value> read(Array array) const;
 
   /// The place of an array in the file.
   std::size_t begin_of(Array array) const;
@@ -46,10 +47,10 @@ class VtkArrays {
   std::string_view text_of(Array array) const;
   std::size_t appended_begin(Array array) const;
   std::string_view encoded_bytes(Array array) const;
-  std::string bytes_of(Array array) const;
+  RawVector<char> bytes_of(Array array) const;
   std::uint64_t length_at(std::string_view bytes, std::size_t index, Array array) const;
-  std::string without_length(Array array, std::string_view bytes) const;
-  std::string decompressed(Array array, std::string_view bytes) const;
+  RawVector<char> without_length(Array array, std::string_view bytes) const;
+  RawVector<char> decompressed(Array array, std::string_view bytes) const;
 
   const FileBytes& file_;
   pugi::xml_document document_;
@@ -59,7 +60,7 @@ class VtkArrays {
   std::size_t length_size_ = 4;  ///< of the numbers before an array, in bytes
 };
 
-extern template std::vector<double> VtkArrays::read<double>(Array array) const;
-extern template std::vector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
+extern template RawVector<double> VtkArrays::read<double>(Array array) const;
+extern template RawVector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
 
 }  // namespace ccdt::io

@@ -11,6 +11,16 @@ namespace {
 // Level 1 is three times as fast as zlib's default, and a mesh gets hardly larger.
 constexpr int fast = 1;
 
+std::string compressed(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string block(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(block.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                static_cast<uLong>(bytes.size()), fast) != Z_OK)
+    throw std::bad_alloc();  // nothing else can go wrong where there is room enough
+  block.resize(size);
+  return block;
+}
+
 }  // namespace
 
 std::optional<std::string> decode_base64(std::string_view text) {
@@ -43,35 +53,36 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return digits == 0 ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-void CompressedBlocks::compress_block(std::size_t bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes));
-  const std::size_t begin = compressed_.size();
-  compressed_.resize(begin + size);
-  if (compress2(reinterpret_cast<Bytef*>(compressed_.data() + begin), &size,
-                reinterpret_cast<const Bytef*>(block_.data()), static_cast<uLong>(bytes), fast) != Z_OK)
-    throw std::bad_alloc();  // nothing else can go wrong where there is room enough
-  compressed_.resize(begin + size);
-  sizes_.push_back(size);
-  block_.erase(0, bytes);
+void CompressedBlocks::compress() {
+  const auto blocks = parallel_chunks(bytes_.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    return compressed(std::string_view(bytes_).substr(begin, end - begin));
+  });
+  for (const std::string& block : blocks) {
+    compressed_ += block;
+    sizes_.push_back(block.size());
+  }
+  bytes_.clear();
 }
 
 std::string CompressedBlocks::finish() {
-  const std::uint64_t last = block_.size();
-  if (last > 0) compress_block(last);
+  const std::uint64_t last = bytes_.size() % block_size;
+  compress();
   std::vector<std::uint64_t> head = {sizes_.size(), block_size, last};
   head.insert(head.end(), sizes_.begin(), sizes_.end());
   return std::string(reinterpret_cast<const char*>(head.data()), head.size() * sizeof head[0]) + compressed_;
 }
 
-std::optional<std::string> decompress_block(std::string_view compressed, std::size_t size) {
-  constexpr std::size_t largest_ratio = 1032;  // of zlib; asked before memory is taken
-  if (size / largest_ratio > compressed.size()) return std::nullopt;
-  std::string bytes(size, '\0');
-  uLongf found = static_cast<uLongf>(size);
+bool may_hold(std::uint64_t compressed, std::uint64_t size) {
+  constexpr std::uint64_t largest_ratio = 1032;  // of zlib
+  return size / largest_ratio <= compressed;
+}
+
+bool decompress_block(std::string_view compressed, std::span<char> bytes) {
+  uLongf found = static_cast<uLongf>(bytes.size());
   const int status =
       uncompress(reinterpret_cast<Bytef*>(bytes.data()), &found, reinterpret_cast<const Bytef*>(compressed.data()),
                  static_cast<uLong>(compressed.size()));
-  return status == Z_OK && found == size ? std::optional(std::move(bytes)) : std::nullopt;
+  return status == Z_OK && found == bytes.size();
 }
 
 }  // namespace ccdt::io

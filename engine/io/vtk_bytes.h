@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/base/parallel.h"
 
 namespace ccdt::io {
 
@@ -23,24 +26,29 @@ class CompressedBlocks {
   /// Adds the bytes of a value as they are in memory.
   template <class T>
   void put(const T& value) {
-    block_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    if (block_.size() >= block_size) compress_block(block_size);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    if (bytes_.size() >= most_waiting_) compress();
   }
 
   /// To be called once, when all is put. \return what the file has: numbers of 64 bits, and the blocks
   std::string finish();
 
  private:
-  void compress_block(std::size_t bytes);
+  void compress();
 
-  std::string block_, compressed_;
+  // Several blocks wait for several threads.
+  const std::size_t most_waiting_ = block_size * (thread_count() == 1 ? 1 : 4 * thread_count());
+  std::string bytes_, compressed_;
   std::vector<std::uint64_t> sizes_;
 };
 
+/// May so many compressed bytes hold a block of this size? To be asked before memory is taken.
+bool may_hold(std::uint64_t compressed, std::uint64_t size);
+
 /// Decompresses a block.
 ///
-/// \param size  which it should have then
-/// \return      nothing if it is no zlib block of this size
-std::optional<std::string> decompress_block(std::string_view compressed, std::size_t size);
+/// \param bytes  as many as there should be then
+/// \return       false if it is no zlib block of this size
+bool decompress_block(std::string_view compressed, std::span<char> bytes);
 
 }  // namespace ccdt::io

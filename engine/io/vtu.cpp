@@ -1,7 +1,12 @@
 #include <climits>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/io/formats.h"
 #include "engine/io/vtk_arrays.h"
 #include "engine/io/vtk_bytes.h"
@@ -31,28 +36,83 @@ std::vector<Point3> read_points(const VtkArrays& arrays) {
 struct VtuCells {
   const VtkArrays& arrays;
   std::size_t vertices = 0;
-  std::vector<std::int64_t> connectivity, offsets, types, regions, markers;
+  RawVector<std::int64_t> connectivity, offsets, types, regions, markers;
+
+  [[noreturn]] void refuse(std::size_t cell, const std::string& what, const char* remedy) const {
+    arrays.fail(0, "cell " + std::to_string(cell) + ": " + what, remedy);
+  }
+
+  /// \return  0 to 2: the place of its elements among those of a mesh; 3: none
+  std::size_t kind(std::size_t cell) const {
+    const std::int64_t type = types[cell];
+    if (type == tetrahedron) return 0;
+    if (type == triangle) return 1;
+    if (type == line) return 2;
+    if (type != vertex && type != poly_vertex)
+      refuse(cell, "cells of type " + std::to_string(type) + " are not supported",
+             "write linear tetrahedra, triangles and lines only");
+    return 3;
+  }
 
   template <std::size_t Corners>
-  void add(std::size_t cell, const std::vector<std::int64_t>& attributes,
-           std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& element_attributes) const {
+  std::array<std::uint32_t, Corners> corners(std::size_t cell) const {
     const std::int64_t begin = cell == 0 ? 0 : offsets[cell - 1], end = offsets[cell];
-    const auto refuse = [&](const std::string& what) { arrays.fail(0, "cell " + std::to_string(cell) + ": " + what); };
     if (begin < 0 || end < begin || end - begin != static_cast<std::int64_t>(Corners) ||
         static_cast<std::size_t>(end) > connectivity.size())
-      refuse("its offsets " + std::to_string(begin) + " and " + std::to_string(end) + " are wrong");
-    std::array<std::uint32_t, Corners> corners;
+      refuse(cell, "its offsets " + std::to_string(begin) + " and " + std::to_string(end) + " are wrong",
+             VtkArrays::damaged_remedy);
+    std::array<std::uint32_t, Corners> its;
     for (std::size_t k = 0; k < Corners; ++k) {
       const std::int64_t index = connectivity[static_cast<std::size_t>(begin) + k];
       if (index < 0 || static_cast<std::size_t>(index) >= vertices)
-        refuse("vertex index " + std::to_string(index) + " is out of range: the file has " + std::to_string(vertices) +
-               " vertices, counted from 0");
-      corners[k] = static_cast<std::uint32_t>(index);
+        refuse(cell,
+               "vertex index " + std::to_string(index) + " is out of range: the file has " + std::to_string(vertices) +
+                   " vertices, counted from 0",
+               VtkArrays::damaged_remedy);
+      its[k] = static_cast<std::uint32_t>(index);
     }
-    elements.push_back(corners);
-    element_attributes.push_back(attributes.empty() ? 0 : static_cast<int>(attributes[cell]));
+    return its;
   }
 };
+
+/// How many cells are of each kind.
+using KindCounts = std::array<std::size_t, 4>;
+
+KindCounts count_kinds(const VtuCells& cells, std::size_t begin, std::size_t end) {
+  KindCounts counts = {};
+  for (; begin < end; ++begin) ++counts[cells.kind(begin)];
+  return counts;
+}
+
+/// Enters a range of cells into the lists of the mesh, of each kind from a place on.
+void enter_cells(const VtuCells& cells, std::size_t begin, std::size_t end, KindCounts at, mesh::TetMesh& mesh) {
+  const auto enter = [&](std::size_t cell, std::size_t place, const auto& attributes, auto& elements,
+                         std::vector<int>& element_attributes) {
+    elements[place] = cells.corners<std::tuple_size_v<std::remove_reference_t<decltype(elements[0])>>>(cell);
+    element_attributes[place] = attributes.empty() ? 0 : static_cast<int>(attributes[cell]);
+  };
+  for (std::size_t cell = begin; cell < end; ++cell) {
+    const std::size_t kind = cells.kind(cell), place = at[kind]++;
+    if (kind == 0) enter(cell, place, cells.regions, mesh.tetrahedra, mesh.regions);
+    if (kind == 1) enter(cell, place, cells.markers, mesh.faces, mesh.face_markers);
+    if (kind == 2) enter(cell, place, cells.markers, mesh.edges, mesh.edge_markers);
+  }
+}
+
+/// \throw InputError  for one of the wrong cells
+void enter_all_cells(const VtuCells& cells, std::size_t length, mesh::TetMesh& mesh) {
+  std::vector<KindCounts> starts = parallel_chunks(
+      cells.types.size(), length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
+  KindCounts sum = {};
+  for (KindCounts& start : starts)
+    for (std::size_t kind = 0; kind < sum.size(); ++kind) sum[kind] += std::exchange(start[kind], sum[kind]);
+  mesh.tetrahedra.resize(sum[0]), mesh.regions.resize(sum[0]);
+  mesh.faces.resize(sum[1]), mesh.face_markers.resize(sum[1]);
+  mesh.edges.resize(sum[2]), mesh.edge_markers.resize(sum[2]);
+  parallel_for(starts.size(), 1, [&](std::size_t i) {
+    enter_cells(cells, i * length, std::min(cells.types.size(), (i + 1) * length), starts[i], mesh);
+  });
+}
 
 VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
   const std::size_t count = arrays.claimed("NumberOfCells");
@@ -60,7 +120,7 @@ VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
   // The attribute of cells with this name; none if there is no such array with one whole number per cell.
   const auto read_attributes = [&](const char* name) {
     const auto array = arrays.find("CellData", name);
-    if (!array) return std::vector<std::int64_t>();
+    if (!array) return RawVector<std::int64_t>();
     auto values = arrays.read<std::int64_t>(array);
     arrays.check_size(array, values.size(), count);
     for (std::size_t i = 0; i < count; ++i)
@@ -75,6 +135,15 @@ VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
   cells.regions = read_attributes("region");
   cells.markers = read_attributes("marker");
   return cells;
+}
+
+void refuse_first_wrong_cell(const VtuCells& cells) {
+  for (std::size_t cell = 0; cell < cells.types.size(); ++cell) {
+    const std::size_t kind = cells.kind(cell);
+    if (kind == 0) cells.corners<4>(cell);
+    if (kind == 1) cells.corners<3>(cell);
+    if (kind == 2) cells.corners<2>(cell);
+  }
 }
 
 /// An array that is to be appended behind the XML.
@@ -150,20 +219,14 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
   mesh::TetMesh mesh;
   mesh.vertices = read_points(arrays);
   const VtuCells cells = read_cells(arrays, mesh.vertices.size());
-  for (std::size_t i = 0; i < cells.types.size(); ++i) {
-    const std::int64_t type = cells.types[i];
-    if (type == tetrahedron)
-      cells.add(i, cells.regions, mesh.tetrahedra, mesh.regions);
-    else if (type == triangle)
-      cells.add(i, cells.markers, mesh.faces, mesh.face_markers);
-    else if (type == line)
-      cells.add(i, cells.markers, mesh.edges, mesh.edge_markers);
-    else if (type != vertex && type != poly_vertex)
-      arrays.fail(0, "cell " + std::to_string(i) + ": cells of type " + std::to_string(type) + " are not supported",
-                  "write linear tetrahedra, triangles and lines only");
+  try {
+    enter_all_cells(cells, 16384, mesh);
+  } catch (const InputError&) {
+    refuse_first_wrong_cell(cells);
+    throw;
   }
   if (const auto claim = arrays.find("FieldData", "constrained_delaunay"))
-    mesh.constrained_delaunay = arrays.read<std::int64_t>(claim) == std::vector<std::int64_t>{1};
+    mesh.constrained_delaunay = arrays.read<std::int64_t>(claim) == RawVector<std::int64_t>{1};
   return mesh;
 }
 

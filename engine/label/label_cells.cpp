@@ -1,5 +1,7 @@
 #include "engine/label/label_cells.h"
 
+#include <atomic>
+
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
@@ -84,24 +86,34 @@ std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const
   return no_neighbor;
 }
 
+void note_least(std::atomic<std::uint32_t>& least, std::uint32_t i) {
+  std::uint32_t before = least.load(std::memory_order_relaxed);
+  while (i < before && !least.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
+  }
+}
+
 }  // namespace
 
 CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
                        const std::vector<std::uint32_t>& wall_codes) {
   const FaceBits bits = mark_walls(d, open, wall_codes);
-  UnionFind parts = join_cells(d, bits);
+  const std::vector<std::uint32_t> part_of = join_cells(d, bits).take_representatives();
   std::vector<RegionId> region(d.cells.size());
   for (const front::FrontFace& face : open) {
-    RegionId& its = region[parts.find(cell_of(face.code))];
+    RegionId& its = region[part_of[cell_of(face.code)]];
     if (!its.is_none() && its != face.region) return stuck_at(plc, d, cell_of(face.code));
     its = face.region;
   }
-  for (std::uint32_t cell = 0; cell < d.cells.size(); ++cell) {
-    region[cell] = region[parts.find(cell)];
-    if (!region[cell].is_none() && d.is_ghost(cell)) return stuck_at(plc, d, cell);
-  }
+  // A part gets the region of its first cell, which stays the same.
+  std::atomic<std::uint32_t> stuck = no_neighbor;
+  parallel_for(d.cells.size(), 4096, [&](std::size_t i) {
+    const auto cell = static_cast<std::uint32_t>(i), first = part_of[cell];
+    if (first != cell) region[cell] = region[first];
+    if (!region[cell].is_none() && d.is_ghost(cell)) note_least(stuck, cell);
+  });
+  if (stuck != no_neighbor) return stuck_at(plc, d, stuck);
   work_done.cells_visited += 2 * d.cells.size();
-  note_bytes(bytes_of(bits, region) + parts.bytes());
+  note_bytes(bytes_of(bits, region, part_of));
   const std::uint32_t leak = find_leak(d, bits, wall_codes, region);
   if (leak != no_neighbor) return stuck_at(plc, d, leak);
   return {std::move(region)};

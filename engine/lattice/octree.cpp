@@ -9,6 +9,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/base/sort_in_runs.h"
 #include "engine/lattice/inside_test.h"
 
@@ -137,16 +138,24 @@ class Builder {
  public:
   Builder(Octree& tree, const DomainSurface& surface)
       : tree_(tree), surface_(surface), around_(surface.triangles.size()) {
-    for (std::uint32_t t = 0; t < around_.size(); ++t) around_[t] = bounding_box(surface.corners(t));
+    parallel_for(around_.size(), 4096,
+                 [&](std::size_t t) { around_[t] = bounding_box(surface.corners(static_cast<std::uint32_t>(t))); });
   }
 
   void refine(const SizeField& size, Lattice kind) {
-    // Children come after their parents, so one pass sees them all.
-    for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-      const OctreeNode& node = tree_.nodes[i];
-      if (node.place == NodePlace::outside || node.level == tree_.depth) continue;
-      const double edge_length = edge_length_of_cell(kind, tree_.length(tree_.side(node)));
-      if (size.is_below(intersection(tree_.box(node), tree_.bounds), edge_length / largest_excess)) split(i);
+    // Children come after their parents, level by level.
+    for (std::size_t begin = 0, end = 1; begin < end; begin = end, end = tree_.nodes.size()) {
+      std::vector<std::uint8_t> is_too_large(end - begin);
+      parallel_for(is_too_large.size(), 64, [&](std::size_t i) {
+        const OctreeNode& node = tree_.nodes[begin + i];
+        if (node.place == NodePlace::outside || node.level == tree_.depth) return;
+        const double edge_length = edge_length_of_cell(kind, tree_.length(tree_.side(node)));
+        is_too_large[i] = size.is_below(intersection(tree_.box(node), tree_.bounds), edge_length / largest_excess);
+      });
+      std::vector<std::uint32_t> parents;
+      for (std::size_t i = 0; i < is_too_large.size(); ++i)
+        if (is_too_large[i]) parents.push_back(static_cast<std::uint32_t>(begin + i));
+      split(parents);
     }
   }
 
@@ -179,51 +188,92 @@ class Builder {
     for (std::uint32_t i = 0; tree_.nodes[i].level < level;) {
       if (tree_.nodes[i].is_leaf()) {
         if (tree_.nodes[i].place == NodePlace::outside) return;
-        split(i);
+        split({&i, 1});
         split_nodes[tree_.nodes[i].level].push_back(i);
       }
       i = tree_.child_at(tree_.nodes[i], corner);
     }
   }
 
-  void split(std::uint32_t parent_index) {
+  using Triangles = std::vector<std::uint32_t>;
+
+  /// Splits nodes, whose children come in the same order.
+  void split(std::span<const std::uint32_t> parents) {
+    const std::uint32_t first = make_room(parents.size());
+    const std::size_t length = std::clamp<std::size_t>(parents.size() / 64, 1, 64);
+    if (thread_count() == 1 || parents.size() <= length) {
+      split_run(parents, first, tree_.triangles, lists_);
+      return;
+    }
+    const auto runs = parallel_chunks(parents.size(), length, [&](std::size_t begin, std::size_t end) {
+      Triangles triangles;
+      std::array<Triangles, 8> lists;
+      split_run(parents.subspan(begin, end - begin), first + static_cast<std::uint32_t>(8 * begin), triangles, lists);
+      return triangles;
+    });
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const std::size_t begin = first + 8 * length * r, end = std::min(begin + 8 * length, tree_.nodes.size());
+      for (std::size_t i = begin; i < end; ++i)
+        tree_.nodes[i].first_triangle += static_cast<std::uint32_t>(tree_.triangles.size());
+      tree_.triangles.insert(tree_.triangles.end(), runs[r].begin(), runs[r].end());
+    }
+  }
+
+  /// \return  where the children of so many nodes begin
+  std::uint32_t make_room(std::size_t parents) {
     constexpr std::size_t most_nodes = std::size_t{1} << 31;
-    if (tree_.nodes.size() > most_nodes)
+    const std::size_t first = tree_.nodes.size();
+    if (first + 8 * parents > most_nodes + 8)
       throw LimitError("the octree of the interior points needs more than 2^31 nodes", {},
                        "use a greater edge length or a greater grading");
+    tree_.nodes.resize(first + 8 * parents);
+    return static_cast<std::uint32_t>(first);
+  }
+
+  /// \param triangles  gets those of the children
+  /// \param lists      working memory
+  void split_run(std::span<const std::uint32_t> parents, std::uint32_t first_child, Triangles& triangles,
+                 std::array<Triangles, 8>& lists) {
+    for (const std::uint32_t parent : parents) {
+      split(parent, first_child, triangles, lists);
+      first_child += 8;
+    }
+  }
+
+  void split(std::uint32_t parent_index, std::uint32_t first_child, Triangles& triangles,
+             std::array<Triangles, 8>& lists) {
     const OctreeNode parent = tree_.nodes[parent_index];
-    const auto first_child = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes[parent_index].first_child = first_child;
     const std::uint32_t half = tree_.side(parent) / 2;
     for (std::uint32_t c = 0; c < 8; ++c) {
-      OctreeNode child;
+      OctreeNode& child = tree_.nodes[first_child + c];
       for (int k = 0; k < 3; ++k) child.corner[k] = parent.corner[k] + (c >> k & 1) * half;
       child.level = static_cast<std::uint8_t>(parent.level + 1);
       child.place = parent.place;
-      tree_.nodes.push_back(child);
     }
     if (parent.place != NodePlace::surface) return;
-    hand_down_triangles(parent, first_child);
+    hand_down_triangles(parent, first_child, triangles, lists);
     place_empty_children(parent, first_child);
   }
 
-  void hand_down_triangles(const OctreeNode& parent, std::uint32_t first_child) {
+  void hand_down_triangles(const OctreeNode& parent, std::uint32_t first_child, Triangles& triangles,
+                           std::array<Triangles, 8>& lists) {
     std::array<Box, 8> boxes;
     for (std::uint32_t c = 0; c < 8; ++c) {
       boxes[c] = tree_.box(tree_.nodes[first_child + c]);
-      lists_[c].clear();
+      lists[c].clear();
     }
-    for (std::uint32_t t : tree_.triangles_of(parent)) hand_down(t, boxes);
+    for (std::uint32_t t : tree_.triangles_of(parent)) hand_down(t, boxes, lists);
     for (std::uint32_t c = 0; c < 8; ++c) {
       OctreeNode& child = tree_.nodes[first_child + c];
-      child.first_triangle = static_cast<std::uint32_t>(tree_.triangles.size());
-      child.triangle_count = static_cast<std::uint32_t>(lists_[c].size());
-      tree_.triangles.insert(tree_.triangles.end(), lists_[c].begin(), lists_[c].end());
+      child.first_triangle = static_cast<std::uint32_t>(triangles.size());
+      child.triangle_count = static_cast<std::uint32_t>(lists[c].size());
+      triangles.insert(triangles.end(), lists[c].begin(), lists[c].end());
     }
   }
 
   /// Lists a triangle of the parent for each child that it may touch.
-  void hand_down(std::uint32_t t, const std::array<Box, 8>& boxes) {
+  void hand_down(std::uint32_t t, const std::array<Box, 8>& boxes, std::array<Triangles, 8>& lists) const {
     const Box& around = around_[t];
     unsigned children = children_overlapping(boxes, around);
     std::optional<TouchTest> touch;
@@ -239,7 +289,7 @@ class Builder {
         }
         if (!touch->may_touch(boxes[c].center())) continue;
       }
-      lists_[c].push_back(t);
+      lists[c].push_back(t);
     }
   }
 
@@ -278,8 +328,8 @@ class Builder {
 
   Octree& tree_;
   const DomainSurface& surface_;
-  std::vector<Box> around_;                          ///< by triangle
-  std::array<std::vector<std::uint32_t>, 8> lists_;  ///< scratch of `hand_down_triangles`
+  std::vector<Box> around_;         ///< by triangle
+  std::array<Triangles, 8> lists_;  ///< working memory
 };
 
 }  // namespace

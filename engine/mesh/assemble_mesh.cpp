@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/mesh/sort_tetrahedra.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::mesh {
 namespace {
+
+constexpr std::size_t chunk_length = 8192;  ///< of loops on several threads
 
 double determinant(const Point3& a, const Point3& b, const Point3& c) {
   return dot(a, cross(b, c));
@@ -62,9 +66,11 @@ class FlatTetrahedronPeeler {
 
   void peel() {
     if (triangle_of_.empty()) return;
-    std::vector<std::size_t> flat;
-    for (std::size_t i = 0; i < mesh_.tetrahedra.size(); ++i)
-      if (lies_within_facet(mesh_.tetrahedra[i])) flat.push_back(i);
+    std::vector<std::size_t> flat = parallel_collect<std::size_t>(
+        mesh_.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
+          for (; i < end; ++i)
+            if (lies_within_facet(mesh_.tetrahedra[i])) found.push_back(i);
+        });
     // In an order that does not depend on how the tetrahedra were found.
     const auto corners = [&](std::size_t i) {
       std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
@@ -169,7 +175,7 @@ bool is_outside_sphere(const delaunay::Delaunay& d, const std::array<std::uint32
 
 std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
                                      const front::FrontResult& front) {
-  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return {};
+  if (front.tetrahedra.empty() || std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return {};
   HashSet<FaceKey> constrained;
   for (const auto& t : facets.triangles) constrained.insert(key_of(t));
   HashTable<FaceKey, std::uint32_t> waiting;  // 4 * tetrahedron + corner opposite to the face
@@ -204,11 +210,16 @@ std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMes
 
 std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
                                       const TetMesh& mesh) {
-  double filled = 0;
-  for (const auto& t : mesh.tetrahedra) {
-    const Point3& a = d.point(t[0]);
-    filled += determinant(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
-  }
+  const auto volumes = parallel_chunks(mesh.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end) {
+    double volume = 0;
+    for (; i < end; ++i) {
+      const auto& t = mesh.tetrahedra[i];
+      const Point3& a = d.point(t[0]);
+      volume += determinant(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
+    }
+    return volume;
+  });
+  const double filled = std::accumulate(volumes.begin(), volumes.end(), 0.0);
   const double wanted = volume_within(plc, facets, d);
   if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return {};
   Place place;
@@ -290,16 +301,19 @@ bool is_positive(const std::vector<Point3>& world, const Tetrahedron& t) {
 std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points,
                              std::span<const Tetrahedron> tetrahedra) {
   std::vector<Point3> world(points.size());
-  for (std::size_t v = 0; v < world.size(); ++v)
+  parallel_for(world.size(), chunk_length, [&](std::size_t v) {
     world[v] = v < plc.world.size() && points[v] == plc.vertices[v] ? plc.world[v] : plc.grid.to_world(points[v]);
+  });
   // A vertex that returns to the grid may invert a tetrahedron of another one, so this repeats until all are right. All
   // inverted tetrahedra are found before any vertex moves, so that their order does not matter.
   std::vector<bool> on_grid(plc.world.size(), false);
   while (true) {
-    std::vector<Tetrahedron> inverted;
     work_done.cells_visited += tetrahedra.size();
-    for (const Tetrahedron& t : tetrahedra)
-      if (!is_positive(world, t)) inverted.push_back(t);
+    const auto inverted = parallel_collect<Tetrahedron>(
+        tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<Tetrahedron>& found) {
+          for (; i < end; ++i)
+            if (!is_positive(world, tetrahedra[i])) found.push_back(tetrahedra[i]);
+        });
     note_bytes(bytes_of(points, tetrahedra, world, inverted));
     if (inverted.empty()) return world;
     bool moved = false;

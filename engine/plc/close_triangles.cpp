@@ -54,11 +54,9 @@ std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& t
 
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
                                                const BoxTree& tree) {
-  std::vector<TrianglePair> close;
-  tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+  return tree.collect_from_pairs<TrianglePair>([&](std::vector<TrianglePair>& close, std::uint32_t i, std::uint32_t j) {
     if (!are_apart(vertices, {triangles.corners[i], triangles.corners[j]})) close.push_back({i, j});
   });
-  return close;
 }
 
 }  // namespace ccdt::plc

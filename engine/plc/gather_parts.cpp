@@ -11,6 +11,7 @@
 
 #include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
 #include "engine/plc/bent_facets.h"
@@ -356,8 +357,7 @@ using VertexOnTriangle = std::pair<std::uint32_t, VertexId>;
 std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3> vertices,
                                                          std::span<const TrianglePair> close, const BoxTree& tree,
                                                          const TriangleSet& triangles) {
-  std::vector<VertexOnTriangle> found;
-  const auto test = [&](VertexId v, std::uint32_t t) {
+  const auto test = [&](VertexId v, std::uint32_t t, std::vector<VertexOnTriangle>& found) {
     const VertexTriple& c = triangles.corners[t];
     if (has_corner(c, v)) return;
     const auto corners = points_of(vertices, c);
@@ -365,15 +365,19 @@ std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3>
         is_on_triangle(dominant_axis(corners), vertices[v], corners))
       found.emplace_back(t, v);
   };
-  for (const auto& [s, t] : close) {
-    for (const VertexId v : triangles.corners[s]) test(v, t);
-    for (const VertexId v : triangles.corners[t]) test(v, s);
-  }
+  std::vector<VertexOnTriangle> found = parallel_collect<VertexOnTriangle>(
+      close.size(), 1024, [&](std::size_t begin, std::size_t end, std::vector<VertexOnTriangle>& some) {
+        for (const auto& [s, t] : close.subspan(begin, end - begin)) {
+          for (const VertexId v : triangles.corners[s]) test(v, t, some);
+          for (const VertexId v : triangles.corners[t]) test(v, s, some);
+        }
+      });
   std::vector<bool> is_corner(vertices.size(), false);
   for (const VertexTriple& t : triangles.corners)
     for (const VertexId v : t) is_corner[v] = true;
   for (std::uint32_t v = 0; v < vertices.size(); ++v)
-    if (!is_corner[v]) tree.for_each_meeting(box_of(vertices[v]), [&](std::uint32_t t) { test(VertexId(v), t); });
+    if (!is_corner[v])
+      tree.for_each_meeting(box_of(vertices[v]), [&](std::uint32_t t) { test(VertexId(v), t, found); });
   std::ranges::sort(found);
   const auto again = std::ranges::unique(found);
   found.erase(again.begin(), again.end());

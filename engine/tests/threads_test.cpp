@@ -7,6 +7,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
+#include "engine/surface/remesh_surface.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "engine/tests/real_parts.h"
 #include "engine/tests/sanitized.h"
@@ -111,7 +112,11 @@ void expect_one_mesh(const std::string& name, const InputPlc& input, MeshOptions
   for (const unsigned threads : several_threads) {
     SCOPED_TRACE(std::to_string(threads) + " threads");
     options.threads = threads;
-    expect_same_bytes(one.mesh, mesh_plc(input, options).mesh);
+    const MeshResult several = mesh_plc(input, options);
+    expect_same_bytes(one.mesh, several.mesh);
+    // Vertices are inserted in another order, but else several threads do what one does.
+    EXPECT_TRUE(one.work.plc == several.work.plc);
+    EXPECT_TRUE(one.work.improve == several.work.improve);
   }
 }
 
@@ -149,12 +154,47 @@ TEST(Threads, MakeOneMesh) {
   }
 }
 
+/// With so much to improve that many changes are next to each other.
+MeshOptions hard_to_improve() {
+  MeshOptions options;
+  options.improve.target_dihedral = 35;
+  options.improve.boundary = BoundaryRule::slide;
+  return options;
+}
+
 TEST(Threads, MakeOneMeshOfARefinedSurface) {
   MeshOptions options;
   options.refine_surface = true;
   expect_one_mesh("bracket", models::make_solid("bracket", 10), options);
   options.lattice = Lattice::bcc;
   expect_one_mesh("cube", cube_with_slit(), options);
+  options = hard_to_improve();
+  options.refine_surface = true;
+  expect_one_mesh("much improved", models::make_solid("bracket", 10), options);
+}
+
+TEST(Threads, MakeOneMeshThatIsMuchImproved) {
+  std::mt19937 random(7);
+  expect_one_mesh("random voxels", random_voxels(is_sanitized ? 2 : 3, 3, random), hard_to_improve());
+  expect_one_mesh("rough sphere", roughened(models::make_solid("sphere", 0.25), 0.3, random), hard_to_improve());
+}
+
+TEST(Threads, MakeOneMeshOfARemeshedSurface) {
+  const double edge_length = is_sanitized ? 8 : 4;
+  for (const char* solid : {"bracket", "piston"}) {
+    SCOPED_TRACE(solid);
+    const InputPlc input = models::make_solid(solid, 2 * edge_length);
+    const auto remesh = [&] { return surface::remesh_surface(input, {.edge_length = edge_length}); };
+    const InputPlc one = with_threads(1, remesh);
+    for (const unsigned threads : several_threads) {
+      const InputPlc several = with_threads(threads, remesh);
+      EXPECT_TRUE(one.vertices == several.vertices) << threads << " threads";
+      EXPECT_TRUE(one.triangles == several.triangles) << threads << " threads";
+    }
+    MeshOptions options;
+    options.edge_length = edge_length;
+    expect_one_mesh("remeshed", one, options);
+  }
 }
 
 TEST(Threads, StopWhenProgressThrows) {
@@ -162,7 +202,7 @@ TEST(Threads, StopWhenProgressThrows) {
   MeshOptions options;
   options.threads = 4;
   const InputPlc input = models::make_solid("piston", is_sanitized ? 5 : 2.5);
-  for (const std::string_view stage : {"delaunay", "lattice"}) {
+  for (const std::string_view stage : {"plc", "delaunay", "lattice", "improve"}) {
     const auto cancel = [&](std::string_view now, std::uint64_t, std::uint64_t) {
       if (now == stage) throw Canceled();
     };
