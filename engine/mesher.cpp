@@ -18,7 +18,7 @@
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
-#include "engine/protection/harmless_points.h"
+#include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
 
@@ -195,7 +195,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     measured(costs, mesh_stage::lattice, [&] {
       lattice = place_points(t.plc, surface, facets, options, progress);
       t.counts.dropped_interior_vertices = lattice.points.size();
-      keep_only(protection::split_costly_edges(lattice.points, t.plc, options.protection, surface, progress), lattice);
+      keep_only(protection::make_room(lattice.points, t.plc, options.protection, surface, progress), lattice);
       t.counts.dropped_interior_vertices -= lattice.points.size();
     });
   }

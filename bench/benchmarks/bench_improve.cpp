@@ -20,6 +20,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/benchmarks/benchmark_main.h"
@@ -59,8 +60,8 @@ improve::ImproveOptions options_of(improve::Improvement improvement) {
 }
 
 improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement, Unimproved& u) {
-  return improve::improve_mesh({s.plc, s.chains, std::move(u.facet_of_face), s.lattice.vertices.size()},
-                               options_of(improvement), u.points, u.mesh);
+  return improve::improve_mesh({s.plc, s.chains, std::move(u.facet_of_face), s.first_interior}, options_of(improvement),
+                               u.points, u.mesh);
 }
 
 /// The quality of the worst cell; not positive if a cell is not.

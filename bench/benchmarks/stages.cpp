@@ -11,7 +11,7 @@
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/build_plc.h"
-#include "engine/protection/harmless_points.h"
+#include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "models/solids.h"
 
@@ -46,18 +46,18 @@ struct Density {
   double grading;
 };
 
-LatticeInput lattice_input(const Stages& s, const Density& density) {
+LatticeInput lattice_input(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
+                           const facets::FacetMesh& facets, const Density& density) {
   LatticeInput input;
-  input.vertices = points_of(s.delaunay);
-  for (std::size_t i = 0; i < s.facets.triangles.size(); ++i) {
-    const plc::Facet& facet = s.plc.facets[s.facets.facet[i]];
-    input.triangles.push_back(
-        {s.facets.triangles[i], s.plc.regions[facet.above].inside, s.plc.regions[facet.below].inside});
+  input.vertices = points_of(surface.delaunay);
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const plc::Facet& facet = plc.facets[facets.facet[i]];
+    input.triangles.push_back({facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside});
   }
-  for (const auto& chain : s.chains)
+  for (const auto& chain : surface.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       input.subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
-  input.options.edge_length = density.edge_length / s.plc.grid.unit;
+  input.options.edge_length = density.edge_length / plc.grid.unit;
   input.options.grading = density.grading;
   return input;
 }
@@ -68,17 +68,19 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   s.input_delaunay = delaunay::build_delaunay(s.plc.vertices);
   protection::ProtectedDelaunay surface =
       protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), protection::Protection::shell);
-  s.chains = surface.chains;
-  s.delaunay = surface.delaunay;
-  s.facets = facets::triangulate_facets(s.plc, s.chains, s.delaunay);
-  s.lattice = lattice_input(s, density);
+  s.facets = facets::triangulate_facets(s.plc, surface.chains, surface.delaunay);
+  s.lattice = lattice_input(s.plc, surface, s.facets, density);
   const auto points =
       lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options)
           .points;
-  std::vector<Point3> harmless;
-  for (const std::uint32_t i : protection::harmless_points(points, surface)) harmless.push_back(points[i]);
+  std::vector<Point3> remaining;
+  for (const std::uint32_t i : protection::make_room(points, s.plc, protection::Protection::shell, surface))
+    remaining.push_back(points[i]);
+  s.first_interior = surface.delaunay.vertices.size();
+  s.chains = std::move(surface.chains);
+  s.facets = facets::triangulate_facets(s.plc, s.chains, surface.delaunay);  // edges may have been split
   s.delaunay = std::move(surface.delaunay);
-  insert_points(s.delaunay, harmless);
+  insert_points(s.delaunay, remaining);
   s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
   if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = front::find_delaunay_faces(s.facets, s.delaunay);

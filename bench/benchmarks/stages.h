@@ -41,8 +41,9 @@ using Tetrahedra = std::vector<std::array<std::uint32_t, 4>>;
 struct Stages {
   plc::Plc plc;
   delaunay::Delaunay input_delaunay;  ///< of the vertices of the PLC, before protection
-  protection::SegmentChains chains;   ///< after protection
+  protection::SegmentChains chains;   ///< after protection, and the splits that make room for interior points
   LatticeInput lattice;
+  std::size_t first_interior = 0;    ///< the vertices from here on are lattice points
   delaunay::Delaunay delaunay;       ///< of all vertices
   facets::FacetMesh facets;          ///< up to date with all vertices
   std::vector<std::uint32_t> codes;  ///< of the facets' triangles in `delaunay`

@@ -2,6 +2,7 @@
 #include <array>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bench/gate/callgrind_profile.h"
@@ -22,7 +23,7 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::buil
                                                                {"ccdt::protection::protect_edges", "protect"},
                                                                {"ccdt::facets::triangulate_facets", "facets"},
                                                                {"ccdt::lattice::place_lattice_points", "lattice"},
-                                                               {"ccdt::protection::harmless_points", "lattice"},
+                                                               {"ccdt::protection::make_room", "lattice"},
                                                                {"ccdt::delaunay::build_delaunay", "delaunay"},
                                                                {"ccdt::delaunay::insert_points", "delaunay"},
                                                                {"ccdt::delaunay::wrap_delaunay", "delaunay"},

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
@@ -12,7 +13,7 @@
 #include "engine/mesher.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/build_plc.h"
-#include "engine/protection/harmless_points.h"
+#include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/exhaustive_tetrahedralizations.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -92,9 +93,24 @@ struct Protected {
   }
   /// With regard to edges, or without.
   std::uint64_t insert(bool with_regard) {
-    if (with_regard && protection::harmless_points(std::vector{point}, surface).empty()) return 0;
+    if (with_regard && make_room(std::vector{point}, Protection::shell).empty()) return 0;
     insert_points(surface.delaunay, std::vector{point});
     return 1;
+  }
+  /// \return  the points that remain
+  std::vector<Point3> make_room(const std::vector<Point3>& points, Protection strategy) {
+    std::vector<Point3> remaining;
+    for (const std::uint32_t i : protection::make_room(points, plc, strategy, surface)) remaining.push_back(points[i]);
+    return remaining;
+  }
+  void expect_protected_after(const std::vector<Point3>& points) const {
+    delaunay::Delaunay d = delaunay;
+    insert_points(d, points);
+    for (std::size_t s = 0; s < surface.chains.size(); ++s) {
+      const auto& chain = surface.chains[s];
+      for (std::size_t k = 1; surface.must_be_chain[s] && k < chain.size(); ++k)
+        ASSERT_TRUE(delaunay::has_edge(d, chain[k - 1].vertex, chain[k].vertex)) << points.size() << " points";
+    }
   }
   front::FrontResult advance() const {
     const facets::FacetMesh facets = facets::triangulate_facets(plc, surface.chains, delaunay);
@@ -236,7 +252,7 @@ std::vector<Point3> random_points(const plc::Plc& plc, std::size_t count, std::m
   return result;
 }
 
-TEST(InteriorPoints, HarmlessOnesKeepAllProtectedEdgesWhicheverAreInserted) {
+TEST(InteriorPoints, ThatRemainKeepAllProtectedEdges) {
   std::mt19937 random(8);
   std::size_t kept = 0, left_out = 0;
   const std::vector<InputPlc> inputs = {cube_with_turnstile(),
@@ -249,21 +265,13 @@ TEST(InteriorPoints, HarmlessOnesKeepAllProtectedEdgesWhicheverAreInserted) {
                                         roughened(models::make_solid("sphere", 0.5), 0.3, random)};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     SCOPED_TRACE("input " + std::to_string(i));
-    const Protected p(inputs[i], {});
     for (const std::size_t count : {10, 100, 1000}) {
+      Protected p(inputs[i], {});
       const std::vector<Point3> points = random_points(p.plc, count, random);
-      std::vector<Point3> harmless;
-      for (const std::uint32_t index : protection::harmless_points(points, p.surface))
-        harmless.push_back(points[index]);
-      delaunay::Delaunay d = p.delaunay;
-      insert_points(d, harmless);
-      for (std::size_t s = 0; s < p.surface.chains.size(); ++s) {
-        const auto& chain = p.surface.chains[s];
-        for (std::size_t k = 1; p.surface.must_be_chain[s] && k < chain.size(); ++k)
-          ASSERT_TRUE(delaunay::has_edge(d, chain[k - 1].vertex, chain[k].vertex)) << count << " points";
-      }
-      kept += harmless.size();
-      left_out += points.size() - harmless.size();
+      const std::vector<Point3> remaining = p.make_room(points, Protection::shell);
+      p.expect_protected_after(remaining);
+      kept += remaining.size();
+      left_out += points.size() - remaining.size();
     }
   }
   EXPECT_GT(kept, 1000u);
@@ -278,18 +286,29 @@ InputPlc segment_with_vertex_beside_it() {
   return plc;
 }
 
+/// The smallest sphere through the ends of the segment that does not contain the vertex, on its far side.
+Ball smallest_empty_ball(const plc::Plc& plc) {
+  const Point3 &a = plc.vertices[8], &b = plc.vertices[9], &beside = plc.vertices[10];
+  const Point3 middle = 0.5 * (a + b), up = beside - middle;
+  const double half = 0.5 * length(b - a), height = length(up);
+  const double depth = (half * half - height * height) / (2 * height);
+  return {middle - (depth / height) * up, std::sqrt(half * half + depth * depth)};
+}
+
 TEST(InteriorPoints, OneSplitOfAnEdgeSparesManyOfThem) {
   std::mt19937 random(3);
   for (const Protection strategy : {Protection::midpoint, Protection::shell}) {
     Protected p(segment_with_vertex_beside_it(), {});
     EXPECT_TRUE(p.has_edge(8, 9));
     const std::vector<Point3> points = random_points(p.plc, 1000, random);
-    const std::size_t before = protection::harmless_points(points, p.surface).size();
-    const auto harmless = protection::split_costly_edges(points, p.plc, strategy, p.surface);
+    const Ball ball = smallest_empty_ball(p.plc);
+    const auto without_split =
+        static_cast<std::size_t>(std::ranges::count_if(points, [&](const Point3& q) { return !is_in_ball(ball, q); }));
+    const std::vector<Point3> remaining = p.make_room(points, strategy);
     EXPECT_EQ(p.delaunay.vertices.size(), p.plc.vertices.size() + 1);
-    EXPECT_GE(harmless.size(), before + 20);
-    EXPECT_EQ(harmless, protection::harmless_points(points, p.surface));
+    EXPECT_GE(remaining.size(), without_split + 20);
     EXPECT_TRUE(p.has_edge(8, 11) && p.has_edge(11, 9));
+    p.expect_protected_after(remaining);
   }
 }
 
@@ -297,10 +316,10 @@ TEST(InteriorPoints, EdgesThatHarmFewOfThemAreNotSplit) {
   std::mt19937 random(4);
   Protected p(segment_with_vertex_beside_it(), {});
   const std::vector<Point3> points = random_points(p.plc, 100, random);
-  const auto harmless = protection::split_costly_edges(points, p.plc, Protection::shell, p.surface);
+  const std::vector<Point3> remaining = p.make_room(points, Protection::shell);
   EXPECT_EQ(p.delaunay.vertices.size(), p.plc.vertices.size());
-  EXPECT_LT(harmless.size(), points.size());
-  EXPECT_EQ(harmless, protection::harmless_points(points, p.surface));
+  EXPECT_LT(remaining.size(), points.size());
+  p.expect_protected_after(remaining);
 }
 
 TEST(InteriorPoints, ThatWereDroppedAreCounted) {

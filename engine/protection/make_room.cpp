@@ -1,4 +1,4 @@
-#include "engine/protection/harmless_points.h"
+#include "engine/protection/make_room.h"
 
 #include <algorithm>
 #include <array>
@@ -130,7 +130,7 @@ struct Harm {
 };
 
 /// The points that harm no edge and are not where a vertex is.
-std::vector<std::uint32_t> harmless(const Harm& harm, const BoxTree& tree, const delaunay::Delaunay& delaunay) {
+std::vector<std::uint32_t> harmless_points(const Harm& harm, const BoxTree& tree, const delaunay::Delaunay& delaunay) {
   std::vector<std::uint8_t> is_vertex(harm.edge_count.size(), false);
   parallel_for(delaunay.vertices.size(), 1024, [&](std::size_t v) {
     tree.for_each_meeting(box_of(delaunay.vertices[v].point), [&](std::uint32_t i) {
@@ -156,13 +156,8 @@ std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges,
 
 }  // namespace
 
-std::vector<std::uint32_t> harmless_points(std::span<const Point3> points, const ProtectedDelaunay& surface) {
-  const BoxTree tree(boxes_of(points));
-  return harmless(Harm(points, tree, surface), tree, surface.delaunay);
-}
-
-std::vector<std::uint32_t> split_costly_edges(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
-                                              ProtectedDelaunay& surface, const Progress& progress) {
+std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
+                                     ProtectedDelaunay& surface, const Progress& progress) {
   const BoxTree tree(boxes_of(points));
   Harm harm(points, tree, surface);
   for (int round = 0; round < most_rounds; ++round) {
@@ -176,7 +171,7 @@ std::vector<std::uint32_t> split_costly_edges(std::span<const Point3> points, co
     surface = std::move(*split);
     harm = std::move(less);
   }
-  return harmless(harm, tree, surface.delaunay);
+  return harmless_points(harm, tree, surface.delaunay);
 }
 
 }  // namespace ccdt::protection

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/protection/protect_edges.h"
+
+namespace ccdt::protection {
+
+/// Prepares a surface for the insertion of interior points: leaves out those that could destroy a protected edge, and
+/// splits the edges that would cost too many. All protected edges then stay Delaunay, whichever of the remaining points
+/// are inserted and in whatever order.
+///
+/// An edge is Delaunay if some sphere through its ends has no vertex inside. For each edge one such sphere is chosen,
+/// the smallest one or, if that spares some of a few points, another one. The points inside are left out. If rounding
+/// errors forbid that, all points inside the circumspheres of the cells around the edge are left out.
+///
+/// On a bad surface, a vertex right beside an edge can force all spheres of the edge to be large; those of two halves
+/// are small. So edges are split, as long as each split spares 20 points.
+///
+/// \param points   in grid units
+/// \param surface  whose protected edges are all there; gains the vertices of the splits, and stays protected
+/// \return  the indices of the points that remain, in increasing order; none of them is where a vertex is
+std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
+                                     ProtectedDelaunay& surface, const Progress& progress = {});
+
+}  // namespace ccdt::protection
