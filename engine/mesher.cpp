@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
-#include "engine/base/box.h"
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
@@ -18,6 +18,7 @@
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/edge_length_bounds.h"
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
@@ -212,10 +213,12 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   return t;
 }
 
-/// A fortieth of the diagonal of the bounding box.
-double usual_edge_length(const std::vector<Point3>& vertices) {
-  const Box box = bounding_box(vertices);
-  return length(box.high - box.low) / 40;
+/// The target edge length, with the default of a refined surface. A length beyond the size of the input would only make
+/// the octree of the lattice too large.
+double edge_length_of(const MeshOptions& options, const InputPlc& input) {
+  const double longest = plc::longest_edge(input);
+  const double usual = options.refine_surface ? longest / 40 : 0;
+  return options.edge_length == 0 ? usual : std::min(options.edge_length, longest);
 }
 
 /// The smallest tolerance that is tried before 0.
@@ -234,7 +237,8 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   const auto triangulated = measured(costs, mesh_stage::plc, [&] { return plc::triangulate_bent_facets(input); });
   const InputPlc& flat = triangulated ? *triangulated : input;
   MeshOptions used = options;
-  if (used.refine_surface && used.edge_length == 0) used.edge_length = usual_edge_length(flat.vertices);
+  used.edge_length = edge_length_of(options, flat);
+  if (used.refine_surface) plc::check_edges_of_surface(flat, used.edge_length);
   Tetrahedralization t = tetrahedralize(flat, used, used.flatness, progress, costs);
   // The front gets stuck only at a facet that is flat within the tolerance but not exactly: the theorem on protected
   // edges holds for exact facets. A smaller tolerance costs more Steiner vertices. With tolerance 0, the

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
@@ -9,6 +10,7 @@
 #include "bench/run_record.h"
 #include "bench/surface_limit.h"
 #include "engine/base/count_work.h"
+#include "engine/base/digits.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
@@ -16,6 +18,7 @@
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/plc/bent_facets.h"
+#include "engine/plc/edge_length_bounds.h"
 #include "engine/surface/remesh_surface.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -85,6 +88,23 @@ std::string note_of(const InputPlc::Bent& bent) {
          deviation + ": triangulated so that they bend least";
 }
 
+/// A length that is too long or too short is probably in the wrong unit. The diagonal of the bounding box replaces a
+/// longer one.
+///
+/// \throw LimitError  the mesh would have too many vertices; ccdt itself finds that out where only the inside is filled
+void check_edge_length(const MeshCommand& command, const InputPlc& input, MeshOptions& options,
+                       bench::RunRecord& record) {
+  if (options.edge_length == 0) return;
+  const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
+  if (command.surface != Surface::keep || others_fill) plc::check_edges_of_surface(input, options.edge_length);
+  const double longest = plc::longest_edge(input);
+  if (options.edge_length <= longest) return;
+  record.notes.push_back("--edge-length " + digits(options.edge_length) +
+                         " is longer than the whole part: " + results::rounded(longest) +
+                         ", the diagonal of its bounding box, was used instead; check the unit");
+  options.edge_length = longest;
+}
+
 /// Another mesher leaves out what only ccdt can do. Its user should know.
 std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
@@ -118,15 +138,13 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
 }
 
 /// The surface with edges of the wanted length; any mesher may use it.
-InputPlc remeshed(const MeshCommand& command, const InputPlc& input, const Progress& progress,
+InputPlc remeshed(const MeshCommand& command, const InputPlc& input, double edge_length, const Progress& progress,
                   bench::RunRecord& record) {
   const Stopwatch watch(record.remesh_seconds);
   const WorkScope scope(record.remesh_work);
-  InputPlc surface = surface::remesh_surface(input,
-                                             {.edge_length = command.options.edge_length,
-                                              .sharp_angle = command.sharp_angle,
-                                              .flatness = command.options.flatness},
-                                             progress);
+  InputPlc surface = surface::remesh_surface(
+      input, {.edge_length = edge_length, .sharp_angle = command.sharp_angle, .flatness = command.options.flatness},
+      progress);
   record.notes.push_back("the surface was remeshed from " + results::with_separators(input.facet_count()) + " to " +
                          results::with_separators(surface.facet_count()) + " facets");
   if (!command.surface_output.empty()) io::write_plc(surface, command.surface_output);
@@ -150,6 +168,30 @@ void leave_provisional_record(const MeshCommand& command, const bench::RunRecord
   bench::write_run_record(unfinished, command.report);
 }
 
+/// Adds the result of a mesher, and measures of its mesh.
+void record_result(const MeshCommand& command, const MeshOptions& options, const baselines::MesherRun& run,
+                   bench::RunRecord& record) {
+  const bool is_ccdt = record.mesher.name == "ccdt";
+  const MeshResult& result = run.result;
+  record.counts = result.counts;
+  record.seconds = result.seconds;
+  if (is_ccdt) {
+    record.cpu_seconds = result.cpu_seconds;
+    record.threads = result.threads;
+  }
+  record.work = result.work;
+  record.largest_rounding = result.largest_rounding;
+  record.mesher_settings = run.settings;
+  record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
+  if (!options.background.empty() && !is_ccdt)
+    record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
+  record.quality = bench::measure_quality(result.mesh);
+  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none)
+    if (const bench::SurfaceLimit limit = bench::find_surface_limit(result.mesh); limit.limits_quality())
+      record.notes.push_back(words_of(limit));
+  record.mesh_fingerprint = bench::fingerprint(result.mesh);
+}
+
 /// Reads, meshes, measures and writes. At every moment, the record contains what is known of the run.
 void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   ProgressBar bar;
@@ -165,8 +207,9 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   }();
   record = begin_record(command, input);
   record.input.sha256 = bench::sha256_of_file(command.input);
-  if (command.surface == Surface::remesh) input = remeshed(command, input, progress, record);
   MeshOptions options = command.options;
+  check_edge_length(command, input, options, record);
+  if (command.surface == Surface::remesh) input = remeshed(command, input, options.edge_length, progress, record);
   options.refine_surface = command.surface == Surface::refine;
   if (!options.background.name.empty()) {
     const Stopwatch watch(read_seconds);
@@ -178,25 +221,9 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   record.mesher_settings = baselines::settings_of(chosen, input, options);
   leave_provisional_record(command, record);
 
-  baselines::MesherRun run = chosen.run(input, options, progress);
+  const baselines::MesherRun run = chosen.run(input, options, progress);
   record.peak_rss_bytes = bench::peak_rss_bytes();  // the mesher's own, without that of the measurements below
-  record.counts = run.result.counts;
-  record.seconds = run.result.seconds;
-  if (chosen.name == "ccdt") {
-    record.cpu_seconds = run.result.cpu_seconds;
-    record.threads = run.result.threads;
-  }
-  record.work = run.result.work;
-  record.largest_rounding = run.result.largest_rounding;
-  record.mesher_settings = std::move(run.settings);
-  record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
-  if (!options.background.empty() && chosen.name != "ccdt")
-    record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
-  record.quality = bench::measure_quality(run.result.mesh);
-  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none)
-    if (const bench::SurfaceLimit limit = bench::find_surface_limit(run.result.mesh); limit.limits_quality())
-      record.notes.push_back(words_of(limit));
-  record.mesh_fingerprint = bench::fingerprint(run.result.mesh);
+  record_result(command, options, run, record);
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/base/errors.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
+#include "engine/plc/edge_length_bounds.h"
 
 namespace ccdt::lattice {
 
@@ -69,7 +70,7 @@ Ball smallest_ball(const TrianglePoints& triangle) {
   const Point3 height = to_c - (dot(to_c, along) / squared_length(along)) * along;
   const double height2 = squared_length(height);
   if (excess <= 0 || height2 == 0) return smallest_ball(a, b);
-  // On the way from the middle of ab towards c, the center is where a and c are equally far.
+  // On the way from the middle of ab toward c, the center is where a and c are equally far.
   const double shift = excess / (2 * height2);
   const double radius = std::sqrt(radius2 + shift * shift * height2);
   constexpr double rounding = 1e-15;
@@ -375,13 +376,7 @@ std::vector<std::uint8_t> find_clear_sites(const Octree& tree, const DomainSurfa
 namespace {
 
 constexpr std::string_view stage = "lattice";
-constexpr std::uint8_t outside = 0xFF;          ///< instead of a level
-constexpr double most_vertices = 4294967295.0;  ///< ids of 32 bits, of which one means none
-
-[[noreturn]] void throw_too_many_points() {
-  throw LimitError("the edge length needs more than 2^32 - 1 vertices", {},
-                   "use a greater edge length or greater sizes; they are in the units of the input");
-}
+constexpr std::uint8_t outside = 0xFF;  ///< instead of a level
 
 /// By the divergence theorem.
 double volume_inside(const DomainSurface& surface) {
@@ -401,7 +396,7 @@ double volume_inside(const DomainSurface& surface) {
 void check_number(const DomainSurface& surface, const SizeField& size) {
   const double largest = size.largest(),
                points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
-  if (points > most_vertices) throw_too_many_points();
+  if (points > plc::most_vertices) plc::throw_too_many_vertices(points);
 }
 
 /// Are all leaves around an inner one inner leaves of its level?
@@ -479,7 +474,8 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
     result.points.push_back(tree.point(coordinates_of(sites[i])));
     result.levels.push_back(levels[i]);
   }
-  if (static_cast<double>(surface.vertices.size() + result.points.size()) > most_vertices) throw_too_many_points();
+  const auto vertices = static_cast<double>(surface.vertices.size() + result.points.size());
+  if (vertices > plc::most_vertices) plc::throw_too_many_vertices(vertices);
   report(progress, stage, steps, steps);
   return result;
 }

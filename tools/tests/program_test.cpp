@@ -83,6 +83,31 @@ TEST_F(Program, AnyNumberOfThreadsIsALimitThatCanBeKept) {
   EXPECT_EQ(run("verify cube.off a.vtu --threads 0").exit_code, 2);
 }
 
+TEST_F(Program, AnEdgeLengthBeyondThePartIsReplacedAndNoted) {
+  write("cube.off", cube_off);
+  for (const std::string options : {"", " --surface refine", " --surface remesh"}) {
+    const Outcome outcome = run("mesh cube.off -o a.vtu --edge-length 1e300" + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("--edge-length 1e+300 is longer than the whole part"), std::string::npos) << outcome.out;
+    EXPECT_EQ(run("mesh cube.off -o b.vtu --edge-length 2" + options).exit_code, 0);  // the diagonal is 1.7
+    EXPECT_EQ(text_of(work() / "a.vtu"), text_of(work() / "b.vtu")) << options;
+  }
+  EXPECT_EQ(run("mesh cube.off -o a.vtu --edge-length 1.7").out.find("longer than"), std::string::npos);
+}
+
+TEST_F(Program, AnEdgeLengthThatNeedsTooManyVerticesExitsWithFour) {
+  write("cube.off", cube_off);
+  const std::size_t before = file_count();
+  for (const std::string length : {"1e-300", "0.0000001"})
+    for (const std::string options : {"", " --surface refine", " --surface remesh", " --lattice bcc --grading 0"}) {
+      const Outcome outcome = run("mesh cube.off -o a.vtu --edge-length " + length + options);
+      EXPECT_EQ(outcome.exit_code, 4) << options;
+      EXPECT_NE(outcome.err.find("the edge length is too short"), std::string::npos) << outcome.err;
+      EXPECT_NE(outcome.err.find("--edge-length"), std::string::npos) << outcome.err;
+      EXPECT_EQ(file_count(), before);
+    }
+}
+
 TEST_F(Program, BadInputExitsWithThreeOneMessageAndNothingWritten) {
   write("empty.off", "");
   write("nonsense.stl", "this is no surface");

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "engine/plc/input.h"
+
+namespace ccdt::plc {
+
+/// The most vertices that a mesh can have: ids have 32 bits, and one of them means none.
+inline constexpr double most_vertices = 4294967295.0;
+
+/// \param count       the approximate number of vertices that the edge length needs; may be infinite
+/// \param file        the name of the input, if it is known
+/// \throw LimitError  always
+[[noreturn]] void throw_too_many_vertices(double count, const std::string& file = {});
+
+/// The diagonal of the bounding box: no edge is longer.
+double longest_edge(const InputPlc& input);
+
+/// \throw LimitError  an even surface with edges of this length has too many vertices
+void check_edges_of_surface(const InputPlc& input, double edge_length);
+
+}  // namespace ccdt::plc
