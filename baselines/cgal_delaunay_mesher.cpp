@@ -4,6 +4,7 @@
 #include <CGAL/version.h>
 
 #include <chrono>
+#include <utility>
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesh_cleanup.h"

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <map>
 #include <unordered_map>
+#include <utility>
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesh_cleanup.h"
@@ -36,8 +37,8 @@ namespace parameters = CGAL::parameters;
 /// of about that length on average.
 struct Sizes {
   double feature_angle = 60;  ///< least angle between normals at a sharp edge, in degrees: the default of the library
-  double edge, facet_angle = 25, facet, facet_distance, cell_radius_edge = 3,
-               cell;  ///< angle and ratio as in its manual
+  double edge, facet, facet_distance, cell;
+  double facet_angle = 25, cell_radius_edge = 3;  ///< as in the manual of the library
 
   explicit Sizes(double edge_length)
       : edge(edge_length), facet(edge_length), facet_distance(edge_length / 10), cell(edge_length) {}

@@ -18,8 +18,10 @@ std::optional<std::filesystem::path> find_on_path(const std::string& name);
 inline constexpr const char* unknown_version = "unknown";
 
 /// Runs a program that prints its version.
+///
 /// \param pattern  ECMAScript, for the first matching line: its first group, or the whole match if it has none; empty:
-/// the first line that is not empty \return  `unknown_version` if the program cannot be run, or no line matches
+///                 the first line that is not empty
+/// \return         `unknown_version` if the program cannot be run, or no line matches
 std::string version_of_program(const std::vector<std::string>& command, const std::string& pattern);
 
 /// The last lines of what a program printed, without empty ones, joined by " | ".

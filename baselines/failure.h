@@ -4,6 +4,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/base/enum_names.h"
 #include "engine/base/errors.h"

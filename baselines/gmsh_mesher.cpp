@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"

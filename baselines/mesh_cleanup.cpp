@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <utility>
 
 namespace ccdt::baselines {
 namespace {

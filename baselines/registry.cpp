@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "baselines/known_meshers.h"
 #include "baselines/mesher.h"

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 #include <sstream>
+#include <utility>
 
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"

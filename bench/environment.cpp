@@ -13,6 +13,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <tuple>
 
 #include "baselines/mesher.h"
 #include "bench/json_fields.h"

@@ -13,7 +13,7 @@ namespace ccdt::bench {
 /// Calls `work(i)` for each i below `count`, in any order.
 ///
 /// \param most_threads  largest number of threads
-/// \throw ...           the first exception of `work`; the rest of the calls may be left out then
+/// \throw ...           the first exception of `work`; then some of the other calls may be skipped
 template <class Work>
 void in_parallel(std::size_t count, const Work& work, std::size_t most_threads = std::thread::hardware_concurrency()) {
   std::atomic<std::size_t> next = 0;

@@ -1,6 +1,7 @@
 #include "bench/run_record.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "bench/json_fields.h"
 

@@ -54,7 +54,7 @@ std::size_t trimmed_at_each_end(std::size_t samples, double share) {
   return static_cast<std::size_t>(share * static_cast<double>(samples));
 }
 
-/// The trimmed mean of a sample in which each of these values, which are in order, is so many times.
+/// The trimmed mean of a sample in which each of these values, which are in order, occurs this many times.
 double trimmed_mean_of_counts(std::span<const double> values, std::span<const std::uint32_t> times, double share) {
   const std::size_t trimmed = trimmed_at_each_end(values.size(), share), end = values.size() - trimmed;
   double sum = 0;

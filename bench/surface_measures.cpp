@@ -17,7 +17,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 constexpr double least_kept_angle = 25;
 constexpr double largest_kept_ratio = 2;      ///< of the 95th percentile of the edges to the 5th
-constexpr double largest_kept_change = 1.25;  ///< of the median edge to the wanted length, or the other way round
+constexpr double largest_kept_change = 1.25;  ///< ratio of the median edge to the wanted length, or its inverse
 
 double angle_between(const Point3& a, const Point3& b) {
   return degrees * std::atan2(std::sqrt(squared_length(cross(a, b))), dot(a, b));

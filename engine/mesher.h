@@ -53,9 +53,9 @@ struct MeshOptions {
   double sphere_factor = 1;     ///< see LatticeOptions
   double clearance = lattice::usual_clearance;  ///< see LatticeOptions
   unsigned threads = 0;                         ///< that work at the same time; 0: one for each core. Same mesh.
-  ImproveOptions improve = {};                  ///< improvement improvement of the finished mesh; see `improvement_of`
-  BackgroundSizes background =
-      {};  ///< a size function, in the units of the input; it replaces the edge lengths of the surface
+  ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`
+  /// A size function, in the units of the input; it replaces the edge lengths of the surface.
+  BackgroundSizes background = {};
 };
 
 /// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
@@ -121,7 +121,7 @@ struct MeshCounts {
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
   std::uint64_t refined_on_segments = 0;       ///< vertices that refinement gave to segments
   std::uint64_t refined_in_facets = 0;         ///< and to facets
-  std::optional<SegmentCounts> segments = {};  ///< only for our mesher
+  std::optional<SegmentCounts> segments = {};  ///< only of ccdt
   ImproveCounts improve = {};
 };
 
@@ -144,10 +144,13 @@ unsigned number_of_threads(const MeshOptions& options);
 
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
-/// \param input     facets in any units, which also apply to lengths and to the mesh; polygons that are not planar are
-/// triangulated so that they bend least \param options   strategies, sizes and targets of improvement \param progress
-/// called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is released \throw
-/// InputError  the input is not a valid PLC \throw LimitError  a segment would need a split finer than the grid allows
+/// \param input       facets in any units, which also apply to lengths and to the mesh; polygons that are not planar
+///                    are triangulated so that they bend least
+/// \param options     strategies, sizes and targets of improvement
+/// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
+///                    released
+/// \throw InputError  the input is not a valid PLC
+/// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh too many vertices
 /// \throw MeshError   no valid mesh was found
 /// \throw ...         any exception of `progress`
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});

@@ -1,6 +1,8 @@
 // Meshes a box given by arrays: two rooms with a wall between them. Each room is a region with its own attribute.
+#include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include "volume.h"
 

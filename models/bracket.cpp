@@ -32,7 +32,7 @@ enum Marker { foot = 1, wall, bent, ends, sides, holes, gusset, interior_face, s
 const Point3 y_axis{0, 1, 0};
 
 constexpr double narrow =
-    6;  // of the faces beside the curves: less than the thickness, for the sake of the bend's inner arcs
+    6;  // of the faces beside the curves: less than the thickness, because of the inner arcs of the bend
 
 /// The surface, and how finely its curves are cut.
 struct Bracket {
@@ -60,7 +60,7 @@ struct Leg {
   Point3 at(double out, double across, double up) const {
     return is_foot ? Point3{out, across, up} : Point3{up, across, out};
   }
-  /// The angle around `up_axis` of what is at an angle from `out` towards `across`.
+  /// The angle around `up_axis` of what is at an angle from `out` toward `across`.
   double angle(double from_out) const { return is_foot ? from_out : 90 - from_out; }
 };
 

@@ -36,7 +36,7 @@ Chain line(ModelSurface& surface, const Point3& from, const Point3& to, double s
 /// Cuts a curve between two corners into parts of equal arc length of about `spacing`.
 ///
 /// \param position     the curve for a parameter from 0 to 1; its ends are the corners
-/// \param least_parts  at least so many parts
+/// \param least_parts  the least number of parts
 Chain curve(ModelSurface& surface, const Point3& from, const Point3& to, const std::function<Point3(double)>& position,
             double spacing, int least_parts);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -66,7 +67,7 @@ void add_block(const Face& face, std::int64_t u, std::int64_t v, std::int64_t si
   }
 }
 
-/// The face that far from the origin in equal squares.
+/// A face opposite the origin, in equal squares.
 void add_even_face(const Face& face, int count) {
   add_block(face, 0, 0, face.size / (2 * count), 2 * count, SplitSide::none);
 }

@@ -17,7 +17,7 @@ namespace ccdt::models {
 struct ModelSurface {
   std::vector<Point3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<int> markers;                                ///< one a triangle
+  std::vector<int> markers;                                ///< one per triangle
   std::map<std::array<double, 3>, std::uint32_t> corners;  ///< where curves end
 };
 

@@ -22,7 +22,7 @@ plc::InputPlc make_stepping_pole(double edge_length);
 
 /// The unit cube with a square grid on each face.
 plc::InputPlc make_cube(double edge_length);
-/// The unit cube with squares on its faces that shrink towards the origin: the longest edge is 181 times the shortest.
+/// The unit cube with squares on its faces that shrink toward the origin: the longest edge is 181 times the shortest.
 /// The edge length is that of the largest squares.
 plc::InputPlc make_graded_cube(double edge_length);
 /// The unit sphere about the origin: an icosahedron, each face divided, on the sphere.

@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "engine/planar/triangulation.h"
 #include "models/revolve.h"

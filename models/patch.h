@@ -18,7 +18,7 @@ struct Chart {
 /// Where the outer side of a cylinder is.
 enum class OuterSide { away_from_axis, towards_axis };
 
-/// The plane through `origin` with that unit normal towards the outer side. Where the normal is along an axis, the
+/// The plane through `origin` with that unit normal toward the outer side. Where the normal is along an axis, the
 /// points of the plane have exactly the origin's coordinate there.
 Chart plane_chart(const Point3& origin, const Point3& normal);
 
@@ -35,7 +35,7 @@ struct SurfacePatch {
 };
 
 /// Triangulates a patch with nearly equilateral triangles whose outer vertices are those of its curves: points in
-/// layers, their constrained Delaunay triangulation, then smoothing towards the optimal Delaunay triangulation (Chen &
+/// layers, their constrained Delaunay triangulation, then smoothing toward the optimal Delaunay triangulation (Chen &
 /// Xu 2004) in turn with flips.
 ///
 /// \throw std::logic_error  the curves cross, or meet otherwise than in shared vertices

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "models/parts.h"
@@ -28,7 +29,7 @@ constexpr double boss_face = 14;  // distance of the bosses' faces from the pist
 enum Marker { crown = 1, bowl, land, groove, skirt, rim, cavity, pin_bore, boss };
 
 /// The two circles of a hole around the pin's axis on one side: one in the plane of the boss's face and one on a
-/// cylinder around the piston's axis, both in halves that begin at angle 0 and 180 (towards +y and -y).
+/// cylinder around the piston's axis, both in halves that begin at angle 0 and 180 (toward +y and -y).
 struct PinTube {
   Ring circle;
   std::array<Chain, 2> on_cylinder;
@@ -73,7 +74,7 @@ void add_tube_wall(ModelSurface& surface, const PinTube& tube, double tube_radiu
   }
 }
 
-/// A cylinder around the piston's axis between two rings, each half (towards +x and -x) with a hole of the pin's.
+/// A cylinder around the piston's axis between two rings, each half (toward +x and -x) with a hole of the pin's.
 void add_pierced_cylinder(ModelSurface& surface, const Ring& lower, const Ring& upper,
                           const std::array<Chain, 2>& holes, OuterSide outer_side, double edge_length, Marker marker) {
   const Point3 plus{0, lower.radius, 0}, minus{0, -lower.radius, 0};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace ccdt::models {
@@ -17,7 +18,7 @@ double spacing_at(double along, double length, const Ring& from, const Ring& to,
   return spacing;
 }
 
-/// Places along the profile where the rows between the two rings go, graded as the edge length is.
+/// The places of the rows between the two rings along the profile, graded as the edge length is.
 std::vector<double> row_places(const Ring& from, const Ring& to, double length, double edge_length) {
   constexpr int samples = 512;
   std::vector<double> rows(samples + 1, 0.0);

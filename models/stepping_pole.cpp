@@ -183,7 +183,7 @@ plc::InputPlc make_stepping_pole(double edge_length) {
   };
   const Ring neck = add_stub(surface, edge_length);
 
-  const double hexagon_spacing = spacing_beside(edge_length, hexagon_radius / 4);  // two edges a side at least
+  const double hexagon_spacing = spacing_beside(edge_length, hexagon_radius / 4);  // at least two edges per side
   const Outline hexagon_lower = hexagon_outline(surface, 0, hexagon_spacing);
   const Outline hexagon_upper = hexagon_outline(surface, hexagon_top, hexagon_spacing);
   const Ring collar_lower = collar_ring(hexagon_top), collar_upper = collar_ring(collar_top);

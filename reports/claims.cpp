@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace ccdt::reports {
 namespace {
@@ -333,7 +334,7 @@ void judge(PaperClaim& claim) {
     claim.verdict = ClaimVerdict::not_testable;
     if (any(claim, &ClaimMeasure::strong, BoundTest::fails))
       claim.reason =
-          "Not as the paper has it: " + names_of_measures(claim, &ClaimMeasure::strong, BoundTest::fails) + ". ";
+          "Different from the paper: " + names_of_measures(claim, &ClaimMeasure::strong, BoundTest::fails) + ". ";
     claim.reason += (claim.weaker.empty() ? "The" : "For the weaker form (" + claim.weaker + ") the") +
                     std::string(" intervals are too wide: ") +
                     names_of_measures(claim, &ClaimMeasure::weak, BoundTest::undecided) +
@@ -342,7 +343,7 @@ void judge(PaperClaim& claim) {
     claim.verdict = ClaimVerdict::reservation;
     const BoundTest found =
         any(claim, &ClaimMeasure::strong, BoundTest::fails) ? BoundTest::fails : BoundTest::undecided;
-    claim.reason = claim.weaker + (found == BoundTest::fails ? " Not as the paper has it: " : " Not decided: ") +
+    claim.reason = claim.weaker + (found == BoundTest::fails ? " Different from the paper: " : " Not decided: ") +
                    names_of_measures(claim, &ClaimMeasure::strong, found) + ".";
   }
 }

@@ -2,6 +2,7 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
+#include <utility>
 
 #include "bench/experiments/experiment.h"
 #include "reports/report.h"

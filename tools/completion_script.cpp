@@ -1,4 +1,4 @@
-#include <functional>
+#include <utility>
 
 #include "tools/program_text.h"
 
@@ -17,8 +17,8 @@ std::string first_line(const std::string& text) {
 }
 
 /// A text between single quotes.
-/// \param quote  what stands for a single quote within them
-std::string quoted(const std::string& text, const char* quote) {
+/// \param quote  what stands for a single quote within them: by default as in bash and zsh
+std::string quoted(const std::string& text, const char* quote = "'\\''") {
   std::string safe;
   for (const char c : text) safe += c == '\'' ? std::string(quote) : std::string(1, c);
   return "'" + safe + "'";
@@ -41,18 +41,17 @@ std::pair<std::vector<std::string>, std::vector<std::string>> words_of(const Ver
   return {options, values};
 }
 
-// Where a word is not known to be a name, the shell completes names of files.
+// For any other word, the shell completes names of files.
 std::string bash_script(const ProgramText& program) {
   std::string values, options, arguments;
   for (const VerbText& verb : program.verbs) {
     for (const OptionText& option : verb.options)
       if (!option.is_positional && !option.choices.empty())
         for (const std::string& name : option.names)
-          values += "    " + quoted(verb.name + " " + name, "'\\''") +
-                    ") words=" + quoted(joined(option.choices), "'\\''") + " ;;\n";
+          values += "    " + quoted(verb.name + " " + name) + ") words=" + quoted(joined(option.choices)) + " ;;\n";
     const auto [names, choices] = words_of(verb);
-    options += "    " + verb.name + ") words=" + quoted(joined(names), "'\\''") + " ;;\n";
-    arguments += "    " + verb.name + ") words=" + quoted(joined(choices), "'\\''") + " ;;\n";
+    options += "    " + verb.name + ") words=" + quoted(joined(names)) + " ;;\n";
+    arguments += "    " + verb.name + ") words=" + quoted(joined(choices)) + " ;;\n";
   }
   const std::string& name = program.name;
   return "# Completion of " + name + " for bash, as `" + name + " completion bash` prints it.\n_" + name +
@@ -61,7 +60,7 @@ std::string bash_script(const ProgramText& program) {
          "  COMPREPLY=()\n"
          "  if ((COMP_CWORD == 1)); then\n"
          "    words=" +
-         quoted(joined(names_of_verbs(program)) + " --help --version", "'\\''") +
+         quoted(joined(names_of_verbs(program)) + " --help --version") +
          "\n"
          "  else\n"
          "    case \"$verb $before\" in\n" +
@@ -93,14 +92,13 @@ std::string zsh_values(const OptionText& option) {
 
 std::string zsh_option(const OptionText& option) {
   const std::string what = for_zsh(first_line(option.what));
-  if (option.is_positional)
-    return "      " + quoted("*:" + for_zsh(option.names.front()) + ":" + zsh_values(option), "'\\''");
+  if (option.is_positional) return "      " + quoted("*:" + for_zsh(option.names.front()) + ":" + zsh_values(option));
   std::string lines;
   for (const std::string& name : option.names) {
     std::string line = name;
     line.append("[").append(what).append("]");
     if (!option.is_flag) line += ":value:" + zsh_values(option);
-    lines += (lines.empty() ? "      " : " \\\n      ") + quoted(line, "'\\''");
+    lines += (lines.empty() ? "      " : " \\\n      ") + quoted(line);
   }
   return lines;
 }
@@ -109,7 +107,7 @@ std::string zsh_script(const ProgramText& program) {
   const std::string& name = program.name;
   std::string verbs, cases;
   for (const VerbText& verb : program.verbs) {
-    verbs += "    " + quoted(for_zsh(verb.name) + ":" + verb.what, "'\\''") + "\n";
+    verbs += "    " + quoted(for_zsh(verb.name) + ":" + verb.what) + "\n";
     cases += "    " + verb.name + ") _arguments";
     bool has_positional = false;
     for (const OptionText& option : verb.options) {

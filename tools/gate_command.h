@@ -42,7 +42,8 @@ GateResult measure(const GateCommand& command, const gate::Rules& rules);
 /// Measures how noisy the base is on this host; writes DIR/calibration.json, and all times to DIR/samples.json.
 ///
 /// \throw InputError          the program or the spec cannot be read, or there are too few pairs: says how many it
-/// needs \throw baselines::Stopped  the user has stopped the program
+///                            needs
+/// \throw baselines::Stopped  the user has stopped the program
 gate::Calibration measure_calibration(const GateCommand& command, const gate::Rules& rules);
 
 }  // namespace ccdt::tools

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <optional>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "baselines/stop.h"
 #include "bench/gate/baseline.h"

@@ -5,7 +5,7 @@
 namespace ccdt::tools {
 namespace {
 
-/// A text in roff: no character of it is a command.
+/// A text escaped for roff, so that no character acts as a command.
 std::string roff(const std::string& text) {
   std::string safe;
   bool begins_line = true;
@@ -45,7 +45,7 @@ std::string names_of(const OptionText& option) {
   return names;
 }
 
-/// The names, and what stands after them: a value, or nothing after a flag.
+/// The names, followed by a placeholder for the value unless it is a flag.
 std::string label_of(const OptionText& option) {
   return names_of(option) + (option.is_positional || option.is_flag ? "" : " VALUE");
 }

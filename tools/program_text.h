@@ -31,6 +31,7 @@ struct ProgramText {
   std::vector<VerbText> verbs;
 };
 
+/// \param app  loses the parts of its help that depend on the build
 ProgramText text_of(CLI::App& app);
 
 /// The shells with completion.

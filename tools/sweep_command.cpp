@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "baselines/mesher.h"
 #include "bench/results/numbers.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"

@@ -83,7 +83,7 @@ TEST(RestoreCoordinates, SpoilsNoTetrahedron) {
   mesh.regions = {0, 0};
   EXPECT_EQ(baselines::restore_coordinates(input, mesh), 1u);
   mesh.vertices[3].z = 1;
-  mesh.tetrahedra[1] = {0, 4, 1, 3};  // stands on its head if vertex 3 moves
+  mesh.tetrahedra[1] = {0, 4, 1, 3};  // inverted if vertex 3 moves
   EXPECT_EQ(baselines::restore_coordinates(input, mesh), 0u);
   EXPECT_EQ(mesh.vertices[3].z, 1);
 }

@@ -4,19 +4,19 @@
 //   delaunay/insert/...  build_delaunay, vertex by vertex; including the sorting along a Hilbert curve
 //   delaunay/wrap/...    wrap_delaunay, the paper's way: face by face in a uniform grid, which is included; it is
 //                        given the ranks that decide ties, those of build_delaunay, so that both have one result
-//   delaunay/cgal/...    CGAL's Delaunay_triangulation_3 with its kernel of exact predicates, given the same points, of
-//                        the very same coordinates, as a range
-//   delaunay/tetgen/...  TetGen's library without switches but for silence; it returns a list of tetrahedra, whose
-//                        making is included
+//   delaunay/cgal/...    CGAL's Delaunay_triangulation_3 with its kernel of exact predicates, given a range of the same
+//                        points with the same coordinates
+//   delaunay/tetgen/...  TetGen's library with the switch for silence alone; the time includes making the list of
+//                        tetrahedra that it returns
 //
 //   .../random/N         N uniformly distributed points, snapped to the grid
 //   .../lattice/N        N points of a perfect face-centered lattice in random order: almost all spheres have more than
 //                        four points on them, which is the common case in the mesher
-//   .../MODEL/N          the about N vertices of a mesh of the model, those of its surface first
+//   .../MODEL/N          the vertices of a mesh of the model, about N, those of its surface first
 //   .../FILE             the same for a file given by --input
 //
 // "vertices" are the points, "cells" the finite tetrahedra. Before anything is timed, the results are compared: insert
-// and wrap must have the very same tetrahedra; the others the same volume as insert and, for random points, the same
+// and wrap must have the same tetrahedra; the others the same volume as insert and, for random points, the same
 // number of tetrahedra (the other points have many Delaunay tetrahedralizations). Compare by ratio within one run.
 
 #include <benchmark/benchmark.h>
@@ -25,6 +25,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -51,7 +52,7 @@ namespace {
 /// Points of one kind, by size.
 struct PointSet {
   std::string name;
-  std::vector<std::int64_t> sizes;  ///< empty: there is but one
+  std::vector<std::int64_t> sizes;  ///< empty: there is only one
   std::function<std::vector<Point3>(std::int64_t size)> make;
 };
 

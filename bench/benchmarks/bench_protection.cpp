@@ -1,19 +1,20 @@
 // What is measured: protect_edges, from the Delaunay tetrahedralization of the input's vertices to the one in which
 // every grazeable segment is a chain of edges; the copy of the tetrahedralization that it changes is made outside.
 //
-//   protection/shell/...      splits where the encroaching vertex asks for it, on spheres around common ends
+//   protection/shell/...      splits at the foot of the encroaching vertex, or on spheres around common ends
 //   protection/midpoint/...   the paper's bisection
 //
 //   .../MODEL/N        the surface whose mesh has about N vertices
 //   .../flat-MODEL/N   the same, but z scaled by 0.3; edges and faces are missing then
 //   .../FILE           a file given by --input
 //
-// "vertices" and "cells" are those of the tetrahedralization that comes out, which has no interior vertices yet;
-// "segments" counts the grazeable ones, "steiner" the vertices put on them. The time is not linear in the vertices, as
-// most of them are on no segment: the fit is free. Before anything is timed, all pieces of all grazeable segments must
-// be edges of the result.
+// "vertices" and "cells" are those of the resulting tetrahedralization, which has no interior vertices yet;
+// "segments" counts the grazeable ones, "steiner" the vertices put on them. Most vertices are on no segment, so the
+// time is not linear in their number, and Google Benchmark chooses the complexity that fits best. Before anything is
+// timed, all pieces of all grazeable segments must be edges of the result.
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/benchmarks/benchmark_main.h"
 #include "engine/delaunay/delaunay.h"

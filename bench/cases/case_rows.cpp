@@ -1,6 +1,8 @@
 #include "bench/cases/case_rows.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "bench/results/kept_mesh.h"
 #include "engine/io/tet_mesh_files.h"

@@ -1,6 +1,7 @@
 #include "bench/cases/run_case.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "baselines/mesher.h"

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "bench/cases/run_case.h"
 #include "bench/environment.h"

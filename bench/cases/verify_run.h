@@ -15,8 +15,8 @@ struct RunFiles {
 };
 
 /// Checks the mesh of a run exactly, in a separate child process, and adds the result to its record. A wrong mesh makes
-/// the run a failure. An equal mesh of an earlier run of the case is not checked again. Meshers that make their own
-/// surface are checked with `--surface own`.
+/// the run a failure. A mesh that equals that of an earlier run of the case is not checked again. Meshers that make
+/// their own surface are checked with `--surface own`.
 ///
 /// \pre the run succeeded
 /// \throw baselines::Stopped  the user has stopped the program

@@ -2,8 +2,10 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"

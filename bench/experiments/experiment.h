@@ -84,7 +84,8 @@ struct ExperimentOptions {
 
 /// Makes the folders of an experiment: models, meshes, runs.
 ///
-/// \param runs  counted runs per case \return      the circumstances before the first run
+/// \param runs  counted runs per case
+/// \return      the circumstances before the first run
 Circumstances start_experiment(const ExperimentOptions& options, int runs);
 
 /// The factor for an edge length that makes about 100,000 tetrahedra, to make the wanted number.
@@ -100,7 +101,7 @@ bool is_measured(const ExperimentOptions& options, std::string_view mesher);
 /// edge length, so it takes part only if at least that many are wanted.
 bool is_timed(const ExperimentOptions& options, std::string_view mesher);
 
-/// The meshers that the user described by files, by the paths of these.
+/// The files in which the user described meshers.
 std::vector<std::string> described_meshers(const ExperimentOptions& options);
 
 /// \throw InputError  there is nothing to measure, because none of the chosen models is part of it
@@ -118,7 +119,7 @@ cases::Case single_case(const ExperimentOptions& options, std::string name, std:
 /// The default half-width of a median's interval, as a share of the median.
 inline constexpr double usual_precision = 0.05;
 
-/// The same, run until some of its seconds are known with this precision.
+/// The same case, repeated until some of its seconds are known with this precision.
 ///
 /// \param group  the cases with which it takes turns
 cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single,

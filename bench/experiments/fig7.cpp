@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 
 #include "bench/experiments/experiment.h"
 #include "bench/experiments/quality_experiments.h"

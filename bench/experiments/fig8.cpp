@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "baselines/mesher.h"
 #include "bench/experiments/surfaces.h"

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "bench/surface_measures.h"
@@ -24,7 +26,7 @@ const std::vector<std::string> definitions = {
     "Seconds of the front alone, including the construction of the locator.",
     "Check off: every face goes through the front. Check on: only faces that are not Delaunay do.",
     "Uniform: the paper's models with interior vertices at the density of the surface.",
-    "Graded: a cube with squares on its faces that shrink towards a corner.",
+    "Graded: a cube with squares on its faces that shrink toward a corner.",
     "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
     "Edge ratio: the longest edge of the surface over the shortest.",
     "Ratios are of medians. A claim holds if the whole interval is on the right side of 1."};

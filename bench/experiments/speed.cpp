@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "baselines/mesher.h"
 #include "bench/experiments/surfaces.h"
@@ -20,7 +22,7 @@ const std::vector<std::string> definitions = {
     "Of ccdt: all stages. Of others: the call of the library, or the time that the program reports.",
     "Ratio: seconds over those of ccdt on one thread in the same task; above 1, ccdt is faster.",
     "Other meshers run on one thread. They choose their own vertices, so compare microseconds per tetrahedron too.",
-    "Strong scaling: the same model on more threads. Weak scaling: as many times more tetrahedra as threads.",
+    "Strong scaling: the same model on more threads. Weak scaling: the number of tetrahedra grows with the threads.",
     "Speedup: of weak scaling, tetrahedra per second over those on one thread.",
     "Serial share (Karp and Flatt 1990): it would explain the speedup if the other work were divided evenly.",
     "Projection: the speedup on 64 threads by Amdahl's law with this serial share. It was not measured.",
@@ -56,7 +58,7 @@ RowColumns<SpeedRow> columns_of_case(const RowColumns<SpeedRow>& more) {
   return columns;
 }
 
-/// Seconds a tetrahedron, times a million; none of a failure.
+/// Microseconds per tetrahedron; none for a run that failed.
 std::optional<Estimate> microseconds_of(const SpeedRow& row) {
   const auto seconds = seconds_of(row);
   const auto count = static_cast<double>(row.measured.first.counts.tetrahedra);
@@ -152,7 +154,7 @@ std::optional<ScalingRow> scaling_of(const SpeedRow& several, const SpeedRow& on
 
 std::string finding_of(const ScalingRow& row) {
   return row.several.model + ", " + row.several.task + ", " + std::to_string(row.several.threads) + " threads" +
-         (row.several.is_weak ? " on as many times more tetrahedra" : "") + ": " + with_interval(row.speedup) +
+         (row.several.is_weak ? " on a mesh that is larger by that factor" : "") + ": " + with_interval(row.speedup) +
          " times the speed of one";
 }
 

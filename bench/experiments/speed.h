@@ -11,7 +11,7 @@ namespace ccdt::experiments {
 struct SpeedRow : CaseRow {
   std::string task, model;
   unsigned threads = 1;
-  bool is_weak = false;  ///< the model has as many times more tetrahedra as there are threads
+  bool is_weak = false;  ///< the number of tetrahedra grows with the threads
 };
 
 /// Measures speed beside other meshers, with memory and quality in the same rows: the surface alone and end to end, on

@@ -9,7 +9,7 @@
 
 namespace ccdt::experiments {
 
-/// A model of the paper, with the edge length (millimetres) that makes about 100,000 tetrahedra.
+/// A model of the paper, with the edge length (millimeters) that makes about 100,000 tetrahedra.
 struct PaperModel {
   const char* name;
   double edge_length;

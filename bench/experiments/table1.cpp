@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"

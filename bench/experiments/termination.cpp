@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bench/experiments/existence_experiments.h"
 #include "engine/io/plc_files.h"
@@ -28,7 +29,7 @@ constexpr std::array trial_counts = {
     TrialCount{"edges_alone", "faces protected, an edge not",
                [](const Trial& t) { return t.protection.faces && !t.protection.edges; }},
     TrialCount{
-        "edges_alone_loose", "of these, the edge is of no facet",
+        "edges_alone_loose", "of these, the edge belongs to no facet",
         [](const Trial& t) { return t.protection.faces && !t.protection.edges && t.protection.missing_is_loose; }},
     TrialCount{"edge_protected", "edges protected", [](const Trial& t) { return t.protection.edges; }},
     TrialCount{"edge_protected_without_cdt", "of these, without a CDT",

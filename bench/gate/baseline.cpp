@@ -5,6 +5,8 @@
 #include <cmath>
 #include <ctime>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "baselines/json_schema.h"
 #include "bench/gate/baseline_schema.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
+#include <utility>
 
 #include "bench/gate/pair_statistics.h"
 #include "bench/json_fields.h"

@@ -31,7 +31,7 @@ StageInstructions stage_instructions(std::string_view profile);
 /// "instructions.libc", "instructions.libstdc++", and how the program was compiled, "instructions.compiler" and
 /// "instructions.flags".
 ///
-/// \throw InputError  there is no valgrind, or the program is no `ccdt`; says what to do
+/// \throw InputError  there is no valgrind, or the program is not `ccdt`; says what to do
 cases::Identity instruction_identity(const std::filesystem::path& program);
 
 /// Runs `ccdt mesh` of a program once under callgrind for each case of our mesher that the rules name. Adds the counts

@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "baselines/json_schema.h"
 #include "bench/gate/rules_schema.h"

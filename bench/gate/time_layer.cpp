@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "bench/gate/pair_statistics.h"
 #include "bench/results/numbers.h"

@@ -1,11 +1,11 @@
-"""Ways to tell from the times of base and head whether head is slower, and shares with their intervals."""
+"""Methods that decide from the times of base and head whether head is slower, and intervals of shares."""
 
 import math
 import statistics
 import sys
 
 ALPHA = 0.05  # of Google Benchmark's compare.py
-THRESHOLD = 1.10  # a fixed limit, as many projects have it
+THRESHOLD = 1.10  # a fixed limit, as many projects use it
 FEW = 5  # repetitions of such a limit
 
 
@@ -30,7 +30,7 @@ def normal_u_test(a, b):
 
 
 def compare_py():
-    """The U test of Google Benchmark's own compare.py, and a name for it; ours if it or SciPy is not installed."""
+    """The U test of Google Benchmark's own compare.py, with its name; the one above if that or SciPy is missing."""
     sys.path.append("/usr/share/benchmark")  # of Debian's libbenchmark-tools
     try:
         from gbench.report import calc_utest

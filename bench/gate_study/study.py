@@ -123,7 +123,7 @@ class Load:
 
 
 def wrapped(folder, name, bytes_more):
-    """A program whose environment is larger by so many bytes."""
+    """A program whose environment is larger by this many bytes."""
     script = folder / name
     script.write_text(f"#!/bin/sh\nSTUDY={'x' * bytes_more} exec '{program(folder.parent.parent, name)}' \"$@\"\n")
     script.chmod(0o755)

@@ -15,7 +15,7 @@ namespace {
 
 struct TooLong {};
 
-/// Throws when the time is over.
+/// Throws when the time is up.
 Progress limited_to(double seconds) {
   const auto start = std::chrono::steady_clock::now();
   return [start, seconds](std::string_view, std::uint64_t, std::uint64_t) {
@@ -38,7 +38,7 @@ std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh) {
   return cells;
 }
 
-/// With the first options, each pair of values of two strategies occurs; `core` only once, because it differs from
+/// With the first options, these have each pair of values of two strategies; `core` only once, because it differs from
 /// `insert` only with a lattice.
 struct Strategy {
   bool face_protection;
@@ -76,7 +76,7 @@ class Prover {
     MeshOptions options;
     options.edge_length = 0.25 * largest_extent();
     options.lattice = Lattice::none;
-    options.threads = 1;  // seeds are proved side by side
+    options.threads = 1;  // several seeds run at the same time
     options.delaunay = DelaunayMethod::insert, options.least_core = 0;
     options.improve.improvement = Improvement::none;
     compare(options, mesh(options, options_.seconds).mesh);

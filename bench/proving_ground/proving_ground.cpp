@@ -8,7 +8,7 @@
 #include "bench/proving_ground/structured_plc.h"
 #include "engine/io/plc_files.h"
 
-// Proves the engine on random structured PLCs: `proving_ground FIRST COUNT [FOLDER [SECONDS]]`. It prints the seeds
+// Tests the engine on random structured PLCs: `proving_ground FIRST COUNT [FOLDER [SECONDS]]`. It prints the seeds
 // that fail. With a folder, it writes their PLCs there, and reduced ones of those whose mesh is wrong.
 
 namespace {
@@ -26,7 +26,7 @@ void keep(const std::filesystem::path& folder, std::uint64_t seed, const InputPl
           Outcome outcome) {
   std::filesystem::create_directories(folder);
   io::write_plc(plc, folder / (std::to_string(seed) + ".poly"));
-  if (outcome == Outcome::endless) return;  // reducing it would repeat this time again and again
+  if (outcome == Outcome::endless) return;  // each step of reducing it would take as long
   const InputPlc least =
       reduce(plc, [&](const InputPlc& smaller) { return prove(smaller, options).outcome == outcome; });
   io::write_plc(least, folder / (std::to_string(seed) + "-reduced.poly"));

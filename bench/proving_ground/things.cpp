@@ -156,7 +156,7 @@ void screw_body(Scene& scene) {
     }
 }
 
-/// Boxes one upon the other, some of them very thin, with a region each.
+/// A stack of boxes, some of them very thin, with a region each.
 void plates_body(Scene& scene) {
   double z = 0;
   const int plates = count(scene, 2, 6);

@@ -5,7 +5,7 @@
 //   0  nothing new is there: no tetrahedron, or one that was met already;
 //   1  a new tetrahedron with a new vertex;
 //   2  a new tetrahedron with a vertex that was met already, which follows among the codes.
-// A new tetrahedron has the corners of that face, counter-clockwise from outside, and then its fourth vertex.
+// A new tetrahedron has the corners of that face, counterclockwise from outside, and then its fourth vertex.
 //
 // A known vertex is most often joined already to the corners of the face. So what is written is its rank among all
 // vertices that are joined to a corner: first those joined to more corners, then those met later. Where it is not among
@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "bench/results/kept_mesh.h"
 

@@ -69,8 +69,8 @@ std::vector<Polygon> boundary_of(const std::vector<Point>& vertices, const std::
   return boundary;
 }
 
-/// Glues tetrahedra to tetrahedra until there are so many vertices. Nothing is glued to faces of the `closed` corners.
-/// Most of the new tetrahedra bring a vertex of their own.
+/// Glues tetrahedra to tetrahedra until there are this many vertices. Nothing is glued to faces of the `closed`
+/// corners. Most of the new tetrahedra bring a vertex of their own.
 void glue_tetrahedra(Random& random, std::size_t vertices, const Polygon& closed, SmallPlc& plc,
                      std::vector<Tetrahedron>& tetrahedra) {
   constexpr int most_tries = 1000;
@@ -107,7 +107,7 @@ void push_in_triangles(Random& random, std::uint64_t count, SmallPlc& plc) {
   }
 }
 
-/// Adds facets within the domain where there is place for them; `count` times one is tried.
+/// Tries `count` times to add a facet within the domain.
 void add_triangles(Random& random, std::uint64_t count, SmallPlc& plc) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t n = plc.vertices.size();

@@ -1,6 +1,7 @@
 #include "bench/small_plcs/small_plc.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>

@@ -56,13 +56,12 @@ int side_of_sphere(const Point& a, const Point& b, const Point& c, const Point& 
 bool pierces(const Point& p, const Point& q, const Point& a, const Point& b, const Point& c);
 
 /// Do the inside of a tetrahedron and the relative inside of another simplex (a tetrahedron, triangle or segment) have
-/// a point in common? Searched are all planes that could separate them: those along a face of one, or along an edge of
-/// each.
+/// a point in common? Tests all planes that could separate them: those along a face of one, or along an edge of each.
 bool insides_meet(const std::array<Point, 4>& tetrahedron, std::span<const Point> simplex);
 
 using Vertex = std::uint32_t;
-using Edge = std::array<Vertex, 2>;      ///< in growing order
-using Triangle = std::array<Vertex, 3>;  ///< in growing order where it is a face of tetrahedra
+using Edge = std::array<Vertex, 2>;      ///< in increasing order
+using Triangle = std::array<Vertex, 3>;  ///< in increasing order where it is a face of tetrahedra
 using Polygon = std::vector<Vertex>;     ///< the corners of a facet in order, three or four
 
 /// A piecewise linear complex of a few vertices.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/mesher.h"

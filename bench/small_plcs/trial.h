@@ -9,7 +9,7 @@
 
 namespace ccdt::small_plcs {
 
-using Tetrahedron = std::array<Vertex, 4>;  ///< in growing order
+using Tetrahedron = std::array<Vertex, 4>;  ///< in increasing order
 
 inline std::array<Point, 4> points_of(const std::vector<Point>& vertices, const Tetrahedron& t) {
   return {vertices[t[0]], vertices[t[1]], vertices[t[2]], vertices[t[3]]};
@@ -21,8 +21,8 @@ inline Triangle face_opposite(const Tetrahedron& t, unsigned i) {
 /// Has the circumsphere of a tetrahedron no vertex strictly inside?
 bool is_delaunay(const std::vector<Point>& vertices, const Tetrahedron& tetrahedron);
 
-/// The tetrahedra, one by one possible in a tetrahedralization of a PLC: not flat, in the domain, without other
-/// vertices, crossed by no facet or segment.
+/// The tetrahedra that are possible on their own in a tetrahedralization of a PLC: not flat, in the domain, without
+/// other vertices, crossed by no facet or segment.
 std::vector<Tetrahedron> possible_tetrahedra(const SmallPlc& plc);
 
 /// Do those of them that are Delaunay fill the domain and have all segments as edges? Then they are the DT of the

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
+#include <tuple>
 
 #include "bench/json.h"
 #include "bench/json_fields.h"
@@ -29,7 +30,7 @@ inline constexpr auto fields<sweep::Chunk> = std::make_tuple(field("number", &sw
 namespace ccdt::sweep {
 namespace {
 
-constexpr bench::DocumentKind chunk_kind = {"ccdt.chunk/1", "this is no chunk of a sweep",
+constexpr bench::DocumentKind chunk_kind = {"ccdt.chunk/1", "this is not a chunk of a sweep",
                                             "remove the folder chunks, and call ccdt sweep again"};
 
 /// Memory beyond the limit of a run: for this program, and for what a run allocates between two checks.

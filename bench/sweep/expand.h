@@ -37,12 +37,12 @@ struct SweepCase {
 /// All cases of a spec: inputs times meshers times options, minus excluded ones. An option that a mesher does not have
 /// makes one case, not several. The order is that of the spec.
 ///
-/// \param folder  of the sweep; models are files in its folder models, which need not exist yet
+/// \param folder  of the sweep; models are files in its subfolder `models`, which need not exist yet
 /// \throw InputError  no file matches, nothing is left, or options contradict each other; names the JSON pointer
 std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path& folder, const MeshOptionRules& rules);
 
-/// The words of the command line for options: without those that the mesher does not use, and without usual values, so
-/// that the words of equal cases are equal.
+/// The options as words of a command line. Options that the mesher does not use and default values are left out, so
+/// that equal cases have equal words.
 std::vector<std::string> words_for(const std::string& mesher,
                                    const std::vector<std::pair<std::string, std::string>>& options);
 

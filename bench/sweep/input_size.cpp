@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "bench/surface_measures.h"
 #include "engine/base/errors.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "bench/sweep/expand.h"
 
 namespace ccdt::sweep {

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
@@ -41,7 +43,7 @@ inline constexpr auto fields<sweep::SlurmJob> = std::make_tuple(field("name", &s
 namespace ccdt::sweep {
 namespace {
 
-constexpr bench::DocumentKind jobs_kind = {"ccdt.slurm/1", "this is no list of the jobs of a sweep",
+constexpr bench::DocumentKind jobs_kind = {"ccdt.slurm/1", "this is not a list of the jobs of a sweep",
                                            "cancel the sweep's jobs with scancel, and remove the file"};
 constexpr double seconds_for_slurm = 120;  ///< a controller that restarts takes a while
 constexpr double time_factor = 3;          ///< estimates are not more precise

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "baselines/mesher.h"
 #include "engine/base/errors.h"

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bench/sweep_results/sweep_tables.h"
 
@@ -139,7 +141,7 @@ ResultTable same_mesh_table(const Sweep& sweep, std::span<const CaseSummary> cas
     std::set<std::string_view> meshes;
     ResultRow row = begin_row(*group.front());
     row.runs.clear();
-    for (std::size_t i = 0; i < sweep.options.size(); ++i)  // the strategies are what the group does not say
+    for (std::size_t i = 0; i < sweep.options.size(); ++i)  // a row stands for all values of its strategies
       if (std::ranges::find(strategies, sweep.options[i]) != strategies.end())
         row.cells[row.cells.size() - sweep.options.size() + i] = Cell();
     for (const CaseSummary* one : group) {

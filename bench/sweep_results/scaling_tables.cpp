@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bench/statistics.h"
 #include "bench/sweep_results/sweep_tables.h"

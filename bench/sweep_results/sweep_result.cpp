@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"

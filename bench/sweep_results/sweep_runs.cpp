@@ -4,6 +4,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
+#include <utility>
 
 #include "bench/cases/identity.h"
 #include "bench/in_parallel.h"

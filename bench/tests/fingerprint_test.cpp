@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "baselines/tests/shapes.h"
 #include "engine/mesher.h"

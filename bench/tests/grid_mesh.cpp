@@ -1,6 +1,7 @@
 #include "bench/tests/grid_mesh.h"
 
 #include <cmath>
+#include <utility>
 
 namespace ccdt {
 

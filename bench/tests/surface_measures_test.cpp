@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "baselines/tests/shapes.h"
 #include "engine/plc/build_plc.h"

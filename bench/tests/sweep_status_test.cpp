@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include "baselines/external_program.h"
 #include "bench/sweep/estimate.h"

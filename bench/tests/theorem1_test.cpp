@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/small_plcs/small_plc.h"

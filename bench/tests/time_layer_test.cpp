@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <random>
+#include <set>
 
 #include "baselines/external_program.h"
 #include "bench/gate/pair_statistics.h"

@@ -198,7 +198,7 @@ TEST(Locators, ExpectTheOctreeAheadOnlyWhereEdgesDiffer) {
   EXPECT_TRUE(findings(Kind::rough, slow).empty());
 }
 
-/// A run of so many seconds and tetrahedra.
+/// A run with this many seconds and tetrahedra.
 experiments::SpeedRow speed_row(const std::string& mesher, unsigned threads, double seconds,
                                 std::uint64_t tetrahedra = 1000, bool is_weak = false) {
   MeshCounts counts;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "bench/tests/verify_cases.h"
 #include "bench/verify/crossings.h"
 
@@ -37,7 +39,7 @@ TEST(VerifyOwnSurface, AMeshOfTheInputsSurfaceIsRightToo) {
   expect_ok(two_regions(), own);
 }
 
-TEST(VerifyOwnSurface, VolumesOfBothAreSaid) {
+TEST(VerifyOwnSurface, VolumesOfBothAreStated) {
   const MeshedInput m = approximated(cube());
   const verify::Verification v = verify::verify(m.input, m.mesh, own);
   EXPECT_NEAR(v.input_volume, 27, 1e-9);

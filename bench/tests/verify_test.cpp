@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "bench/tests/verify_cases.h"
 
@@ -28,7 +29,7 @@ TEST(Verify, AnyRemovedTetrahedronIsFound) {
   }
 }
 
-/// With all boundary faces listed, marked as the input's facets are.
+/// The cube with all its boundary faces listed, which have the markers of the input's facets.
 MeshedInput cube_with_faces() {
   MeshedInput m = cube();
   m.input.triangle_markers.assign(m.input.triangles.size(), 7);
@@ -90,7 +91,7 @@ TEST(Verify, AMovedVertexIsFound) {
   }
 }
 
-TEST(Verify, AVertexOffItsFacetIsFoundEvenIfItIsNotOfTheInput) {
+TEST(Verify, AVertexOffItsFacetIsFoundEvenIfTheInputDoesNotHaveIt) {
   MeshedInput m = make_grid_mesh({2, 2, 2}, everywhere, false, unmoved);
   MeshedInput coarse = m;
   coarse.input = unit_cube();
@@ -152,7 +153,7 @@ TEST(Verify, ANonDelaunayFlipIsFound) {
   verify::VerifyOptions options;
   options.delaunay = verify::VerifyOptions::Delaunay::yes;
   expect_failure(m, "locally Delaunay faces", options);
-  // Neither a required face nor one in the way of the other mesh needs to be Delaunay.
+  // A face that is a facet of the input need not be Delaunay.
   m = bipyramid(true);
   m.input.vertices[3].z = m.mesh.vertices[3].z = 0.1;
   m.input.vertices[4].z = m.mesh.vertices[4].z = -0.1;
@@ -185,7 +186,7 @@ TEST(Verify, AHangingVertexIsFound) {
   expect_failure(m, "boundary faces on input facets");
 }
 
-TEST(Verify, BrokenArraysAreFoundAndNothingElseIsAsked) {
+TEST(Verify, BrokenArraysAreFoundAndNothingElseIsChecked) {
   MeshedInput m = cube();
   m.mesh.tetrahedra[3][2] = 1000000;
   expect_failure(m, "valid elements");

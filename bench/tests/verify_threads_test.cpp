@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "bench/tests/verify_cases.h"
 #include "engine/base/parallel.h"
@@ -31,7 +33,7 @@ struct Case {
   MeshedInput meshed;
 };
 
-std::size_t any_of(std::size_t count, std::mt19937& random) {
+std::size_t random_index(std::size_t count, std::mt19937& random) {
   return random() % count;
 }
 
@@ -39,7 +41,7 @@ Case with_inverted_tetrahedra() {
   std::mt19937 random(1);
   MeshedInput m = large_cube();
   for (int i = 0; i < 40; ++i) {
-    auto& tet = m.mesh.tetrahedra[any_of(m.mesh.tetrahedra.size(), random)];
+    auto& tet = m.mesh.tetrahedra[random_index(m.mesh.tetrahedra.size(), random)];
     std::swap(tet[0], tet[1]);
   }
   return {"inverted tetrahedra", false, std::move(m)};
@@ -48,7 +50,7 @@ Case with_inverted_tetrahedra() {
 Case with_moved_vertices() {
   std::mt19937 random(2);
   MeshedInput m = large_cube();
-  for (int i = 0; i < 100; ++i) m.mesh.vertices[any_of(m.mesh.vertices.size(), random)].z += 0.3;
+  for (int i = 0; i < 100; ++i) m.mesh.vertices[random_index(m.mesh.vertices.size(), random)].z += 0.3;
   return {"moved vertices", false, std::move(m)};
 }
 
@@ -57,7 +59,7 @@ Case with_removed_and_doubled_tetrahedra() {
   std::mt19937 random(3);
   MeshedInput m = large_mesh([](int i, int j, int) { return i < 5 ? 1 : j < 5 ? 2 : 3; });
   auto& tetrahedra = m.mesh.tetrahedra;
-  for (int i = 0; i < 60; ++i) tetrahedra[any_of(tetrahedra.size(), random)] = tetrahedra[i];
+  for (int i = 0; i < 60; ++i) tetrahedra[random_index(tetrahedra.size(), random)] = tetrahedra[i];
   return {"removed and doubled tetrahedra", false, std::move(m)};
 }
 

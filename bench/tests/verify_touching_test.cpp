@@ -75,7 +75,7 @@ TEST(VerifyTouching, AWallMayStandInTheMiddleOfAFacet) {
       }
 }
 
-/// The cube whose bottom has a line, meshed, but with the input where the line is not drawn.
+/// A mesh of the cube with a line on its bottom, and the input without that line.
 MeshedInput forget_line(const InputPlc& input, const Foot& foot) {
   InputPlc drawn = input;
   auto& polygons = drawn.polygon_facets[0].polygons;

@@ -1,5 +1,6 @@
 #include "bench/verify/check_domain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <unordered_set>

@@ -1,8 +1,10 @@
 #include "bench/verify/edit_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bench/verify/patches.h"
 #include "engine/base/parallel.h"

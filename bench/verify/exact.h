@@ -5,7 +5,7 @@
 #include "engine/base/point.h"
 
 /// Exact signs by CGAL's filtered kernel. The verification uses no other predicates, so that it does not repeat an
-/// error of the engine's.
+/// error of the engine.
 namespace ccdt::verify {
 
 /// Are the three points on one line (or equal)?

@@ -1,5 +1,6 @@
 #include "bench/verify/listed_faces.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "bench/verify/findings.h"

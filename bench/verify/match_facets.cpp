@@ -1,6 +1,8 @@
 #include "bench/verify/match_facets.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "bench/verify/spread_sheet.h"
 #include "engine/base/simplex_map.h"

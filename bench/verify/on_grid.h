@@ -6,8 +6,8 @@
 namespace ccdt::verify {
 
 /// An input and its mesh as they are inside the engine: the vertices of the input are rounded to the dyadic grid, by at
-/// most 2^-32 of the box, and so are the mesh's vertices that are among them. The grid's origin is that of the
-/// coordinates, so that they are exact.
+/// most 2^-32 of the box, and so are the mesh's vertices that are among them. Coordinates are relative to the origin of
+/// the grid, so that they are exact.
 struct OnGrid {
   plc::InputPlc input;
   mesh::TetMesh mesh;

@@ -1,7 +1,9 @@
 #include "bench/verify/patches.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
+#include <utility>
 
 #include "bench/verify/findings.h"
 #include "engine/base/parallel.h"

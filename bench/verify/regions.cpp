@@ -1,5 +1,6 @@
 #include "bench/verify/regions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <queue>
 

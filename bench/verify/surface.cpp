@@ -1,5 +1,6 @@
 #include "bench/verify/surface.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -63,7 +64,7 @@ bool meets_a_site_twice(std::span<const Edge> loop) {
   return std::ranges::any_of(loop, [&](const Edge& e) { return !met.insert(e[0]).second; });
 }
 
-/// A drawing of the facet seen along the axis that its plane is most across.
+/// A drawing of the facet as seen along the axis that is nearest to its normal.
 struct Drawing {
   std::size_t first = 0, second = 1;
   std::span<const Point3> position;
@@ -102,8 +103,8 @@ bool contains(const Drawing& drawing, std::span<const Edge> loop, const std::arr
   return inside;
 }
 
-/// Closed walks around the drawing's faces, each with its face to the left: at each vertex the next edge clockwise from
-/// the one that it came by.
+/// Closed walks around the drawing's faces, each with its face to the left. At each vertex, a walk leaves by the next
+/// edge clockwise from the one by which it arrived.
 std::vector<PolygonCell> trace_loops(const Drawing& drawing, const std::set<Edge>& undirected) {
   std::map<std::uint32_t, std::vector<std::pair<double, std::uint32_t>>> around;
   for (const auto& [a, b] : undirected) {

@@ -56,7 +56,7 @@ class ScaledBoxTree {
   BoxTree tree_;
 };
 
-/// A part of a facet without inner edges: the directed edges of its outer loop and of the loops of what is cut out of
+/// A part of a facet without inner edges: the directed edges of its outer loop and of the loops that are cut out of
 /// it, with the cell to their left.
 using PolygonCell = std::vector<Edge>;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "bench/verify/check_delaunay.h"
 #include "bench/verify/check_domain.h"

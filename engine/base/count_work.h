@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "engine/base/work.h"
@@ -28,8 +30,8 @@ class WorkScope {
   Work before_;
 };
 
-/// Adds what this thread does in the scope's life to some work, and not to that of the scope around it: for a part of
-/// another thread's stage.
+/// Adds the work of this thread during the life of the scope to a total, and not to that of the enclosing scope: for
+/// work that belongs to a stage of another thread.
 class WorkElsewhere {
  public:
   explicit WorkElsewhere(Work& work) : work_(work), before_(std::exchange(work_done, {})) {}

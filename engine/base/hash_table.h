@@ -80,7 +80,7 @@ class HashTable {
     if (places > entries_.size()) grow(places);
   }
 
-  /// Asks for the place of a key that is looked up soon.
+  /// Fetches the place of a key that will be looked up soon into the cache.
   void prefetch(const Key& key) const {
     if (!entries_.empty()) __builtin_prefetch(&entries_[home(key)]);
   }

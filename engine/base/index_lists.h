@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -53,7 +52,6 @@ IndexLists group_indices(std::size_t count, std::size_t item_count, const ListOf
       for (std::uint32_t i = 0; i < item_count; ++i) emit(list_of(i), i);
     });
   constexpr std::size_t grain = 4096;
-  const auto add_one = [](std::uint32_t& n) { return std::atomic_ref(n).fetch_add(1, std::memory_order_relaxed); };
   IndexLists lists;
   lists.first.assign(count + 1, 0);
   lists.items.resize(item_count);

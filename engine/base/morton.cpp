@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/sort/spreadsort/integer_sort.hpp>
+#include <utility>
 
 #include "engine/base/box.h"
 #include "engine/base/sort_in_runs.h"

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "engine/base/count_work.h"
@@ -107,6 +109,13 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
   all.reserve(size);
   for (const std::vector<Item>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
+}
+
+/// Adds one to a number to which several threads add.
+///
+/// \return  the number before
+inline std::uint32_t add_one(std::uint32_t& number) {
+  return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed);
 }
 
 }  // namespace ccdt

@@ -25,7 +25,7 @@ inline double cube_root(double x) {
 inline double angle_of(double x, double y) {
   if (y == 0) return x < 0 ? pi : 0;
   const double size = std::fabs(x);
-  // The tangents of 0, pi / 16, ... up to pi / 4: from one of them, the rest of the angle is pi / 32 at the most.
+  // The tangents of 0, pi / 16, ... up to pi / 4: the rest of the angle, from the nearest of them, is at most pi / 32.
   constexpr std::array<double, 5> tangents = {0, 0.19891236737965800691, 0.41421356237309504880, 0.66817863791929891999,
                                               1};
   const bool steep = y > size;

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-// What loops run on: oneTBB. The thread sanitizer does not see how that library, which is not built with it, orders
-// what threads do. So programs that are built with the sanitizer use plain threads instead.
+// Loops run on oneTBB. The thread sanitizer cannot see how that library synchronizes threads, because it is not built
+// with the sanitizer. So programs that are built with the sanitizer use plain threads instead.
 
 #ifndef __SANITIZE_THREAD__
 
@@ -24,7 +24,7 @@ inline unsigned core_count() {
 
 template <class Run>
 auto run_on(unsigned threads, const Run& run) {
-  // More threads than cores are there for tests.
+  // Tests use more threads than there are cores.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::max(threads, core_count()));
   tbb::task_arena arena(static_cast<int>(threads));
   return arena.execute(run);

@@ -20,9 +20,9 @@ struct Work {
   std::uint64_t exact_evaluations = 0;  ///< narrow evaluations, wide evaluations and perturbed ties together
 
   // ---- Searches, wherever they are used
-  std::uint64_t octree_nodes = 0;    ///< nodes of octrees that searches came to, passed over or not
-  std::uint64_t grid_cells = 0;      ///< cells of uniform grids that searches came to, with or without contents
-  std::uint64_t box_tree_nodes = 0;  ///< nodes of binary trees of boxes that searches came to, passed over or not
+  std::uint64_t octree_nodes = 0;    ///< nodes of octrees that searches visited, entered or skipped
+  std::uint64_t grid_cells = 0;      ///< cells of uniform grids that searches visited, empty or not
+  std::uint64_t box_tree_nodes = 0;  ///< nodes of binary trees of boxes that searches visited, entered or skipped
   std::uint64_t box_pairs = 0;       ///< items whose boxes were found to meet a given box, or each other's
 
   // ---- Delaunay tetrahedralization (engine/delaunay), also of the surface's vertices alone
@@ -30,42 +30,42 @@ struct Work {
   std::uint64_t walk_steps = 0;         ///< tetrahedra that walks to a new vertex went through, the first one included
   std::uint64_t cells_tested = 0;       ///< cells whose circumsphere was compared with a new vertex to find its cavity
   std::uint64_t cells_created = 0;      ///< tetrahedra that were made, ghosts included; in improvement too
-  std::uint64_t cells_destroyed = 0;    ///< tetrahedra that gave way to others, ghosts included; in improvement too
+  std::uint64_t cells_destroyed = 0;    ///< tetrahedra that others replaced, ghosts included; in improvement too
   std::uint64_t largest_cavity = 0;     ///< the most cells that one vertex destroyed, or would have
   std::uint64_t large_cavities = 0;     ///< filled cavities with more than 64 vertices, which take longer than others
-  std::uint64_t cells_visited = 0;      ///< cells that searches came to around a vertex, towards another, or one by one
+  std::uint64_t cells_visited = 0;      ///< cells that searches visited around a vertex, along a walk, or one by one
   std::uint64_t apex_searches = 0;      ///< `wrap`: faces for which the fourth vertex was searched
   std::uint64_t vertices_examined = 0;  ///< `wrap`: vertices of the grid that were tried as the fourth one
 
   // ---- Triangulation of facets (engine/planar, engine/facets)
-  std::uint64_t edges_tested = 0;       ///< edges that may be Delaunay or not: `incircle` tests to find out
-  std::uint64_t edges_flipped = 0;      ///< edges that gave way to the other diagonal; in the surface remesher too
-  std::uint64_t triangles_visited = 0;  ///< triangles that searches came to around a vertex or towards a point
+  std::uint64_t edges_tested = 0;       ///< `incircle` tests that find out whether an edge is Delaunay
+  std::uint64_t edges_flipped = 0;      ///< edges that the other diagonal replaced; in the surface remesher too
+  std::uint64_t triangles_visited = 0;  ///< triangles that searches visited around a vertex or on the way to a point
 
   // ---- Interior points (engine/lattice)
   std::uint64_t octree_nodes_created = 0;  ///< of the octree of lattice cells and those of locators
   std::uint64_t rays_cast = 0;             ///< rays to find out whether a place is inside
   std::uint64_t ray_triangles = 0;         ///< triangles near a ray that were tried
-  std::uint64_t sites_tested = 0;          ///< lattice points near the surface that were compared with it
-  std::uint64_t obstacles_tested = 0;      ///< spheres and triangles of the surface that a lattice point was tried with
+  std::uint64_t sites_tested = 0;          ///< lattice points near the surface that were tested against it
+  std::uint64_t obstacles_tested = 0;  ///< spheres and triangles of the surface that a lattice point was tested against
 
   // ---- Faces of the input that are not Delaunay (engine/front, engine/locate)
   std::uint64_t faces_tested = 0;      ///< faces of cells that were looked for among the faces of the input
   std::uint64_t front_candidates = 0;  ///< vertices that a locator named for the apex above a face of the front
-  std::uint64_t visibility_tests = 0;  ///< faces of the input that may have hidden a candidate, and were tried
-  std::uint64_t piercing_tests = 0;    ///< cells that a missing face may have cut, and were tried
+  std::uint64_t visibility_tests = 0;  ///< faces of the input that were tested because they may hide a candidate
+  std::uint64_t piercing_tests = 0;    ///< cells that were tested because a missing face may cut them
 
   // ---- Improvement (engine/improve)
   std::uint64_t changes_tried = 0;   ///< plans to remove an edge or a face, to collapse an edge, to insert a vertex
   std::uint64_t moves_tried = 0;     ///< vertices for which a better place was searched; in the remesher too
-  std::uint64_t vertices_moved = 0;  ///< of those, the ones that got another place
+  std::uint64_t vertices_moved = 0;  ///< of those, the ones that were moved
   std::uint64_t ascent_steps = 0;    ///< steps of these searches
   std::uint64_t quality_evaluations = 0;  ///< tetrahedra whose quality was computed, at each place of a corner anew
 
   // ---- Remeshing of the surface (engine/surface)
   std::uint64_t remesh_rounds = 0;        ///< rounds of split, collapse, flip and relaxation, over all attempts
-  std::uint64_t edges_split = 0;          ///< edges that got a vertex in their middle
-  std::uint64_t edges_collapsed = 0;      ///< edges that were drawn together to one of their ends
+  std::uint64_t edges_split = 0;          ///< edges that were split by a vertex in their middle
+  std::uint64_t edges_collapsed = 0;      ///< edges that were collapsed into one of their ends
   std::uint64_t triangles_evaluated = 0;  ///< triangles whose quality was computed, at each place of a corner anew
 
   /// The peak bytes of a stage's large arrays, both result and working memory: of elements in use, without reserved

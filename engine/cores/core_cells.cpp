@@ -1,4 +1,5 @@
 #include <array>
+#include <utility>
 
 #include "engine/cores/lattice_core.h"
 #include "engine/cores/split_by_rank.h"
@@ -74,7 +75,7 @@ class CellMaker {
 
   /// An octahedron is split around the diagonal d into the cells q = 0 .. 3: bit 0, is it on the upper side of the next
   /// axis? bit 1, and of the one after that? A cell has the lower end of the diagonal, its upper end, and the ends of
-  /// those two axes, in this order if both are on the same side, else in the other one.
+  /// those two axes, in this order if both are on the same side, otherwise in the other one.
   void make_octahedron(int at, std::uint32_t base, unsigned d) {
     const int axis[] = {stride[d], stride[(d + 1) % 3], stride[(d + 2) % 3]};
     for (unsigned q = 0; q < 4; ++q) {

@@ -1,6 +1,7 @@
 #include "engine/cores/lattice_core.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/cores/split_by_rank.h"
 

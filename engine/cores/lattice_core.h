@@ -23,7 +23,7 @@ namespace ccdt::cores {
 struct LatticeCore {
   SiteBlocks sites;
   std::vector<bool> is_deep;     ///< by vertex
-  std::uint32_t cell_count = 0;  ///< of all the shapes
+  std::uint32_t cell_count = 0;  ///< of all core shapes with a deep vertex
 };
 
 /// \param lattice  the interior points
@@ -37,7 +37,7 @@ LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::
 ///
 /// \param cells  one for each cell of the core
 /// \param first  the number of the first one, for the codes of neighbors
-/// \return       codes of the faces that no two of them share
+/// \return       codes of the faces that belong to only one of them
 std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, std::span<delaunay::Cell> cells,
                                            std::uint32_t first);
 

@@ -34,7 +34,7 @@ struct SiteBlock {
   bool has_core = false;                  ///< is any of its shapes core?
   std::uint64_t near_levels = 0;          ///< bits: levels with blocks near which vertices of this one may be
   std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `nothing`: none
-  std::array<std::uint32_t, size> point;  ///< a site: its vertex; else the first cell of the shape there; or `nothing`
+  std::array<std::uint32_t, size> point;  ///< at a site: its vertex; elsewhere: the first cell of a shape; or `nothing`
   std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `nothing`
   std::array<std::uint8_t, size> flags;
   std::array<std::uint8_t, size> kind;  ///< the split of a shape by the ranks of its vertices

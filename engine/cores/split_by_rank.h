@@ -13,19 +13,19 @@ constexpr bool has_cubes(Lattice kind) {
   return kind == Lattice::fcc || kind == Lattice::sc;
 }
 
-/// Does it have one around this place? Blocks begin at even places, so places relative to a block suffice.
+/// Does it have one around this place? Blocks begin at even places, so places relative to a block are enough.
 constexpr bool has_shape_at(Lattice kind, const Place& p) {
   const unsigned odd = (p[0] & 1) + (p[1] & 1) + (p[2] & 1);
   return kind == Lattice::fcc ? (odd & 1) != 0 : kind == Lattice::bcc && odd == 2;
 }
 
-/// The axis along which the only even coordinate is.
+/// The axis of the only even coordinate.
 constexpr int even_axis(const Place& p) {
   return (p[0] & 1) == 0 ? 0 : (p[1] & 1) == 0 ? 1 : 2;
 }
 
-/// Six vertices on one sphere at the ends of three diagonals are split around one diagonal. Raised heights make it that
-/// of the least height in the middle: the one whose greater rank is the least.
+/// Six vertices on one sphere at the ends of three diagonals are split around one diagonal. With the raised heights, it
+/// is the diagonal that is lowest in the middle: the one whose greater rank is the least.
 ///
 /// \param v  ranks, those of one diagonal next to each other
 constexpr int diagonal_of_octahedron(const std::uint32_t* v) {

@@ -9,12 +9,12 @@
 namespace ccdt::delaunay {
 namespace {
 
-/// A smaller part has too much of a border.
+/// In smaller parts, too many vertices are near the border.
 constexpr std::size_t least_part = 2000;
-/// Passes with other parts are worth their trouble for more waiting vertices than one for so many cells.
-constexpr std::size_t cells_for_one = 200;
-/// Of one pass after the other. The vertices that wait are near the planes of the pass before, and only few of them are
-/// near planes in quite other directions.
+/// Another pass pays off if more than one vertex waits for every this many cells.
+constexpr std::size_t cells_per_waiting_vertex = 200;
+/// The normals of the planes of each pass. The vertices that wait are near the planes of the pass before; only few of
+/// them are near planes in very different directions.
 constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                                          {{{2, 2, 1}, {-2, 1, 2}, {1, -2, 2}}},
                                          {{{6, 2, 3}, {-3, 6, 2}, {-2, -3, 6}}}}};
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
   std::vector<std::uint32_t> waiting(vertices.begin(), vertices.end());
   for (std::size_t p = 0; p < bases.size(); ++p) {
     const std::size_t parts = std::min<std::size_t>(thread_count(), waiting.size() / least_part);
-    if (parts < 2 || (p > 0 && waiting.size() < d_.cells.size() / cells_for_one)) break;
+    if (parts < 2 || (p > 0 && waiting.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
     cut(waiting, static_cast<std::uint32_t>(parts), bases[p]);
     mark_cells();
     waiting = pass(waiting, p == 0 ? Ties::greatest_rank : Ties::any_rank, shared);

@@ -26,7 +26,7 @@ void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties 
   note_bytes(bytes_of(vertices, d.vertices, d.cells, d.free_cells) + insertion.bytes());
 }
 
-/// Fewer vertices are not worth the trouble of several threads.
+/// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
 
 }  // namespace
@@ -37,7 +37,7 @@ void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const
     insert_in_order(d, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
     return;
   }
-  // About the rounds of `hilbert_order`: each one fills the gaps that the one before has left all over the place.
+  // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere.
   const std::size_t first = vertices.size() / 64;
   insert_in_order(d, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
   PartedInsertion parted(d);

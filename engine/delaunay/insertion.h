@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <span>
@@ -23,7 +24,7 @@ enum class Ties {
   any_rank        ///< by comparing all ranks
 };
 
-/// Marks of an insertion at the cells and vertices that it comes to; between two insertions all are as at first.
+/// Marks of an insertion at the cells and vertices that it visits; between two insertions, all have their first values.
 struct InsertionMarks {
   enum class Cell : std::uint8_t {
     unknown,
@@ -50,8 +51,8 @@ struct CellPool {
 class Insertion {
  public:
   explicit Insertion(Delaunay& delaunay);
-  /// One of several that insert at the same time, each where no other does. It takes part in no cell that is marked
-  /// `shared`, but for the codes of its own faces.
+  /// One of several that insert at the same time, each in its own place. It changes no cell that is marked `shared`,
+  /// except for the codes of its own faces.
   ///
   /// \param marks  of all cells and vertices, places of the pool included
   Insertion(Delaunay& delaunay, InsertionMarks& marks, CellPool& pool);

@@ -22,8 +22,9 @@ Point3 cross_magnitudes(const Point3& p, const Point3& q) {
           std::fabs(p.x * q.y) + std::fabs(p.y * q.x)};
 }
 
-/// Heights that are positive for vertices certainly above the face, and for these values that grow with how far the
-/// sphere's center is above the face. (There is no selection here: it would be a branch, and prevent vectorization.)
+/// Finds heights, which are positive for vertices certainly above the face, and for these vertices values that grow
+/// with the height of the sphere's center above the face. (There is no selection here: it would be a branch, and
+/// prevent vectorization.)
 CCDT_WIDE_LANES void find_lifts(VertexBatch& batch, Point3 normal, double normal_error, Point3 twice_to_center) {
   const std::size_t size = batch.size;
   for (std::size_t i = 0; i < size; ++i) {

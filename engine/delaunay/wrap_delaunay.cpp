@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
@@ -307,7 +308,7 @@ class Wrap {
   const Progress& progress_;
   RawVector<Cell> cells_;
   HashTable<FaceKey, std::uint32_t> open_;  ///< faces that have a cell on one side only: the codes by the corners
-  std::vector<std::uint32_t> front_;        ///< faces to process next; some have been closed meanwhile
+  std::vector<std::uint32_t> front_;        ///< faces to process next; some may be closed already
   std::vector<std::uint32_t> postponed_;    ///< open faces without a vertex nearby: of the hull, or at a wide gap
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/simplex_map.h"

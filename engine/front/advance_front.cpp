@@ -410,7 +410,7 @@ class Front {
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
   HashTable<OrientedFace, std::uint32_t, OrientedFaceTraits> owners_;  // the tetrahedra above faces
-  std::vector<OrientedFace> undelaunay_;  // a stack, so that the front moves on nearby; some may be closed meanwhile
+  std::vector<OrientedFace> undelaunay_;  // a stack, so that the front continues nearby; some may be closed already
   HashSet<OrientedFace, OrientedFaceTraits> doubts_;  // faces above which all vertices are tried
   std::vector<std::uint32_t> cavities_;               // of the tetrahedra
   std::vector<std::uint32_t> contradicted_;
@@ -435,7 +435,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, 
   std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
   for (const auto& t : facets.triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   const FaceMap faces(facets.triangles, vertices);
-  // One pass over the cells, most of which are inside and passed over at once. (The ghosts' faces are theirs too.)
+  // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
   parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);
     const delaunay::Cell& cell = delaunay.cells[c];

@@ -1,6 +1,7 @@
 #include "engine/front/find_swallowed.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/box.h"
 #include "engine/base/box_tree.h"

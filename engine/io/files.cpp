@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <system_error>
+#include <utility>
 
 namespace ccdt::io {
 

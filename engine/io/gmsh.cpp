@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "engine/io/formats.h"
 #include "engine/io/gmsh_source.h"
@@ -119,7 +120,7 @@ class GmshReader {
     }
   }
 
-  /// The count of a section of version 2, which is text also where what it counts is binary.
+  /// The count of a section of version 2, which is text even if the section is binary.
   std::size_t read_count_2(const Item& item, std::size_t least_bytes_each) {
     const std::size_t count = in_.text().count(item, least_bytes_each);
     in_.begin_numbers();
@@ -191,7 +192,8 @@ class GmshReader {
     }
   }
 
-  /// "blocks elements smallest largest"; a block is "dimension tag type count", then "number nodes ..." an element.
+  /// "blocks elements smallest largest"; a block is "dimension tag type count", then "number nodes ..." for each
+  /// element.
   void read_elements_4() {
     const std::size_t blocks = in_.count("number of blocks", 8, 20);
     in_.count("number of elements", 4, 16);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/box.h"
 #include "engine/io/formats.h"
 #include "engine/io/gmsh_types.h"
 
@@ -44,19 +45,19 @@ OutputFile& put_size(std::size_t value, OutputFile& out) {
 
 /// "tag box physical-tags bounding-entities" for each entity, numbered from 1. All have the box of the whole mesh. The
 /// marker 0 is no physical tag.
-void write_entities(const Entities& entities, const std::array<Point3, 2>& box, OutputFile& out) {
+void write_entities(const Entities& entities, const Box& box, OutputFile& out) {
   std::int32_t tag = 0;
   for (const auto& [marker, elements] : entities) {
     put_integer(++tag, out);
-    for (const Point3& corner : box) out.raw(corner.x).raw(corner.y).raw(corner.z);
+    for (const Point3& corner : {box.low, box.high}) out.raw(corner.x).raw(corner.y).raw(corner.z);
     put_size(marker == 0 ? 0 : 1, out);
     if (marker != 0) put_integer(marker, out);
     put_size(0, out);
   }
 }
 
-/// A block "dimension tag type count", then "number nodes ..." an element, for each entity. The numbers of the elements
-/// continue `before` in the order of the mesh, so that a reader can put them into that order.
+/// For each entity a block "dimension tag type count", with "number nodes ..." for each element. The numbers of the
+/// elements continue `before` in the order of the mesh, so that a reader can put them into that order.
 template <std::size_t Corners>
 void write_blocks(const Entities& entities, const std::vector<std::array<std::uint32_t, Corners>>& elements,
                   std::int32_t type, std::size_t before, OutputFile& out) {
@@ -82,13 +83,6 @@ void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {
   out << "\n$EndNodes\n";
 }
 
-std::array<Point3, 2> box_of(const std::vector<Point3>& points) {
-  std::array<Point3, 2> box;
-  if (!points.empty()) box = {points[0], points[0]};
-  for (const Point3& p : points) box = {componentwise_min(box[0], p), componentwise_max(box[1], p)};
-  return box;
-}
-
 }  // namespace
 
 void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out) {
@@ -112,7 +106,7 @@ void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
   put_integer(1, out) << "\n$EndMeshFormat\n";
   if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
 
-  const std::array<Point3, 2> box = box_of(mesh.vertices);
+  const Box box = mesh.vertices.empty() ? Box() : bounding_box(mesh.vertices);
   out << "$Entities\n";
   for (const std::size_t n : {std::size_t{0}, curves.size(), surfaces.size(), volumes.size()}) put_size(n, out);
   for (const Entities* entities : {&curves, &surfaces, &volumes}) write_entities(*entities, box, out);

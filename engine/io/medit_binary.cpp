@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
@@ -183,7 +184,7 @@ class MeditWriter {
       version_.number = 3;
   }
 
-  /// \param claim  stands behind the end, where other readers do not look
+  /// \param claim  follows the keyword End, where other readers do not look
   void write(std::string_view claim) {
     out_.raw(own_order).raw(version_.number);
     begin_section(dimension_keyword, dimension_size());
@@ -250,7 +251,7 @@ class MeditWriter {
   const MeditFile* surface_;
   OutputFile& out_;
   Version version_;
-  std::size_t position_ = 8;  ///< behind the version: where the next section begins
+  std::size_t position_ = 8;  ///< where the next section begins; at first, after the version
 };
 
 bool ends_with_claim(const FileBytes& file, std::string_view claim) {

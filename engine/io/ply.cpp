@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <utility>
 
 #include "engine/io/byte_scanner.h"
 #include "engine/io/formats.h"
@@ -45,7 +46,7 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
-  std::size_t end = 0;  ///< where the data begin
+  std::size_t end = 0;  ///< of the header, where the data begin
 
   std::size_t vertices() const {
     for (const Element& element : elements)
@@ -170,12 +171,13 @@ class Values {
   /// Anything except blanks after the last element would be lost data.
   void expect_end() {
     if (encoding_ == Encoding::text) {
-      if (!text_.at_end()) text_.fail("end of the file", "more follows than the header says");
+      if (!text_.at_end()) text_.fail("end of the file", "the file goes on after the last element of the header");
       return;
     }
     for (std::size_t i = bytes_.position(); i < file_.bytes.size(); ++i)
       if (static_cast<unsigned char>(file_.bytes[i]) > 32)
-        fail_at_byte(file_, i, "more bytes follow than the header says", "the header is wrong: export the file again");
+        fail_at_byte(file_, i, "the file goes on after the last element of the header",
+                     "the header is wrong: export the file again");
   }
   std::size_t remaining() const { return encoding_ == Encoding::text ? text_.remaining() : bytes_.remaining(); }
 
@@ -221,7 +223,7 @@ void read_face(Values& values, const Element& element, const Item& facet, std::s
     if (is_corner_list(property)) {
       corners.resize(list_length(values, property, facet));
       if (corners.size() < 3)
-        values.fail(facet, "it has " + std::to_string(corners.size()) + " corners, but needs three");
+        values.fail(facet, "it has " + std::to_string(corners.size()) + " corners, but needs at least three");
       for (std::uint32_t& corner : corners) {
         const std::int64_t index = values.whole(*property.type, facet);
         if (index < 0 || static_cast<std::size_t>(index) >= vertices)

@@ -1,5 +1,7 @@
 #include "engine/io/read_sizes.h"
 
+#include <utility>
+
 #include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
 

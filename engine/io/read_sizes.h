@@ -14,8 +14,8 @@ namespace ccdt::io {
 ///           tetrahedra of the .ele that belongs to the .node (if any)
 ///
 /// \throw InputError  unknown extension, unreadable, no background beside it, a wrong number of vertices, not one
-/// scalar per vertex, a size that is not a number > 0; with file and line \throw LimitError  it does not fit into
-/// memory
+///                    scalar per vertex, or a size that is not a number > 0; with file and line
+/// \throw LimitError  it does not fit into memory
 lattice::BackgroundSizes read_sizes(const std::filesystem::path& file);
 
 }  // namespace ccdt::io

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "engine/io/formats.h"
 #include "engine/io/text_scanner.h"
@@ -128,7 +129,7 @@ plc::InputPlc read_tetgen_plc(const FileBytes& file, FacetReader read_facet) {
   return plc;
 }
 
-/// "count [corners of each] attributes", then "number corners... [attribute]" an element.
+/// "count [corners of each] attributes", then "number corners... [attribute]" for each.
 template <std::size_t Corners>
 void read_elements(const FileBytes& file, std::string_view kind, const TetgenNodes& nodes,
                    std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& attributes) {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/io/text_scanner.h"
@@ -85,7 +86,7 @@ void VtkArrays::load_outline() {
   }
   const auto result = document_.load_buffer(xml.data(), xml.size(), pugi::parse_minimal, pugi::encoding_utf8);
   if (!result)
-    throw InputError(std::string("this is no XML, or the file is truncated: ") + result.description(),
+    throw InputError(std::string("this is not XML, or the file is truncated: ") + result.description(),
                      line_of_byte(file_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
                      outline_remedy);
   appended_ = document_.child("VTKFile").child("AppendedData");
@@ -93,7 +94,7 @@ void VtkArrays::load_outline() {
 
 void VtkArrays::check_header() const {
   if (attribute_of(header_, "type") != "UnstructuredGrid")
-    fail(0, "this is no VTK XML unstructured grid", outline_remedy);
+    fail(0, "this is not a VTK XML unstructured grid", outline_remedy);
 }
 
 VtkArrays::Array VtkArrays::find(const char* parent, std::string_view name) const {
@@ -152,7 +153,7 @@ RawVector<Value> VtkArrays::read(Array array) const {
 template RawVector<double> VtkArrays::read<double>(Array array) const;
 template RawVector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
 
-/// An array's text ends with the next tag: its own end, or that of remarks which ParaView puts behind the numbers.
+/// An array's text ends with the next tag: its own end, or the metadata that ParaView puts after the numbers.
 std::string_view VtkArrays::text_of(Array array) const {
   const pugi::xml_node text = array.first_child();
   return text.type() == pugi::node_pcdata ? text.value() : std::string_view();

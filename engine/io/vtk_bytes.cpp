@@ -3,12 +3,13 @@
 #include <zlib.h>
 
 #include <array>
+#include <utility>
 
 namespace ccdt::io {
 
 namespace {
 
-// Level 1 is three times as fast as zlib's default, and a mesh gets hardly larger.
+// Level 1 is three times as fast as zlib's default, and the file is hardly larger.
 constexpr int fast = 1;
 
 std::string compressed(std::string_view bytes) {
@@ -16,7 +17,7 @@ std::string compressed(std::string_view bytes) {
   std::string block(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(block.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                 static_cast<uLong>(bytes.size()), fast) != Z_OK)
-    throw std::bad_alloc();  // nothing else can go wrong where there is room enough
+    throw std::bad_alloc();  // nothing else can go wrong if there is enough room
   block.resize(size);
   return block;
 }

@@ -11,7 +11,7 @@
 
 namespace ccdt::io {
 
-/// Decodes base64. Padding may also stand in the middle, where two encoded pieces follow each other; blanks are
+/// Decodes base64. Padding may also occur in the middle, where one encoded piece ends and the next begins; blanks are
 /// skipped.
 ///
 /// \return nothing if there is another character or a piece is incomplete
@@ -30,7 +30,9 @@ class CompressedBlocks {
     if (bytes_.size() >= most_waiting_) compress();
   }
 
-  /// To be called once, when all is put. \return what the file has: numbers of 64 bits, and the blocks
+  /// To be called once, after the last `put`.
+  ///
+  /// \return what the file has: numbers of 64 bits, and the blocks
   std::string finish();
 
  private:
@@ -42,12 +44,12 @@ class CompressedBlocks {
   std::vector<std::uint64_t> sizes_;
 };
 
-/// May so many compressed bytes hold a block of this size? To be asked before memory is taken.
+/// May this many compressed bytes hold a block of this size? To be checked before memory is allocated.
 bool may_hold(std::uint64_t compressed, std::uint64_t size);
 
 /// Decompresses a block.
 ///
-/// \param bytes  as many as there should be then
+/// \param bytes  gets the contents, which must have exactly this size
 /// \return       false if it is no zlib block of this size
 bool decompress_block(std::string_view compressed, std::span<char> bytes);
 

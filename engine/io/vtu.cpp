@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <climits>
 #include <cmath>
 #include <limits>
@@ -84,7 +85,7 @@ KindCounts count_kinds(const VtuCells& cells, std::size_t begin, std::size_t end
   return counts;
 }
 
-/// Enters a range of cells into the lists of the mesh, of each kind from a place on.
+/// Enters a range of cells into the lists of the mesh; `at` is the first place for each kind.
 void enter_cells(const VtuCells& cells, std::size_t begin, std::size_t end, KindCounts at, mesh::TetMesh& mesh) {
   const auto enter = [&](std::size_t cell, std::size_t place, const auto& attributes, auto& elements,
                          std::vector<int>& element_attributes) {
@@ -146,7 +147,7 @@ void refuse_first_wrong_cell(const VtuCells& cells) {
   }
 }
 
-/// An array that is to be appended behind the XML.
+/// An array that is appended after the XML.
 struct AppendedArray {
   const char *type, *name;
   std::string bytes;
@@ -190,7 +191,7 @@ AppendedArray types_of(const mesh::TetMesh& mesh) {
   return {"UInt8", "types", types.finish()};
 }
 
-/// The regions of the tetrahedra, or the markers of the other cells; 0 where it is the other one that counts.
+/// The regions of the tetrahedra, or the markers of the other cells; 0 for cells that do not have this attribute.
 AppendedArray attributes_of(const mesh::TetMesh& mesh, bool regions) {
   CompressedBlocks blocks;
   for_each_kind(mesh, [&](const auto& elements, std::uint8_t type, const auto& attributes) {
@@ -200,7 +201,7 @@ AppendedArray attributes_of(const mesh::TetMesh& mesh, bool regions) {
   return {"Int32", regions ? "region" : "marker", blocks.finish()};
 }
 
-/// A group of arrays, whose bytes begin `offset` behind those of the first one.
+/// A group of arrays, whose bytes begin `offset` after those of the first one.
 void declare(const char* group, const char* attributes, std::span<const AppendedArray> arrays, std::size_t& offset,
              OutputFile& out) {
   out << "      <" << group << attributes << ">\n";

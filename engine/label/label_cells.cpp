@@ -1,6 +1,7 @@
 #include "engine/label/label_cells.h"
 
 #include <atomic>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
@@ -71,7 +72,7 @@ UnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   return parts;
 }
 
-/// A face of the PLC whose side towards a labeled cell was not open: the front has filled that side, so the labeled
+/// A face of the PLC whose side toward a labeled cell was not open: the front has filled that side, so the labeled
 /// part leaks into what the front has replaced.
 /// \return a cell where this happens; `no_neighbor` if there is none
 std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,

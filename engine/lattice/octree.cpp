@@ -219,7 +219,7 @@ class Builder {
     }
   }
 
-  /// \return  where the children of so many nodes begin
+  /// \return  where the children of this many nodes begin
   std::uint32_t make_room(std::size_t parents) {
     constexpr std::size_t most_nodes = std::size_t{1} << 31;
     const std::size_t first = tree_.nodes.size();

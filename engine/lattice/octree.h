@@ -17,7 +17,7 @@ namespace ccdt::lattice {
 /// All three lattices have the same number of points per volume for the same target, that of FCC whose nearest
 /// neighbors are exactly `edge_length` apart: sqrt(2) / edge_length^3.
 ///
-///     lattice  points a cell  side / edge_length     nearest neighbors
+///     lattice  points/cell    side / edge_length     nearest neighbors
 ///     fcc      4              sqrt(2)   = 1.41421    12 at 1.00000 edge_length
 ///     bcc      2              2^(1/6)   = 1.12246     8 at 0.97208 edge_length
 ///     sc       1              2^(-1/6)  = 0.89090     6 at 0.89090 edge_length

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,7 +27,7 @@ class GridLocator {
   std::size_t bytes() const { return bytes_of(vertices_, first_vertex_, faces_.first, faces_.items); }
 
   /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, by increasing distance
-  /// from `start`, ring of cells by ring. The cap may shrink meanwhile.
+  /// from `start`, ring of cells by ring. The cap may shrink during the search.
   template <class Visit>
   void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const;
 

@@ -140,7 +140,7 @@ class OctreeLocator {
   }
 
   /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, roughly by increasing
-  /// distance from `start`. The cap may shrink meanwhile.
+  /// distance from `start`. The cap may shrink during the search.
   template <class Visit>
   void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const {
     vertex_tree_.visit_nearest_first(

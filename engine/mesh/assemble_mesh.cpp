@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"

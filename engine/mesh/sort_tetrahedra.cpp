@@ -1,7 +1,7 @@
 #include "engine/mesh/sort_tetrahedra.h"
 
 #include <algorithm>
-#include <atomic>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
@@ -26,10 +26,6 @@ Tetrahedron in_order(Tetrahedron t) {
   }
   std::rotate(t.begin() + 1, std::min_element(t.begin() + 1, t.end()), t.end());
   return t;
-}
-
-std::uint32_t add_one(std::uint32_t& count) {
-  return std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
 }
 
 constexpr std::size_t grain = 4096;

@@ -12,7 +12,7 @@ namespace ccdt::numbers {
 /// The floating-point stage in front of the exact predicates, inline for the inner loops.
 ///
 /// Differences of coordinates are exact (grid.h), so the error of a determinant is a small multiple of 2^-53 times a
-/// product of the largest entries; and where the entries share so many trailing zero bits that every intermediate
+/// product of the largest entries; and where the entries share enough trailing zero bits that every intermediate
 /// result fits 53 bits, as among the points of a lattice, there is no error at all, and a zero is a zero.
 enum class Sign : std::int8_t { minus = -1, zero = 0, plus = 1, unknown = 2 };
 
@@ -22,7 +22,7 @@ using IntegerLanes = std::int64_t __attribute__((vector_size(32)));
 #define CCDT_ALWAYS_INLINE inline __attribute__((always_inline))
 
 // Compiles a function once for every x86-64 and once for processors with 256-bit lanes; the program picks when it
-// starts. Signs are the same: neither version contracts to FMA. (The sanitizers' runtimes do not support the picking.)
+// starts. Signs are the same: neither version contracts to FMA. (The sanitizers' runtimes do not support this.)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define CCDT_WIDE_LANES __attribute__((target_clones("avx2", "default")))

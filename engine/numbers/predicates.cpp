@@ -219,7 +219,7 @@ int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const P
   if (sa <= 0 && sb <= 0 && sc <= 0) return -1;
   count_wide_evaluation();
   const WideInt<256> va = signed_volume(p, q, r, a), vb = signed_volume(p, q, r, b), vc = signed_volume(p, q, r, c);
-  // The centroid is moved towards b first, then, infinitely less, towards c.
+  // The centroid is moved toward b first, then, infinitely less, toward c.
   if (const int sign = sign_of(WideInt<256>(va + vb + vc)); sign != 0) return sign;
   if (const int sign = sign_of(WideInt<256>(vb - va)); sign != 0) return sign;
   return sign_of(WideInt<256>(vc - va));

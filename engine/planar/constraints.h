@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "engine/base/count_work.h"
@@ -77,7 +80,7 @@ inline bool is_within(const std::array<int, 3>& signs) {
   return signs[0] >= 0 && signs[1] >= 0 && signs[2] >= 0;
 }
 
-/// A triangle that holds v, or none. Walks; if the walk meets a border or goes on for too long, all triangles are
+/// A triangle that holds v, or none. Walks; if the walk meets a border or takes too long, all triangles are
 /// searched.
 template <Predicates P>
 std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
@@ -99,7 +102,7 @@ std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
   return none;
 }
 
-/// How the ray from a vertex a towards b leaves the triangles around a.
+/// How the ray from a vertex a toward b leaves the triangles around a.
 struct RayExit {
   enum class Kind { nowhere, along_edge, through_edge } kind = Kind::nowhere;
   Side side;     ///< the edge that it runs along, or through which it leaves (seen from inside)
@@ -163,7 +166,7 @@ Channel walk_channel(const Triangulation& t, VertexId a, VertexId b, Side crosse
 }
 
 /// Triangulates what lies between a chain of edges and the straight line from its start to its end, which sees all of
-/// the chain: whenever the last two edges of the chain so far turn towards the line, their triangle is cut off
+/// the chain: whenever the last two edges of the chain so far turn toward the line, their triangle is cut off
 /// (Toussaint & Avis 1982 on polygons that are visible from an edge). `turn` is +1 for a chain on the right of the
 /// line, -1 on the left.
 template <Predicates P>

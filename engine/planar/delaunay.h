@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -23,7 +25,7 @@ struct SweepOrder {
 };
 
 /// Three vertices that are not collinear, or nothing if there are none. (If the first vertices are all at one place,
-/// only so many are tried as the second: then `nothing` may be wrong.)
+/// only a limited number is tried as the second: then `nothing` may be wrong.)
 template <Predicates P>
 std::optional<std::array<VertexId, 3>> find_triangle(std::span<const VertexId> vertices, const P& predicates) {
   constexpr std::size_t most_tries = 16;

@@ -195,7 +195,7 @@ std::optional<Side> find_edge(const Triangulation& t, VertexId a, VertexId b) {
     return found.has_value();
   };
   // A border edge would have been in the table, so the edge is met in every fan that it can be in: each of its ends has
-  // one fan with it, and at a pinched vertex the search goes on through all triangles.
+  // one fan with it, and at a pinched vertex the search continues through all triangles.
   visit_star(t, a, has_edge);
   return found;
 }
@@ -248,7 +248,7 @@ std::vector<std::uint32_t> flood(const Triangulation& t, std::vector<std::uint32
   return behind;
 }
 
-/// For each triangle how many constraints at least are between it and the outside.
+/// For each triangle, the least number of constraints between it and the outside.
 std::vector<std::uint32_t> nesting_depths(const Triangulation& t) {
   std::vector<std::uint32_t> depths(t.triangles.size(), none);
   std::uint32_t depth = 0;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
+
 #include "engine/planar/topology.h"
 
 namespace ccdt::planar {

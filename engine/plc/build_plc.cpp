@@ -4,7 +4,9 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/box_tree.h"

@@ -1,6 +1,7 @@
 #include "engine/plc/close_triangles.h"
 
 #include <array>
+#include <utility>
 
 #include "engine/numbers/filters.h"
 
@@ -24,7 +25,7 @@ struct CornerPairs {
   }
 };
 
-/// Are the corners of a triangle, from the given one on, on the same side of another's plane, for sure?
+/// Are the corners of a triangle, from the given one on, certainly on the same side of another's plane?
 bool are_on_one_side(std::span<const Point3> vertices, const VertexTriple& plane, const VertexTriple& corners,
                      int from) {
   using numbers::Sign;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"

@@ -72,7 +72,7 @@ class Protector {
   EdgeSplitter splitter_;
   HashTable<std::uint64_t, Subsegment> pieces_;  // by their edges
   std::vector<std::uint64_t> lost_;              // edges of cells that the last split has destroyed
-  std::vector<std::uint64_t> stack_;             // of edges; some may be split or exist meanwhile
+  std::vector<std::uint64_t> stack_;             // of edges; some may be split or exist by now
 };
 
 }  // namespace

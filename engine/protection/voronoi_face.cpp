@@ -13,7 +13,7 @@ std::uint32_t place_of(const Delaunay& d, std::uint32_t cell, std::uint32_t v) {
   return static_cast<std::uint32_t>(std::ranges::find(vertices, v) - vertices.begin());
 }
 
-/// Centers farther from the edge than so many times its half length are left out: their spheres are nearly half-spaces.
+/// Centers farther from the edge than this many half lengths of it are left out: their spheres are nearly half-spaces.
 constexpr double farthest = 100;
 
 }  // namespace

@@ -17,8 +17,8 @@ struct EdgeRing {
 void gather_ring(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring);
 
 /// The face of the Voronoi diagram that is dual to a Delaunay edge: the centers of the spheres through the edge's ends
-/// that hold no vertex. A convex polygon in the plane that halves the edge. Computed in floating point: all spheres
-/// that it gives away are empty nevertheless, by a margin, so it has none if the polygon is too small.
+/// that hold no vertex. It is a convex polygon in the plane that halves the edge. It is computed in floating point, but
+/// all spheres that it offers are empty by a margin; so it offers none if the polygon is too small.
 class VoronoiFace {
  public:
   /// \param d     points in grid units
@@ -61,7 +61,7 @@ class VoronoiFace {
     double bound;
   };
   static constexpr double margin = 1e-9;   ///< of squared radii
-  static constexpr double inwards = 1e-3;  ///< so much of the way to its center, a place of the polygon is moved
+  static constexpr double inwards = 1e-3;  ///< how far a place of the polygon is moved to its center, as a share
 
   double squared_radius(const Place& center) const { return squared_half_ + dot(center, center); }
   bool is_empty(const Place& center) const;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "engine/io/plc_files.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"

@@ -1,6 +1,7 @@
 #include "engine/tests/delaunay_checks.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/numbers/predicates.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/hilbert_order.h"
@@ -30,7 +31,7 @@ std::set<std::uint32_t> cells_with(const delaunay::Delaunay& d, const std::vecto
   return cells;
 }
 
-/// The code names the face abc as a cell calls it from which abc is counterclockwise, the ghost being outside.
+/// The code is that of the face abc in the cell that sees abc counterclockwise; a ghost is outside the hull.
 void expect_face_above(const delaunay::Delaunay& d, std::uint32_t code, std::uint32_t a, std::uint32_t b,
                        std::uint32_t c) {
   const delaunay::Cell& cell = d.cells[delaunay::cell_of(code)];

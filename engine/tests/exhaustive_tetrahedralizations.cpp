@@ -12,7 +12,7 @@ namespace {
 
 using Vertex = std::uint32_t;
 using Edge = std::array<Vertex, 2>;
-using Face = std::array<Vertex, 3>;  ///< in growing order
+using Face = std::array<Vertex, 3>;  ///< in increasing order
 using Tetrahedron = std::array<Vertex, 4>;
 
 template <std::size_t Count>
@@ -74,7 +74,7 @@ class Enumeration {
     };
     return any_pierces(edges_of(faces), surface_) || any_pierces(edges_of(surface_), faces);
   }
-  /// The tetrahedra that are possible one by one. Some may be outside: these are never used.
+  /// The tetrahedra that are possible on their own. Some may be outside; these are never used.
   void list_candidates() {
     const auto n = static_cast<Vertex>(polyhedron_.vertices.size());
     for (Vertex a = 0; a < n; ++a)
@@ -179,7 +179,7 @@ class Enumeration {
 
   const Polyhedron& polyhedron_;
   std::vector<Face> surface_;
-  std::map<Face, int> open_;  ///< faces that have something to be filled, and on which side
+  std::map<Face, int> open_;  ///< faces beside which space is still to be filled, and on which side
   std::vector<Tetrahedron> candidates_, chosen_;
   Tetrahedralizations result_;
 };

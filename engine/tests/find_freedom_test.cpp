@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/numbers/predicates.h"

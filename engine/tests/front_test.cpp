@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <set>
 
 #include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"

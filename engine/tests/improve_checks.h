@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <map>
 #include <set>

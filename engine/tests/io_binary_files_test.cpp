@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -17,7 +18,7 @@ io::FileBytes in_memory(std::string_view bytes) {
   return {"damaged", std::string(bytes)};
 }
 
-/// Lets nobody allocate much more than is allocated now, while it lives.
+/// While it lives, this process cannot allocate much more memory than it has.
 class LittleMemory {
  public:
   LittleMemory() {
@@ -42,7 +43,7 @@ class LittleMemory {
 struct BinaryFormat {
   std::string name, good;
   std::function<void(const io::FileBytes&)> read;
-  std::size_t optional_end = 0;  ///< so many bytes at the end may be missing
+  std::size_t optional_end = 0;  ///< this many bytes at the end may be missing
 };
 
 template <class Mesh>
@@ -86,7 +87,7 @@ std::vector<BinaryFormat> binary_formats() {
   plc::InputPlc triangles = awkward_surface();
   triangles.vertices.assign(5, {1, 2, 3});
   triangles.polygon_facets.clear();
-  // In .meshb our claim stands behind the end, and text needs no line end behind the last word.
+  // In .meshb, our claim follows the keyword End; a text needs no line end after the last word.
   return {{"meshb", written(small_mesh(), io::write_meditb_mesh), as_mesh(io::read_meditb_mesh),
            io::constrained_delaunay_claim.size()},
           {"meshb surface", written(awkward_surface(), io::write_meditb_plc), as_plc(io::read_meditb_plc),

@@ -86,7 +86,7 @@ TEST(ReadSizes, WithoutAMeshBesideThemAreRefused) {
   expect_refused(folder / "missing.sol", "missing.sol", 0);
 }
 
-TEST(ReadSizes, ThatAreNotOnePositiveNumberAVertexAreRefusedWithTheLine) {
+TEST(ReadSizes, ThatAreNotOnePositiveNumberPerVertexAreRefusedWithTheLine) {
   const Folder folder;
   put(folder / "a.mesh", medit_tetrahedron);
   const auto refused = [&](const std::string& head, const std::string& values, long long line) {

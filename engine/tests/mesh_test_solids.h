@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "engine/tests/plc_test_solids.h"
@@ -227,7 +229,7 @@ inline plc::InputPlc in_perspective(const plc::InputPlc& plc, double size) {
   });
 }
 
-/// Moves every vertex of a surface around the origin towards it, by a random amount: reflex edges everywhere.
+/// Moves every vertex of a surface around the origin toward it, by a random amount: reflex edges everywhere.
 inline plc::InputPlc roughened(plc::InputPlc plc, double least, std::mt19937& random) {
   std::uniform_real_distribution<double> factor(least, 1);
   for (Point3& p : plc.vertices) p = factor(random) * p;

@@ -1,6 +1,7 @@
 #include "engine/tests/numbers_cases.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ccdt::test {
 namespace {
@@ -111,7 +112,7 @@ std::array<Point3, 6> draw_unmoved(Random& random, Family family) {
 std::array<Point3, 6> draw_points(Random& random, Family family) {
   std::array<Point3, 6> points = draw_unmoved(random, family);
   if (random() % 2) {
-    // Towards zero, so that the point stays on the grid.
+    // Toward zero, so that the point stays on the grid.
     Point3& p = points[random() % 6];
     double& x = random() % 3 == 0 ? p.x : random() % 2 ? p.y : p.z;
     const double by = random() % 2 ? 1 : 1048576;

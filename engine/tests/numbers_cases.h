@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 #include "engine/base/point.h"
 #include "engine/tests/sanitized.h"

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/numbers/predicates.h"
 #include "engine/tests/numbers_cases.h"

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "engine/planar/points.h"
 #include "engine/tests/planar_test_plane.h"

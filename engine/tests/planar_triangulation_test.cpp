@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "engine/tests/planar_test_plane.h"

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "engine/base/simplex_map.h"
 #include "engine/plc/bent_facets.h"

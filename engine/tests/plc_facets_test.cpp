@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "engine/numbers/predicates.h"
 #include "engine/tests/plc_test_solids.h"
@@ -159,7 +162,7 @@ TEST(PlcFacets, ASegmentOfTheInputDividesAFlatFaceAndKeepsItsMarker) {
 }
 
 TEST(PlcFacets, VerticesThatFallTogetherAreMergedInOrderOfAppearance) {
-  plc::InputPlc soup;  // as STL has it: three vertices a triangle
+  plc::InputPlc soup;  // as STL has it: three vertices per triangle
   const plc::InputPlc cube = unit_cube();
   for (const auto& t : cube.triangles) {
     const auto v = static_cast<std::uint32_t>(soup.vertices.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include "engine/base/box_tree.h"
 #include "engine/numbers/predicates.h"

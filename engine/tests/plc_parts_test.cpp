@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/io/plc_files.h"
 #include "engine/tests/plc_test_solids.h"

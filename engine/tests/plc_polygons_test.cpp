@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/tests/plc_test_solids.h"

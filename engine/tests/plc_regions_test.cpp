@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "engine/base/errors.h"
 #include "engine/tests/plc_test_solids.h"
 

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"

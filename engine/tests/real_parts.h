@@ -29,7 +29,7 @@ inline bool there_are_parts() {
   return std::filesystem::is_directory(folder_of_parts());
 }
 
-/// The surfaces in a folder that may be missing, by name.
+/// The surfaces in a folder, sorted by name; none if there is no such folder.
 inline std::vector<std::filesystem::path> surfaces_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::is_directory(folder)) return files;
@@ -39,7 +39,7 @@ inline std::vector<std::filesystem::path> surfaces_in(const std::filesystem::pat
   return files;
 }
 
-/// All of them, by name.
+/// All surfaces of `folder_of_parts`, sorted by name.
 inline std::vector<std::filesystem::path> real_parts() {
   return surfaces_in(folder_of_parts());
 }

@@ -167,7 +167,7 @@ TEST(Refine, TheNarrowestStripsDoNotCostMillionsOfTetrahedra) {
   EXPECT_LT(all_points(r.after).size(), 60000u);
 }
 
-/// A cone over a circle of that many edges.
+/// A cone over a circle of this many edges.
 InputPlc cone(std::uint32_t edges) {
   InputPlc plc;
   plc.vertices = {{0, 0, 1}};

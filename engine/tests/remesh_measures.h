@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -113,7 +114,7 @@ inline double mean_edge_length(const InputPlc& plc) {
   return sum / static_cast<double>(edges.size());
 }
 
-/// The volume of the regions of each region; 0 is also what has no region.
+/// The volume of each region; what has no region counts as region 0.
 inline std::map<int, double> region_volumes(const plc::Plc& plc) {
   std::map<int, double> sums;
   for (std::uint32_t c = 0; c < plc.regions.size(); ++c)

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
 // after GoogleTest, whose macros it uses
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
@@ -296,7 +301,7 @@ TEST(RemeshedThinParts, NoiseIsNoThinFeature) {
   EXPECT_LT(static_cast<double>(remeshed(sphere, 0.15).triangles.size()), 1.1 * static_cast<double>(smooth));
 }
 
-// Needles between a long slot and the border: splits of edges that are not the longest would go on without end.
+// Needles between a long slot and the border: splits of edges that are not the longest would never end.
 TEST(RemeshedThinParts, SlottedPlatesStaySmall) {
   const InputPlc plate = slotted_plate(12);
   const InputPlc result = remeshed(plate, 0.1);

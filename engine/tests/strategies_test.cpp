@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "engine/io/plc_files.h"
 #include "engine/numbers/predicates.h"

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "engine/base/parallel.h"
@@ -114,7 +115,7 @@ void expect_one_mesh(const std::string& name, const InputPlc& input, MeshOptions
     options.threads = threads;
     const MeshResult several = mesh_plc(input, options);
     expect_same_bytes(one.mesh, several.mesh);
-    // Vertices are inserted in another order, but else several threads do what one does.
+    // Vertices are inserted in another order, but otherwise several threads do what one does.
     EXPECT_TRUE(one.work.plc == several.work.plc);
     EXPECT_TRUE(one.work.improve == several.work.improve);
   }
@@ -154,7 +155,7 @@ TEST(Threads, MakeOneMesh) {
   }
 }
 
-/// With so much to improve that many changes are next to each other.
+/// With enough to improve that many changes are next to each other.
 MeshOptions hard_to_improve() {
   MeshOptions options;
   options.improve.target_dihedral = 35;

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/merge_sort.h"
@@ -45,7 +46,7 @@ Work work_of(const Task& task) {
   return work;
 }
 
-/// The counts that are not zero, one a line.
+/// The counts that are not zero, one per line.
 std::string text_of(const char* stage, const Work& work) {
   std::string text;
   for (const WorkCount& c : work_counts)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
@@ -153,7 +154,7 @@ TEST(WrapDelaunay, LeavesSpheresAndOuterHalfSpacesEmpty) {
   for (const NamedPoints& set : small_sets()) EXPECT_TRUE(has_empty_spheres(wrap(set.points))) << set.name;
 }
 
-/// Inserts the vertices in the order of their ranks, of which the first four have a body.
+/// Inserts the vertices in the order of their ranks; the first four are not in one plane.
 delaunay::Delaunay insert_by_rank(const std::vector<delaunay::DelaunayVertex>& vertices) {
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -199,7 +200,7 @@ TEST(WrapDelaunay, ObeysAnyRanks) {
   }
 }
 
-/// Into the first points, which are built in either way, the others are inserted.
+/// Builds the first points in either way, then inserts the others.
 template <class Build>
 delaunay::Delaunay build_and_insert(const std::vector<Point3>& points, const Build& build) {
   delaunay::Delaunay d = build({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2)});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -108,7 +109,7 @@ TEST(SurfacePatch, IsFinerNearAFineCurveAndGrowsAwayFromIt) {
 }
 
 TEST(SurfacePatch, WhoseCurvesCrossIsRefused) {
-  for (const double x : {10.0, 9.5}) {  // in vertices of one and within edges of the other, and in no vertex
+  for (const double x : {10.0, 9.5}) {  // at vertices of one of them, and away from all vertices
     models::ModelSurface surface;
     const models::Chain outer = rectangle(surface, 10, 10, 1);
     const models::Ring hole = models::ring(surface, models::Axis::z, {x, 5.3, 0}, 2, 0, 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "models/tests/surface_checks.h"

@@ -37,10 +37,10 @@ double winding_number(const std::vector<Point3>& vertices, const Triangles& tria
 /// Vertices - edges + triangles, with the vertices that the triangles use.
 long euler_characteristic(const Triangles& triangles);
 
-/// The value below which that fraction of the numbers lies.
+/// The value below which this fraction of the values lies.
 double quantile(std::vector<double> values, double fraction);
 
-std::vector<double> smallest_angles(const plc::InputPlc& input);  ///< one a triangle, degrees
+std::vector<double> smallest_angles(const plc::InputPlc& input);  ///< one per triangle, in degrees
 std::vector<double> edge_lengths(const plc::InputPlc& input);     ///< each edge once
 
 }  // namespace ccdt::testing

@@ -8,7 +8,7 @@ namespace ccdt {
 
 /// What a made-up sweep is like.
 struct MadeUpSweep {
-  int models = 3, sizes = 4;  ///< inputs: each model with so many edge lengths, over two decades of tetrahedra
+  int models = 3, sizes = 4;  ///< inputs: each model with this many edge lengths, over two decades of tetrahedra
   int files = 0;              ///< more inputs, of a user
   std::vector<std::string> lattices = {"fcc", "bcc"}, locators = {"cavity", "octree"};  ///< options of ccdt
   std::vector<std::string> others = {"tetgen", "gmsh"};                                 ///< meshers without options

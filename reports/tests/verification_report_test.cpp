@@ -16,7 +16,7 @@ verify::Verification example(bool required) {
   return verification;
 }
 
-TEST(VerificationReport, HasALineACheckAndItsExamples) {
+TEST(VerificationReport, HasALineForEachCheckAndItsExamples) {
   const std::string text = reports::to_terminal(example(true));
   EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text;
   for (const char* data :

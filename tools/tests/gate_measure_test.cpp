@@ -63,7 +63,7 @@ class TimedGate : public Gate {
     write("rules.json", R"({"schema": "ccdt.rules/1", "time": {"at_least": 8, "at_most": 16}})");
   }
 
-  /// A shell script that reports a benchmark of so many milliseconds.
+  /// A shell script that reports a benchmark of this many milliseconds.
   static std::string benchmark_of(const std::string& milliseconds) {
     return "for a; do case $a in --benchmark_out=*) echo '{\"benchmarks\": [{\"name\": \"BM_x\", \"run_type\": "
            "\"iteration\", \"cpu_time\": 1, \"time_unit\": \"ms\", \"real_time\": '" +

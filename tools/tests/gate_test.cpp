@@ -74,7 +74,7 @@ TEST_F(Gate, AnotherMeshFailsEvenIfItIsSmaller) {
   EXPECT_EQ(judged("counts.splits_by_level", set("counts.splits_by_level", {2})).at("verdict"), "worse");
 }
 
-TEST_F(Gate, AFailedRunIsWorseAndAMendedOneBetter) {
+TEST_F(Gate, AFailedRunIsWorseAndAFixedOneBetter) {
   const Change fail = [](Json& run) {
     run["status"] = "crashed";
     run["kind"] = "crashed";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +38,7 @@ class Sizes : public Program {
     write(sizes, text + (medit ? "End\n" : ""));
   }
 
-  /// The spacing of interior points is the function's within a factor of sqrt(2), told by their density in ten slabs.
+  /// Interior points have the spacing of the function within a factor of sqrt(2), as their density in ten slabs shows.
   void expect_followed(const std::string& mesh) const {
     const mesh::TetMesh result = io::read_tet_mesh(work() / mesh);
     constexpr int slabs = 10;

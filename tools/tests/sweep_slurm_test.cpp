@@ -89,7 +89,7 @@ class SlurmSweep : public Program {
     return status().at("chunks").value(where, -1);
   }
 
-  /// Chunks that run or wait, at one moment: one may start between two questions.
+  /// The number of chunks that run or wait, from one status: a chunk may start between two of them.
   int chunks_underway() const {
     const Json counts = status().at("chunks");
     return counts.value("running", -1) + counts.value("queued", -1);

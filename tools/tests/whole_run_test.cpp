@@ -2,6 +2,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
@@ -188,7 +189,7 @@ TEST_F(WholeRun, SelfIntersectingSurfaceIsRefusedWithBothFacets) {
 
 TEST_F(WholeRun, FacetsThatCoverEachOtherAreRefusedWithTheirPlace) {
   plc::InputPlc doubled = unit_cube();
-  append(doubled, box({0.25, 0.25, 1}, {0.75, 0.75, 2}));  // stands on the top, which goes on below it
+  append(doubled, box({0.25, 0.25, 1}, {0.75, 0.75, 2}));  // on the top, which continues below it
   expect_surface_refused(doubled, {"1)"});
 }
 

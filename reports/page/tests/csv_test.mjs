@@ -13,7 +13,7 @@ const table = {
   ],
 };
 
-test("an estimate takes three columns, and what it stands on the last", () => {
+test("an estimate takes three columns, and its runs are in the last one", () => {
   const [head, first] = csvOf(table).split("\r\n");
   assert.equal(head, "model,seconds,seconds_low,seconds_high,reason,runs");
   assert.equal(first, "piston,2.5,2,3,,runs/a.json runs/b.json");

@@ -7,7 +7,7 @@ import addFormats from "ajv-formats";
 const SCHEMA_FILE = /^(ccdt\.[a-z]+)\.(\d+)\.schema\.json$/;
 
 /**
- * The validators of all schemas of a folder, by what files say of themselves ("ccdt.run/1"). What a schema itself gets
+ * The validators of all schemas of a folder, by the names that files give ("ccdt.run/1"). What a schema itself gets
  * wrong is an error too.
  */
 export function validatorsOf(schemaFolder) {
@@ -41,7 +41,7 @@ function googleBenchmarkProblems(json) {
 
 /**
  * Checks every JSON file in a folder and the folders in it.
- * @returns {{file: string, kind: string, problems: string[]}[]} one a file; kind is the schema it names
+ * @returns {{file: string, kind: string, problems: string[]}[]} one per file; kind is the schema that it names
  */
 export function checkFolder(folder, validators) {
   return jsonFilesIn(folder).map((file) => {

@@ -22,7 +22,7 @@ test("each version of a mesher has the settings of all its runs", () => {
   ]);
 });
 
-test("an environment is told once for all experiments, whatever the load was", () => {
+test("an environment is shown once for all experiments, whatever the load was", () => {
   const section = (title, cpu, load) => ({ title, environment: { cpu, load_average: load } });
   const found = distinctEnvironments([
     section("a", "one", 0.1),

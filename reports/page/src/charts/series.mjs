@@ -5,7 +5,7 @@ import config from "../../../charts/config.json" with { type: "json" };
  * @typedef {{color: string, shape: string, dash: number[]}} SeriesStyle
  */
 
-/** Where the configuration has a name, or what the name starts with; after all if it does not. */
+/** The position of a name, or of its beginning, in the configuration; an unknown name is last. */
 function rankOf(value) {
   const name = value.toLowerCase();
   const exact = config.series.findIndex(({ values }) => values?.includes(name));
@@ -13,7 +13,7 @@ function rankOf(value) {
   return exact >= 0 ? exact : start >= 0 ? start : config.series.length;
 }
 
-/** Our own series first, then the others as the configuration has them, then what it does not know, as it comes. */
+/** Series in the order of the configuration, our own first; unknown ones come last, in their given order. */
 export function inSeriesOrder(values) {
   return [...new Set(values)]
     .map((value, position) => ({ value, position }))
@@ -22,8 +22,8 @@ export function inSeriesOrder(values) {
 }
 
 /**
- * A style for each series. One that the configuration does not know takes one that no other of them has, as long as
- * there are such.
+ * A style for each series. A series that the configuration does not know takes a style that no other has, as long as
+ * there is one.
  * @param {string[]} values  each once
  * @returns {SeriesStyle[]}
  */

@@ -47,7 +47,7 @@ function wrapLabels(definition, values, theme, width) {
   definition.axis = { ...definition.axis, labelExpr: `${lines}[datum.value] || datum.value`, labelOffset: raised };
 }
 
-/** How wide a legend is with its entries in so many columns, row by row. */
+/** The width of a legend with its entries in this many columns, row by row. */
 function legendWidth(entries, columns) {
   let width = 0;
   for (let column = 0; column < columns; ++column)
@@ -55,7 +55,7 @@ function legendWidth(entries, columns) {
   return width;
 }
 
-/** A legend's entries in as few rows as there is room for, and these as full as each other. */
+/** The number of columns of a legend that has as few rows as possible, all about equally full. */
 function legendColumns(values, theme, width, room) {
   const entries = values.map((value) => textWidth(value, 10.5 * textScale(theme)) + room);
   let columns = values.length;
@@ -87,7 +87,7 @@ function completeLogarithmic(definition) {
     definition.axis = { gridOpacity: POWERS_OF_TEN, ...definition.axis };
 }
 
-/** How much of a legend's entry its symbol takes: where series are lines alone, these are long. */
+/** The width of the symbol in a legend's entry: longer if the series are only lines. */
 function symbolRoom(spec) {
   const channels = new Set();
   eachChannel(spec, (channel) => channels.add(channel));

@@ -3,11 +3,11 @@ import { availableParallelism, cpus } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 
-const PIXELS_PER_CSS_PIXEL = "4"; // 384 a printed inch
+const PIXELS_PER_CSS_PIXEL = "4"; // 384 per printed inch
 
 const run = promisify(execFile);
 
-// A PDF holds when it was made; the same figures are to be the same files.
+// A PDF contains its date; the same figures must be the same files.
 const env = { SOURCE_DATE_EPOCH: "0", ...process.env };
 
 /** What rsvg-convert is asked for. A CSS pixel is 1/96 inch, in the PDF as well. */
@@ -21,7 +21,7 @@ function jobsOf(folder, name) {
 
 /**
  * PDF and PNG of each NAME.svg of a folder.
- * @returns {Promise<string>} in one line what could not be done; else empty
+ * @returns {Promise<string>} what failed, in one line; empty if nothing did
  */
 export async function convertAll(folder, names) {
   const jobs = names.flatMap((name) => jobsOf(folder, name));

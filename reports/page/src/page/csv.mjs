@@ -4,7 +4,7 @@ function quoted(value) {
   return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-/** A time may be an estimate: it has three columns then. */
+/** A time may be an estimate; then it has three columns. */
 function isEstimated(table, column) {
   return table.rows.some((row) => typeof row.values[column.name] === "object" && row.values[column.name] !== null);
 }

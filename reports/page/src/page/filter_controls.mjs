@@ -17,7 +17,7 @@ function keepInside(panel) {
   panel.classList.toggle("leftward", isOver);
 }
 
-/** A label's values, each to be ticked. */
+/** A check box for each value of a label. */
 function choiceControl(section, choice, state, changed) {
   const excluded = new Set();
   const summary = element("span.chosen", {});
@@ -83,7 +83,7 @@ function boundSelect(bounds, chosen, label, change) {
   return select;
 }
 
-/** From which size to which. */
+/** The smallest and the largest size that are shown. */
 function rangeControl(section, range, state, changed) {
   const { bounds } = range;
   const from = boundSelect(bounds, bounds[0], `${range.title} from`, () => apply());

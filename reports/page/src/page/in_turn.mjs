@@ -1,7 +1,7 @@
 let queue = Promise.resolve();
 
 /**
- * Does pieces of work one after the other, so that the page answers in between.
+ * Does pieces of work one after another, so that the page stays responsive.
  * @param {() => Promise<void>} work
  * @returns {Promise<void>} settled as the work
  */

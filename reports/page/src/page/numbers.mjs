@@ -8,7 +8,7 @@ function magnitude(number) {
   return number === 0 ? 0 : Math.floor(Math.log10(Math.abs(number)));
 }
 
-// By the number of decimals: to make one takes longer than to use it a thousand times.
+// By the number of decimals. Making a format takes longer than using it a thousand times.
 const formats = new Map();
 
 function formatOf(decimals) {
@@ -33,7 +33,7 @@ function scientific(number) {
 
 /**
  * @param {number|null|undefined} number
- * @param {number} [decimals]  as many; else what four significant digits take, and none for whole numbers
+ * @param {number} [decimals]  default: none for whole numbers, otherwise as many as four significant digits need
  */
 export function numberText(number, decimals) {
   if (number === null || number === undefined || !Number.isFinite(number)) return NOTHING;
@@ -48,7 +48,7 @@ export function isEstimate(cell) {
   return typeof cell === "object" && cell !== null;
 }
 
-/** As many decimals as show the interval with two digits. */
+/** The number of decimals that show two digits of the interval. */
 function estimateDecimals({ value, low, high }) {
   const width = high - low;
   if (!(width > 0)) return Math.max(0, SIGNIFICANT - 1 - magnitude(value));
@@ -82,8 +82,8 @@ export function cellText(cell, decimals) {
 }
 
 /**
- * How many decimals the numbers of a column have in common, so that they can be compared by eye.
- * @returns {number|undefined}  undefined: each as it is best, as they differ too much in size
+ * The number of decimals for all numbers of a column, so that they can be compared by eye.
+ * @returns {number|undefined}  undefined: they differ too much in size to have the same number
  */
 export function commonDecimals(cells) {
   const numbers = cells.filter((cell) => typeof cell === "number" && Number.isFinite(cell));

@@ -44,7 +44,7 @@ function fileList(files, runs) {
   return [search, shown, more];
 }
 
-/** All JSON that the report was made of, to download; unpacked when it is asked for. */
+/** All JSON from which the report was made, to download; unpacked on demand. */
 export function rawFilesSection(report) {
   const save = (name, content) => download(name, jsonText(content), "application/json");
   const isSweep = report.experiments.some(({ name }) => name === "sweep");

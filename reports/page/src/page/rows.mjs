@@ -23,7 +23,7 @@ export function unitText(unit) {
   return unit === "us" ? "µs" : unit;
 }
 
-/** "piston, with check": what a row is of. */
+/** "piston, with check": what a row describes. */
 export function rowTitle(table, row) {
   const labels = table.columns
     .filter(({ name, kind }) => kind === "label" && name !== STATUS && row.values[name])
@@ -47,7 +47,7 @@ function compare(a, b) {
 /**
  * Rows in another order; what has no value comes last, whichever way.
  * @param {object[]} rows
- * @param {{name: string, descending: boolean}|null} sorting  by which column; null: as they come
+ * @param {{name: string, descending: boolean}|null} sorting  by which column; null: not sorted
  */
 export function sortedRows(rows, sorting) {
   if (sorting === null) return rows;

@@ -8,7 +8,7 @@ import { traceButton, traceRow } from "./trace.mjs";
 
 const ROWS_AT_FIRST = 12;
 const MOST_ROWS_WITHOUT_BUTTON = 16;
-const MOST_ROWS_AT_ONCE = 100; // longer tables are turned over like pages, so that the browser has little to lay out
+const MOST_ROWS_AT_ONCE = 100; // longer tables have pages, so that the browser has little to lay out
 const LONG_TITLE = 24;
 const LONG_TEXT = 44; // characters; longer ones are wrapped
 

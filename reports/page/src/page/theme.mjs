@@ -31,7 +31,7 @@ function store(theme) {
   try {
     localStorage.setItem(STORE, theme);
   } catch {
-    // It is for this visit then.
+    // Then the choice is lost at the end of the visit.
   }
 }
 

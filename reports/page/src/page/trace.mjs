@@ -86,16 +86,17 @@ function openDialog(title, ...content) {
 }
 
 /**
- * Shows the source of a number: each run, the command that repeats it, and its raw JSON. @param {object} report
- * @param {string} title    what the number is of
- * @param {string[]} facts  what else is to be said of it
+ * Shows the source of a number: each run, the command that repeats it, and its raw JSON.
+ * @param {object} report
+ * @param {string} title    what the number measures
+ * @param {string[]} facts  other facts about it
  * @param {string[]} files  of the runs
  */
 export function openTrace(report, title, facts, files) {
   openDialog(
     title,
     list("ul.facts", facts),
-    element("p.label", {}, `It stands on ${counted(files.length, "run")}:`),
+    element("p.label", {}, `It is based on ${counted(files.length, "run")}:`),
     element(
       "ol.runs",
       {},
@@ -105,7 +106,7 @@ export function openTrace(report, title, facts, files) {
   );
 }
 
-/** Shows what a row of a table stands on. */
+/** Shows the runs behind a row of a table. */
 export function traceRow(report, table, row) {
   openTrace(report, rowTitle(table, row) || table.title, rowFacts(table, row), row.runs);
 }

@@ -45,7 +45,7 @@ function measureRow(report, claim, measure) {
   const facts = [
     claim.sentence,
     `Measured: ${cellText(measure.value)}`,
-    measure.bound ? `Asked: ${measure.bound}` : "",
+    measure.bound ? `Required: ${measure.bound}` : "",
   ].filter(Boolean);
   return element(
     "tr",

@@ -22,12 +22,12 @@ export function createAxesMark() {
 export function turnAxesMark(svg, camera) {
   const turn = camera.matrixWorldInverse.elements;
   AXES.forEach((_, axis) => {
-    const [x, y, towards] = [turn[4 * axis], -turn[4 * axis + 1], turn[4 * axis + 2]];
+    const [x, y, toward] = [turn[4 * axis], -turn[4 * axis + 1], turn[4 * axis + 2]];
     const at = (length) => [SIZE / 2 + length * x, SIZE / 2 + length * y];
     const [line, text] = [svg.children[2 * axis], svg.children[2 * axis + 1]];
     const set = (node, values) => Object.entries(values).forEach(([name, value]) => node.setAttribute(name, value));
     const [x1, y1] = at(0), [x2, y2] = at(LENGTH), [xText, yText] = at(LENGTH + 8);
-    set(line, { x1, y1, x2, y2, opacity: towards < -0.1 ? 0.45 : 1 });
+    set(line, { x1, y1, x2, y2, opacity: toward < -0.1 ? 0.45 : 1 });
     set(text, { x: xText, y: yText });
   });
 }

@@ -5,7 +5,7 @@ const FACES = [1, 2, 3, 0, 3, 2, 0, 1, 3, 0, 2, 1];
  * Across each face of each cell, the cell on the other side.
  * @param {Uint32Array} cells  four vertices a cell
  * @param {number} vertexCount
- * @returns {Int32Array} four a cell, the face opposite corner i at i; -1: the face is on the boundary
+ * @returns {Int32Array} four per cell, the face opposite corner i at i; -1: the face is on the boundary
  */
 export function neighborsOf(cells, vertexCount) {
   const neighbors = new Int32Array(cells.length).fill(-1);
@@ -44,9 +44,9 @@ export function neighborsOf(cells, vertexCount) {
 /**
  * The boundary of some of the cells: the faces that belong to one of them.
  * @typedef {object} Faces
- * @property {Uint32Array} corners  three vertices a face, counter-clockwise from outside
- * @property {Uint32Array} cell     which cell it belongs to, one a face
- * @property {Uint8Array} cut       1: another cell of the mesh is beyond it, one a face
+ * @property {Uint32Array} corners  three vertices per face, counterclockwise from outside
+ * @property {Uint32Array} cell     which cell it belongs to, one per face
+ * @property {Uint8Array} cut       1: another cell of the mesh is beyond it, one per face
  */
 
 /**

@@ -17,15 +17,15 @@ export function resetChoices(viewer) {
   setWorstCount(viewer, Math.min(FIRST_WORST_COUNT, viewer.viewed.mesh.regions.length));
 }
 
-/** Takes over a new axis of the cut: the side towards the observer goes, as far as the middle. */
+/** Takes over a new axis of the cut: the side toward the observer goes, as far as the middle. */
 export function takeCutAxis(viewer) {
   const { form } = viewer;
   const axis = chosen(form, "cut-axis");
-  const towards = towardsObserver(viewer.scene);
-  viewer.cutNormal = axis === "none" ? null : axis === "view" ? towards : AXIS_NORMALS[axis];
+  const toward = towardsObserver(viewer.scene);
+  viewer.cutNormal = axis === "none" ? null : axis === "view" ? toward : AXIS_NORMALS[axis];
   for (const name of ["cut-position", "cut-flip"]) control(form, name).disabled = axis === "none";
   if (!viewer.cutNormal) return;
-  const along = viewer.cutNormal.reduce((sum, component, i) => sum + component * towards[i], 0);
+  const along = viewer.cutNormal.reduce((sum, component, i) => sum + component * toward[i], 0);
   control(form, "cut-flip").checked = along < 0;
   control(form, "cut-position").value = POSITION_STEPS / 2;
 }
@@ -42,7 +42,7 @@ export function takePlane({ form, viewed, cutNormal }) {
   return control(form, "cut-flip").checked ? { normal: cutNormal.map((x) => -x), offset: -offset } : { normal: cutNormal, offset };
 }
 
-/** Shows so many of the worst cells from now on; the controls say so, and what all of them are worse than. */
+/** Shows this many of the worst cells; the controls show that number, and the threshold that all of them exceed. */
 export function setWorstCount(viewer, count) {
   const { form, viewed } = viewer;
   const measure = control(form, "worst").value;
@@ -60,7 +60,7 @@ export function takeWorstCount(viewer) {
   setWorstCount(viewer, countAt(Number(control(viewer.form, "worst-count").value), viewer.viewed.mesh.regions.length));
 }
 
-/** A threshold has been entered: so many cells are shown as are worse. */
+/** A threshold has been entered: the cells that are worse are shown. */
 export function takeThreshold(viewer) {
   const field = control(viewer.form, "worst-threshold");
   const measure = control(viewer.form, "worst").value;

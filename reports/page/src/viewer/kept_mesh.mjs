@@ -7,7 +7,7 @@ import { inflated } from "./inflated.mjs";
  * @property {string} title
  * @property {Float32Array} points  x y z of each vertex
  * @property {Uint32Array} cells    four vertices of each tetrahedron, positively oriented
- * @property {Int32Array} regions   one a tetrahedron
+ * @property {Int32Array} regions   one per tetrahedron
  * @property {Uint32Array} numbers  of the vertices, in the file of the mesh
  */
 

@@ -9,7 +9,7 @@ import { visibleFaces } from "./visible_faces.mjs";
 const EDGE_WIDTH = { smallest: 0.06, largest: 0.35, share: 0.05 };
 
 /**
- * Draws a mesh cut open, as papers do: the quarter towards the observer is taken away, in whole tetrahedra, or the half
+ * Draws a mesh cut open, as papers do: the quarter toward the observer is taken away, in whole tetrahedra, or the half
  * where the quarter shows the inside of some of the regions only. What is laid open has another color than the surface.
  * @param {object} kept  a mesh of schema `ccdt.mesh/1`
  * @param {object} [options]
@@ -60,12 +60,12 @@ function viewOf(azimuth, elevation) {
   return {
     right: [-Math.sin(a), Math.cos(a), 0],
     up: [-Math.sin(e) * Math.cos(a), -Math.sin(e) * Math.sin(a), Math.cos(e)],
-    towards: [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)],
+    toward: [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)],
   };
 }
 
-// In parallel, what is drawn fills the picture; y downwards as in SVG, depth towards the observer.
-function project(points, drawn, { right, up, towards }, size) {
+// In parallel, what is drawn fills the picture; y downwards as in SVG, depth toward the observer.
+function project(points, drawn, { right, up, toward }, size) {
   const drawnPoints = new Float32Array(3 * drawn.length).map((_, i) => points[3 * drawn[Math.floor(i / 3)] + (i % 3)]);
   const across = extentAlong(drawnPoints, right), along = extentAlong(drawnPoints, up);
   const margin = 0.01 * size;
@@ -75,7 +75,7 @@ function project(points, drawn, { right, up, towards }, size) {
     const dot = (v) => v[0] * points[i] + v[1] * points[i + 1] + v[2] * points[i + 2];
     coordinates[i] = margin + scale * (dot(right) - across.low);
     coordinates[i + 1] = margin + scale * (along.high - dot(up));
-    coordinates[i + 2] = scale * dot(towards);
+    coordinates[i + 2] = scale * dot(toward);
   }
   const [width, height] = [across, along].map(({ low, high }) => Math.ceil(scale * (high - low) + 2 * margin));
   return { coordinates, width, height };

@@ -2,7 +2,7 @@ import { interpolateViridis } from "d3-scale-chromatic";
 
 import { REGULAR_DIHEDRAL_ANGLE } from "./tetrahedron_quality.mjs";
 
-// The surface is lighter than what a cut lays open, so that they differ in gray too.
+// The surface is lighter than the faces of a cut, so that they differ in gray too.
 const SURFACE = ["#b4d0f4", "#86cbb4", "#d9c3ec", "#d8d5a0"];
 const CUT = ["#e8922c", "#cc553b", "#a8642a", "#b8860b"];
 
@@ -19,7 +19,7 @@ export function regionColors(regions) {
 }
 
 /**
- * What cells can be colored by: fixed scales, so that meshes compare. Good is light and bad is dark.
+ * What cells can be colored by: fixed scales, so that meshes can be compared. Good is light and bad is dark.
  * `best` and `worst` are the ends of the scale; beyond, the color stays.
  */
 export const MEASURES = {

@@ -60,7 +60,7 @@ export function fit(stage, width, height, radius) {
 
 /**
  * @param {Float32Array} positions  x y z of three corners a triangle
- * @param {string[]} colors        one a triangle
+ * @param {string[]} colors        one per triangle
  * @param {Float32Array} edges      x y z of two ends an edge
  */
 export function setTriangles(stage, positions, colors, edges) {

@@ -1,11 +1,11 @@
-/** Degrees between the normals of two faces: more, and their edge belongs to the outline of a surface. */
+/** In degrees: if the normals of two faces differ by more, their edge belongs to the outline of the surface. */
 const SHARP_ANGLE = 30;
 
 /**
  * The edges of a surface that make its shape: where it turns sharply, or more than two faces meet.
  * @param {Float32Array} points
- * @param {Uint32Array} corners  three vertices a face of a closed surface
- * @returns {Uint32Array} two vertices an edge
+ * @param {Uint32Array} corners  three vertices per face of a closed surface
+ * @returns {Uint32Array} two vertices per edge
  */
 export function sharpEdges(points, corners) {
   const normals = normalsOf(points, corners);

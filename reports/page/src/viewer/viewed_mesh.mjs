@@ -12,7 +12,7 @@ import { keepOnly, worstFirst } from "./worst_cells.mjs";
  * @typedef {object} Choice
  * @property {null|{normal: number[], offset: number}} plane  takes away what is beyond it; null: nothing is cut
  * @property {"none"|"r"|"dihedral"} worst                    shows only the worst cells by this measure
- * @property {number} count                                   so many of the worst
+ * @property {number} count                                   how many of the worst
  */
 
 /**

@@ -117,7 +117,7 @@ async function openMesh(viewer, keptMeshes, { file, title, run }, runs) {
     viewer.readout.replaceChildren(`${file} cannot be shown: ${error.message}`);
     return;
   }
-  // Another one may have been chosen meanwhile.
+  // Another one may have been chosen by now.
   if (viewer.opening !== file) return;
   viewer.viewed = viewed;
   scene.lookAt(viewer.scene, viewed.sphere);

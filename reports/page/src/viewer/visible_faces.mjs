@@ -5,7 +5,7 @@ const PIXELS = 4;
  * Which faces are seen, the farthest first: drawn in this order, each covers what is behind it. What nothing is seen of
  * in a depth buffer is left out, and so is what looks away.
  * @param {Uint32Array} corners           three vertices a face
- * @param {Float32Array} coordinates      of the vertices: x to the right, y downwards, z towards the observer
+ * @param {Float32Array} coordinates      of the vertices: x to the right, y downwards, z toward the observer
  * @param {number} width                  of the picture
  * @param {number} height
  * @returns {number[]}

@@ -1,6 +1,6 @@
 /**
  * All cells, the worst first.
- * @param {Float32Array} values     one a cell
+ * @param {Float32Array} values     one per cell
  * @param {boolean} largestIsWorst
  * @returns {Uint32Array}
  */
