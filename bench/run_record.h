@@ -80,12 +80,12 @@ void note_end(const baselines::ProcessResult& ended, RunRecord& record);
 
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);
-/// \throw InputError  no JSON of that schema
+/// \throw InputError  it is not JSON of that schema
 RunRecord run_record_from_json(const std::string& text);
 
 /// Writes the file whole or not at all. \throw OutputError
 void write_run_record(const RunRecord& record, const std::filesystem::path& file);
-/// \throw InputError  cannot be read, or no JSON of that schema
+/// \throw InputError  it cannot be read, or is not JSON of that schema
 RunRecord read_run_record(const std::filesystem::path& file);
 /// The same; none if there is no such file, or it is not a record.
 std::optional<RunRecord> find_run_record(const std::filesystem::path& file);

@@ -232,7 +232,7 @@ void add_gusset(Bracket& b, const GussetCurves& g, const LegCurves& on_foot, con
   b.add(slope, {g.cut_across, g.slope_wall[1], reversed(on_wall.gusset_tip), reversed(g.slope_wall[0])}, gusset);
 }
 
-/// The facets inside: the face where the foot begins, which parts the body, and the slit in the middle of the foot's
+/// The facets inside: the face where the foot begins, which divides the body, and the slit in the middle of the foot's
 /// end.
 void add_interior_facets(Bracket& b, const GussetCurves& g, const LegCurves& on_foot) {
   b.add(

@@ -291,7 +291,7 @@ planar::Triangulation triangulate(const std::vector<planar::Point2>& points, con
     return planar::find_edge(result.triangulation, e[0], e[1]).has_value();
   };
   if (!result || !result.unused.empty() || !std::all_of(edges.begin(), edges.end(), is_kept)) {
-    throw std::logic_error("the curves of a patch cross, or meet otherwise than in shared vertices");
+    throw std::logic_error("the curves of a patch cross, or meet at points that are not shared vertices");
   }
   return std::move(result.triangulation);
 }

@@ -74,7 +74,7 @@ void add_tube_wall(ModelSurface& surface, const PinTube& tube, double tube_radiu
   }
 }
 
-/// A cylinder around the piston's axis between two rings, each half (toward +x and -x) with a hole of the pin's.
+/// A cylinder around the piston's axis between two rings. Each half (toward +x and -x) has a hole for the pin.
 void add_pierced_cylinder(ModelSurface& surface, const Ring& lower, const Ring& upper,
                           const std::array<Chain, 2>& holes, OuterSide outer_side, double edge_length, Marker marker) {
   const Point3 plus{0, lower.radius, 0}, minus{0, -lower.radius, 0};

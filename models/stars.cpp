@@ -55,7 +55,7 @@ std::vector<Point3> wheel(double degrees) {
   return directions;
 }
 
-/// Directions all over the sphere (a Fibonacci spiral; Gonzalez 2010), so many that the angles to the nearest are about
+/// Directions all over the sphere (a Fibonacci spiral; Gonzalez 2010), as many as make the angles to the nearest about
 /// as wanted.
 std::vector<Point3> urchin(double degrees) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));

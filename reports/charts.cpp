@@ -39,7 +39,7 @@ ReportChart read_chart(const std::filesystem::path& file) {
   } catch (const bench::Json::exception& error) {
     Place place;
     place.file = file.string();
-    throw InputError(std::string("no chart: ") + error.what(), place, "build ccdt again: its charts are broken");
+    throw InputError(std::string("not a chart: ") + error.what(), place, "build ccdt again: its charts are broken");
   }
 }
 

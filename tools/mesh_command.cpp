@@ -328,8 +328,8 @@ void add_improvement(CLI::App& verb, ImproveOptions& options) {
 
 void add_numbers(CLI::App& verb, MeshOptions& options) {
   verb.add_option("--edge-length", options.edge_length,
-                  "target edge length in units of the input; default: that of the surface; with --surface refine, "
-                  "a\nfortieth of the diagonal of the bounding box")
+                  "target edge length in units of the input; default: that of the surface,\n"
+                  "or with --surface refine a fortieth of the diagonal of the bounding box")
       ->check(positive_number());
   verb.add_option("--grading", options.grading,
                   "growth of the edge length per unit of distance from the surface; 0: uniform")

@@ -147,7 +147,7 @@ std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
 }
 
 /// Measures with a progress bar, writes the result to the folder and prints it.
-/// \return  did everything of our own go well?
+/// \return  did ccdt itself succeed everywhere?
 bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& command,
                const std::vector<cases::Identity>& identities) {
   command.options.command = command_of(known, command);
@@ -169,7 +169,7 @@ bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& comm
   return result.is_good;
 }
 
-/// \return  did everything of our own go well?
+/// \return  did ccdt itself succeed everywhere?
 bool run(ReproduceCommand& command) {
   experiments::ExperimentOptions& options = command.options;
   options.tetrahedra = tetrahedra_of(options.scale);

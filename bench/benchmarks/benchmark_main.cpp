@@ -51,7 +51,7 @@ std::vector<std::string> with_defaults(int argc, char** argv) {
 
 void print_help() {
   std::cout
-      << "Measures one stage of the mesher; what exactly is said at the top of its source.\n\n"
+      << "Measures one stage of the mesher; the top of its source says exactly what.\n\n"
          "  --input FILE   also measure this file, which \"ccdt mesh\" must be able to read; may be repeated\n"
          "  --largest N    skip sizes above N\n"
          "  --no-complexity  fit no complexity (Google Benchmark 1.7 crashes if all points of a fit are faults)\n\n";

@@ -62,7 +62,7 @@ std::string run_file(const std::string& id, int number);
 /// The files of the runs behind a row of this case, relative to the folder: the counted ones, or the one that failed.
 std::vector<std::string> run_files(const MeasuredCase& measured);
 
-/// The file of the mesh that is kept of a case, relative to the folder: "meshes/ID.ENDING".
+/// The file in which the mesh of a case is kept, relative to the folder: "meshes/ID.ENDING".
 std::string mesh_file(const MeasuredCase& measured);
 
 /// One number of each counted run.

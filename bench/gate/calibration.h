@@ -78,7 +78,7 @@ std::string to_text(const Calibration& calibration);
 /// Writes the file completely or not at all. \throw OutputError
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file);
 
-/// \throw InputError  cannot be read, or no JSON of that schema
+/// \throw InputError  it cannot be read, or is not JSON of that schema
 Calibration read_calibration(const std::filesystem::path& file);
 
 }  // namespace ccdt::gate

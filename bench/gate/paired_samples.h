@@ -52,7 +52,7 @@ std::vector<double> log_ratios(std::span<const Pair> pairs);
 /// Writes the file whole or not at all. \throw OutputError
 void write_samples(const SampleSet& samples, const std::filesystem::path& file);
 
-/// \throw InputError  cannot be read, or no JSON of that schema
+/// \throw InputError  it cannot be read, or is not JSON of that schema
 SampleSet read_samples(const std::filesystem::path& file);
 
 }  // namespace ccdt::gate

@@ -56,7 +56,7 @@ baselines::ProcessResult run(const RunRequest& request, const Command& command, 
 /// "seconds.mesh" in the report of a run.
 double figure_of(const std::filesystem::path& report, const std::string& figure) {
   static constexpr bench::DocumentKind kind = {"ccdt.run/1", "not a report of schema ccdt.run/1",
-                                               "the program must be a ccdt"};
+                                               "the program must be ccdt"};
   double seconds = 0;
   bench::parse_document(report, kind, [&](const bench::Json& json) {
     const bench::Json* value = &json;

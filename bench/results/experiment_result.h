@@ -58,12 +58,12 @@ void from_json(const bench::Json& json, KeptMesh& mesh);
 
 /// As JSON of schema `ccdt.experiment/1`, indented. Numbers that are not finite become null.
 std::string to_json(const ExperimentResult& result);
-/// \throw InputError  no JSON of that schema
+/// \throw InputError  it is not JSON of that schema
 ExperimentResult experiment_result_from_json(const std::string& text);
 
 /// Writes FOLDER/NAME.json, whole or not at all. \throw OutputError
 void write_experiment_result(const ExperimentResult& result, const std::filesystem::path& folder);
-/// \throw InputError  cannot be read, or no JSON of that schema
+/// \throw InputError  it cannot be read, or is not JSON of that schema
 ExperimentResult read_experiment_result(const std::filesystem::path& file);
 
 }  // namespace ccdt::results

@@ -63,7 +63,7 @@ inline Cell cell_of(std::string_view text) {
 /// @}
 
 struct ResultRow {
-  std::vector<Cell> cells;             ///< one a column
+  std::vector<Cell> cells;             ///< one per column
   std::vector<std::string> runs = {};  ///< files of the runs behind the row, relative to the folder of the result
 };
 

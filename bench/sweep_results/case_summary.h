@@ -18,7 +18,7 @@ struct CaseSummary {
   const SweepCase* of = nullptr;
   std::string series;              ///< the mesher, with those of its options that vary: "ccdt bcc octree"
   std::string legend;              ///< the same with so few options that charts can distinguish all series: "ccdt bcc"
-  std::string status = "not run";  ///< of its first run that failed, else of all
+  std::string status = "not run";  ///< of its first run that failed, otherwise of all
   std::string kind, reason;        ///< of a failure
   const RunValues* run = nullptr;  ///< a failed one, otherwise a counted one; null: not run
   std::vector<const RunValues*> counted = {};
@@ -31,7 +31,7 @@ struct CaseSummary {
   bool is_solved() const { return status == "ok"; }
 };
 
-/// The files of the runs that a row stands on, for `results::table_of_rows`.
+/// The files of the runs behind a row, for `results::table_of_rows`.
 inline const std::vector<std::string>& runs_of(const CaseSummary& summary) {
   return summary.runs;
 }

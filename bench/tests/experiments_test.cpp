@@ -99,7 +99,7 @@ experiments::InteriorRow interior_row(const char* rule, Lattice lattice, std::ui
   return row;
 }
 
-TEST(InteriorPoints, ResultCountsTheHarmAndAsideTheCasesThatFailed) {
+TEST(InteriorPoints, ResultCountsTheHarmAndTheCasesThatFailedApart) {
   std::vector<experiments::InteriorRow> rows = {
       interior_row("paper", Lattice::fcc, 1000, 0), interior_row("paper", Lattice::bcc, 90, 0),
       interior_row("no spheres", Lattice::fcc, 1200, 3), interior_row("paper", Lattice::sc, 7, 7)};

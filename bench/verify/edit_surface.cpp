@@ -373,7 +373,7 @@ class StraightRuns {
   }
   bool has_two(std::uint32_t site) const { return neighbors_.at(site).size() == 2; }
 
-  /// Sites at which a piece that comes from one neighbor does not go on to the other.
+  /// Sites at which a piece that comes from one neighbor does not continue to the other.
   void find_turning_back() {
     std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> balance;  // of a site and a piece
     for (std::uint32_t i = 0; i < surface_.directed.size(); ++i) {

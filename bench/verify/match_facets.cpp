@@ -152,7 +152,7 @@ class BoundaryMatcher {
     return false;
   }
 
-  /// The first patch with the part's walls, if nothing is wrong with it: this needs no look at what others have found.
+  /// The first patch with the part's walls, if nothing is wrong with it. It does not depend on other matches.
   Match find_first(std::span<const std::uint32_t> members) const {
     Match first;
     if (members.empty()) return first;

@@ -109,7 +109,7 @@ class EdgeWalk {
 };
 
 void join_pieces(const Surface& surface, const std::vector<bool>& joined, Patches& patches) {
-  // The two sides of each piece, of which 2 * piece looks where the piece does.
+  // The two sides of each piece: 2 * piece is the side to which its normal points.
   UnionFind sides(2 * std::size_t{surface.pieces()});
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (!joined[e]) continue;

@@ -30,7 +30,7 @@ class PlaneFaces {
   double area_above(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return 0.5 * dot(patches_.normal[patch_], cross(at(b) - at(a), at(c) - at(a)));
   }
-  /// Of faces at an edge; less would be turned over.
+  /// Of faces at an edge; faces with less would be turned over.
   double least_area(std::uint32_t a, std::uint32_t b) const { return -flat * length(at(b) - at(a)); }
 
   /// Calls visit(FaceAtEdge) for the inner faces in the plane to the left of a directed edge.
@@ -44,7 +44,7 @@ class PlaneFaces {
         if (apex == a || apex == b) continue;
         const auto [u, v, w] = outward(topology_.mesh, 4 * t + corner);
         const std::uint32_t third = u != a && u != b ? u : v != a && v != b ? v : w;
-        // Seen from within the tetrahedron, which is to be above, the face runs the other way round than outward.
+        // Seen from within the tetrahedron, which must be above, the face has the opposite orientation of `outward`.
         const bool runs = (u == b && v == a) || (v == b && w == a) || (w == b && u == a);
         if (!runs || !in_plane(third)) continue;
         if (!topology_.on_boundary(topology_.face_of[4 * t + corner])) visit(FaceAtEdge{4 * t + corner, third, apex});
@@ -59,7 +59,7 @@ class PlaneFaces {
 };
 
 /// The faces in the plane that are reached from the links, each from the side that may be its upper one, without those
-/// that have an edge at which no other face goes on.
+/// that have an edge without a next face.
 class FacesWithoutDeadEnds {
  public:
   FacesWithoutDeadEnds(const Topology& topology, const PlaneFaces& plane, const std::vector<Edge>& links)

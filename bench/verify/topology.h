@@ -13,12 +13,12 @@ namespace ccdt::verify {
 
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-/// How long the ranges are in which one thread goes over a long list.
+/// The length of the ranges of a long list that one thread processes at a time.
 inline constexpr std::size_t chunk_length = 8192;
 /// The same where each item takes a search.
 inline constexpr std::size_t short_chunk_length = 512;
 
-/// Lists one behind the other.
+/// Joins lists in their order.
 template <class Item>
 std::vector<Item> joined(const std::vector<std::vector<Item>>& lists) {
   std::size_t size = 0;

@@ -134,7 +134,8 @@ class ApexSearch {
 
   locate::LocatedVertex located(std::uint32_t id) const { return {d_.point(id), d_.vertices[id].rank, id}; }
 
-  /// The vertex above the face with the emptiest sphere among those that satisfy; `ghost_vertex` if there is none.
+  /// The vertex above the face with the emptiest sphere among those that satisfy a condition; `ghost_vertex` if
+  /// there is none.
   template <class Satisfies>
   locate::LocatedVertex best(const Satisfies& satisfies) {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point;

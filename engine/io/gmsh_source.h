@@ -34,7 +34,7 @@ class GmshSource {
   void end_numbers() {
     if (binary_) text_.move_to(bytes_.position());
   }
-  /// Skips the rest of the line, if there are lines; nothing there is needed.
+  /// Skips the rest of the line in text, where nothing is needed.
   void skip_line() {
     if (!binary_) text_.skip_line();
   }

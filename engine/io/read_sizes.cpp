@@ -41,7 +41,7 @@ void read_values(TextScanner& in, lattice::BackgroundSizes& background) {
   }
   const std::string_view next = in.peek();
   if (!next.empty() && std::string_view("+-.0123456789").find(next[0]) != std::string_view::npos)
-    in.fail("sizes", "after one for each vertex another number follows: " + in_quotes(next), scalar_remedy);
+    in.fail("sizes", "there is another number after one for each vertex: " + in_quotes(next), scalar_remedy);
 }
 
 /// Goes to the relevant section.

@@ -14,7 +14,7 @@ struct TetgenNodes {
   std::int64_t first = 0;
 };
 
-/// Reads a list of nodes: a line "count dimension attributes markers", then "number x y z ..." a node.
+/// Reads a list of nodes: a line "count dimension attributes markers", then "number x y z ..." for each node.
 TetgenNodes read_nodes(TextScanner& in) {
   TetgenNodes nodes;
   const std::size_t count = in.count("number of vertices", 8);

@@ -211,7 +211,7 @@ std::uint64_t VtkArrays::length_at(std::string_view bytes, std::size_t index, Ar
   return length_size_ == 8 ? number_at<std::uint64_t>(at, big_endian_) : number_at<std::uint32_t>(at, big_endian_);
 }
 
-/// Cuts the length, which comes first, off the bytes, and what follows behind the array.
+/// Removes the length before the bytes of an array, and what follows them.
 RawVector<char> VtkArrays::without_length(Array array, std::string_view bytes) const {
   const std::uint64_t length = length_at(bytes, 0, array);
   bytes.remove_prefix(length_size_);

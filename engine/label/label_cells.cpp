@@ -48,7 +48,7 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
 /// would jump around.
 UnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   UnionFind parts(d.cells.size());
-  // Each thread joins the cells of one run; what joins runs waits.
+  // Each thread joins the cells of one run; joins between runs come later.
   using Pair = std::array<std::uint32_t, 2>;
   std::vector<std::vector<Pair>> waiting(thread_count());
   parallel_for(waiting.size(), 1, [&](std::size_t run) {

@@ -221,7 +221,7 @@ class Clearing {
   };
   /// The working memory of a descent.
   struct Descent {
-    // Of the node that is at work, of all that it is in before them, and more room behind:
+    /// The obstacles that reach each node on the way from the root, the current one last; then unused room.
     std::vector<std::uint32_t> reaching;
     std::vector<std::uint8_t> children_in_reach = {};  ///< of each that is reaching
     std::vector<PlacedSite> left = {};                 ///< of a leaf
@@ -424,8 +424,8 @@ double share_in_one_level(const Octree& tree) {
   return sampled == 0 ? 0 : static_cast<double>(in_one_level) / sampled;
 }
 
-/// Things with corners among the vertices along a space-filling curve, so that what is near to each other in space is
-/// so in memory. Each is at the sum of its corners.
+/// Sorts things with corners among the vertices along a space-filling curve, so that neighbors in space are neighbors
+/// in memory. The place of each is the sum of its corners.
 template <class Thing, class Corners>
 std::vector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<const Thing> things,
                                    const Corners& corners_of) {

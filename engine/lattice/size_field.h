@@ -32,7 +32,7 @@ class SizeTree {
   /// Is `holds(item)` true for any item? Tests only those whose `lower(box, size)` is below the bound, which `holds`
   /// may lower.
   ///
-  /// \param lower  does not grow when the box or the size grows smaller within those of the items that it stands for
+  /// \param lower  lower(box, size) is a lower bound for all items in the box of at least this size
   template <class Lower, class Holds>
   bool any(const double& bound, const Lower& lower, const Holds& holds) const {
     if (items_.empty() || lower(groups_[0].box, groups_[0].size) >= bound) return false;

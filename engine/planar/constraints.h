@@ -12,7 +12,7 @@
 
 namespace ccdt::planar {
 /// Flips from the given sides on until all of them, and all that the flips change, are locally Delaunay. A side in the
-/// stack stands for whatever edge is there when its turn comes; a flip enters anew all edges that it moves.
+/// stack stands for whatever edge is there when its turn comes; a flip enters all edges that it moves again.
 template <Predicates P>
 std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
   std::size_t flips = 0;

@@ -60,8 +60,8 @@ struct Triangulation {
   Table fixed_edges;         ///< constrained and border edges -> 3 * triangle + corner of one side
 };
 
-/// A list of triangles that is no triangulation of a part of a plane. The catcher knows the coordinates and can add the
-/// place.
+/// A list of triangles that is not a triangulation of a part of a plane. The catcher knows the coordinates and can add
+/// the place.
 class Defect : public InputError {
  public:
   Defect(const std::string& what, Edge edge)

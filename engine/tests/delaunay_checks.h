@@ -12,7 +12,7 @@
 
 namespace ccdt::test {
 
-/// A cell as the sorted ids of its vertices, and the cells of a tetrahedralization as a sorted list: by these two are
+/// A cell as the sorted ids of its vertices, and the cells of a tetrahedralization as a sorted list: these can be
 /// compared.
 using Corners = std::array<std::uint32_t, 4>;
 std::vector<Corners> sorted_cells(const delaunay::Delaunay& d);

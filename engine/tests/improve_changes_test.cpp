@@ -180,7 +180,7 @@ TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
   const std::size_t faces = x.faces().size();
   std::move(x).take_mesh(mesh);
   ASSERT_EQ(mesh.faces.size(), faces);
-  for (std::size_t f = 0; f < 2; ++f) {  // the first two are the square; they looked downwards
+  for (std::size_t f = 0; f < 2; ++f) {  // the first two are the square, which faced downwards
     const auto& [a, b, c] = mesh.faces[f];
     const auto& points = square_between_regions().points;
     EXPECT_LT(cross(points[b] - points[a], points[c] - points[a]).z, 0);

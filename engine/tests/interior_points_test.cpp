@@ -22,7 +22,7 @@
 // The paper: "Insertion of interior points does not affect CDT existence". It does: an edge of the PLC that is a
 // Delaunay edge need not have an empty diametral sphere, and then an interior point outside that sphere can still be in
 // every empty sphere that shows the edge to be Delaunay. The examples are the smallest that a random search among
-// points of small whole coordinates has found.
+// points with small whole coordinates found.
 
 namespace ccdt {
 namespace {
@@ -172,7 +172,7 @@ TEST(InteriorPoints, OnePointEndsExistenceForASolidOfFiveVertices) {
   EXPECT_EQ(after.constrained_delaunay, 0u);
 }
 
-/// Does the front get to its end, and are its tetrahedra locally Delaunay where two of them meet?
+/// Does the front finish, and are its tetrahedra locally Delaunay where two of them meet?
 bool finds_constrained_delaunay(const Protected& p) {
   const front::FrontResult front = p.advance();
   if (front.stuck) return false;

@@ -137,7 +137,7 @@ inline plc::InputPlc twisted_prism(std::uint32_t corners, double turn, double he
 }
 
 /// Two prongs that are attached to nothing: a long bar, and a short one so near to the middle of its long edges that
-/// these are no Delaunay edges. All edges are convex.
+/// these are not Delaunay edges. All edges are convex.
 inline plc::InputPlc two_bars() {
   plc::InputPlc plc = box({0, 0, 0}, {8, 1, 1});
   append(plc, box({3.5, 1.125, 0.25}, {4.5, 2, 0.75}));
@@ -195,7 +195,7 @@ inline plc::InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
 inline plc::InputPlc random_voxels(int n, int labels, std::mt19937& random) {
   std::vector<int> label(n * n * n);
   for (int& l : label) l = static_cast<int>(random() % labels);
-  label[0] = 1;  // never nothing
+  label[0] = 1;  // never empty
   using Place = std::array<int, 3>;
   const auto label_at = [&](const Place& p) {
     for (const int c : p)

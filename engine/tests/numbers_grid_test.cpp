@@ -61,7 +61,7 @@ TEST(Grid, MovesPointsByHalfAQuantumAtMost) {
     for (const Point3& p : points) {
       const Point3 snapped = grid.snap(p);
       for (int axis = 0; axis < 3; ++axis) {
-        // In grid units; a rounding of the input's own precision comes on top where the box is far from the origin.
+        // In grid units; the rounding of the input's own precision is added where the box is far from the origin.
         const double off = (as_array(p)[axis] - as_array(grid.origin)[axis]) / grid.unit - as_array(snapped)[axis];
         ASSERT_LE(std::fabs(off), numbers::DyadicGrid::quantum / 2) << box.name;
       }
@@ -99,7 +99,7 @@ TEST(Grid, CoordinatesAreMultiplesOfTheQuantumWhoseDifferencesAreExact) {
 
 TEST(Grid, SnappedPointsReturnFromTheWorldUnchanged) {
   for (const NamedBox& box : boxes) {
-    // Far from the origin doubles are coarser than the quantum: there nothing can return.
+    // Far from the origin, doubles are coarser than the quantum, so original coordinates cannot be restored.
     if (std::fabs(box.low.x) > 1e5 * box.size.x) continue;
     const auto points = draw_box_points(box.low, box.size, 2000, 3);
     const numbers::DyadicGrid grid = numbers::make_grid(points);

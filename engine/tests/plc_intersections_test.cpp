@@ -57,9 +57,9 @@ bool are_disjoint(std::vector<Point3> s, std::vector<Point3> t) {
   for (const Point3& e : edges)
     for (const Point3& f : edges) axes.push_back(cross(e, f));
   const std::size_t normals = axes.size();
-  for (std::size_t i = 0; i < normals; ++i)  // within the plane, where all is in one
+  for (std::size_t i = 0; i < normals; ++i)  // within the plane, if all is in one plane
     for (const Point3& e : edges) axes.push_back(cross(axes[i], e));
-  axes.insert(axes.end(), edges.begin(), edges.end());  // on the line, where all is on one
+  axes.insert(axes.end(), edges.begin(), edges.end());  // on the line, if all is on one line
   return std::any_of(axes.begin(), axes.end(), [&](const Point3& axis) { return separates(axis, s, t); });
 }
 

@@ -69,8 +69,8 @@ inline plc::InputPlc gridded_cube(std::uint32_t n) {
   return plc;
 }
 
-/// The prism over a polygon in the xy plane (counterclockwise, seen by all of its corners from the first) between z = 0
-/// and z = 1.
+/// The prism between z = 0 and z = 1 over a polygon in the xy plane, which is counterclockwise. Its first corner sees
+/// all others.
 inline plc::InputPlc prism(const std::vector<std::array<double, 2>>& polygon) {
   plc::InputPlc plc;
   plc.name = "prism";

@@ -54,7 +54,7 @@ async function buildPage(esbuild, common, work, out) {
     "/* script */": script.outputFiles[0].text.trim(),
   });
 
-  // Without canvas and network: what browsers get of the libraries does without node's packages for them.
+  // Without canvas and network: the browser's version of the libraries needs none of node's packages for them.
   const figures = await esbuild.build({
     ...common,
     entryPoints: ["src/figures/render_figures.mjs"],

@@ -53,7 +53,7 @@ async function widthOf(view) {
 
 const MANY_DATA = 2000; // which are not drawn several times, but a part of them
 
-/** What axes and legend take, as far as it can be said without drawing all data. */
+/** The width of the axes and the legend, as far as it is known without drawing all data. */
 async function roomOf(section, chart, options, data) {
   const largest = Math.max(...Object.values(data).map((set) => set.length));
   if (largest <= MANY_DATA) return FIRST_ROOM;
@@ -67,7 +67,7 @@ async function roomOf(section, chart, options, data) {
 }
 
 /**
- * Draws a chart of a report as wide as wanted. How much its axes take of that is known only when it has been drawn.
+ * Draws a chart of a report with the wanted width. The share of the axes is known only after it has been drawn.
  * @param {object} section  of the report
  * @param {object} chart    of the section
  * @param {object} options  of `completeSpec`

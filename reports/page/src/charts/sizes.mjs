@@ -4,7 +4,7 @@ const NARROWEST_CELL = 190;
 const NARROWEST_PLOT = 56;
 const GAP = 18;
 
-/** What the axes and the legend may take of a chart's width before it has been drawn. */
+/** The estimated width of the axes and the legend, before a chart has been drawn. */
 export const FIRST_ROOM = 58;
 
 function columnsOf(spec, data, width, room) {
@@ -20,7 +20,7 @@ function columnsOf(spec, data, width, room) {
  * @param {object} spec   of Vega-Lite, a single view or facets
  * @param {Object<string, object[]>} data
  * @param {number} width  pixels
- * @param {number} room   what of the width is not for the plot, or the cells of facets
+ * @param {number} room   the part of the width outside the plot or the cells of facets
  */
 export function sized(spec, data, width, room) {
   if (!spec.facet) return { ...spec, width: Math.max(NARROWEST_PLOT, width - room) };

@@ -134,7 +134,7 @@ function completeChannels(spec, data, { theme, width, room }) {
  * @param {object} options
  * @param {import("./themes.mjs").Theme} options.theme
  * @param {number} options.width  pixels that the whole chart may take
- * @param {number} [options.room]  what of the width is not for the plot, or the cells of facets
+ * @param {number} [options.room]  the part of the width outside the plot or the cells of facets
  * @param {string} [options.font]
  * @param {(row: object, table: object) => boolean} [options.passes]  a filter of the rows
  * @param {Object<string, object[]>} [options.data]  of `chartData`, if it is known already

@@ -43,7 +43,7 @@ function environmentEntry({ environment, loads, sections }, isOnlyOne) {
   );
 }
 
-/** Many sizes are told by their range; the runs have each. */
+/** Many sizes are given as a range; the runs have each of them. */
 function valuesText(values) {
   const numbers = values.map(Number);
   if (values.length > MOST_VALUES && numbers.every(Number.isFinite))

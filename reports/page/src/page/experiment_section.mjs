@@ -25,8 +25,8 @@ function circumstances(section) {
   const { scale, tetrahedra, runs, confidence } = section;
   return [
     scale ? `scale ${scale}` : "",
-    tetrahedra ? `about ${numberText(tetrahedra)} tetrahedra a model` : "",
-    runs ? `${counted(runs, "counted run")} a case` : "",
+    tetrahedra ? `about ${numberText(tetrahedra)} tetrahedra per model` : "",
+    runs ? `${counted(runs, "counted run")} per case` : "",
     confidence ? `${numberText(100 * confidence)}% intervals` : "",
     limitsText(section.limits),
   ]
@@ -75,7 +75,7 @@ function findings({ findings: all }) {
   ];
 }
 
-/** As the charts themselves say; else as they come. */
+/** Charts in the order that they state; charts without one keep their order. */
 function inOrder(charts) {
   const rank = (chart) => chart.spec.usermeta?.order ?? 0;
   return [...charts].sort((a, b) => rank(a) - rank(b));

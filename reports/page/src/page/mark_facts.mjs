@@ -1,14 +1,14 @@
 import { counted, numberText } from "./numbers.mjs";
 import { rowFacts, rowTitle } from "./rows.mjs";
 
-/** Of the one row that a mark stands for. */
+/** The facts of the one row that a mark represents. */
 function factsOfRow(section, datum) {
   const table = section.tables.find(({ name }) => name === datum._table);
   const row = table?.rows[datum._row];
   return row ? { title: rowTitle(table, row) || table.title, facts: rowFacts(table, row), runs: row.runs } : null;
 }
 
-/** Of all rows of the chart's first table that have the values of a cell, by `usermeta.cells`. */
+/** The facts of all rows of the chart's first table that have the values of a cell, by `usermeta.cells`. */
 function factsOfCell(section, chart, datum, passes) {
   const { cells, only = {} } = chart.spec.usermeta;
   const table = section.tables.find(({ name }) => name === chart.tables[0]);
@@ -22,7 +22,7 @@ function factsOfCell(section, chart, datum, passes) {
 }
 
 /**
- * What is known of a mark of a chart, and the runs that it stands on.
+ * The facts about a mark of a chart, and the runs behind it.
  * @returns {{title: string, facts: string[], runs: string[]}|null}
  */
 export function factsOf(section, chart, datum, passes) {

@@ -24,8 +24,8 @@ export function mesherSettings(runs) {
 }
 
 /**
- * The environments of the sections, each once, with the sections that were measured in it. How loaded the machine was
- * is no part of what is compared.
+ * The environments of the sections, each once, with the sections that were measured in it. The load of the
+ * machine is not compared.
  * @returns {Array<{environment: object, loads: number[], sections: string[]}>}
  */
 export function distinctEnvironments(sections) {

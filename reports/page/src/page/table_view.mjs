@@ -13,7 +13,8 @@ const LONG_TITLE = 24;
 const LONG_TEXT = 44; // characters; longer ones are wrapped
 
 /**
- * Columns with something to say. Why a value is missing is said beside the status; that all is well, not at all.
+ * The columns that are not empty. The reason for a missing value is shown beside the status. If every row is ok, the
+ * status is left out.
  */
 function shownColumns(table) {
   const hasStatus = table.columns.some(({ name }) => name === STATUS);

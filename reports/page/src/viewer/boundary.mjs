@@ -3,7 +3,7 @@ const FACES = [1, 2, 3, 0, 3, 2, 0, 1, 3, 0, 2, 1];
 
 /**
  * Across each face of each cell, the cell on the other side.
- * @param {Uint32Array} cells  four vertices a cell
+ * @param {Uint32Array} cells  four vertices per cell
  * @param {number} vertexCount
  * @returns {Int32Array} four per cell, the face opposite corner i at i; -1: the face is on the boundary
  */
@@ -52,7 +52,7 @@ export function neighborsOf(cells, vertexCount) {
 /**
  * @param {Uint32Array} cells
  * @param {Int32Array} neighbors  of neighborsOf
- * @param {Uint8Array} shown       1 a cell that counts, 0 one that does not
+ * @param {Uint8Array} shown       1 if a cell counts, 0 if it does not
  * @returns {Faces}
  */
 export function boundaryOf(cells, neighbors, shown) {

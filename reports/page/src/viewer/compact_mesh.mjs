@@ -54,7 +54,7 @@ function edgesOf(vertexCount) {
     joinAll(a, b, c, d) {
       join(a, b), join(a, c), join(a, d), join(b, c), join(b, d), join(c, d);
     },
-    /** The vertex of a rank among those joined to the corners of a face: to more corners first, then the later met. */
+    /** The vertex of a rank among those joined to corners of a face: first those joined to more corners, then later ones. */
     ofRank(rank, face, apex) {
       const candidates = [];
       for (const corner of face) for (const v of joined[corner]) if (corners[v]++ === 0) candidates.push(v);
@@ -66,7 +66,7 @@ function edgesOf(vertexCount) {
   };
 }
 
-/** Walks over the mesh as it was walked over when it was written down. */
+/** Repeats the walk over the mesh in which it was written. */
 function walkedCells(stepBytes, codes, { vertices, tetrahedra }) {
   const cells = new Uint32Array(4 * tetrahedra);
   const isSeed = new Uint8Array(tetrahedra);

@@ -11,14 +11,14 @@ import { shownPart } from "./viewed_mesh.mjs";
 
 const NOTHING = new Uint32Array(0);
 
-/** Builds what the controls ask for, and draws it, before the next frame; once however often it is asked. */
+/** Builds and draws what the controls ask for, once before the next frame, however often it is called. */
 export function askUpdate(viewer) {
   if (viewer.updateAsked || !viewer.viewed) return;
   viewer.updateAsked = true;
   requestAnimationFrame(() => update(viewer));
 }
 
-/** Draws what is there before the next frame; once however often it is asked. */
+/** Draws what is there, once before the next frame, however often it is called. */
 export function askDraw(viewer) {
   if (viewer.drawAsked) return;
   viewer.drawAsked = true;

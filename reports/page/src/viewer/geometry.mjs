@@ -10,10 +10,10 @@ export function positionsOf(points, vertices) {
 }
 
 /**
- * The edges of closed, consistently oriented triangles, each once: every edge is run through in both directions equally
- * often, so one direction is enough.
- * @param {Uint32Array} corners  three vertices a face
- * @returns {Uint32Array} two vertices an edge
+ * The edges of closed, consistently oriented triangles, each once. Every edge occurs equally often in both directions,
+ * so one direction is enough.
+ * @param {Uint32Array} corners  three vertices per face
+ * @returns {Uint32Array} two vertices per edge
  */
 export function edgesOf(corners) {
   const edges = [];

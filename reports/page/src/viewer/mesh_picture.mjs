@@ -5,7 +5,7 @@ import { regionColors } from "./palette.mjs";
 import { shadesOf } from "./shading.mjs";
 import { visibleFaces } from "./visible_faces.mjs";
 
-/** The smallest and the largest width of an edge, and its share of a triangle's, in units of the picture. */
+/** The width of edges, in units of the picture: its bounds, and its share of the size of a triangle. */
 const EDGE_WIDTH = { smallest: 0.06, largest: 0.35, share: 0.05 };
 
 /**

@@ -6,7 +6,7 @@ import {
 /** Where the observer is at first, from the middle of the mesh: as in the pictures of the report. */
 const FIRST_VIEW = new Vector3(0.41, -0.78, 0.47).normalize();
 
-/** Of the sphere around a mesh the mesh itself seldom fills more. */
+/** The largest share of the sphere around a mesh that the mesh itself usually fills. */
 const FILLED = 0.86;
 
 /** Edges are drawn fainter where they are so dense that they would hide the colors: by their length in pixels. */
@@ -59,9 +59,9 @@ export function fit(stage, width, height, radius) {
 }
 
 /**
- * @param {Float32Array} positions  x y z of three corners a triangle
+ * @param {Float32Array} positions  x y z of three corners per triangle
  * @param {string[]} colors        one per triangle
- * @param {Float32Array} edges      x y z of two ends an edge
+ * @param {Float32Array} edges      x y z of two ends per edge
  */
 export function setTriangles(stage, positions, colors, edges) {
   const { triangles, edges: lines } = stage.parts;

@@ -15,7 +15,7 @@ export function cornersOf({ points, cells }, cell) {
 
 /**
  * The paper's measure of shape, ((1/6) sum of the squared edge lengths)^(3/2) / (8.48528 volume): 1 for the regular
- * tetrahedron, larger the worse; infinite without volume.
+ * tetrahedron, and the larger the worse; infinite without volume.
  */
 export function measureR([a, b, c, d]) {
   const edges = [subtract(b, a), subtract(c, a), subtract(d, a), subtract(c, b), subtract(d, b), subtract(d, c)];

@@ -8,7 +8,7 @@ import { qualityOfCells } from "./tetrahedron_quality.mjs";
 import { keepOnly, worstFirst } from "./worst_cells.mjs";
 
 /**
- * What of a mesh is looked at.
+ * What is shown of a mesh.
  * @typedef {object} Choice
  * @property {null|{normal: number[], offset: number}} plane  takes away what is beyond it; null: nothing is cut
  * @property {"none"|"r"|"dihedral"} worst                    shows only the worst cells by this measure

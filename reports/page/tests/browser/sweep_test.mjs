@@ -52,7 +52,7 @@ laptopTest("each kind of chart is drawn with data", async (page) => {
   await page.locator("[data-theme-switch]").click();
 });
 
-laptopTest("a long table is turned over like pages", async (page) => {
+laptopTest("a long table has pages", async (page) => {
   const all = (await reportOf(page)).experiments[0].tables.find(({ name }) => name === "cases").rows.length;
   assert.equal(all, 2000);
   assert.ok((await rows(page).count()) <= MOST_ROWS);

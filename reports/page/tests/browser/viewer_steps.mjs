@@ -17,7 +17,7 @@ export async function viewerOf(page) {
   };
 }
 
-/** Waits until something that the viewer tells of itself is another than before. */
+/** Waits until a value that the viewer tells of itself has changed. */
 export async function changed(page, name, before) {
   await page.waitForFunction(([key, old]) => document.querySelector("[data-viewer]").dataset[key] !== old, [name, before]);
 }
