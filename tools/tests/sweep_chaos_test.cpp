@@ -69,6 +69,13 @@ class Sweep : public Program {
     return files;
   }
 
+  /// Waits until a sweep has this many records, or this time has passed.
+  void wait_for_records(const std::string& folder, std::size_t count, double seconds) const {
+    const auto begin = Clock::now();
+    while (seconds_since(begin) < seconds && records(folder).size() < count)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
   Json record(const std::string& folder, const std::string& name) const {
     return Json::parse(text_of(work() / folder / "runs" / name), nullptr, false);
   }
@@ -179,12 +186,13 @@ TEST_F(Sweep, ThatIsKilledAgainAndAgainEndsLikeAnUndisturbedOne) {
   ASSERT_GT(expected.size(), chaos.is_large ? 300u : 30u);
 
   std::mt19937 random(chaos.seed);
-  // Together about half of the sweep's time, so that it is not finished before the last one.
+  // Together about half of the sweep's time.
   std::uniform_real_distribution<double> moment(0, undisturbed / chaos.kills);
   Files before;
   for (int kill_number = 0; kill_number < chaos.kills; ++kill_number) {
     const pid_t sweep = start({"sweep", "spec.json", "-o", "killed"});
-    std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+    // The sweep may be faster now than when it was timed, but must not be finished before the last kill.
+    wait_for_records("killed", expected.size() * (kill_number + 1) / (chaos.kills + 1), moment(random));
     ASSERT_EQ(kill(sweep, SIGKILL), 0);
     int status = 0;
     ASSERT_EQ(waitpid(sweep, &status, 0), sweep);
