@@ -43,7 +43,7 @@ RunStatus status_of(FailureKind kind);
 /// The kind of failure for an error. The type of the error decides, never its message.
 FailureKind failure_kind_of(const std::exception& error);
 
-/// The kind of failure for a signal. Without a memory limit, SIGKILL means that the kernel ran out of memory.
+/// The kind of failure for a signal. Without a memory limit, SIGKILL means that the machine ran out of memory.
 FailureKind failure_kind_of_signal(int signal);
 
 /// The kind of failure for an exit code other than 0. Shells report a signal as 128 plus its number.

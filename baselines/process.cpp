@@ -268,8 +268,8 @@ bool is_to_stop_too() {
   return stop_requested();
 }
 
-/// Does the same in a new process group, with a supervisor and limits; the program ends when this process is asked to
-/// stop.
+/// Like `run_child`, but in a new process group, with a supervisor and limits. The program ends when this process is
+/// asked to stop.
 template <class Body>
 ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, const std::filesystem::path& scratch,
                              Body body) {

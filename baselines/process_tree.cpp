@@ -42,7 +42,7 @@ class KernelText {
     return number;
   }
 
-  void skip_behind(std::string_view word) {
+  void skip_past(std::string_view word) {
     const auto found = std::search(at_, end_, word.begin(), word.end());
     at_ = found == end_ ? end_ : found + word.size();
   }
@@ -63,7 +63,7 @@ std::uint64_t resident_bytes(pid_t process) {
 /// Resident memory; counts a page that n processes share as 1/n. This takes the kernel milliseconds per GB.
 std::uint64_t proportional_bytes(pid_t process) {
   KernelText rollup(folder_of(process) + "/smaps_rollup");
-  rollup.skip_behind("\nPss:");
+  rollup.skip_past("\nPss:");
   const auto kilobytes = rollup.next_number();
   return kilobytes ? *kilobytes << 10 : resident_bytes(process);
 }

@@ -6,8 +6,8 @@
 namespace ccdt::bench {
 namespace {
 
-constexpr double usual_exponent = 3;  ///< of the edge length in the number of tetrahedra, which it divides
-constexpr double most_stretch = 2;    ///< of an edge length between tries if the secant fails
+constexpr double usual_exponent = 3;  ///< the number of tetrahedra is about proportional to 1 / edge length^3
+constexpr double most_stretch = 2;    ///< largest factor between the edge lengths of two tries if the secant fails
 constexpr double least_exponent = 0.7, largest_exponent = 6;
 
 struct Try {

@@ -61,7 +61,7 @@ std::string first_word_of(const std::filesystem::path& file) {
   return word;
 }
 
-/// The files of the kernel with names of a word and a number: thermal_zone0, thermal_zone1, ...
+/// The entries of a folder whose names begin and end like this: thermal_zone0, thermal_zone1, ...
 std::vector<std::filesystem::path> entries_named(const std::filesystem::path& folder, const std::string& begin,
                                                  const std::string& end = "") {
   std::vector<std::filesystem::path> found;
@@ -94,7 +94,7 @@ std::map<std::string, std::string> library_versions() {
   return versions;
 }
 
-/// Bytes on their way to a digest. Without memory for it, the digest is empty.
+/// Computes the SHA-256 digest of bytes. If memory runs out, the digest is empty.
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {

@@ -21,9 +21,9 @@ struct Star {
 std::span<const Star> stars();
 
 /// Variant 0 has lengths that alternate between 1 and 1 / sqrt 2; the other variants have random ones between 0.4 and
-/// 1.6. A segment with shorter ones all around it is missing if these are shorter than its length times the cosine of
-/// the angle. Halves of 1 and 1 / sqrt 2 stay in that proportion, so below 45 degrees they can split each other
-/// forever.
+/// 1.6. A segment with shorter ones all around it is missing from the Delaunay tetrahedralization if these are shorter
+/// than its length times the cosine of the angle. Halves of 1 and 1 / sqrt 2 stay in that proportion, so below 45
+/// degrees they can split each other forever.
 plc::InputPlc make_star(const Star& star, double degrees, std::uint64_t variant);
 
 }  // namespace ccdt::models

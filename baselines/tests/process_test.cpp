@@ -93,7 +93,7 @@ TEST(RunProgram, ThatPrintsWithoutEndIsStoppedAtTheLimit) {
   EXPECT_EQ(run("print-without-end", {.seconds = 60, .disk_bytes = 30u << 20}).kind, FailureKind::limit);
 }
 
-TEST(RunProgram, ThatAnotherKillsRanOutOfMemory) {
+TEST(RunProgram, ThatIsKilledFromOutsideCountsAsOutOfMemory) {
   const baselines::ProcessResult result = run("kill-itself");
   EXPECT_EQ(result.status, RunStatus::out_of_memory);
   EXPECT_EQ(result.kind, FailureKind::out_of_memory);
@@ -114,7 +114,7 @@ class ServerOfProgram : public testing::Test {
     return {MISBEHAVING_CHILD, how, pid_file_.string()};
   }
 
-  /// Waits for the server if it must.
+  /// Waits until the server has written its process ID.
   pid_t pid() const {
     for (int i = 0; i < 5000 && !std::filesystem::exists(pid_file_); ++i) usleep(1000);
     pid_t pid = 0;

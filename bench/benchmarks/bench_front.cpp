@@ -12,11 +12,11 @@
 //   .../flat-MODEL/N   the same, but z scaled by 0.3; edges and faces are missing then
 //   .../FILE           a file given by --input
 //
-// "vertices" and "cells" are those of the finished mesh in both modes, so that these can be compared, although the
-// front meets only few of them with the check. "front_cells" are the front's own, "undelaunay" the faces that have been
-// in the front. The time with the check depends on these faces, so Google Benchmark chooses the complexity that fits
-// best. Before anything is timed, front and labeled cells together must be the same tetrahedra that the grid with the
-// check finds.
+// "vertices" and "cells" are those of the finished mesh in both modes, so that these can be compared, although
+// with the check, the front meets only a few of them. "front_cells" are the front's own, "undelaunay" the faces that
+// have been in the front. The time with the check depends on these faces, so Google Benchmark chooses the complexity
+// that fits best. Before anything is timed, front and labeled cells together must be the same tetrahedra that the grid
+// with the check finds.
 
 #include <optional>
 

@@ -6,14 +6,14 @@
 //   improve/all/...      both, and interior vertices come and go
 //
 //   .../MODEL/N        with the interior points of the fcc lattice; the mesh has about N vertices
-//   .../flat-MODEL/N   the same, but z scaled by 0.3: the triangles of the surface make the targets unreachable, so
-//   everything is tried for many cells
+//   .../flat-MODEL/N   the same, but z scaled by 0.3: surface triangles make the targets unreachable for many cells,
+//                      so everything is tried
 //   .../FILE           a file given by --input
 //
 // "vertices" and "cells" are those of the mesh before; "bad" are its cells that are not good enough, "bad_left" those
-// afterwards: moving vertices distributes the error that cannot be removed, and only the worst cell counts. Before
-// anything is timed, all cells of the improved mesh must be positive and the worst no worse than before, and together
-// they must fill the same volume.
+// afterwards. There may be more of them: moving vertices spreads the error that cannot be removed over several cells,
+// because only the worst cell counts. Before anything is timed, the improved mesh is checked: all cells are positive,
+// the worst is no worse than before, and together they fill the same volume.
 
 #include <algorithm>
 #include <cmath>

@@ -42,7 +42,7 @@ void flatten(plc::InputPlc& plc) {
 
 /// How far apart the interior points are.
 struct Density {
-  double edge_length;  ///< units of the input; 0: as the surface has it
+  double edge_length;  ///< units of the input; 0: that of the surface
   double grading;
 };
 

@@ -75,7 +75,7 @@ RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesys
   return record;
 }
 
-/// The mesh is verified against the new surface.
+/// Does the run make a new surface, against which its mesh is then verified?
 bool has_new_surface(const Case& asked) {
   const auto surface = std::ranges::find(asked.options, "--surface");
   return asked.verify && surface != asked.options.end() && surface + 1 != asked.options.end() &&

@@ -164,7 +164,8 @@ std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
 struct ModelSize {
   int number;  ///< from 0, the coarsest
   double edge_length;
-  std::filesystem::path surface, vertices;  ///< the second of our mesh
+  std::filesystem::path surface;
+  std::filesystem::path vertices;  ///< of our mesh
 };
 
 cases::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
@@ -194,7 +195,7 @@ std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperMod
   return sizes;
 }
 
-/// In the order of the points: strategy by strategy, each from the coarsest size.
+/// Adds the rows of a model: strategy by strategy, each from the coarsest size.
 void plan_model(const ExperimentOptions& options, const PaperModel& model, cases::Runner& runner,
                 std::vector<Fig8Row>& rows) {
   const std::vector<ModelSize> sizes = sizes_of(options, model, runner);

@@ -18,7 +18,7 @@
 namespace ccdt::experiments {
 namespace {
 
-/// Models have no file yet.
+/// The models of the plan and the user's files. Models come without a file: they are made for each edge length.
 std::vector<SurfaceFile> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
   std::vector<SurfaceFile> sources;
   for (const std::string& model : plan.models)
@@ -292,7 +292,7 @@ ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& 
     try {
       measure_source({options, runner, plan, source, title}, rows, surfaces);
     } catch (const Error& error) {
-      problems.push_back(title + ": " + error.what());  // a source that cannot be read is not the end
+      problems.push_back(title + ": " + error.what());  // the other sources are still measured
     }
   }
   ExperimentResult result = study_result(plan, rows, surfaces);

@@ -23,7 +23,7 @@ const std::vector<std::string> definitions = {
     "Ratio: seconds over those of ccdt on one thread in the same task; above 1, ccdt is faster.",
     "Other meshers run on one thread. They choose their own vertices, so compare microseconds per tetrahedron too.",
     "Strong scaling: the same model on more threads. Weak scaling: the number of tetrahedra grows with the threads.",
-    "Speedup: of weak scaling, tetrahedra per second over those on one thread.",
+    "Speedup: seconds on one thread over seconds on several; for weak scaling, the ratio of tetrahedra per second.",
     "Serial share (Karp and Flatt 1990): it would explain the speedup if the other work were divided evenly.",
     "Projection: the speedup on 64 threads by Amdahl's law with this serial share. It was not measured.",
 };
@@ -100,7 +100,7 @@ RowColumns<SpeedRow> stage_columns() {
   return columns;
 }
 
-/// The speedup of some threads.
+/// The speedup on several threads.
 struct ScalingRow {
   SpeedRow several, one;
   Estimate speedup;
@@ -109,7 +109,7 @@ struct ScalingRow {
     const double n = several.threads;
     return std::clamp((1 / s - 1 / n) / (1 - 1 / n), 0.0, 1.0);
   }
-  /// More speedup is a smaller share.
+  /// The larger the speedup, the smaller the share.
   Estimate serial() const {
     return {serial_share(speedup.value), serial_share(speedup.high), serial_share(speedup.low)};
   }

@@ -30,8 +30,8 @@ struct SurfaceFile {
 SurfaceFile write_solid(const ExperimentOptions& options, const std::string& experiment, const std::string& name,
                         double edge_length);
 
-/// Writes the chosen solids with multiples of their default edge lengths, as far as the vertices differ: some solids
-/// are always the same, and others cannot get coarser.
+/// Writes the chosen solids with multiples of their default edge lengths. A surface with the vertices of the one before
+/// is left out: some solids are always the same, and others cannot get coarser.
 std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const std::string& experiment,
                                       std::span<const double> coarsenings);
 

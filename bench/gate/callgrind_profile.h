@@ -8,7 +8,7 @@
 
 namespace ccdt::gate {
 
-/// A call between two functions, and its cost.
+/// The calls between functions, and their costs.
 struct CallGraph {
   struct Callee {
     std::string name;                ///< demangled, without the marks of clones and of recursion

@@ -44,7 +44,7 @@ fs::path find_valgrind() {
   return *found;
 }
 
-/// "2.36 (libc.so.6 1a2b3c...)": distributions patch what has one version.
+/// "2.36 (libc.so.6 1a2b3c...)". The hash is there because distributions patch a library without a new version number.
 std::string library(const std::string& version, const std::string& name_begins) {
   struct Wanted {
     std::string name, path;
@@ -89,7 +89,7 @@ std::vector<std::string> command_of(const fs::path& valgrind, const std::string&
   return command;
 }
 
-/// The command that repeats it without a gate.
+/// The command that repeats the count outside the gate.
 std::string repeating_command(const fs::path& program, const cases::Case& asked) {
   std::vector<std::string> command = {"valgrind", "--tool=callgrind", program.string(), "mesh", asked.input.string(),
                                       "-o",       "again.vtu",        "--threads",      "1"};

@@ -14,7 +14,7 @@ namespace ccdt::gate {
 enum class Layer {
   exact,         ///< counts, quality and work: the same on every machine
   instructions,  ///< the same on machines with the same CPU model and libraries
-  time           ///< comparable only within one measurement, in turns
+  time           ///< comparable only within one measurement, in which base and head take turns
 };
 
 constexpr auto names_of(Layer) {

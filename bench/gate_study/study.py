@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """How often does `ccdt gate` raise a false alarm, and what does it miss? An experiment on this host.
 
-Builds the program, copies of it, and programs that are slower by a known share (slowdown.patch), runs time gates of each
-kind in turns, and writes study.json and study.md. What is finished is kept: call it again to go on.
+Builds the program, copies of it, and programs that are slower by a known share (slowdown.patch). Runs time gates of all
+kinds, which take turns, and writes study.json and study.md. Finished gates are kept: call it again to continue.
 
-Example: all 600 gates, and a table after a handful
+Example: all 600 gates
   bench/gate_study/study.py build/gate-study
+Example: four gates of each kind
   bench/gate_study/study.py build/gate-study-small --gates 4 4 4 4
 """
 
@@ -238,7 +239,7 @@ def calibration_in_words(folder):
 
 
 def calibrate(folder, ccdt):
-    """What this host's noise allows, said before the gates."""
+    """Measures the noise of this host, before the gates run."""
     out = folder / "calibration"
     if not (out / "calibration.json").exists():
         run(ccdt, "gate", "--base", program(folder, "base"), "--sweep", folder / "cases.json", "--calibrate", "--pairs", "200", "-o",
@@ -247,13 +248,13 @@ def calibrate(folder, ccdt):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="of all that is built and measured")
+    parser.add_argument("folder", type=Path, help="where everything is built and measured")
     parser.add_argument("--gates", type=int, nargs=len(KINDS), default=[200, 200, 100, 100],
                         metavar="N", help="how many of each kind: " + ", ".join(kind["name"] for kind in KINDS).replace("%", "%%"))
     parser.add_argument("--minutes", type=float, default=float("inf"), help="stop after this time, with a table")
     parser.add_argument("--source", type=Path, default=HERE.parent.parent, help="repository whose HEAD is built")
     parser.add_argument("--ccdt", type=Path, help="the program that runs the gates; default: the one that is built")
-    parser.add_argument("--seed", type=int, default=1, help="of loads and environments; gates have seeds of their own")
+    parser.add_argument("--seed", type=int, default=1, help="seed of loads and environments; gates have seeds of their own")
     parser.add_argument("--no-calibration", action="store_true", help="do not measure the noise of the host first")
     arguments = parser.parse_args()
     folder = arguments.folder.resolve()

@@ -38,8 +38,8 @@ std::vector<std::array<std::uint32_t, 4>> sorted_cells(const TetMesh& mesh) {
   return cells;
 }
 
-/// With the first options, these have each pair of values of two strategies; `core` only once, because it differs from
-/// `insert` only with a lattice.
+/// Together with the first options, these contain every pair of values of two different strategies. `core` occurs only
+/// once, because it differs from `insert` only with a lattice.
 struct Strategy {
   bool face_protection;
   LocatorKind locator;

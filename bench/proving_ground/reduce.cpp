@@ -36,7 +36,7 @@ bool shorten(List InputPlc::*list, const IsInteresting& is_interesting, InputPlc
   return shortened;
 }
 
-/// The segments and vertices that are drawn in a facet.
+/// Removes segments and vertices that are drawn in facets.
 bool clear_facets(const IsInteresting& is_interesting, InputPlc& input) {
   bool cleared = false;
   for (std::size_t f = 0; f < input.polygon_facets.size(); ++f)

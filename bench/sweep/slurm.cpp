@@ -46,7 +46,7 @@ namespace {
 constexpr bench::DocumentKind jobs_kind = {"ccdt.slurm/1", "this is not a list of the jobs of a sweep",
                                            "cancel the sweep's jobs with scancel, and remove the file"};
 constexpr double seconds_for_slurm = 120;  ///< a controller that restarts takes a while
-constexpr double time_factor = 3;          ///< estimates are not more precise
+constexpr double time_factor = 3;          ///< a chunk may take this much longer than its estimate
 constexpr double margin_seconds = 600;
 
 std::filesystem::path slurm_folder(const std::filesystem::path& folder) {

@@ -30,7 +30,7 @@ TEST(CompareExactTest, WorkThatIsNotInAReportIsZero) {
   EXPECT_EQ(judgments_of(with, without), (std::vector{Judgment::passed, Judgment::passed}));
 }
 
-TEST(CompareExactTest, ABaseThatCountedNoWorkIsNoBaseForIt) {
+TEST(CompareExactTest, WorkIsNotComparedWithABaseThatDidNotCountIt) {
   const Recording old = recording_of({{"counts.faces", 5}});
   const Recording now = recording_of({{"counts.faces", 5}, {"work.front.faces_tested", 1}});
   EXPECT_EQ(judgments_of(old, now), (std::vector{Judgment::passed, Judgment::passed}));

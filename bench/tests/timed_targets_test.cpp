@@ -116,13 +116,14 @@ TEST_F(TimedTargets, EachBenchmarkIsACaseInSeconds) {
   EXPECT_DOUBLE_EQ(seconds.at("insert/8"), 0.003);
   EXPECT_DOUBLE_EQ(seconds.at("walk(1)"), 5e-6);
   const std::string call = last_call();
-  EXPECT_GT(call.find("--benchmark_min_time=1 "), call.find("--benchmark_min_time=0.05")) << "the user's is the last";
+  EXPECT_GT(call.find("--benchmark_min_time=1 "), call.find("--benchmark_min_time=0.05"))
+      << "the user's option comes last";
   target.run({Side::head, 0, {"walk(1)"}});
   EXPECT_NE(last_call().find("--benchmark_filter=^(walk\\(1\\))$"), std::string::npos);
   EXPECT_NE(target.command(Side::head, "insert/8").find("insert/8"), std::string::npos);
 }
 
-TEST_F(TimedTargets, BenchmarksThatFailOrAreNoneAreErrors) {
+TEST_F(TimedTargets, FailedAndMissingBenchmarksAreErrors) {
   for (const std::string runs : {"", R"({"name": "a", "error_occurred": true, "error_message": "no file"})"}) {
     const auto program = benchmark("bench", runs);
     EXPECT_THROW(benchmark_target({program, program}, {}, {}, folder_.path()).run({Side::base, 0}), ProgramFailed);

@@ -109,7 +109,7 @@ TEST(Verify, AFlippedInteriorFaceIsFound) {
   auto& tets = m.mesh.tetrahedra;
   const auto is_on_interface = [&](std::uint32_t v) { return m.mesh.vertices[v].x == 2; };
   const auto touches = [&](const auto& tet) { return std::count_if(tet.begin(), tet.end(), is_on_interface) == 3; };
-  // The apexes of two tetrahedra at one face of the interface; three around their common line replace them.
+  // Replaces two tetrahedra with a common face in the interface by three around the line between their apexes.
   for (std::size_t i = 0; i < tets.size(); ++i)
     for (std::size_t j = i + 1; j < tets.size(); ++j) {
       if (!touches(tets[i]) || !touches(tets[j])) continue;

@@ -39,7 +39,7 @@ void add_quadrilateral(InputPlc& input, const std::vector<Point3>& corners, bool
   }
 }
 
-/// Without vertices that only lattices need.
+/// Our mesh of the input, without the vertices of a lattice.
 MeshedInput mesh_with_engine(const InputPlc& input) {
   MeshOptions options;
   options.lattice = Lattice::none;

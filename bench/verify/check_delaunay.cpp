@@ -14,8 +14,8 @@ namespace ccdt::verify {
 namespace {
 
 /// Value of the in-sphere determinant, and bounds on how much it changes when every coordinate moves: to first order by
-/// `change` times the move, to second order by `bend` times its square. Between five points that are almost in one
-/// plane and almost on one circle the second is the larger.
+/// `change` times the move, to second order by `bend` times its square. For five points that are almost in one
+/// plane and almost on one circle, the second is the larger.
 struct Sensitivity {
   double value, change, bend;
 

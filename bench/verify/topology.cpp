@@ -9,13 +9,13 @@ namespace ccdt::verify {
 
 namespace {
 
-/// Is the cyclic order of `v` that of its ascending order?
+/// Is `v` an even permutation of its ascending order?
 bool is_even(const Face& v) {
   return (v[0] < v[1]) == ((v[1] < v[2]) == (v[0] < v[2]));
 }
 
-/// Tetrahedra around each vertex, ascending. Each thread counts those of a part of the mesh, and enters them behind
-/// those of the parts before.
+/// Tetrahedra around each vertex, ascending. Each thread counts those of a part of the mesh, and enters them after
+/// those of the earlier parts.
 IndexLists find_stars(const mesh::TetMesh& mesh) {
   const std::size_t size = mesh.tetrahedra.size(), vertices = mesh.vertices.size();
   const std::size_t parts = std::min<std::size_t>(thread_count(), size / chunk_length + 1);

@@ -19,7 +19,7 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
-/// Adds the CPU seconds that all threads of the process spend in its own life to a figure.
+/// Adds the CPU seconds of its lifetime, of all threads of the process, to a number.
 class CpuStopwatch {
  public:
   explicit CpuStopwatch(double& seconds) : seconds_(seconds), start_(std::clock()) {}

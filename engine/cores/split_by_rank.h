@@ -13,7 +13,8 @@ constexpr bool has_cubes(Lattice kind) {
   return kind == Lattice::fcc || kind == Lattice::sc;
 }
 
-/// Does it have one around this place? Blocks begin at even places, so places relative to a block are enough.
+/// Does the lattice have a shape around this place? Blocks begin at even places, so places relative to a block are
+/// enough.
 constexpr bool has_shape_at(Lattice kind, const Place& p) {
   const unsigned odd = (p[0] & 1) + (p[1] & 1) + (p[2] & 1);
   return kind == Lattice::fcc ? (odd & 1) != 0 : kind == Lattice::bcc && odd == 2;

@@ -70,8 +70,8 @@ class BlockTops {
 
 /// The extent of a search.
 enum class Reach {
-  near,       ///< neither above a face of the hull nor in a huge sphere, which is nearly a half-space too
-  everywhere  ///< everything above the face
+  near,       ///< gives up if the face may be on the hull, or the sphere is so huge that it is nearly a half-space
+  everywhere  ///< searches everything above the face
 };
 
 /// Finds the vertex that makes a Delaunay tetrahedron of a Delaunay face (paper, sections 4 and 5; Fang and Piegl 1993

@@ -17,8 +17,8 @@ namespace ccdt::io {
 /// \return nothing if there is another character or a piece is incomplete
 std::optional<std::string> decode_base64(std::string_view text);
 
-/// Bytes that zlib compresses block by block, as VTK's arrays are: the number of blocks, the size of a whole block, the
-/// size of the last block if it is not whole (0 if it is), the compressed size of each block, the blocks.
+/// Compresses bytes block by block with zlib, in the layout of VTK's arrays: the number of blocks, the size of a whole
+/// block, the size of the last block if it is not whole (0 if it is), the compressed size of each block, the blocks.
 class CompressedBlocks {
  public:
   static constexpr std::size_t block_size = std::size_t{1} << 17;
@@ -32,13 +32,13 @@ class CompressedBlocks {
 
   /// To be called once, after the last `put`.
   ///
-  /// \return what the file has: numbers of 64 bits, and the blocks
+  /// \return the bytes for the file: 64-bit numbers, then the blocks
   std::string finish();
 
  private:
   void compress();
 
-  // Several blocks wait for several threads.
+  // As many blocks are collected as keep all threads busy.
   const std::size_t most_waiting_ = block_size * (thread_count() == 1 ? 1 : 4 * thread_count());
   std::string bytes_, compressed_;
   std::vector<std::uint64_t> sizes_;

@@ -201,7 +201,8 @@ AppendedArray attributes_of(const mesh::TetMesh& mesh, bool regions) {
   return {"Int32", regions ? "region" : "marker", blocks.finish()};
 }
 
-/// A group of arrays, whose bytes begin `offset` after those of the first one.
+/// Declares a group of arrays. Their bytes begin `offset` bytes after the start of the appended data; `offset` moves
+/// past them.
 void declare(const char* group, const char* attributes, std::span<const AppendedArray> arrays, std::size_t& offset,
              OutputFile& out) {
   out << "      <" << group << attributes << ">\n";

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// Adds a vertex of the greatest rank that is not yet part of the tetrahedralization.
+/// Adds a vertex of the greatest rank, but does not insert it into the tetrahedralization yet.
 std::uint32_t add_vertex(delaunay::Delaunay& d, const Point3& p) {
   const auto v = static_cast<std::uint32_t>(d.vertices.size());
   d.vertices.push_back({p, v, 0});
@@ -124,7 +124,7 @@ TEST(Insertion, TheCavityIsClosedAndItsFacesLookAtTheNewVertex) {
   }
 }
 
-TEST(Insertion, AbandonLeavesAllAsItWas) {
+TEST(Insertion, DiscardingACavityLeavesEverythingAsItWas) {
   for (const NamedPoints& set : small_sets()) {
     const auto most = std::span(set.points).first(set.points.size() - 10);
     delaunay::Delaunay d = delaunay::build_delaunay(most);
@@ -141,7 +141,7 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
       d.vertices.pop_back();
       ASSERT_TRUE(are_equal(d, before)) << set.name;
     }
-    // An abandoned insertion can be repeated like a new one.
+    // After discarded cavities, insertion works as if there had been none.
     delaunay::Delaunay fresh = before;
     delaunay::Insertion never_abandoned(fresh);
     for (const Point3& p : std::span(set.points).last(10)) {
@@ -155,7 +155,7 @@ TEST(Insertion, AbandonLeavesAllAsItWas) {
   }
 }
 
-TEST(Insertion, NamesTheTwinOfAPointThatIsThere) {
+TEST(Insertion, NamesTheVertexAtTheSamePlace) {
   for (const NamedPoints& set : small_sets()) {
     delaunay::Delaunay d = delaunay::build_delaunay(set.points);
     delaunay::Insertion insertion(d);

@@ -58,8 +58,8 @@ bool is_integer(const Point3& p) {
   return p.x == std::round(p.x) && p.y == std::round(p.y) && p.z == std::round(p.z);
 }
 
-/// Steps by integers lead exactly along the constraints: for each facet triangle and each segment at a vertex of the
-/// PLC, what the steps span is in its plane or on its line.
+/// Integer steps from a vertex of the PLC stay exactly in the planes of its facet triangles and on the lines of its
+/// segments.
 void expect_exact_steps(const Found& found) {
   for (std::size_t v = 0; v < found.plc.vertices.size(); ++v) {
     const improve::Freedom& f = found.freedom[v];
@@ -102,7 +102,7 @@ TEST(FindFreedom, VerticesOfAGriddedCubeSlideInItsFacesAndAlongItsEdges) {
   expect_exact_steps(found);
 }
 
-/// Axis-parallel places are as fine as the grid.
+/// Along the axes, the shortest step is one grid unit.
 TEST(FindFreedom, StepsAreAsShortAsTheGridAllows) {
   const Found found = find(gridded_cube(4));
   for (const improve::Freedom& f : found.freedom) {
@@ -184,7 +184,7 @@ TEST(FindFreedom, IsolatedVerticesStay) {
   EXPECT_EQ(find(plc).counts(), (std::array{9, 0, 0, 0}));
 }
 
-/// A straight line of three vertices within the cube, and other parts that meet it at its middle.
+/// A straight line of three vertices within the cube.
 plc::InputPlc cube_with_line() {
   plc::InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1, 1}, {1.5, 1.5, 1.5}, {2, 2, 2}});

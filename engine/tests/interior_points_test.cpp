@@ -51,8 +51,8 @@ InputPlc dented_tetrahedron() {
 }
 constexpr Point3 below_dent{1, 3, 3};
 
-/// A cube around a tetrahedron of loose vertices with the segment. Its faces have a vertex in the middle, so that no
-/// smallest sphere of a face reaches the middle of the cube.
+/// The same vertices and segment without the triangles, inside a large cube. Each face of the cube has a vertex in its
+/// middle, so that the smallest spheres of its triangles do not reach the middle of the cube.
 InputPlc segment_in_large_cube() {
   InputPlc plc = tetrahedron_with_segment();
   plc.triangles.clear();
@@ -91,7 +91,8 @@ struct Protected {
     surface = protection::protect_edges(plc, std::move(surface), strategy);
     return delaunay.vertices.size() - before;
   }
-  /// With regard to edges, or without.
+  /// \param with_regard  insert the point only if all protected edges stay
+  /// \return             how many points were inserted
   std::uint64_t insert(bool with_regard) {
     if (with_regard && make_room(std::vector{point}, Protection::shell).empty()) return 0;
     insert_points(surface.delaunay, std::vector{point});
@@ -278,7 +279,7 @@ TEST(InteriorPoints, ThatRemainKeepAllProtectedEdges) {
   EXPECT_GT(left_out, 1000u);
 }
 
-/// A segment with a vertex beside its middle, so that its spheres without that vertex are large.
+/// A segment with a vertex beside its middle, so that only large spheres through its ends do not contain the vertex.
 InputPlc segment_with_vertex_beside_it() {
   InputPlc plc = seeded_cube();
   plc.vertices.insert(plc.vertices.end(), {{1, 1.5, 1.5}, {2, 1.5, 1.5}, {1.5, 1.6875, 1.5}});
@@ -286,7 +287,8 @@ InputPlc segment_with_vertex_beside_it() {
   return plc;
 }
 
-/// The smallest sphere through the ends of the segment that does not contain the vertex, on its far side.
+/// The smallest sphere through the ends of the segment that does not contain the vertex. The center is on the other
+/// side of the segment.
 Ball smallest_empty_ball(const plc::Plc& plc) {
   const Point3 &a = plc.vertices[8], &b = plc.vertices[9], &beside = plc.vertices[10];
   const Point3 middle = 0.5 * (a + b), up = beside - middle;

@@ -55,7 +55,7 @@ TEST(WritePlc, MeditKeepsMarkersAndSegments) {
   expect_same_plc(written_and_read(plc, "a.meshb"), expected);
 }
 
-TEST(WritePlc, EvenAndOddGoesThroughFormatsWithSeeds) {
+TEST(WritePlc, FormatsWithSeedsKeepTheEvenOddRule) {
   for (const char* name : {"a.poly", "a.smesh"})
     expect_same_plc(written_and_read(awkward_surface(), name), awkward_surface());
   for (const char* name : {"a.mesh", "a.meshb"})

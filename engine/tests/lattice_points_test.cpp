@@ -24,7 +24,7 @@ std::vector<Point3> sorted(std::vector<Point3> points) {
   return points;
 }
 
-/// The smallest sphere of a triangle, by another formula than the engine's.
+/// Is p in the smallest sphere of a triangle? Uses a formula other than the engine's.
 bool in_smallest_sphere(const Point3& a, const Point3& b, const Point3& c, const Point3& p) {
   const double la = squared_length(b - c), lb = squared_length(c - a), lc = squared_length(a - b);
   const auto in_diametral = [&p](const Point3& u, const Point3& v) { return dot(u - p, v - p) <= 0; };
@@ -283,7 +283,7 @@ TEST(LatticePoints, FollowAnEvenSurfaceOfTheTargetSizeWithoutGrading) {
             shape.place({lattice::Lattice::fcc, edge_length, 0}));
 }
 
-TEST(LatticePoints, AreDeclinedBeforeTheyFillTheMemory) {
+TEST(LatticePoints, AreRefusedBeforeTheyFillTheMemory) {
   const Shape shape = cube(2);
   EXPECT_THROW(shape.place({lattice::Lattice::fcc, 1e-4 * shape.unit, 0.5}), LimitError);
 }

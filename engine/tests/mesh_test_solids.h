@@ -114,8 +114,8 @@ inline plc::InputPlc cube_with_turnstile() {
   return plc;
 }
 
-/// A prism over a regular polygon whose top is turned by a part of the polygon's angle: Schoenhardt's polyhedron if
-/// that is a quarter of a triangle's. Turned backwards it is convex; all vertices are on one sphere.
+/// A prism over a regular polygon whose top is turned by a fraction of the angle between corners. Three corners and a
+/// quarter make Schoenhardt's polyhedron. With a negative turn it is convex. All vertices are on one sphere.
 inline plc::InputPlc twisted_prism(std::uint32_t corners, double turn, double height = 1) {
   plc::InputPlc plc;
   const double step = 2 * std::acos(-1.0) / corners;
@@ -136,8 +136,8 @@ inline plc::InputPlc twisted_prism(std::uint32_t corners, double turn, double he
   return plc;
 }
 
-/// Two prongs that are attached to nothing: a long bar, and a short one so near to the middle of its long edges that
-/// these are not Delaunay edges. All edges are convex.
+/// Two bars that do not touch: a long one, and a short one so near to the middle of its long edges that these are not
+/// Delaunay edges. All edges are convex.
 inline plc::InputPlc two_bars() {
   plc::InputPlc plc = box({0, 0, 0}, {8, 1, 1});
   append(plc, box({3.5, 1.125, 0.25}, {4.5, 2, 0.75}));
@@ -191,11 +191,11 @@ inline plc::InputPlc random_convex(std::uint32_t points, std::mt19937& random) {
 }
 
 /// Unit cubes with random labels: facets are where labels differ, so there are edges and vertices of every kind.
-/// Label 0 is empty, but what others enclose is filled, because no seed says otherwise.
+/// Label 0 means empty, but empty cubes that others enclose are filled, because no hole is marked there.
 inline plc::InputPlc random_voxels(int n, int labels, std::mt19937& random) {
   std::vector<int> label(n * n * n);
   for (int& l : label) l = static_cast<int>(random() % labels);
-  label[0] = 1;  // never empty
+  label[0] = 1;  // so that not all cubes are empty
   using Place = std::array<int, 3>;
   const auto label_at = [&](const Place& p) {
     for (const int c : p)
@@ -221,7 +221,7 @@ inline plc::InputPlc random_voxels(int n, int labels, std::mt19937& random) {
   return plc;
 }
 
-/// A projective map of the cube [0, size]^3: planes stay planes, right angles do not stay right.
+/// A projective map of the cube [0, size]^3: planes stay planes, but right angles do not stay right.
 inline plc::InputPlc in_perspective(const plc::InputPlc& plc, double size) {
   return mapped(plc, [size](const Point3& p) {
     const Point3 q = (1 / size) * p;

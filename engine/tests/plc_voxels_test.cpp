@@ -27,7 +27,7 @@ struct Voxels {
 Voxels random_voxels(int n, int kinds, std::mt19937& random) {
   Voxels voxels{n, std::vector<int>(n * n * n)};
   for (int& label : voxels.labels) label = static_cast<int>(random() % kinds);
-  voxels.labels[0] = 1;  // never empty
+  voxels.labels[0] = 1;  // so that not all labels are 0
   return voxels;
 }
 

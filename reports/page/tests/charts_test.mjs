@@ -40,7 +40,7 @@ test("charts are valid Vega-Lite", () => {
 const PHONE = 358;
 
 for (const { section, chart } of all) {
-  test(`${section.name}/${chart.name} is drawn with its data, as wide as a phone, and nothing to warn of`, async () => {
+  test(`${section.name}/${chart.name} is drawn with its data, as wide as a phone, without warnings`, async () => {
     const { view, warnings } = await drawn(section, chart, { width: PHONE });
     assert.deepEqual(warnings, []);
     assert.ok(marksOf(view.scenegraph().root) > 3);

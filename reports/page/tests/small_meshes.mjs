@@ -34,7 +34,7 @@ export function kept(mesh) {
 /** Edges of length 2 sqrt(2). */
 export const regularTetrahedron = meshOf([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], [[0, 1, 2, 3]]);
 
-/** Two tetrahedra on both sides of the triangle (x, y, z), one at the origin and one of another region beyond. */
+/** Two tetrahedra of different regions, one on each side of the triangle (1, 0, 0) (0, 1, 0) (0, 0, 1). */
 export const twoTetrahedra =
   meshOf([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [[0, 1, 2, 3], [4, 1, 3, 2]], [1, 7]);
 

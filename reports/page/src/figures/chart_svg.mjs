@@ -4,7 +4,7 @@ import { printWidth } from "../charts/print.mjs";
 
 measureWithoutCanvas();
 
-/** The SVG has the title and the caption for readers that cannot see it. */
+/** The SVG has the title and the caption for readers who cannot see it. */
 function described(svg, chart) {
   const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
   const words = `<title>${escaped(chart.title)}</title><desc>${escaped(chart.caption)}</desc>`;

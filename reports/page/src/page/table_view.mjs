@@ -130,7 +130,7 @@ export function tableView(report, section, table) {
     head.querySelector(`[data-column="${name}"]`).focus();
   };
 
-  /** The rows that are in the page; folded ones are not shown, but found by a search and printed. */
+  /** The rows that are in the page; folded ones are hidden, but they are printed and a search finds them. */
   function rowsInPage(mustFold) {
     const sorted = sortedRows(rows, sorting);
     if (rows.length <= MOST_ROWS_AT_ONCE) return sorted;

@@ -31,7 +31,7 @@ function store(theme) {
   try {
     localStorage.setItem(STORE, theme);
   } catch {
-    // Then the choice is lost at the end of the visit.
+    // Without storage, the choice is lost at the end of the visit.
   }
 }
 
@@ -40,8 +40,8 @@ function systemTheme() {
 }
 
 /**
- * A switch between light and dark; at first as the system is set, or as was wished before. The theme stands in
- * `data-theme` of the root.
+ * A switch between light and dark. It starts with the reader's earlier choice, or else with the theme of the system.
+ * The attribute `data-theme` of the root holds the theme.
  */
 export function themeSwitch() {
   const root = document.documentElement;

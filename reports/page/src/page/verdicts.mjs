@@ -67,7 +67,7 @@ const MOST_MEASURES_OPEN = 4;
 
 function measures(report, claim) {
   if (claim.measured.length === 0) return null;
-  const heads = ["Measured", "Value", "Asked", "Result", "Where", "Runs"];
+  const heads = ["Measured", "Value", "Required", "Result", "Where", "Runs"];
   const table = element(
     "div.scroll",
     { tabindex: 0, role: "region", "aria-label": `What was measured: ${claim.sentence}` },

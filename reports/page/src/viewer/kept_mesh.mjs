@@ -12,7 +12,7 @@ import { inflated } from "./inflated.mjs";
  */
 
 /**
- * Unpacks a mesh of schema `ccdt.mesh/1` or `ccdt.pagemesh/1`, in a browser as in node.
+ * Unpacks a mesh of schema `ccdt.mesh/1` or `ccdt.pagemesh/1`, in a browser or in node.
  * @param {object} kept  the parsed JSON
  * @returns {Promise<Mesh>}
  * @throws {Error} when the arrays do not make a mesh

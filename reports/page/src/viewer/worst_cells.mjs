@@ -6,7 +6,7 @@
  */
 export function worstFirst(values, largestIsWorst) {
   const order = new Uint32Array(values.length).map((_, cell) => cell);
-  // Infinite values differ by NaN, hence no subtraction.
+  // Compared, not subtracted: the difference of two infinite values is NaN.
   const ascending = (a, b) => (values[a] < values[b] ? -1 : values[a] > values[b] ? 1 : a - b);
   return order.sort(largestIsWorst ? (a, b) => ascending(b, a) : ascending);
 }

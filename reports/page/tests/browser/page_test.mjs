@@ -25,7 +25,7 @@ before(async () => {
 }, { timeout: 120000 });
 after(() => browser?.close());
 
-/** Whatever is done to the page, it must not complain, nor ask for anything. */
+/** Whatever is done to the page, it must not log errors or warnings, nor request anything. */
 async function withoutTroubles({ page, troubles }, body) {
   await body(page);
   assert.deepEqual(troubles.splice(0), []);
