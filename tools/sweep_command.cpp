@@ -185,9 +185,8 @@ constexpr const char* footer =
     "  ccdt sweep scaling -o build/scaling && ccdt report build/scaling\n"
     "Example: all meshers on parts of your own\n"
     "  ccdt sweep parts -o build/parts --input 'parts/*.off'\n"
-    "Example: on a cluster with Slurm; the folder and the program are where all nodes see them, and variables of "
-    "sbatch\n"
-    "choose the rest, as SBATCH_PARTITION does. Called again, it submits what was lost\n"
+    "Example: run it on a cluster with Slurm. All nodes must see the folder and the program. Variables such as\n"
+    "SBATCH_PARTITION set other options of sbatch. Call it again to submit lost runs\n"
     "  ccdt sweep scaling -o build/scaling --slurm --chunk-minutes 60\n"
     "Example: how far is it?\n"
     "  ccdt sweep scaling -o build/scaling --status\n";

@@ -46,7 +46,7 @@ class ScriptMesher : public testing::Test {
     return baselines::described_mesher(description_).run(plc, options, {});
   }
 
-  /// What a run fails with.
+  /// The message of the error that a run ends with.
   std::string reason() const {
     try {
       run();
@@ -76,7 +76,7 @@ TEST_F(ScriptMesher, GivesAMeshThatIsOrientedAndHasItsBoundary) {
   }
 }
 
-TEST_F(ScriptMesher, IsAskedByTheOptionsAndSaysHow) {
+TEST_F(ScriptMesher, GetsTheChosenOptionsAndReportsItsCommand) {
   MeshOptions options = {.edge_length = 2};
   options.improve.improvement = Improvement::all;
   const std::string folder_name = folder().string();

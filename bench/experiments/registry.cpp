@@ -68,7 +68,7 @@ std::vector<KnownExperiment> all_experiments() {
   std::vector<KnownExperiment> all = {
       {"table1", "Table 1: the CDT with and without the face protection check", "6, Table 1",
        "Delaunay, the CDT with and without the check, and other meshers", true, true, measure_table1},
-      {"fig7", "Fig. 7: the meshes of the three models", "6, Fig. 7", "pictures of them, cut open", true, false,
+      {"fig7", "Fig. 7: the meshes of the three models", "6, Fig. 7", "pictures of the meshes, cut open", true, false,
        measure_fig7},
       {"fig8", "Fig. 8: time against size", "6, Fig. 8", "time against size over two decades, and how it grows", true,
        true, measure_fig8},

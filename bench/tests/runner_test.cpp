@@ -95,7 +95,7 @@ TEST_F(RunnerTest, RunsNothingTwice) {
   EXPECT_EQ(calls().size(), 4);
 }
 
-TEST_F(RunnerTest, GoesOnWhereItWasStopped) {
+TEST_F(RunnerTest, ContinuesWhereItWasStopped) {
   const Case asked = case_of("a", "1\n", three_after_one);
   const MeasuredCase measured = runner().run(asked);
   std::filesystem::remove(file(measured, 2));
@@ -274,7 +274,7 @@ TEST_F(IdentitiesTest, MixedKeepsBothAndTakesEitherLater) {
   EXPECT_EQ(accept(a_, OtherIdentity::refuse).front(), a_);
 }
 
-TEST_F(IdentitiesTest, AMesherMoreIsNoDifference) {
+TEST_F(IdentitiesTest, AnAdditionalMesherIsNoDifference) {
   accept(a_, OtherIdentity::refuse);
   Identity more = a_;
   more["tetgen.version"] = "1.6";

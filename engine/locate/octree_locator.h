@@ -13,8 +13,8 @@
 
 namespace ccdt::locate {
 
-/// The straight edge between two points, and whether it meets boxes: by projection to their axes and to the products of
-/// these with the edge. Slightly too wide, never too narrow.
+/// Tests whether the straight edge between two points meets boxes: projects both onto the coordinate axes and onto the
+/// cross products of these with the edge. It may report a box that the edge just misses, but overlooks none.
 class EdgeProbe {
  public:
   EdgeProbe(const Point3& p, const Point3& q) : middle_(0.5 * (p + q)) {
@@ -58,8 +58,8 @@ class BoxOctree {
   /// The items, in the order that nodes count in.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Calls visit(first, last) for the leaves, nearest to `start` first among the children of each node, except for
-  /// nodes whose box `misses` when they are reached.
+  /// Calls visit(first, last) for the leaves. Among the children of a node, the nearest to `start` comes first. Skips
+  /// nodes for whose box `misses` is true when they are reached.
   template <class Misses, class Visit>
   void visit_nearest_first(const Point3& start, const Misses& misses, const Visit& visit) const;
 

@@ -295,7 +295,7 @@ class DivideAndConquer {
   /// side; edges in the way are removed.
   ///
   /// \param from    the base as an edge out of that end
-  /// \param around  turns about that end, from the base upwards
+  /// \param around  turns about that end, from the base upward
   Edge candidate(Edge base, Edge from, const std::vector<Edge>& around) {
     Edge candidate = around[from];
     if (!is_right_of(rings_.target(candidate), base)) return candidate;

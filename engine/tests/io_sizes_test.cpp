@@ -115,7 +115,7 @@ TEST(ReadSizes, ThatAreNotOnePositiveNumberPerVertexAreRefusedWithTheLine) {
   expect_refused(put(folder / "b.mtr", "4 1\n1\n2\nfour\n3\n"), "b.mtr", 4);
 }
 
-TEST(ReadSizes, BesideADamagedMeshNameTheMesh) {
+TEST(ReadSizes, AreRefusedBesideADamagedMeshWhichTheErrorNames) {
   const Folder folder;
   put(folder / "a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 x 0\n0 1 0 0\n0 0 1 0\nEnd\n");
   expect_refused(put(folder / "a.sol", sol("4\n1 1", "1 2 3 4")), "a.mesh", 6);

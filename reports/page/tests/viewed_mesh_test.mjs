@@ -44,7 +44,7 @@ test("without a cut and a count all tetrahedra are shown", async () => {
   assert.equal(faces.cell.length, 48);
 });
 
-test("of the worst tetrahedra those are shown that the cut leaves", async () => {
+test("of the worst tetrahedra, only those that the cut leaves are shown", async () => {
   const good = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const flat = (x, height) => [[x, 0, 0], [x + 1, 0, 0], [x, 1, 0], [x, 0, height]];
   const mesh = meshOf([...good, ...flat(10, 0.1), ...flat(20, 0.2)], [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]]);
@@ -74,7 +74,7 @@ test("the slider of the count goes from one tetrahedron to all, evenly by logari
   assert.equal(countAt(0, 0), 1);
 });
 
-test("numbers have three significant digits, and say when they are none", () => {
+test("numbers have three significant digits; missing and infinite ones are words", () => {
   assert.equal(numberText(1.23456), "1.23");
   assert.equal(numberText(-123456), "-1.23e+5");
   assert.equal(numberText(0), "0");

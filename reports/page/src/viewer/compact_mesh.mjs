@@ -27,7 +27,7 @@ export async function unpackCompactMesh(kept) {
   return { title: kept.title, points, cells, regions: Int32Array.from(regions), numbers: Uint32Array.from(numbers) };
 }
 
-/** Numbers of which the differences are given, the sign in the lowest bit, the bytes of one place together. */
+/** Decodes numbers stored as differences, with the sign in the lowest bit and all bytes of one place together. */
 function sumsOf(bytes) {
   const count = bytes.length / PLACES;
   const numbers = new Float64Array(count);
