@@ -25,14 +25,14 @@ TEST(FailureKind, FollowsFromTheTypeOfAnError) {
   EXPECT_EQ(failure_kind_of(std::out_of_range("a limit")), FailureKind::crashed);
 }
 
-TEST(FailureKind, OfTheSystemIsThatOfItsCode) {
+TEST(FailureKind, OfASystemErrorFollowsFromItsCode) {
   const auto of = [](std::errc code) { return failure_kind_of(std::system_error(std::make_error_code(code))); };
   EXPECT_EQ(of(std::errc::no_space_on_device), FailureKind::limit);
   EXPECT_EQ(of(std::errc::not_enough_memory), FailureKind::out_of_memory);
   EXPECT_EQ(of(std::errc::bad_address), FailureKind::crashed);
 }
 
-TEST(FailureKind, OfAnExitCodeIsThatOfTheSignalWhichTheShellReports) {
+TEST(FailureKind, OfAnExitCodeAbove128IsThatOfTheSignal) {
   EXPECT_EQ(baselines::failure_kind_of_exit_code(1), FailureKind::refused);
   EXPECT_EQ(baselines::failure_kind_of_exit_code(255), FailureKind::refused);
   EXPECT_EQ(baselines::failure_kind_of_exit_code(128 + SIGSEGV), FailureKind::crashed);

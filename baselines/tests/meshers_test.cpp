@@ -133,7 +133,7 @@ std::string setting(const baselines::MesherRun& run, std::string_view name) {
   return found == run.settings.end() ? "" : found->second;
 }
 
-TEST(CgalMesh3, PerturbsAndExudesUnlessThereIsToBeNoImprovement) {
+TEST(CgalMesh3, PerturbsAndExudesUnlessImprovementIsOff) {
   if (!has("cgal-mesh3")) GTEST_SKIP() << "built without CGAL's meshers";
   MeshOptions options = {.edge_length = 0.25};
   const auto worst_volume = [](const TetMesh& mesh) {
@@ -182,7 +182,7 @@ TEST(GmshHxt, MakesMoreTetrahedraWhereTheEdgesAreShorter) {
     return run("gmsh-hxt", plc, unimproved(edge_length)).result.counts.tetrahedra;
   };
   EXPECT_GT(count(0.1), 3 * count(0.2));
-  EXPECT_GT(count(0), 100u);  // as the surface has it
+  EXPECT_GT(count(0), 100u);  // with the edge lengths of the surface
 }
 
 TEST(GmshHxt, ReadsCoordinatesBackThatNeedSeventeenDigits) {
@@ -207,7 +207,7 @@ TEST(GmshHxt, KeepsRegionsAndMarkers) {
   EXPECT_EQ(std::ranges::count(made.result.mesh.face_markers, 8), 12);
 }
 
-TEST(GmshHxt, OptimizesUnlessThereIsToBeNoImprovement) {
+TEST(GmshHxt, OptimizesUnlessImprovementIsOff) {
   if (!has("gmsh-hxt")) GTEST_SKIP() << "Gmsh is not installed";
   MeshOptions options = {.edge_length = 0.25};
   options.improve.improvement = Improvement::all;

@@ -15,7 +15,8 @@
 namespace ccdt::cases {
 namespace {
 
-/// Whether all of them were needed was decided when they were made. Deciding again would take longer than reading them.
+/// The largest number of records that a case can have. Whether each run was needed was decided when it was made;
+/// deciding that again would take longer than reading all records.
 int most_runs(const Repetitions& repetitions) {
   const int counted =
       repetitions.until > 0 ? std::max(repetitions.at_least, repetitions.at_most) : repetitions.at_least;
@@ -150,7 +151,7 @@ void run_in_turn(const RunPlace& place, const Group& group, std::uint64_t seed, 
     for (MeasuredCase* measured : round) run_counted(place, *measured, counter);
 }
 
-/// Several cases at the same time, each with all its repetitions.
+/// Runs several cases at the same time, each with all its repetitions.
 void run_beside(const RunPlace& place, const Group& cases, RunCounter& counter) {
   const auto run_all = [&](std::size_t i) {
     while (needs_run(*cases[i])) run_counted(place, *cases[i], counter);

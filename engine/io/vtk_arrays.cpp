@@ -173,7 +173,7 @@ std::size_t VtkArrays::appended_begin(Array array) const {
   return appended_begin_ + static_cast<std::size_t>(*value);
 }
 
-/// What the file has of an array, perhaps with what follows.
+/// The bytes of an array as they are in the file, perhaps with some that follow it.
 std::string_view VtkArrays::encoded_bytes(Array array) const {
   if (!is_appended(array)) return text_of(array);
   const std::size_t begin = appended_begin(array);
@@ -223,7 +223,7 @@ RawVector<char> VtkArrays::without_length(Array array, std::string_view bytes) c
   return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)};
 }
 
-/// The bytes as `CompressedBlocks` says.
+/// Decompresses bytes in the layout of `CompressedBlocks`.
 RawVector<char> VtkArrays::decompressed(Array array, std::string_view bytes) const {
   const std::uint64_t blocks = length_at(bytes, 0, array);
   if (blocks == 0) return {};

@@ -93,7 +93,7 @@ TEST(PlcIntersections, SegmentsMeetTrianglesAndSegmentsIfNoAxisSeparatesThem) {
   }
 }
 
-// Moved a hundredth along into the triangles, the common corner is no excuse any more.
+// The tips at the common corner, a hundredth of each triangle's length, are cut off. What still meets, meets elsewhere.
 TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutTheirTips) {
   std::mt19937 random(5);
   int meeting = 0;

@@ -21,7 +21,7 @@ test("a row is named by its labels, each once, without its status", () => {
   assert.equal(rowTitle(table, row("piston", 1, { mesher: "ccdt" })), "piston, ccdt");
 });
 
-test("what a row says comes with its unit, and nothing of what is missing", () => {
+test("values come with their units, and missing ones are left out", () => {
   assert.deepEqual(rowFacts(table, row("piston", { value: 2, low: 1, high: 3 })), ["CDT: 2.0 [1.0, 3.0] s"]);
   assert.deepEqual(rowFacts(table, row("piston", null, { reason: "timeout" })), ["reason: timeout"]);
 });
