@@ -108,6 +108,7 @@ struct Tetrahedralization {
   std::vector<Point3> points;                ///< of the mesh, in grid units
   std::size_t first_interior = 0;            ///< of the points
   std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
+  double least_size = 0;                     ///< that refinement of the surface found affordable
   MeshCounts counts;
   std::optional<MeshError> stuck;
 };
@@ -152,15 +153,21 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
 }
 
 /// All stages but improvement.
-Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness,
+///
+/// \param least_size  of `RefineOptions`
+Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness, double least_size,
                                   const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
   t.plc = measured(costs, mesh_stage::plc, [&] { return plc::build_plc(input, {flatness}, progress); });
   std::vector<Point3> points = t.plc.vertices;
   if (options.refine_surface) {
     refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
-      return refine::refine_plc(std::move(t.plc), {options.edge_length / t.plc.grid.unit, options.grading}, progress);
+      return refine::refine_plc(
+          t.plc,
+          {.edge_length = options.edge_length / t.plc.grid.unit, .grading = options.grading, .least_size = least_size},
+          progress);
     });
+    t.least_size = refined.least_size;
     t.plc = std::move(refined.plc);
     t.chains = std::move(refined.chains);
     t.counts.refined_in_facets = t.plc.vertices.size() - points.size();
@@ -239,13 +246,13 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   MeshOptions used = options;
   used.edge_length = edge_length_of(options, flat);
   if (used.refine_surface) plc::check_edges_of_surface(flat, used.edge_length);
-  Tetrahedralization t = tetrahedralize(flat, used, used.flatness, progress, costs);
+  Tetrahedralization t = tetrahedralize(flat, used, used.flatness, 0, progress, costs);
   // The front gets stuck only at a facet that is flat within the tolerance but not exactly: the theorem on protected
   // edges holds for exact facets. A smaller tolerance costs more Steiner vertices. With tolerance 0, the
   // tetrahedralization exists.
   for (double flatness = used.flatness; t.stuck && flatness != 0;) {
     flatness = flatness > least_flatness ? flatness / 10 : 0;
-    t = tetrahedralize(flat, used, flatness, progress, costs);
+    t = tetrahedralize(flat, used, flatness, t.least_size, progress, costs);
   }
   if (t.stuck) throw MeshError(*t.stuck);
 

@@ -42,6 +42,14 @@ constexpr std::uint32_t all_steps = protection::whole_segment / protection::usua
 /// Largest distance of a new vertex from its wanted place, as a fraction of the wanted length.
 constexpr double most_shift = 0.2;
 
+/// On parts with many thin places, the mesh has about this many tetrahedra for each triangle of the surface: 21 to 27.
+constexpr double tetrahedra_of_triangle = 25;
+
+/// The surface is refined with other limits until the mesh has between these times the allowed tetrahedra, but no more
+/// often than that.
+constexpr double least_excess = 0.3, most_excess = 1.3;
+constexpr int most_tries = 4;
+
 struct Shape {
   Point3 circumcenter;
   double radius = 0, shortest = 0;
@@ -67,9 +75,10 @@ Shape shape_of(const std::array<Point3, 3>& t) {
 
 class Refiner {
  public:
-  Refiner(plc::Plc plc, const RefineOptions& options, const Progress& progress)
+  /// \param sizes  must outlive this
+  Refiner(plc::Plc plc, SurfaceSizes& sizes, const Progress& progress)
       : plc_(std::move(plc)),
-        sizes_(plc_, options),
+        sizes_(sizes),
         progress_(progress),
         points_(plc_.vertices),
         facets_of_segment_(plc_.segments.size()) {
@@ -80,13 +89,51 @@ class Refiner {
     for (const Point3& p : points_) wanted_.push_back(sizes_.at(p));
   }
 
-  RefinedPlc run() {
+  void run() {
     make_facets();
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) divide(s);
     for (std::uint32_t f = 0; f < facets_.size(); ++f)
       for (std::uint32_t t = 0; t < triangulation(f).triangles.size(); ++t) enter(f, t);
     refine();
-    return take();
+  }
+
+  std::size_t triangle_count() const {
+    std::size_t count = 0;
+    for (const FacetTriangulation& facet : facets_) count += facet.triangulation().triangles.size();
+    return count;
+  }
+
+  /// Gives the vertices their ids: those in facets first.
+  RefinedPlc take() && {
+    RefinedPlc result;
+    const auto of_input = static_cast<std::uint32_t>(plc_.vertices.size());
+    std::vector<std::uint32_t> in_facets;
+    std::vector<std::vector<ChainVertex>> inside(plc_.segments.size());
+    const std::span<const Point3> added = std::span(points_).subspan(of_input);
+    for (const std::uint32_t i :
+         delaunay::hilbert_order(added)) {  // neighbors are near each other in it, so searches are short
+      const std::uint32_t v = of_input + i;
+      if (place_[v].segment != none) continue;
+      plc_.vertices.push_back(points_[v]);
+      plc_.world.push_back(plc_.grid.to_world(points_[v]));
+      in_facets.push_back(v);
+    }
+    for (std::uint32_t v = of_input; v < points_.size(); ++v) {
+      if (place_[v].segment == none) continue;
+      const VertexId id(plc_.vertices.size() + result.on_segments.size());
+      inside[place_[v].segment].push_back({id, place_[v].fraction * protection::usual_step, 0});
+      result.on_segments.push_back(points_[v]);
+    }
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
+      auto& chain = inside[s];
+      chain.push_back({plc_.segments[s].ends[0], 0, 0});
+      chain.push_back({plc_.segments[s].ends[1], protection::whole_segment, 0});
+      std::ranges::sort(chain, {}, &ChainVertex::fraction);
+    }
+    result.chains = std::move(inside);
+    retriangulate(in_facets, of_input);
+    result.plc = std::move(plc_);
+    return result;
   }
 
  private:
@@ -335,39 +382,6 @@ class Refiner {
 
   // ---- Result -------------------------------------------------------------------------------------------------------
 
-  /// Gives the vertices their ids: those in facets first.
-  RefinedPlc take() {
-    RefinedPlc result;
-    const auto of_input = static_cast<std::uint32_t>(plc_.vertices.size());
-    std::vector<std::uint32_t> in_facets;
-    std::vector<std::vector<ChainVertex>> inside(plc_.segments.size());
-    const std::span<const Point3> added = std::span(points_).subspan(of_input);
-    for (const std::uint32_t i :
-         delaunay::hilbert_order(added)) {  // neighbors are near each other in it, so searches are short
-      const std::uint32_t v = of_input + i;
-      if (place_[v].segment != none) continue;
-      plc_.vertices.push_back(points_[v]);
-      plc_.world.push_back(plc_.grid.to_world(points_[v]));
-      in_facets.push_back(v);
-    }
-    for (std::uint32_t v = of_input; v < points_.size(); ++v) {
-      if (place_[v].segment == none) continue;
-      const VertexId id(plc_.vertices.size() + result.on_segments.size());
-      inside[place_[v].segment].push_back({id, place_[v].fraction * protection::usual_step, 0});
-      result.on_segments.push_back(points_[v]);
-    }
-    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
-      auto& chain = inside[s];
-      chain.push_back({plc_.segments[s].ends[0], 0, 0});
-      chain.push_back({plc_.segments[s].ends[1], protection::whole_segment, 0});
-      std::ranges::sort(chain, {}, &ChainVertex::fraction);
-    }
-    result.chains = std::move(inside);
-    retriangulate(in_facets, of_input);
-    result.plc = std::move(plc_);
-    return result;
-  }
-
   /// Triangulates the facets with the vertices inside them, but without those on segments, as a PLC has it.
   void retriangulate(const std::vector<std::uint32_t>& in_facets, std::uint32_t of_input) {
     facets_.clear();
@@ -393,7 +407,7 @@ class Refiner {
   }
 
   plc::Plc plc_;
-  SurfaceSizes sizes_;
+  SurfaceSizes& sizes_;
   const Progress& progress_;
   std::vector<Point3> points_;        // with those that were added
   std::vector<PlaceOfVertex> place_;  // of each
@@ -405,10 +419,45 @@ class Refiner {
   std::vector<std::uint32_t> cavity_;  // working memory
 };
 
+/// The triangles of a surface without thin places.
+double count_even_triangles(const plc::Plc& plc, double edge_length) {
+  double count = 0;
+  for (const plc::Facet& facet : plc.facets)
+    for (const auto& [a, b, c] : facet.triangles) {
+      const Point3 twice_area = area_vector({plc.vertices[a], plc.vertices[b], plc.vertices[c]});
+      count += 1 + 2 / std::sqrt(3.0) * length(twice_area) / (edge_length * edge_length);
+    }
+  return count;
+}
+
+/// The next limit to try, between one that makes too many tetrahedra and one that makes too few (0: not known yet).
+double next_limit(const SurfaceSizes& sizes, double excess, double too_many, double too_few) {
+  constexpr double first_step = 4;
+  if (too_few == 0) return sizes.least_for(1 / excess);
+  return too_many == 0 ? too_few / first_step : std::sqrt(too_many * too_few);
+}
+
 }  // namespace
 
-RefinedPlc refine_plc(plc::Plc plc, const RefineOptions& options, const Progress& progress) {
-  return Refiner(std::move(plc), options, progress).run();
+RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress) {
+  SurfaceSizes sizes(plc, options);
+  const double even_triangles = count_even_triangles(plc, options.edge_length);
+  double least = options.least_size, too_many = 0, too_few = 0;
+  for (int tries = options.least_size > 0 ? most_tries : 1;; ++tries) {
+    sizes.limit_from_below(least);
+    Refiner refiner(plc, sizes, progress);
+    refiner.run();
+    const double excess = tetrahedra_of_triangle * (static_cast<double>(refiner.triangle_count()) - even_triangles) /
+                          options.most_tetrahedra;
+    const bool is_near = excess <= most_excess && (least == 0 || excess >= least_excess);
+    if (is_near || tries == most_tries) {
+      RefinedPlc result = std::move(refiner).take();
+      result.least_size = least;
+      return result;
+    }
+    (excess > most_excess ? too_many : too_few) = least;
+    least = next_limit(sizes, excess, too_many, too_few);
+  }
 }
 
 }  // namespace ccdt::refine

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/count_work.h"
 #include "engine/base/morton.h"
@@ -14,6 +15,9 @@ constexpr std::uint32_t most_in_leaf = 32;
 
 /// Nor is one smaller than this times the size there: its children would have nearly the same places.
 constexpr double least_side = 0.5;
+
+/// Thin places may be found for this times the allowed tetrahedra, because the number is known only roughly then.
+constexpr double most_excess = 4;
 
 std::vector<SizedPoint> in_morton_order(const std::vector<SizedPoint>& places) {
   std::vector<Point3> points;
@@ -28,15 +32,41 @@ std::vector<SizedPoint> in_morton_order(const std::vector<SizedPoint>& places) {
 }  // namespace
 
 SurfaceSizes::SurfaceSizes(const plc::Plc& plc, const RefineOptions& options)
-    : largest_(options.edge_length), grading_(options.grading) {
-  places_ = in_morton_order(find_thin_places(plc, options.edge_length, options.most_tetrahedra));
-  const Box box = bounding_box(plc.vertices);
-  const std::array<double, 3> extent = as_array(box.high - box.low);
-  Node root{box.low, *std::ranges::max_element(extent)};
-  for (std::uint32_t i = 0; i < places_.size(); ++i) listed_.push_back(i);
+    : largest_(options.edge_length),
+      grading_(options.grading),
+      box_(bounding_box(plc.vertices)),
+      found_(find_thin_places(plc, options.edge_length, most_excess * options.most_tetrahedra)) {
+  limit_from_below(0);
+}
+
+void SurfaceSizes::limit_from_below(double least) {
+  least_ = least;
+  places_ = found_;
+  for (SizedPoint& place : places_) place.size = std::max(place.size, least);
+  places_ = in_morton_order(thinned(places_));
+  const std::array<double, 3> extent = as_array(box_.high - box_.low);
+  Node root{box_.low, *std::ranges::max_element(extent)};
+  listed_.resize(places_.size());
+  std::iota(listed_.begin(), listed_.end(), 0u);
   root.is_listed = true;
   root.count = static_cast<std::uint32_t>(places_.size());
-  nodes_.push_back(root);
+  nodes_.assign(1, root);
+}
+
+double SurfaceSizes::least_for(double share) const {
+  // In a plane, edges of length l instead of s leave (s / l)^2 of the vertices.
+  const auto left = [&](double least) {
+    double sum = 0;
+    for (const SizedPoint& place : found_) sum += std::min(1.0, place.size * place.size / (least * least));
+    return sum;
+  };
+  const double most = share * left(least_);
+  double low = least_, least = largest_;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (low + least);
+    (left(middle) > most ? low : least) = middle;
+  }
+  return least;
 }
 
 double SurfaceSizes::at(const Point3& p) {

@@ -22,6 +22,12 @@ class SurfaceSizes {
 
   double at(const Point3& p);
 
+  /// Lets thinner places count as if this were their wanted length.
+  void limit_from_below(double least);
+
+  /// The limit that leaves about this share of the vertices at thin places; `largest` if none does.
+  double least_for(double share) const;
+
  private:
   struct Node {
     Point3 low;
@@ -37,8 +43,10 @@ class SurfaceSizes {
   /// Lists those places of the parent that may be decisive in the child.
   void list(std::uint32_t parent, std::uint32_t child);
 
-  double largest_, grading_;
-  std::vector<SizedPoint> places_;  ///< in Morton order
+  double largest_, grading_, least_ = 0;
+  Box box_;                         ///< of the surface
+  std::vector<SizedPoint> found_;   ///< all thin places
+  std::vector<SizedPoint> places_;  ///< those that are left at the limit, in Morton order
   std::vector<Node> nodes_;         ///< the root first
   std::vector<std::uint32_t> listed_;
   std::vector<double> at_center_;  ///< working memory of `list`

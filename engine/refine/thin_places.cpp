@@ -86,22 +86,6 @@ SampleCell cell_of(const Point3& p, double size, std::uint32_t facet) {
   return {{place(p.x), place(p.y), place(p.z)}, exponent, facet};
 }
 
-/// The least of the places of about one size that are near each other relative to it.
-std::vector<SizedPoint> thinned(const std::vector<SizedPoint>& places) {
-  constexpr double nearness = 0.25;
-  HashTable<SampleCell, std::uint32_t> number_of_cell;
-  std::vector<SizedPoint> least;
-  for (const SizedPoint& place : places) {
-    const auto [number, is_new] =
-        number_of_cell.insert(cell_of(place.point, nearness * place.size, 0), static_cast<std::uint32_t>(least.size()));
-    if (is_new)
-      least.push_back(place);
-    else if (place.size < least[*number].size)
-      least[*number] = place;
-  }
-  return least;
-}
-
 // ---- Between two segments of a facet --------------------------------------------------------------------------------
 
 /// Measures the facets along their edges, piece by piece: a piece is halved if it is longer than the width of the facet
@@ -402,6 +386,21 @@ void limit_from_below(std::vector<SizedPoint>& places, double least) {
 
 }  // namespace
 
+std::vector<SizedPoint> thinned(const std::vector<SizedPoint>& places) {
+  constexpr double nearness = 0.25;
+  HashTable<SampleCell, std::uint32_t> number_of_cell;
+  std::vector<SizedPoint> least;
+  for (const SizedPoint& place : places) {
+    const auto [number, is_new] =
+        number_of_cell.insert(cell_of(place.point, nearness * place.size, 0), static_cast<std::uint32_t>(least.size()));
+    if (is_new)
+      least.push_back(place);
+    else if (place.size < least[*number].size)
+      least[*number] = place;
+  }
+  return least;
+}
+
 std::vector<SizedPoint> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra) {
   std::vector<SizedPoint> of_segments = find_short_segments(plc, largest), of_strips, of_walls;
   Strips strips(plc, largest);
@@ -429,7 +428,7 @@ std::vector<SizedPoint> find_thin_places(const plc::Plc& plc, double largest, do
   limit_from_below(of_strips, least_measured);
   limit_from_below(of_walls, least_measured);
   limit_from_below(of_segments, least_affordable);
-  return thinned(joined(joined(std::move(of_strips), of_walls), of_segments));
+  return joined(joined(std::move(of_strips), of_walls), of_segments);
 }
 
 }  // namespace ccdt::refine

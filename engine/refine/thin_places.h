@@ -26,4 +26,7 @@ struct SizedPoint {
 /// \param most_tetrahedra  about so many come of these places
 std::vector<SizedPoint> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra);
 
+/// The least of the places of about one size that are near each other relative to it.
+std::vector<SizedPoint> thinned(const std::vector<SizedPoint>& places);
+
 }  // namespace ccdt::refine
