@@ -13,9 +13,6 @@ std::uint32_t place_of(const Delaunay& d, std::uint32_t cell, std::uint32_t v) {
   return static_cast<std::uint32_t>(std::ranges::find(vertices, v) - vertices.begin());
 }
 
-/// Centers farther from the edge than this many half lengths of it are left out: their spheres are nearly half-spaces.
-constexpr double farthest = 100;
-
 }  // namespace
 
 void gather_ring(const Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring) {
@@ -56,21 +53,25 @@ Ball VoronoiFace::ball(const Place& center) const {
 }
 
 Ball VoronoiFace::covering_ball() {
-  const double far = farthest * std::sqrt(squared_half_);
-  make_polygon(margin * far * far);  // with all of the true polygon that is not too far away
-  const Place center = center_of_polygon();
-  double reach = 0;
-  if (polygon_.empty()) return {middle_, HUGE_VAL};
-  for (const Place& p : polygon_) {
-    if (std::max(std::abs(p.x), std::abs(p.y)) >= far) return {middle_, HUGE_VAL};
-    reach = std::max(reach, std::sqrt(dot(p - center, p - center)) + std::sqrt(squared_radius(p)));
+  // Edges much shorter than those around them have centers far away. The nearer all centers are, the smaller is the
+  // allowance for rounding.
+  for (const double half_lengths : {farthest, 1e2 * farthest, 1e4 * farthest}) {
+    const double far = half_lengths * std::sqrt(squared_half_);
+    make_polygon(far, margin * far * far);  // with all of the true polygon that is not too far away
+    const auto is_inside = [&](const Place& p) { return std::max(std::abs(p.x), std::abs(p.y)) < far; };
+    if (polygon_.empty() || !std::ranges::all_of(polygon_, is_inside)) continue;
+    const Place center = center_of_polygon();
+    double reach = 0;
+    for (const Place& p : polygon_)
+      reach = std::max(reach, std::sqrt(dot(p - center, p - center)) + std::sqrt(squared_radius(p)));
+    return {middle_ + center.x * u_ + center.y * w_, (1 + margin) * reach};
   }
-  return {middle_ + center.x * u_ + center.y * w_, (1 + margin) * reach};
+  return {middle_, HUGE_VAL};
 }
 
+/// \param far    places farther from the edge are left out
 /// \param slack  added to the bounds
-void VoronoiFace::make_polygon(double slack) {
-  const double far = farthest * std::sqrt(squared_half_);
+void VoronoiFace::make_polygon(double far, double slack) {
   polygon_.assign({{far, far}, {-far, far}, {-far, -far}, {far, -far}});
   for (const HalfPlane& half : halves_) clip({half.normal, half.bound + slack});
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -30,7 +31,7 @@ class VoronoiFace {
   template <class Visit>
   void visit_empty_balls(const Visit& visit) {
     if (is_empty({}) && !visit(ball({}))) return;
-    make_polygon(0);
+    make_polygon(farthest * std::sqrt(squared_half_), 0);
     if (polygon_.empty()) return;
     const Place center = center_of_polygon();
     const auto visit_near = [&](const Place& p) {
@@ -60,13 +61,16 @@ class VoronoiFace {
     Place normal;
     double bound;
   };
+  /// Centers farther from the edge than this many half lengths of it are left out: their spheres are nearly
+  /// half-spaces.
+  static constexpr double farthest = 100;
   static constexpr double margin = 1e-9;   ///< of squared radii
   static constexpr double inwards = 1e-3;  ///< how far a place of the polygon is moved to its center, as a share
 
   double squared_radius(const Place& center) const { return squared_half_ + dot(center, center); }
   bool is_empty(const Place& center) const;
   Ball ball(const Place& center) const;
-  void make_polygon(double slack);
+  void make_polygon(double far, double slack);
   Place center_of_polygon() const;
   void clip(const HalfPlane& half);
   Place nearest_to_middle() const;
