@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/box_tree.h"
@@ -59,18 +61,36 @@ class HarmSearch {
       }
       return *fewest > 0 && *fewest <= few_points;
     });
-    if (!fewest) find_in_ring();
+    if (!fewest) find_in_cell(edge);
     return best_;
   }
 
  private:
-  /// Leaves all points in `best_` that destroy some cell around the edge.
-  void find_in_ring() {
+  /// Leaves the points in `best_` that are in the sphere of one cell around the edge: without them that cell stays, and
+  /// the edge with it. The cell is one whose sphere is about the smallest.
+  void find_in_cell(const PieceEnds& edge) {
+    const auto size = [&](std::uint32_t cell) { return rough_squared_radius(edge, cell); };
+    const std::uint32_t smallest = *std::ranges::min_element(ring_.cells, {}, size);
     best_.clear();
     tree_.for_each_meeting(face_.covering_ball(), [&](std::uint32_t i) {
-      if (std::ranges::any_of(ring_.cells, [&](std::uint32_t c) { return destroys(points_[i], c); }))
-        best_.push_back(i);
+      if (destroys(points_[i], smallest)) best_.push_back(i);
     });
+  }
+
+  /// The squared radius of the cell's sphere up to rounding, which does not depend on the order of the cell's vertices;
+  /// equal ones are told apart by the vertices.
+  std::tuple<double, std::uint32_t, std::uint32_t> rough_squared_radius(const PieceEnds& edge,
+                                                                        std::uint32_t cell) const {
+    std::array<std::uint32_t, 4> v = d_.cells[cell].vertices;
+    std::ranges::sort(v);
+    std::ranges::stable_partition(v, [&](std::uint32_t i) { return i == edge[0] || i == edge[1]; });
+    if (v[3] == delaunay::ghost_vertex) return {HUGE_VAL, v[2], v[3]};
+    const Point3 a = d_.point(v[1]) - d_.point(v[0]), b = d_.point(v[2]) - d_.point(v[0]),
+                 c = d_.point(v[3]) - d_.point(v[0]);
+    const double det = dot(a, cross(b, c));
+    const Point3 sum =
+        squared_length(a) * cross(b, c) + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b);
+    return {det == 0 ? HUGE_VAL : squared_length((0.5 / det) * sum), v[2], v[3]};
   }
 
   bool destroys(const Point3& p, std::uint32_t cell) const {

@@ -14,7 +14,7 @@ namespace ccdt::protection {
 ///
 /// An edge is Delaunay if some sphere through its ends has no vertex inside. For each edge one such sphere is chosen,
 /// the smallest one or, if that spares some of a few points, another one. The points inside are left out. If rounding
-/// errors forbid that, all points inside the circumspheres of the cells around the edge are left out.
+/// errors forbid that, it is the circumsphere of a cell at the edge, and points are tested exactly.
 ///
 /// On a bad surface, a vertex right beside an edge can force all spheres of the edge to be large; those of two halves
 /// are small. So edges are split, as long as each split spares 20 points.

@@ -55,7 +55,7 @@ Ball VoronoiFace::ball(const Place& center) const {
 Ball VoronoiFace::covering_ball() {
   // Edges much shorter than those around them have centers far away. The nearer all centers are, the smaller is the
   // allowance for rounding.
-  for (const double half_lengths : {farthest, 1e2 * farthest, 1e4 * farthest}) {
+  for (const double half_lengths : {farthest, 1e2 * farthest, 1e4 * farthest, 1e6 * farthest}) {
     const double far = half_lengths * std::sqrt(squared_half_);
     make_polygon(far, margin * far * far);  // with all of the true polygon that is not too far away
     const auto is_inside = [&](const Place& p) { return std::max(std::abs(p.x), std::abs(p.y)) < far; };
