@@ -10,6 +10,8 @@
 
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/hilbert_order.h"
+#include "engine/refine/close_segments.h"
+#include "engine/refine/divide_segment.h"
 #include "engine/refine/facet_triangulation.h"
 #include "engine/refine/surface_sizes.h"
 
@@ -35,9 +37,6 @@ constexpr double least_halved = 1.1;
 
 /// A vertex encroaches on an edge of a segment that it sees under an angle of more than 120 degrees.
 constexpr double encroaching_cosine = -0.5;
-
-/// Fractions of segments are counted in steps that are on the grid on every segment.
-constexpr std::uint32_t all_steps = protection::whole_segment / protection::usual_step;
 
 /// Largest distance of a new vertex from its wanted place, as a fraction of the wanted length.
 constexpr double most_shift = 0.2;
@@ -81,6 +80,7 @@ class Refiner {
         sizes_(sizes),
         progress_(progress),
         points_(plc_.vertices),
+        least_distances_(find_close_segments(plc_)),
         facets_of_segment_(plc_.segments.size()) {
     std::vector<std::array<VertexId, 2>> edges;
     for (const plc::Segment& s : plc_.segments) edges.push_back(s.ends);
@@ -170,47 +170,22 @@ class Refiner {
 
   // ---- Segments -----------------------------------------------------------------------------------------------------
 
-  Point3 at_fraction(std::uint32_t segment, std::uint32_t fraction) const {
+  std::array<Point3, 2> ends_of(std::uint32_t segment) const {
     const auto& [a, b] = plc_.segments[segment].ends;
-    // The ends are multiples of 2^20, so that this is exact.
-    return points_[a] + fraction * ((1.0 / all_steps) * (points_[b] - points_[a]));
+    return {points_[a], points_[b]};
   }
 
-  /// Puts vertices on a segment at nearly equal intervals, where they are measured by the wanted lengths.
   void divide(std::uint32_t segment) {
-    const double whole = length(at_fraction(segment, all_steps) - at_fraction(segment, 0));
-    std::vector<std::pair<double, double>> passed = {{0, 0}};  // fraction of the length, wanted edges up to there
-    for (double t = 0; t < 1;) {
-      const Point3 p = at_fraction(segment, static_cast<std::uint32_t>(t * all_steps));
-      const double step = std::min(0.25 * sizes_.at(p) / whole, 1 - t);
-      const Point3 middle = at_fraction(segment, static_cast<std::uint32_t>((t + step / 2) * all_steps));
-      t = 1 - t - step < 1e-9 ? 1 : t + step;
-      passed.emplace_back(t, passed.back().second + step * whole / sizes_.at(middle));
-    }
-    const auto pieces = static_cast<std::uint32_t>(std::max(1.0, std::nearbyint(passed.back().second)));
-    std::size_t i = 0;
-    std::uint32_t last = 0;
-    for (std::uint32_t piece = 1; piece < pieces; ++piece) {
-      const double wanted = passed.back().second * piece / pieces;
-      while (passed[i + 1].second < wanted) ++i;
-      const auto& [from, before] = passed[i];
-      const auto& [to, after] = passed[i + 1];
-      const double t = from + (to - from) * (wanted - before) / (after - before);
-      const auto fraction = static_cast<std::uint32_t>(std::nearbyint(t * all_steps));
-      if (fraction <= last || fraction >= all_steps) continue;
-      add_on_segment(segment, last_on(segment, last), VertexId(plc_.segments[segment].ends[1]), fraction);
-      last = fraction;
-    }
-  }
-
-  VertexId last_on(std::uint32_t segment, std::uint32_t fraction) const {
-    return fraction == 0 ? plc_.segments[segment].ends[0] : VertexId(points_.size() - 1);
+    const auto& [first, second] = plc_.segments[segment].ends;
+    VertexId last = first;
+    for (const std::uint32_t fraction : divide_segment(ends_of(segment), least_distances_[segment], sizes_))
+      last = add_on_segment(segment, last, second, fraction);
   }
 
   /// Splits the edge ab of a segment.
   VertexId add_on_segment(std::uint32_t segment, VertexId a, VertexId b, std::uint32_t fraction) {
     const VertexId v(points_.size());
-    points_.push_back(at_fraction(segment, fraction));
+    points_.push_back(at_fraction(ends_of(segment), fraction));
     place_.push_back({segment, fraction, none});
     wanted_.push_back(sizes_.at(points_.back()));
     for (const std::uint32_t f : facets_of_segment_[segment]) facets_[f].split(a, b, v);
@@ -228,13 +203,19 @@ class Refiner {
     return segment_of_edge_.find(a, b);
   }
 
+  bool may_have_vertex(std::uint32_t segment, std::uint32_t fraction) const {
+    const auto& [a, b] = ends_of(segment);
+    const double whole = length(b - a), distance = whole * fraction / all_steps;
+    return distance >= least_distances_[segment][0] && whole - distance >= least_distances_[segment][1];
+  }
+
   /// Halves an edge of a segment if it is long enough.
   bool halve(VertexId a, VertexId b) {
     if (length(points_[b] - points_[a]) < least_halved * 0.5 * (wanted_[a] + wanted_[b])) return false;
     const std::uint32_t segment = segment_of(a, b);
     const std::uint32_t from = fraction_of(segment, a), to = fraction_of(segment, b);
     const std::uint32_t half = std::min(from, to) + (std::max(from, to) - std::min(from, to)) / 2;
-    if (half == std::min(from, to)) return false;
+    if (half == std::min(from, to) || !may_have_vertex(segment, half)) return false;
     const VertexId v = add_on_segment(segment, a, b, half);
     for (const std::uint32_t f : facets_of_segment_[segment]) enter_around(f, v);
     return true;
@@ -413,6 +394,7 @@ class Refiner {
   std::vector<PlaceOfVertex> place_;  // of each
   std::vector<double> wanted_;        // length of edges at each
   EdgeMap segment_of_edge_;
+  std::vector<LeastDistances> least_distances_;  // by segment: of its vertices from its ends
   std::vector<std::vector<std::uint32_t>> facets_of_segment_;
   std::vector<FacetTriangulation> facets_;
   std::priority_queue<BadTriangle> queue_;

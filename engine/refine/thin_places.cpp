@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/closest_on_segment.h"
 #include "engine/base/closest_on_triangle.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
@@ -58,13 +59,6 @@ constexpr double of_strip_cube = 60, of_wall_cube = 2;
 /// At most this many pieces of walls are measured for one length. The facets of two solids that nearly touch would need
 /// an unlimited number.
 constexpr std::size_t most_pieces = 200000;
-
-Point3 nearest_on_segment(const Point3& a, const Point3& b, const Point3& p) {
-  if (a == b) return a;
-  const Point3 along = b - a;
-  const double t = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
-  return a + t * along;
-}
 
 Point3 nearest_on_triangle(const Triangle& t, const Point3& p) {
   const std::array weights = closest_on_triangle(p, t);
@@ -188,7 +182,7 @@ class Strips {
       const auto [a, b] = facet.edges[number].ends;
       const auto [c, d] = edge.ends;
       if (a == c || a == d || b == c || b == d) return;
-      const Point3 across = nearest_on_segment(point(a), point(b), p) - p;
+      const Point3 across = closest_on_segment(p, point(a), point(b)) - p;
       const double found = length(across);
       const bool is_vertex = edge.inward == Point3{};
       if (found >= width || (!is_vertex && dot(across, edge.inward) <= 0.3 * found)) return;
