@@ -33,7 +33,8 @@ class FreedomFinder {
       : plc_(plc),
         chains_(chains),
         around_(plc.vertices.size()),
-        flat_segment_(plc.segments.size(), true),
+        may_slide_along_(plc.segments.size(), true),
+        boundary_sides_(plc.segments.size(), 0),
         steps_(plc.facets.size()) {
     look_at_segments();
     look_at_facets();
@@ -43,7 +44,7 @@ class FreedomFinder {
     std::vector<Freedom> freedom(vertices);
     for (std::uint32_t v = 0; v < plc_.vertices.size(); ++v) freedom[v] = of_vertex(v);
     for (std::uint32_t s = 0; s < chains_.size(); ++s) {
-      const Freedom along = flat_segment_[s] ? along_line(end(s, 0), end(s, 1)) : fixed;
+      const Freedom along = may_slide_along_[s] ? along_line(end(s, 0), end(s, 1)) : fixed;
       for (std::size_t i = 1; i + 1 < chains_[s].size(); ++i) freedom[chains_[s][i].vertex] = along;
     }
     return freedom;
@@ -76,12 +77,20 @@ class FreedomFinder {
       const plc::Facet& facet = plc_.facets[f];
       for (std::uint32_t t = 0; t < facet.triangles.size(); ++t)
         for (const VertexId v : facet.triangles[t]) look_at(f, t, v);
-      if (facet.exactly_flat) continue;
-      for (const auto& triangle : facet.triangles) {
-        for (int i = 0; i < 3; ++i) {
-          const auto* const segment = segment_of_edge_.find(edge_key(triangle[i], triangle[(i + 1) % 3]));
-          if (segment != nullptr) flat_segment_[*segment] = false;
-        }
+      look_at_edges(facet);
+    }
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s)
+      if (boundary_sides_[s] > 2) may_slide_along_[s] = false;
+  }
+
+  void look_at_edges(const plc::Facet& facet) {
+    const bool is_boundary = plc_.regions[facet.above].inside != plc_.regions[facet.below].inside;
+    for (const auto& triangle : facet.triangles) {
+      for (int i = 0; i < 3; ++i) {
+        const auto* const segment = segment_of_edge_.find(edge_key(triangle[i], triangle[(i + 1) % 3]));
+        if (segment == nullptr) continue;
+        if (!facet.exactly_flat) may_slide_along_[*segment] = false;
+        if (is_boundary) ++boundary_sides_[*segment];
       }
     }
   }
@@ -117,6 +126,7 @@ class FreedomFinder {
   Freedom of_junction(std::uint32_t v, const VertexSurroundings& around) const {
     const auto [s, t] = around.segments;
     if (around.crossed || plc_.segments[s].marker != plc_.segments[t].marker) return fixed;
+    if (!may_slide_along_[s] || !may_slide_along_[t]) return fixed;
     const std::uint32_t before = other_end(s, v), after = other_end(t, v);
     return numbers::collinear(point(before), point(v), point(after)) ? along_line(point(v), point(after)) : fixed;
   }
@@ -124,7 +134,10 @@ class FreedomFinder {
   const plc::Plc& plc_;
   const protection::SegmentChains& chains_;
   std::vector<VertexSurroundings> around_;
-  std::vector<char> flat_segment_;  // are all facets at the segment exactly flat?
+  // Are all facets at the segment exactly flat, and are the cells around it connected? Where the domain touches itself
+  // along the segment, they are not, and a star would have only some of them.
+  std::vector<char> may_slide_along_;
+  std::vector<std::uint32_t> boundary_sides_;  // of each segment: facets with the domain on one side only
   HashTable<std::uint64_t, std::uint32_t> segment_of_edge_;
   mutable std::vector<std::optional<plc::PlaneSteps>> steps_;  // by facet, computed when needed
 };

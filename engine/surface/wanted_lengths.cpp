@@ -1,6 +1,7 @@
 #include "engine/surface/wanted_lengths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 #include "engine/surface/working_mesh.h"
@@ -41,6 +42,10 @@ double& wanted_at(WorkingMesh& m, VertexHandle v) {
 
 void limit(double& wanted, double most, double least) {
   wanted = std::min(wanted, std::max(most, least));
+}
+
+void limit_from_below(double& wanted, double least) {
+  wanted = std::max(wanted, least);
 }
 
 void limit_by_curves(WorkingMesh& m) {
@@ -122,6 +127,36 @@ void limit_by_thickness(WorkingMesh& m) {
   }
 }
 
+/// Short edges at features may cost this many triangles; the shortest are made longer if they would cost more. It leads
+/// to about a million tetrahedra.
+constexpr double most_triangles_at_features = 40000;
+
+/// The number of equilateral triangles of the wanted lengths, where none is below `least` unless it is everywhere.
+double count_triangles(const WorkingMesh& m, double least) {
+  double count = 0;
+  for (const FaceHandle f : m.mesh.faces()) {
+    const std::array<VertexHandle, 3> v = m.corners(m.mesh.halfedge_handle(f));
+    const double wanted = (m.at(v[0]).wanted + m.at(v[1]).wanted + m.at(v[2]).wanted) / 3;
+    const double edge = std::max(wanted, std::min(least, m.lengths.at(m.point(v[0]))));
+    count += 2 / std::sqrt(3.0) * length(area_vector(m.points(v))) / (edge * edge);
+  }
+  return count;
+}
+
+void limit_count(WorkingMesh& m) {
+  const double usual = m.lengths.usual();
+  const double most = count_triangles(m, usual) + most_triangles_at_features;
+  if (count_triangles(m, 0) <= most) return;
+  double low = 0, least = usual;
+  for (int i = 0; i < 10; ++i) {
+    const double middle = 0.5 * (low + least);
+    (count_triangles(m, middle) > most ? low : least) = middle;
+  }
+  for (const VertexHandle v : m.mesh.vertices())
+    limit_from_below(m.at(v).wanted, std::min(least, m.lengths.at(m.point(v))));
+  for (WorkingMesh::Knot& k : m.knots) limit_from_below(k.wanted, std::min(least, m.lengths.at(k.position)));
+}
+
 }  // namespace
 
 double EdgeLengths::at(const Point3& p) const {
@@ -190,6 +225,7 @@ void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
     }
   }
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
+  limit_count(m);
 }
 
 }  // namespace ccdt::surface

@@ -30,6 +30,7 @@ class EdgeLengths {
 
   explicit EdgeLengths(double usual) : usual_(usual), reaches_({}) {}
 
+  double usual() const { return usual_; }
   double at(const Point3& p) const;
 
   void limit(const std::vector<Ball>& balls);

@@ -178,6 +178,21 @@ TEST(FindFreedom, SteinerVerticesStayOnFacetsThatAreFlatOnlyWithinTheTolerance) 
   EXPECT_EQ(sliding_middles(mapped(schoenhardt(), turn)), 12);
 }
 
+/// The cells around such an edge are in two groups, and a move that is right for one may turn the other inside out.
+TEST(FindFreedom, NothingSlidesAlongAnEdgeWhereTheDomainTouchesItself) {
+  plc::InputPlc plc = gridded_cube(4);
+  const auto offset = static_cast<std::uint32_t>(plc.vertices.size());
+  for (std::uint32_t v = 0; v < offset; ++v) plc.vertices.push_back(plc.vertices[v] + Point3{1, 1, 0});
+  const std::size_t triangles = plc.triangles.size();
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const auto [a, b, c] = plc.triangles[t];
+    plc.triangles.push_back({a + offset, b + offset, c + offset});
+  }
+  const Found found = find(plc);
+  EXPECT_EQ(found.dimensions_at({1, 1, 0.5}), 0);
+  EXPECT_EQ(found.dimensions_at({1, 0, 0.5}), 1);
+}
+
 TEST(FindFreedom, IsolatedVerticesStay) {
   plc::InputPlc plc = seeded_cube();
   plc.vertices.push_back({1.5, 1.5, 1.5});

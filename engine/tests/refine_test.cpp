@@ -5,6 +5,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/portable_math.h"
 #include "engine/numbers/predicates.h"
+#include "engine/refine/close_segments.h"
 #include "engine/refine/refine_plc.h"
 #include "engine/refine/surface_sizes.h"
 #include "engine/refine/thin_places.h"
@@ -221,6 +222,67 @@ TEST(Refine, EndsAtSmallAngles) {
     expect_exactly_in_place(r);
     EXPECT_LT(all_points(r.after).size(), 10000u);
   }
+}
+
+/// A pleated cone: segments from its tip to points around a circle, alternately convex and reflex.
+InputPlc pleated_cone(int pleats) {
+  InputPlc plc;
+  plc.vertices = {{0, 0, 0}, {100, 0, 0}};
+  const int points = 2 * pleats;
+  for (int i = 0; i < points; ++i) {
+    const double angle = to_radians(360.0 * i / points), radius = i % 2 == 0 ? 0.7 : 1;
+    plc.vertices.push_back({100, radius * portable::cosine(angle), radius * portable::sine(angle)});
+    const auto here = static_cast<std::uint32_t>(2 + i), next = static_cast<std::uint32_t>(2 + (i + 1) % points);
+    plc.triangles.push_back({0, next, here});
+    plc.triangles.push_back({1, here, next});
+  }
+  return plc;
+}
+
+TEST(Refine, SegmentsThatMeetAtSmallAnglesGetVerticesAtTheSameDistances) {
+  const InputPlc plc = pleated_cone(20);
+  MeshOptions options = refining(2.5);
+  options.lattice = Lattice::none;
+  const MeshResult r = mesh_plc(plc, options);
+  EXPECT_GT(r.counts.refined_on_segments, 500u);
+  EXPECT_EQ(r.counts.steiner_vertices, 0u);
+  expect_verified(plc, r.mesh);
+}
+
+/// A segment from (0, 0, 0) to (1, 0, 0), and another one; both are protected.
+std::vector<LeastDistances> close_segments(const Point3& from, const Point3& to) {
+  constexpr double size = 0x1p50;
+  plc::Plc plc;
+  plc.vertices = {{0, 0, 0}, {size, 0, 0}};
+  std::array<VertexId, 2> ends;
+  for (int i = 0; i < 2; ++i) {
+    const Point3 p = size * (i == 0 ? from : to);
+    if (p == Point3{}) {
+      ends[i] = VertexId(0);
+      continue;
+    }
+    ends[i] = VertexId(plc.vertices.size());
+    plc.vertices.push_back(p);
+  }
+  plc.segments = {{{VertexId(0), VertexId(1)}, 0, true}, {ends, 0, true}};
+  return find_close_segments(plc);
+}
+
+TEST(Refine, SegmentsThatNearlyTouchSideBySideGetNoVertices) {
+  const LeastDistances none = {no_vertices, no_vertices}, any = {no_small_angle, no_small_angle};
+  EXPECT_EQ(close_segments({0, 5e-7, 0}, {1, 5e-7, 0}), (std::vector{none, none}));
+  EXPECT_EQ(close_segments({0.5, 5e-7, 0}, {1.5, 5e-7, 0}), (std::vector{none, none}));
+  EXPECT_EQ(close_segments({0, 1e-5, 0}, {1, 1e-5, 0}), (std::vector{any, any}));
+  EXPECT_EQ(close_segments({0.5, 5e-7, -1}, {0.5, 5e-7, 1}), (std::vector{any, any})) << "they cross";
+}
+
+TEST(Refine, TheSmallerTheAngleTheFurtherAwayAreTheFirstVertices) {
+  const auto least_at = [](double angle) {
+    return close_segments({0, 0, 0}, {1, angle, 0})[0][0] / close_segments({0, 0, 0}, {1, 0.1, 0})[0][0];
+  };
+  EXPECT_NEAR(least_at(0.05), 4, 0.05);
+  EXPECT_NEAR(least_at(0.01), 100, 2);
+  EXPECT_EQ(close_segments({0, 0, 0}, {0, 1, 0})[0], (LeastDistances{no_small_angle, no_small_angle}));
 }
 
 TEST(Refine, MeshesAreVerifiedAgainstTheInputAsItWas) {
