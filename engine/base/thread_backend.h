@@ -55,8 +55,10 @@ void for_ranges(std::size_t count, std::size_t grain, const Work& work) {
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <mutex>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -91,18 +93,27 @@ inline bool is_canceled() {
   return canceled != nullptr && *canceled;
 }
 
+/// Pauses before some of the ranges, so that the threads meet in another order each time.
+inline void pause_at_random() {
+  thread_local std::minstd_rand random(std::random_device{}());
+  if (random() % 8 == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 64));
+}
+
 template <class Work>
 void for_ranges(std::size_t size, std::size_t grain, const Work& work) {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> stop = false;
   std::exception_ptr failure;
   std::mutex mutex;
+  const bool are_several = count > 1;
   const auto take_ranges = [&](unsigned thread) {
     number = thread;
     canceled = &stop;
     try {
-      for (std::size_t begin = next.fetch_add(grain); begin < size && !stop; begin = next.fetch_add(grain))
+      for (std::size_t begin = next.fetch_add(grain); begin < size && !stop; begin = next.fetch_add(grain)) {
+        if (are_several) pause_at_random();
         work(begin, std::min(begin + grain, size));
+      }
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!failure) failure = std::current_exception();

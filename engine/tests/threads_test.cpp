@@ -198,6 +198,21 @@ TEST(Threads, MakeOneMeshOfARemeshedSurface) {
   }
 }
 
+/// Under the thread sanitizer, threads pause at random, so that each repetition runs in another order.
+TEST(Threads, MakeOneMeshTimeAndAgain) {
+  std::mt19937 random(8);
+  const std::vector<InputPlc> inputs = {random_voxels(2, 3, random), cube_with_turnstile(),
+                                        models::make_solid("sphere", 0.12)};
+  for (const InputPlc& input : inputs) {
+    MeshOptions options;
+    options.edge_length = 0.12;
+    options.threads = 1;
+    const MeshResult one = mesh_plc(input, options);
+    options.threads = 4;
+    for (int repetition = 0; repetition < 10; ++repetition) expect_same_bytes(one.mesh, mesh_plc(input, options).mesh);
+  }
+}
+
 TEST(Threads, StopWhenProgressThrows) {
   struct Canceled {};
   MeshOptions options;
