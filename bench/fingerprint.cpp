@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "engine/base/parallel.h"
+
 namespace ccdt::bench {
 namespace {
 
@@ -36,6 +38,20 @@ struct Sum {
   }
 };
 
+/// The sum of the hashes that `hash(i)` gives for each i below `count`.
+template <class HashOf>
+Sum sum_of(std::size_t count, const HashOf& hash) {
+  constexpr std::size_t chunk_length = 16384;
+  const auto parts = parallel_chunks(count, chunk_length, [&](std::size_t i, std::size_t end) {
+    Sum sum;
+    for (; i < end; ++i) sum.add(hash(i));
+    return sum;
+  });
+  Sum all;
+  for (const Sum& part : parts) all.add({part.a, part.b});
+  return all;
+}
+
 /// The two zeros are equal.
 std::uint64_t bits_of(double coordinate) {
   return std::bit_cast<std::uint64_t>(coordinate + 0.0);
@@ -59,9 +75,9 @@ Hash hash_of(std::uint64_t number, const Point3& p) {
 }  // namespace
 
 std::string fingerprint(const mesh::TetMesh& mesh) {
-  Sum vertices, tetrahedra;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) vertices.add(hash_of(v, mesh.vertices[v]));
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) tetrahedra.add(hash_of(mesh.tetrahedra[t], mesh.regions[t]));
+  const Sum vertices = sum_of(mesh.vertices.size(), [&](std::size_t v) { return hash_of(v, mesh.vertices[v]); });
+  const Sum tetrahedra =
+      sum_of(mesh.tetrahedra.size(), [&](std::size_t t) { return hash_of(mesh.tetrahedra[t], mesh.regions[t]); });
   Hash all;
   for (const std::uint64_t word : {std::uint64_t{mesh.vertices.size()}, std::uint64_t{mesh.tetrahedra.size()},
                                    vertices.a, vertices.b, tetrahedra.a, tetrahedra.b})

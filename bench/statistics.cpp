@@ -86,13 +86,10 @@ double quantile(std::span<const double> samples, double fraction) {
   std::vector<double> sorted(samples.begin(), samples.end());
   const double position = fraction * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(position);
-  const auto at = [&](std::size_t i) {
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(i), sorted.end());
-    return sorted[i];
-  };
-  const double low = at(below);
-  const double weight = position - static_cast<double>(below);
-  return weight == 0 ? low : low + weight * (at(below + 1) - low);
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(sorted.begin(), at, sorted.end());
+  const double low = *at, weight = position - static_cast<double>(below);
+  return weight == 0 ? low : low + weight * (*std::min_element(at + 1, sorted.end()) - low);
 }
 
 double median(std::span<const double> samples) {

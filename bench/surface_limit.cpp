@@ -6,6 +6,7 @@
 
 #include "bench/quality.h"
 #include "engine/base/hash_table.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 
 namespace ccdt::bench {
@@ -28,11 +29,17 @@ SurfaceLimit find_surface_limit(const mesh::TetMesh& mesh) {
     if (angle >= SurfaceLimit::bad_angle) continue;
     for (std::size_t i = 0; i < 3; ++i) edges_of_bad.set(edge_key(f[i], f[(i + 1) % 3]), 1);
   }
-  for (const auto& t : mesh.tetrahedra) {
-    if (shape_measure({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]}) <=
-        SurfaceLimit::bad_r)
-      continue;
-    ++limit.bad_tetrahedra;
+  const auto bad = parallel_collect<std::size_t>(
+      mesh.tetrahedra.size(), 8192, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
+        for (; i < end; ++i) {
+          const auto& [a, b, c, d] = mesh.tetrahedra[i];
+          const std::array corners = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]};
+          if (!(shape_measure(corners) <= SurfaceLimit::bad_r)) found.push_back(i);
+        }
+      });
+  limit.bad_tetrahedra = bad.size();
+  for (const std::size_t number : bad) {
+    const auto& t = mesh.tetrahedra[number];
     bool is_at_bad = false;
     for (std::size_t i = 1; i < 4; ++i)
       for (std::size_t j = 0; j < i; ++j) is_at_bad = is_at_bad || edges_of_bad.contains(edge_key(t[i], t[j]));

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/sort_in_buckets.h"
+
 namespace ccdt {
 
 /// An undirected edge as one number: the smaller end in the upper half. Keys sort as pairs of ends do.
@@ -88,11 +90,16 @@ struct AtEdge {
   auto operator<=>(const AtEdge&) const = default;
 };
 
+/// Sorts the values by edge, and those of an edge.
+inline void sort_by_edge(std::vector<AtEdge>& values) {
+  sort_in_buckets(values, [](const AtEdge& value) { return static_cast<std::uint32_t>(value.edge >> 32); });
+}
+
 /// Sorts the values by edge, then calls visit(group) for the values of each edge, in increasing order of the edges and
 /// of the values of an edge. Visit takes a `std::span<const AtEdge>`.
 template <class Visit>
 void for_each_edge_group(std::vector<AtEdge>& values, const Visit& visit) {
-  std::ranges::sort(values);
+  sort_by_edge(values);
   for (std::size_t i = 0, next; i < values.size(); i = next) {
     for (next = i + 1; next < values.size() && values[next].edge == values[i].edge;) ++next;
     visit(std::span<const AtEdge>(values).subspan(i, next - i));

@@ -12,6 +12,7 @@
 #include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
@@ -356,13 +357,15 @@ bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const
 
 // The edges that do not lie within one facet, and the segments of the input that are not edges.
 std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map) {
-  std::vector<Segment> segments;
-  for (std::uint32_t e = 0; e < parts.edges.size(); ++e) {
-    if (parts.patches.is_inner_edge[e]) continue;
-    const std::uint32_t s = parts.match.segment_of[e];
-    const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
-    segments.push_back({parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e)});
-  }
+  std::vector<Segment> segments = parallel_collect<Segment>(
+      parts.edges.size(), 4096, [&](std::size_t begin, std::size_t end, std::vector<Segment>& found) {
+        for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
+          if (parts.patches.is_inner_edge[e]) continue;
+          const std::uint32_t s = parts.match.segment_of[e];
+          const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
+          found.push_back({parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e)});
+        }
+      });
   for (std::size_t i = 0; i < map.of_loose.size(); ++i) {
     const std::uint32_t s = parts.match.loose[i];
     segments.push_back({parts.segments.ends[s], parts.segments.markers[s], map.regions[map.of_loose[i]].inside});

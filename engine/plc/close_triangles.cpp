@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/numbers/filters.h"
 
 namespace ccdt::plc {
@@ -47,9 +48,9 @@ bool are_apart(std::span<const Point3> vertices, const CornerPairs& pair) {
 }  // namespace
 
 std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  for (const VertexTriple& t : triangles.corners) boxes.push_back(bounding_box(points_of(vertices, t)));
+  std::vector<Box> boxes(triangles.size());
+  parallel_for(boxes.size(), 4096,
+               [&](std::size_t t) { boxes[t] = bounding_box(points_of(vertices, triangles.corners[t])); });
   return boxes;
 }
 

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/merge_sort.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
 namespace {
+
+constexpr std::size_t chunk_length = 4096;  // of loops on several threads
 
 // For c and d coplanar with the edge ab: are they on the same side of it?
 bool on_same_side(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
@@ -45,22 +49,41 @@ Point3 common_point(const Point3& a, const Point3& b, const Point3& c, const Poi
 }  // namespace
 
 EdgeTable make_edge_table(std::span<const VertexTriple> triangles) {
-  std::vector<AtEdge> slots;  // 3 * triangle + corner
-  slots.reserve(triangles.size() * 3);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    for (std::uint32_t k = 0; k < 3; ++k)
-      slots.push_back({edge_key(triangles[t][k], triangles[t][(k + 1) % 3]), 3 * t + k});
+  std::vector<AtEdge> slots(triangles.size() * 3);  // 3 * triangle + corner
+  parallel_for(slots.size(), chunk_length, [&](std::size_t i) {
+    const VertexTriple& t = triangles[i / 3];
+    slots[i] = {edge_key(t[i % 3], t[(i + 1) % 3]), static_cast<std::uint32_t>(i)};
+  });
+  sort_by_edge(slots);
+
+  // Chunks count their edges first, so that each knows the number of its first edge.
+  const auto begins_edge = [&](std::size_t i) { return i == 0 || slots[i].edge != slots[i - 1].edge; };
+  std::vector<std::uint32_t> edges_before =
+      parallel_chunks(slots.size(), chunk_length, [&](std::size_t i, std::size_t end) {
+        std::uint32_t count = 0;
+        for (; i < end; ++i) count += begins_edge(i);
+        return count;
+      });
+  std::uint32_t edges = 0;
+  for (std::uint32_t& count : edges_before) edges += std::exchange(count, edges);
 
   EdgeTable table;
-  table.triangles.reserve(slots.size());
+  table.ends.resize(edges);
+  table.first.resize(edges + 1, static_cast<std::uint32_t>(slots.size()));
+  table.triangles.resize(slots.size());
   table.edges_of.resize(triangles.size());
-  for_each_edge_group(slots, [&](std::span<const AtEdge> group) {
-    for (const auto& [key, slot] : group) table.edges_of[slot / 3][slot % 3] = table.size();
-    table.ends.push_back({VertexId(group[0].edge >> 32), VertexId(group[0].edge & 0xFFFFFFFFu)});
-    table.first.push_back(static_cast<std::uint32_t>(table.triangles.size()));
-    for (const auto& [key, slot] : group) table.triangles.push_back(slot / 3);
+  parallel_for(edges_before.size(), 1, [&](std::size_t chunk) {
+    std::uint32_t next = edges_before[chunk];
+    for (std::size_t i = chunk * chunk_length; i < std::min(slots.size(), (chunk + 1) * chunk_length); ++i) {
+      const auto [key, slot] = slots[i];
+      if (begins_edge(i)) {
+        table.ends[next] = {VertexId(key >> 32), VertexId(key & 0xFFFFFFFFu)};
+        table.first[next++] = static_cast<std::uint32_t>(i);
+      }
+      table.triangles[i] = slot / 3;
+      table.edges_of[slot / 3][slot % 3] = next - 1;
+    }
   });
-  table.first.push_back(static_cast<std::uint32_t>(slots.size()));
   return table;
 }
 

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "engine/base/parallel.h"
+#include "engine/base/sort_in_runs.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
@@ -14,6 +17,7 @@ namespace ccdt::plc {
 namespace {
 
 constexpr std::uint32_t none = EdgeTable::none;
+constexpr std::size_t grain = 4096;  // of loops on several threads
 
 struct Plane {
   Point3 normal;  // of any length
@@ -53,12 +57,14 @@ class PatchFinder {
         turned_(triangles.size(), 0),
         round_of_(triangles.size(), 0),
         may_cross_(edges.size()) {
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) normals_[t] = rounded_normal(corner_points(t));
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      const auto around = edges.around(e);
+    parallel_for(triangles.size(), grain,
+                 [&](std::size_t t) { normals_[t] = rounded_normal(corner_points(static_cast<std::uint32_t>(t))); });
+    parallel_for(edges.size(), grain, [&](std::size_t e) {
+      const auto around = edges.around(static_cast<std::uint32_t>(e));
       may_cross_[e] =
           around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
-    }
+    });
+    if (thread_count() > 1) find_lonely();
   }
 
   FacetPatches find() {
@@ -66,8 +72,9 @@ class PatchFinder {
     std::iota(order.begin(), order.end(), 0u);
     std::vector<double> squared_area(triangles_.size());
     for (std::uint32_t t : order) squared_area[t] = squared_length(normals_[t]);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t s, std::uint32_t t) { return squared_area[s] > squared_area[t]; });
+    sort_in_runs(order, [&](std::uint32_t s, std::uint32_t t) {
+      return squared_area[s] != squared_area[t] ? squared_area[s] > squared_area[t] : s < t;
+    });
 
     std::vector<std::uint32_t> seeds;
     for (const std::uint32_t seed : order) {
@@ -85,9 +92,27 @@ class PatchFinder {
  private:
   std::array<Point3, 3> corner_points(std::uint32_t t) const { return points_of(vertices_, triangles_.corners[t]); }
 
+  // Most triangles of a curved surface are facets of their own. Several threads find them before patches grow.
+  void find_lonely() {
+    is_lonely_.resize(triangles_.size());
+    parallel_for(triangles_.size(), grain, [&](std::size_t i) {
+      const auto t = static_cast<std::uint32_t>(i);
+      FittedPlane fitted;
+      fitted.add(normals_[t], corner_points(t));
+      const Plane plane = fitted.plane();
+      is_lonely_[t] = std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
+        return may_cross_[e] && find_turn(across(e, t), e, runs_along_edge(t, e), plane);
+      });
+    });
+  }
+
   // Stores the patch of the seed in `patch_`. It grows along a plane that is fitted on the way. If some vertex is too
   // far from the final plane, it grows again along that fixed plane.
   void find_patch(std::uint32_t seed) {
+    if (!is_lonely_.empty() && is_lonely_[seed]) {
+      patch_.assign(1, seed);
+      return;
+    }
     FittedPlane fitted;
     fitted.add(normals_[seed], corner_points(seed));
     grow(seed, fitted, true);
@@ -124,25 +149,41 @@ class PatchFinder {
 
   std::uint32_t neighbor_across(std::uint32_t e, std::uint32_t t) const {
     if (!may_cross_[e]) return none;
-    const auto around = edges_.around(e);
-    const std::uint32_t next = around[0] == t ? around[1] : around[0];
+    const std::uint32_t next = across(e, t);
     return facet_of_[next] == none && round_of_[next] != round_ ? next : none;
+  }
+
+  // The other triangle at an edge that a patch may grow over.
+  std::uint32_t across(std::uint32_t e, std::uint32_t t) const {
+    const auto around = edges_.around(e);
+    return around[0] == t ? around[1] : around[0];
+  }
+
+  // Does the triangle run along the edge from its smaller end to its greater?
+  bool runs_along_edge(std::uint32_t t, std::uint32_t e) const {
+    const auto [a, b] = edges_.ends[e];
+    return runs_along(triangles_.corners[t], a, b);
   }
 
   // Is the neighbor in the plane and, when oriented like the triangle it was reached from, counterclockwise in the
   // projection?
   bool accept(std::uint32_t next, std::uint32_t e, std::uint32_t t, const Plane& plane) {
+    const auto turn = find_turn(next, e, runs_along_edge(t, e) != static_cast<bool>(turned_[t]), plane);
+    if (turn) turned_[next] = *turn;
+    return turn.has_value();
+  }
+
+  // Must the neighbor be turned to belong to the patch? None if it does not belong there.
+  std::optional<bool> find_turn(std::uint32_t next, std::uint32_t e, bool runs, const Plane& plane) const {
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[next], a, b);
     for (const VertexId v : {apex, a, b})
-      if (plane.squared_distance(vertices_[v]) > squared_tolerance_) return false;
-    const bool t_runs = runs_along(triangles_.corners[t], a, b) != static_cast<bool>(turned_[t]);
-    const bool turn = runs_along(triangles_.corners[next], a, b) == t_runs;
+      if (plane.squared_distance(vertices_[v]) > squared_tolerance_) return std::nullopt;
+    const bool turn = runs_along_edge(next, e) == runs;
     const int axis = dominant_axis(plane.normal);
     const double along = as_array(normals_[next])[axis] * as_array(plane.normal)[axis];  // signs are exact
-    if (turn ? along >= 0 : along <= 0) return false;
-    turned_[next] = turn;
-    return true;
+    if (turn ? along >= 0 : along <= 0) return std::nullopt;
+    return turn;
   }
 
   bool is_within(std::uint32_t t, const Plane& plane) const {
@@ -182,21 +223,21 @@ class PatchFinder {
     }
     patches.exactly_flat.assign(reference.size(), 1);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      char& flat = patches.exactly_flat[patches.facet_of[t]];
       const std::uint32_t seed = reference[patches.facet_of[t]];
-      if (!flat || seed == t) continue;
+      if (seed == t) continue;
+      char& flat = patches.exactly_flat[patches.facet_of[t]];
+      if (!flat) continue;
       const auto [a, b, c] = corner_points(seed);
       for (const Point3& p : corner_points(t)) flat = flat && numbers::orient3d(a, b, c, p) == 0;
     }
     patches.is_inner_edge.assign(edges_.size(), 0);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-      if (!may_cross_[e]) continue;
+    parallel_for(edges_.size(), grain, [&](std::size_t i) {
+      const auto e = static_cast<std::uint32_t>(i);
+      if (!may_cross_[e]) return;
       const auto around = edges_.around(e);
-      const auto [a, b] = edges_.ends[e];
-      patches.is_inner_edge[e] =
-          facet_of_[around[0]] == facet_of_[around[1]] &&
-          runs_along(triangles_.corners[around[0]], a, b) != runs_along(triangles_.corners[around[1]], a, b);
-    }
+      patches.is_inner_edge[e] = facet_of_[around[0]] == facet_of_[around[1]] &&
+                                 runs_along_edge(around[0], e) != runs_along_edge(around[1], e);
+    });
     return patches;
   }
 
@@ -209,6 +250,7 @@ class PatchFinder {
   std::vector<char> turned_;
   std::vector<std::uint32_t> round_of_;  // the last round of growing that reached the triangle
   std::vector<char> may_cross_;          // edges that a patch may grow over
+  std::vector<char> is_lonely_;          // no neighbor belongs to the patch of the triangle; empty if not known
   std::uint32_t round_ = 0;
   std::vector<std::uint32_t> patch_;
 };

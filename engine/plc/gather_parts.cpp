@@ -12,6 +12,7 @@
 #include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/sort_in_runs.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
 #include "engine/plc/bent_facets.h"
@@ -273,16 +274,20 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
   plc.grid = numbers::make_grid(input.vertices);
   const auto count = static_cast<std::uint32_t>(input.vertices.size());
   std::vector<Point3> snapped(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    snapped[i] = plc.grid.snap(input.vertices[i]);
-    plc.largest_rounding =
-        std::max(plc.largest_rounding, largest_difference(plc.grid.to_world(snapped[i]), input.vertices[i]));
-  }
+  const auto roundings = parallel_chunks(count, 4096, [&](std::size_t i, std::size_t end) {
+    double largest = 0;
+    for (; i < end; ++i) {
+      snapped[i] = plc.grid.snap(input.vertices[i]);
+      largest = std::max(largest, largest_difference(plc.grid.to_world(snapped[i]), input.vertices[i]));
+    }
+    return largest;
+  });
+  for (const double rounding : roundings) plc.largest_rounding = std::max(plc.largest_rounding, rounding);
 
   // Equal points become neighbors in sorted order; the first of them in the input stands for all.
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+  sort_in_runs(order, [&](std::uint32_t i, std::uint32_t j) {
     const Point3 &a = snapped[i], &b = snapped[j];
     if (a.x != b.x) return a.x < b.x;
     if (a.y != b.y) return a.y < b.y;
@@ -338,14 +343,17 @@ void triangulate_polygons(const InputPlc& input, const Plc& plc, double toleranc
 }
 
 std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
-  TriangleSet kept;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+  std::vector<char> has_area(triangles.size());
+  parallel_for(triangles.size(), 4096, [&](std::size_t t) {
     const auto [a, b, c] = triangles.corners[t];
-    if (a == b || b == c || c == a || has_no_area(points_of(vertices, triangles.corners[t]))) continue;
-    kept.add(triangles.corners[t], triangles.markers[t], triangles.numbers[t]);
-  }
-  const std::uint32_t dropped = triangles.size() - kept.size();
-  if (dropped > 0) triangles = std::move(kept);
+    has_area[t] = a != b && b != c && c != a && !has_no_area(points_of(vertices, triangles.corners[t]));
+  });
+  const auto dropped = static_cast<std::uint32_t>(std::ranges::count(has_area, 0));
+  if (dropped == 0) return 0;
+  TriangleSet kept;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (has_area[t]) kept.add(triangles.corners[t], triangles.markers[t], triangles.numbers[t]);
+  triangles = std::move(kept);
   return dropped;
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
+#include "engine/base/sort_in_buckets.h"
 #include "engine/base/union_find.h"
 #include "engine/plc/integer_points.h"
 
@@ -30,11 +32,14 @@ void throw_input_error(const Plc& plc, const std::string& what, const std::strin
 }
 
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  std::vector<std::pair<FaceKey, std::uint32_t>> sorted;
-  sorted.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles.corners) sorted.emplace_back(face_key(a, b, c), sorted.size());
-  std::sort(sorted.begin(), sorted.end());
-  const auto twin = std::ranges::adjacent_find(sorted, {}, &std::pair<FaceKey, std::uint32_t>::first);
+  using KeyedTriangle = std::pair<FaceKey, std::uint32_t>;
+  std::vector<KeyedTriangle> sorted(triangles.size());
+  parallel_for(sorted.size(), 4096, [&](std::size_t t) {
+    const auto& [a, b, c] = triangles.corners[t];
+    sorted[t] = {face_key(a, b, c), static_cast<std::uint32_t>(t)};
+  });
+  sort_in_buckets(sorted, [](const KeyedTriangle& t) { return t.first[0]; });
+  const auto twin = std::ranges::adjacent_find(sorted, {}, &KeyedTriangle::first);
   if (twin == sorted.end()) return;
   const std::uint32_t s = twin[0].second, t = twin[1].second;
   throw_input_error(plc, "two facets have the same corners", "remove one of the two",
