@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/base/count_work.h"
@@ -116,6 +117,23 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
 /// \return  the number before
 inline std::uint32_t add_one(std::uint32_t& number) {
   return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed);
+}
+
+/// Fills a list to which each chunk of 0 .. count adds some items, on several threads, in the order of the chunks.
+///
+/// \param count_in   `count_in(begin, end)`: how many items these indices add
+/// \param make_room  `make_room(size)`: called once with the number of all items
+/// \param fill       `fill(begin, end, place)`: writes the items of these indices, the first one at this place
+template <class CountIn, class MakeRoom, class Fill>
+void parallel_pack(std::size_t count, std::size_t length, const CountIn& count_in, const MakeRoom& make_room,
+                   const Fill& fill) {
+  std::vector<std::size_t> places = parallel_chunks(
+      count, length, [&](std::size_t begin, std::size_t end) { return std::size_t{count_in(begin, end)}; });
+  std::size_t size = 0;
+  for (std::size_t& place : places) size += std::exchange(place, size);
+  make_room(size);
+  parallel_for(places.size(), 1,
+               [&](std::size_t i) { fill(i * length, std::min(count, (i + 1) * length), places[i]); });
 }
 
 }  // namespace ccdt

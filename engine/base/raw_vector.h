@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <new>
 #include <utility>
@@ -27,5 +28,34 @@ struct RawAllocator : std::allocator<T> {
 /// system hands out each page to the thread that first uses it.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
+
+/// Memory in large pages, which goes back to the system when it is freed.
+/// \throw std::bad_alloc  there is not so much
+void* allocate_large_pages(std::size_t bytes);
+void free_large_pages(void* place, std::size_t bytes);
+
+/// The same in large pages. Small arrays are allocated as usual.
+template <class T>
+struct LargePageAllocator : RawAllocator<T> {
+  template <class U>
+  struct rebind {
+    using other = LargePageAllocator<U>;
+  };
+  static constexpr std::size_t least_bytes = std::size_t{1} << 22;
+
+  T* allocate(std::size_t count) {
+    if (count * sizeof(T) < least_bytes) return RawAllocator<T>::allocate(count);
+    return static_cast<T*>(allocate_large_pages(count * sizeof(T)));
+  }
+  void deallocate(T* place, std::size_t count) {
+    if (count * sizeof(T) < least_bytes) return RawAllocator<T>::deallocate(place, count);
+    free_large_pages(place, count * sizeof(T));
+  }
+};
+
+/// A `RawVector` that lives long and is read all over the place, which is faster with large pages. They are not worth
+/// their price for an array that is read once.
+template <class T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
 
 }  // namespace ccdt

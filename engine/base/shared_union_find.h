@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/parallel.h"
+
 namespace ccdt {
 
 /// Disjoint sets of 0, 1, ..., n-1 that several threads may join and find at the same time. As in `UnionFind`, the
@@ -25,6 +27,25 @@ class SharedUnionFind {
       i = above;
     }
     return i;
+  }
+
+  /// The same for two sets that no other thread finds or joins.
+  /// \return  the representative of both
+  std::uint32_t join_own(std::uint32_t i, std::uint32_t j) {
+    i = find(i);
+    j = find(j);
+    if (i < j) std::swap(i, j);
+    at(i).store(j, std::memory_order_relaxed);
+    return j;
+  }
+
+  /// Of each i. A parent is never greater than its child, so most are found in one step.
+  std::vector<std::uint32_t> take_representatives() && {
+    parallel_for(parent_.size(), 4096, [&](std::size_t i) {
+      const auto member = static_cast<std::uint32_t>(i);
+      at(member).store(find(member), std::memory_order_relaxed);
+    });
+    return std::move(parent_);
   }
 
   void join(std::uint32_t i, std::uint32_t j) {

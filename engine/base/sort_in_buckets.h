@@ -26,14 +26,14 @@ void sort_in_buckets(std::vector<Item>& items, const BucketOf& bucket_of, const 
   if (buckets > 4 * items.size()) return sort_in_runs(items, less);
   std::vector<std::uint32_t> end(buckets + 1, 0);
   const bool alone = thread_count() == 1;
-  const auto add_one = [&](std::uint32_t& count) {
+  const auto take_one = [&](std::uint32_t& count) {
     return alone ? count++ : std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
   };
-  parallel_for(items.size(), grain, [&](std::size_t i) { add_one(end[bucket_of(items[i]) + 1]); });
+  parallel_for(items.size(), grain, [&](std::size_t i) { take_one(end[bucket_of(items[i]) + 1]); });
   for (std::size_t b = 1; b <= buckets; ++b) end[b] += end[b - 1];
   // So far each entry is where the bucket begins. Each item moves it on, to where the bucket ends.
   RawVector<Item> sorted(items.size());
-  parallel_for(items.size(), grain, [&](std::size_t i) { sorted[add_one(end[bucket_of(items[i])])] = items[i]; });
+  parallel_for(items.size(), grain, [&](std::size_t i) { sorted[take_one(end[bucket_of(items[i])])] = items[i]; });
   parallel_for(buckets, grain, [&](std::size_t b) {
     const std::uint32_t first = b == 0 ? 0 : end[b - 1];
     std::sort(sorted.begin() + first, sorted.begin() + end[b], less);

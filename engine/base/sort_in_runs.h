@@ -17,16 +17,30 @@ namespace ccdt {
 template <class Item, class SortRun, class Less>
 void sort_in_runs(std::vector<Item>& items, const SortRun& sort_run, const Less& less) {
   constexpr std::size_t least_run = 20000;
+  using Iterator = typename std::vector<Item>::iterator;
   const std::size_t runs = std::bit_floor(std::clamp<std::size_t>(items.size() / least_run, 1, thread_count()));
   const auto place = [&](std::size_t run) {
     return items.begin() + static_cast<std::ptrdiff_t>(items.size() * run / runs);
   };
   parallel_for(runs, 1, [&](std::size_t r) { sort_run(place(r), place(r + 1)); });
-  for (std::size_t merged = 1; merged < runs; merged *= 2)
-    parallel_for(runs / (2 * merged), 1, [&](std::size_t i) {
-      const std::size_t r = 2 * merged * i;
-      std::inplace_merge(place(r), place(r + merged), place(r + 2 * merged), less);
+  struct Halves {
+    Iterator begin, left, middle, right, end;
+  };
+  for (std::size_t merged = 1; merged < runs; merged *= 2) {
+    const std::size_t pairs = runs / (2 * merged);
+    std::vector<Halves> halves(pairs);
+    // What belongs before the middle of the first run is merged by one thread, and the rest by another.
+    parallel_for(pairs, 1, [&](std::size_t i) {
+      const Iterator begin = place(2 * merged * i), next = place(2 * merged * i + merged);
+      const Iterator end = place(2 * merged * (i + 1)), left = begin + (next - begin) / 2;
+      const Iterator right = std::lower_bound(next, end, *left, less);
+      halves[i] = {begin, left, std::rotate(left, next, right), right, end};
     });
+    parallel_for(2 * pairs, 1, [&](std::size_t i) {
+      const auto& [begin, left, middle, right, end] = halves[i / 2];
+      i % 2 == 0 ? std::inplace_merge(begin, left, middle, less) : std::inplace_merge(middle, right, end, less);
+    });
+  }
 }
 
 /// The same by comparisons alone.

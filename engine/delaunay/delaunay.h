@@ -63,7 +63,7 @@ constexpr std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uin
 }
 
 /// Makes two cells neighbors across the face with code a in one and code b in the other.
-inline void join_faces(RawVector<Cell>& cells, std::uint32_t a, std::uint32_t b) {
+inline void join_faces(LargeVector<Cell>& cells, std::uint32_t a, std::uint32_t b) {
   cells[cell_of(a)].neighbors[face_of(a)] = b;
   cells[cell_of(b)].neighbors[face_of(b)] = a;
 }
@@ -72,7 +72,7 @@ inline void join_faces(RawVector<Cell>& cells, std::uint32_t a, std::uint32_t b)
 /// structure: cells and vertices are indices into arrays. Cells whose place can be reused are dead.
 struct Delaunay {
   std::vector<DelaunayVertex> vertices;  ///< by id
-  RawVector<Cell> cells;
+  LargeVector<Cell> cells;
   std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
   const Point3& point(std::uint32_t v) const { return vertices[v].point; }

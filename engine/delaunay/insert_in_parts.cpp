@@ -10,9 +10,9 @@ namespace ccdt::delaunay {
 namespace {
 
 /// In smaller parts, too many vertices are near the border.
-constexpr std::size_t least_part = 2000;
+constexpr std::size_t least_part = 1000;
 /// Another pass pays off if more than one vertex waits for every this many cells.
-constexpr std::size_t cells_per_waiting_vertex = 200;
+constexpr std::size_t cells_per_waiting_vertex = 500;
 /// The normals of the planes of each pass. The vertices that wait are near the planes of the pass before; only few of
 /// them are near planes in very different directions.
 constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
@@ -29,18 +29,29 @@ PartedInsertion::PartedInsertion(Delaunay& d) : d_(d), part_(d.vertices.size()) 
   marks_.local.resize(d.vertices.size(), InsertionMarks::no_local);
 }
 
-std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t> vertices, std::size_t done,
+std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t> vertices,
+                                                   std::vector<std::uint32_t> waiting, std::size_t done,
                                                    std::size_t total, const Progress& progress) {
   SharedProgress shared(progress, "delaunay", done, total);
-  std::vector<std::uint32_t> waiting(vertices.begin(), vertices.end());
+  waiting.insert(waiting.end(), vertices.begin(), vertices.end());
+  std::size_t with_lower_rank = waiting.size() - vertices.size();
   for (std::size_t p = 0; p < bases.size(); ++p) {
-    const std::size_t parts = std::min<std::size_t>(thread_count(), waiting.size() / least_part);
-    if (parts < 2 || (p > 0 && waiting.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
-    cut(waiting, static_cast<std::uint32_t>(parts), bases[p]);
+    const auto those = std::span(waiting).subspan(with_lower_rank);
+    const std::size_t parts = std::min<std::size_t>(thread_count(), those.size() / least_part);
+    if (parts < 2 || (p > 0 && those.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
+    cut(those, static_cast<std::uint32_t>(parts), bases[p]);
     mark_cells();
-    waiting = pass(waiting, p == 0 ? Ties::greatest_rank : Ties::any_rank, shared);
+    const auto left = pass(those, p == 0 ? Ties::greatest_rank : Ties::any_rank, shared);
+    waiting.resize(with_lower_rank);
+    waiting.insert(waiting.end(), left.begin(), left.end());
+    with_lower_rank = 0;
   }
   return waiting;
+}
+
+std::size_t PartedInsertion::most_cells(std::size_t vertices) {
+  // Those of the vertices that are in, and room for those that wait, which are few.
+  return (cells_of_vertex + 1) * vertices + 4 * thread_count() * CellPool::chunk;
 }
 
 void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis) {
@@ -64,7 +75,7 @@ void PartedInsertion::mark_cells() {
     const Part part = part_[v[0]];
     if (part_[v[1]] != part || part_[v[2]] != part || (v[3] != ghost_vertex && part_[v[3]] != part))
       marks_.cells[c] = InsertionMarks::Cell::shared;
-    else if (start_[part].load(std::memory_order_relaxed) == no_cell)
+    else if (v[3] != ghost_vertex && start_[part].load(std::memory_order_relaxed) == no_cell)
       start_[part].store(c, std::memory_order_relaxed);
   });
 }

@@ -30,10 +30,14 @@ class PartedInsertion {
   explicit PartedInsertion(Delaunay& d);
 
   /// \param vertices     in the order of their ranks, which are greater than those of all vertices that have cells
+  /// \param waiting      what the call before returned; these vertices are tried again after the others
   /// \param done, total  what to report of the whole stage
   /// \return  the vertices that still wait, too few for several threads; in the order of their ranks
-  std::vector<std::uint32_t> insert(std::span<const std::uint32_t> vertices, std::size_t done, std::size_t total,
-                                    const Progress& progress);
+  std::vector<std::uint32_t> insert(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t> waiting,
+                                    std::size_t done, std::size_t total, const Progress& progress);
+
+  /// How many new cells there should be room for, so that cells need not be moved to larger memory on the way.
+  static std::size_t most_cells(std::size_t vertices);
 
  private:
   using Part = std::uint16_t;

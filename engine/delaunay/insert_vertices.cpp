@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
@@ -26,26 +27,44 @@ void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties 
   note_bytes(bytes_of(vertices, d.vertices, d.cells, d.free_cells) + insertion.bytes());
 }
 
+/// Makes room for more cells, which several threads move there.
+void reserve(LargeVector<Cell>& cells, std::size_t capacity) {
+  if (cells.capacity() >= capacity) return;
+  LargeVector<Cell> moved;
+  moved.reserve(capacity);
+  moved.resize(cells.size());
+  parallel_for(cells.size(), 4096, [&](std::size_t c) { moved[c] = cells[c]; });
+  cells.swap(moved);
+}
+
+constexpr std::size_t cells_of_vertex = 7;  ///< about as many as there are, ghosts included
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
 
 }  // namespace
 
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {
-  d.cells.reserve(d.cells.size() + 7 * vertices.size() + 64);
   if (thread_count() == 1 || vertices.size() < least_for_threads) {
+    d.cells.reserve(d.cells.size() + cells_of_vertex * vertices.size() + 64);
     insert_in_order(d, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
     return;
   }
+  reserve(d.cells, d.cells.size() + PartedInsertion::most_cells(vertices.size()));
+  const std::size_t present = d.cells.size() / cells_of_vertex, total = present + vertices.size();
   // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere.
-  const std::size_t first = vertices.size() / 64;
+  const std::size_t first = total / 64 - std::min(total / 64, present);
   insert_in_order(d, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
   PartedInsertion parted(d);
+  std::vector<std::uint32_t> waiting;
   for (std::size_t begin = first, end = 0; begin < vertices.size(); begin = end) {
-    end = 16 * begin < vertices.size() ? 8 * begin : vertices.size();
-    const auto left = parted.insert(vertices.subspan(begin, end - begin), begin, vertices.size(), progress);
-    insert_in_order(d, left, Ties::any_rank, end - left.size(), vertices.size(), progress);
+    end = 16 * (present + begin) < total ? begin + 7 * (present + begin) : vertices.size();
+    waiting = parted.insert(vertices.subspan(begin, end - begin), std::move(waiting), begin, vertices.size(), progress);
+    if (waiting.size() < (end - begin) / 4) continue;
+    // Without them, the cells of the next round would be too large.
+    insert_in_order(d, waiting, Ties::any_rank, end - waiting.size(), vertices.size(), progress);
+    waiting.clear();
   }
+  insert_in_order(d, waiting, Ties::any_rank, vertices.size() - waiting.size(), vertices.size(), progress);
 }
 
 std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points) {

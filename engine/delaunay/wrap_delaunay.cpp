@@ -129,7 +129,7 @@ class HullWrapping {
 // ---- The hull
 
 /// The corners of a face, such that the vertex opposite to it is below them.
-FaceCorners outward_corners(const RawVector<Cell>& cells, std::uint32_t code) {
+FaceCorners outward_corners(const LargeVector<Cell>& cells, std::uint32_t code) {
   const auto [a, b, c] = corners_of_face(cells[cell_of(code)].vertices, face_of(code));
   return {a, c, b};
 }
@@ -159,7 +159,7 @@ std::vector<Side> sides_by_edge(const std::vector<FaceCorners>& corners) {
   return sides;
 }
 
-std::vector<FaceCorners> corners_of(const RawVector<Cell>& cells, std::span<const std::uint32_t> faces) {
+std::vector<FaceCorners> corners_of(const LargeVector<Cell>& cells, std::span<const std::uint32_t> faces) {
   std::vector<FaceCorners> corners(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) corners[f] = outward_corners(cells, faces[f]);
   return corners;
@@ -170,7 +170,7 @@ bool sees(std::span<const GridVertex> v, const FaceCorners& face, std::uint32_t 
   return numbers::orient3d(v[face[0]].point, v[face[1]].point, v[face[2]].point, v[vertex].point) > 0;
 }
 
-void add_faces_seen_by_lone_vertices(const RawVector<Cell>& cells, std::span<const GridVertex> vertices,
+void add_faces_seen_by_lone_vertices(const LargeVector<Cell>& cells, std::span<const GridVertex> vertices,
                                      std::span<const std::uint32_t> faces, const std::vector<FaceCorners>& corners,
                                      std::vector<UnfinishedFace>& result) {
   std::vector<bool> has_cell(vertices.size(), false);
@@ -191,7 +191,7 @@ void add_faces_seen_by_lone_vertices(const RawVector<Cell>& cells, std::span<con
 /// \param faces  codes of the open faces
 /// \return  faces that are not of the hull: at edges that are not convex; if there are none, those that see a vertex
 ///          that no cell has
-std::vector<UnfinishedFace> find_unfinished(const RawVector<Cell>& cells, std::span<const GridVertex> vertices,
+std::vector<UnfinishedFace> find_unfinished(const LargeVector<Cell>& cells, std::span<const GridVertex> vertices,
                                             std::span<const std::uint32_t> faces) {
   const auto corners = corners_of(cells, faces);
   const auto sides = sides_by_edge(corners);
@@ -214,7 +214,7 @@ std::vector<UnfinishedFace> find_unfinished(const RawVector<Cell>& cells, std::s
 }
 
 /// Adds a ghost for each of the open faces, which are those of the hull, and makes them neighbors.
-void add_ghosts(RawVector<Cell>& cells, std::span<const std::uint32_t> faces) {
+void add_ghosts(LargeVector<Cell>& cells, std::span<const std::uint32_t> faces) {
   const auto corners = corners_of(cells, faces);
   const auto first = static_cast<std::uint32_t>(cells.size());
   cells.resize(cells.size() + faces.size());
@@ -241,7 +241,7 @@ class Wrap {
   }
 
   /// \param hull_face  the outside above it
-  RawVector<Cell> run(const FaceCorners& hull_face) {
+  LargeVector<Cell> run(const FaceCorners& hull_face) {
     const FaceCorners inward = {hull_face[0], hull_face[2], hull_face[1]};
     add_cell(inward, search_.find(inward, ghost_vertex, Reach::everywhere));
     advance();
@@ -306,7 +306,7 @@ class Wrap {
   const VertexGrid& grid_;
   FourthVertexSearch search_;
   const Progress& progress_;
-  RawVector<Cell> cells_;
+  LargeVector<Cell> cells_;
   HashTable<FaceKey, std::uint32_t> open_;  ///< faces that have a cell on one side only: the codes by the corners
   std::vector<std::uint32_t> front_;        ///< faces to process next; some may be closed already
   std::vector<std::uint32_t> postponed_;    ///< open faces without a vertex nearby: of the hull, or at a wide gap

@@ -1,12 +1,16 @@
 #include "engine/facets/facet_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
+#include "engine/base/shared_progress.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/numbers/predicates.h"
@@ -106,7 +110,10 @@ FacetPlane exact_plane(const plc::Facet& facet, const std::vector<delaunay::Dela
   return FacetPlane(vertices, apex);
 }
 
-/// Processes the facets of one PLC; holds their shared data.
+/// How many facets a thread takes at a time.
+constexpr std::size_t facets_a_chunk = 1024;
+
+/// Processes the facets of one PLC; holds their shared data. A copy may work at the same time.
 class FacetMesher {
  public:
   FacetMesher(const plc::Plc& plc, const protection::SegmentChains& chains, const delaunay::Delaunay& delaunay)
@@ -114,19 +121,17 @@ class FacetMesher {
     std::vector<std::array<VertexId, 2>> edges;
     edges.reserve(plc.segments.size());
     for (const plc::Segment& s : plc.segments) edges.push_back(s.ends);
-    segment_of_edge_ = EdgeMap(edges, plc.vertices.size());
+    segment_of_edge_ = std::make_shared<const EdgeMap>(edges, plc.vertices.size());
   }
 
   void triangulate(FacetId id, FacetMesh& result) {
     const plc::Facet& facet = plc_.facets[id];
-    const std::vector<FacetSegment> segments = segments_of(facet);
-    const bool unsplit = std::all_of(segments.begin(), segments.end(),
-                                     [&](const FacetSegment& s) { return chains_[s.segment].size() == 2; });
-    if (facet.triangles.size() == 1 && unsplit) {
+    if (facet.triangles.size() == 1 && is_unsplit(facet.triangles[0])) {
       result.triangles.push_back(facet.triangles[0]);
       result.facet.push_back(id);
       return;
     }
+    const std::vector<FacetSegment> segments = segments_of(facet);
     const FacetPlane plane = facet.exactly_flat ? exact_plane(facet, d_.vertices) : flatten(facet, segments);
     planar::Triangulation t = split_triangulation(facet, plane, segments);
     if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
@@ -153,12 +158,20 @@ class FacetMesher {
     std::uint32_t segment;
   };
 
-  std::vector<FacetSegment> segments_of(const plc::Facet& facet) {
+  bool is_unsplit(const Triangle& t) const {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t segment = segment_of_edge_->find(t[i], t[(i + 1) % 3]);
+      if (segment != EdgeMap::none && chains_[segment].size() != 2) return false;
+    }
+    return true;
+  }
+
+  std::vector<FacetSegment> segments_of(const plc::Facet& facet) const {
     std::vector<FacetSegment> segments;
     for (const Triangle& t : facet.triangles) {
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
-        if (const std::uint32_t found = segment_of_edge_.find(a, b); found != EdgeMap::none)
+        if (const std::uint32_t found = segment_of_edge_->find(a, b); found != EdgeMap::none)
           segments.push_back({a, b, found});
       }
     }
@@ -311,9 +324,9 @@ class FacetMesher {
   const protection::SegmentChains& chains_;
   const delaunay::Delaunay& d_;
   delaunay::CellStar star_;
-  EdgeMap segment_of_edge_;
-  std::vector<Point3> flattened_;        // by vertex, of the current facet
-  std::vector<std::uint32_t> in_facet_;  // by vertex: the last facet in which it was seen, plus 1
+  std::shared_ptr<const EdgeMap> segment_of_edge_;  // shared with copies
+  std::vector<Point3> flattened_;                   // by vertex, of the current facet
+  std::vector<std::uint32_t> in_facet_;             // by vertex: the last facet in which it was seen, plus 1
   std::uint32_t here_ = 0;
   int domain_side_ = 1;  // of the current facet; +1: above
 };
@@ -322,11 +335,23 @@ class FacetMesher {
 
 FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
                              const delaunay::Delaunay& delaunay, const Progress& progress) {
-  FacetMesher mesher(plc, chains, delaunay);
+  const std::size_t count = plc.facets.size();
+  std::vector<FacetMesher> meshers(std::min<std::size_t>(thread_count(), count / facets_a_chunk + 1),
+                                   FacetMesher(plc, chains, delaunay));
+  std::vector<FacetMesh> parts((count + facets_a_chunk - 1) / facets_a_chunk);
+  std::atomic<std::size_t> next = 0;
+  SharedProgress shared(progress, "facets", 0, count);
+  parallel_for(meshers.size(), 1, [&](std::size_t m) {
+    for (std::size_t part = next++; part < parts.size(); part = next++) {
+      const std::size_t begin = part * facets_a_chunk, end = std::min(count, begin + facets_a_chunk);
+      for (std::size_t f = begin; f < end; ++f) meshers[m].triangulate(FacetId(f), parts[part]);
+      if (!shared.add(end - begin)) return;
+    }
+  });
   FacetMesh result;
-  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
-    if ((f & 0xFFF) == 0) report(progress, "facets", f, plc.facets.size());
-    mesher.triangulate(FacetId(f), result);
+  for (const FacetMesh& part : parts) {
+    result.triangles.insert(result.triangles.end(), part.triangles.begin(), part.triangles.end());
+    result.facet.insert(result.facet.end(), part.facet.begin(), part.facet.end());
   }
   note_bytes(bytes_of(result.triangles, result.facet));
   return result;

@@ -82,7 +82,7 @@ std::array<std::uint32_t, 2> two_least(const std::array<std::uint32_t, 4>& v) {
 }
 
 /// Joins the cells at a face that occurs in two entries. Changes the entries.
-void join_same_faces(std::vector<FaceEntry>& entries, RawVector<Cell>& cells) {
+void join_same_faces(std::vector<FaceEntry>& entries, LargeVector<Cell>& cells) {
   constexpr std::size_t most_unsorted = 64;  // comparing so few is faster than sorting
   if (entries.size() > most_unsorted) {
     std::ranges::sort(entries, {}, &FaceEntry::rest);
@@ -132,14 +132,37 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
     cells_[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
     qualities_[c] = quality_of(mesh.tetrahedra[c]);
   });
-  for (std::uint32_t c = 0; c < cells_.size(); ++c)
-    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = c;
-  segments_.reserve(mesh.edges.size());
-  for (const auto& edge : mesh.edges) segments_.insert(edge_key(edge[0], edge[1]));
-  face_table_.reserve(faces_.size());
-  for (std::uint32_t f = 0; f < faces_.size(); ++f)
-    face_table_.insert(face_key(faces_[f][0], faces_[f][1], faces_[f][2]), f);
   find_neighbors();
+  const auto list_segments = [&] {
+    segments_.reserve(mesh.edges.size());
+    for (const auto& edge : mesh.edges) segments_.insert(edge_key(edge[0], edge[1]));
+  };
+  const auto list_faces = [&] {
+    face_table_.reserve(faces_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+      face_table_.insert(face_key(faces_[f][0], faces_[f][1], faces_[f][2]), f);
+  };
+  parallel_for(2, 1, [&](std::size_t i) { i == 0 ? list_segments() : list_faces(); });
+  find_last_cells();
+}
+
+/// Gives each vertex the last of its cells.
+void CellComplex::find_last_cells() {
+  if (thread_count() == 1) {
+    for (std::uint32_t c = 0; c < cells_.size(); ++c)
+      for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = c;
+    return;
+  }
+  parallel_for(cells_.size(), grain, [&](std::size_t i) {
+    const auto c = static_cast<std::uint32_t>(i);
+    for (const std::uint32_t v : cells_[c].vertices) {
+      const std::atomic_ref last(cell_at_[v]);
+      std::uint32_t before = last.load(std::memory_order_relaxed);
+      while ((before == no_neighbor || before < c) &&
+             !last.compare_exchange_weak(before, c, std::memory_order_relaxed)) {
+      }
+    }
+  });
 }
 
 void CellComplex::set_wall(std::uint32_t code) {
@@ -320,14 +343,25 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
     number[v] = static_cast<std::uint32_t>(points.size());
     if (!is_interior(v) || cell_at_[v] != no_neighbor) points.push_back(points_[v]);
   }
-  mesh.tetrahedra.clear();
-  mesh.regions.clear();
-  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-    if (is_dead(c)) continue;
-    const auto& v = cells_[c].vertices;
-    mesh.tetrahedra.push_back({number[v[0]], number[v[1]], number[v[2]], number[v[3]]});
-    mesh.regions.push_back(regions_[c]);
-  }
+  parallel_pack(
+      cells_.size(), grain,
+      [&](std::size_t c, std::size_t end) {
+        std::size_t count = 0;
+        for (; c < end; ++c) count += !is_dead(static_cast<std::uint32_t>(c));
+        return count;
+      },
+      [&](std::size_t count) {
+        mesh.tetrahedra.resize(count);
+        mesh.regions.resize(count);
+      },
+      [&](std::size_t c, std::size_t end, std::size_t place) {
+        for (; c < end; ++c) {
+          if (is_dead(static_cast<std::uint32_t>(c))) continue;
+          const auto& v = cells_[c].vertices;
+          mesh.tetrahedra[place] = {number[v[0]], number[v[1]], number[v[2]], number[v[3]]};
+          mesh.regions[place++] = regions_[c];
+        }
+      });
   mesh.faces = std::move(faces_);
   return points;
 }

@@ -174,6 +174,7 @@ class CellComplex {
   };
 
   void find_neighbors();
+  void find_last_cells();
   void open_hull(const Change& change, CellMarks& marks);
   void free_cells(const std::vector<std::uint32_t>& cells);
   std::uint32_t take_place();
@@ -191,7 +192,7 @@ class CellComplex {
   std::vector<std::uint64_t> changed_at_;
 
   // By cell.
-  RawVector<Cell> cells_;
+  LargeVector<Cell> cells_;
   std::vector<std::uint8_t> walls_;  // bit f is set if face f is a wall
   std::vector<int> regions_;
   std::vector<double> qualities_;

@@ -5,7 +5,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
-#include "engine/base/union_find.h"
+#include "engine/base/shared_union_find.h"
 
 namespace ccdt::label {
 
@@ -46,8 +46,8 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
 
 /// The parts of the tetrahedralization between the walls. They grow in the order of the cells in memory; a flood fill
 /// would jump around.
-UnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
-  UnionFind parts(d.cells.size());
+SharedUnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
+  SharedUnionFind parts(d.cells.size());
   // Each thread joins the cells of one run; joins between runs come later.
   using Pair = std::array<std::uint32_t, 2>;
   std::vector<std::vector<Pair>> waiting(thread_count());
@@ -61,14 +61,15 @@ UnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
         const std::uint32_t neighbor = cell_of(d.cells[cell].neighbors[f]);
         if (neighbor >= cell || (bits[cell] >> f & 1u)) continue;
         if (neighbor >= begin)
-          first = parts.join(first, neighbor);
+          first = parts.join_own(first, neighbor);
         else
           waiting[run].push_back({cell, neighbor});
       }
     }
   });
-  for (const auto& pairs : waiting)
-    for (const auto& [cell, neighbor] : pairs) parts.join(cell, neighbor);
+  parallel_for(waiting.size(), 1, [&](std::size_t run) {
+    for (const auto& [cell, neighbor] : waiting[run]) parts.join(cell, neighbor);
+  });
   return parts;
 }
 

@@ -389,16 +389,19 @@ Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice
 
 std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
   const std::span<const CellPoint> cell = points_of_cell(kind);
-  std::vector<Site> sites;
-  for (const OctreeNode& node : tree.nodes) {
-    if (!node.is_leaf() || node.place == NodePlace::outside) continue;
+  const auto add_sites = [&](const OctreeNode& node, std::vector<Site>& sites) {
+    if (!node.is_leaf() || node.place == NodePlace::outside) return;
     const std::uint32_t half = tree.side(node) / 2;
     for (const CellPoint& p : cell) {
       const std::array<std::uint32_t, 3> c = {node.corner[0] + p[0] * half, node.corner[1] + p[1] * half,
                                               node.corner[2] + p[2] * half};
       if (strictly_contains(tree.bounds, tree.point(c))) sites.push_back(site_at(c));
     }
-  }
+  };
+  std::vector<Site> sites =
+      parallel_collect<Site>(tree.nodes.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<Site>& found) {
+        for (; i < end; ++i) add_sites(tree.nodes[i], found);
+      });
   sort_in_runs(
       sites, [](auto first, auto last) { boost::sort::spreadsort::integer_sort(first, last); }, std::less<>());
   const auto repeated = std::ranges::unique(sites);

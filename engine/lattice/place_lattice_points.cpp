@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/plc/edge_length_bounds.h"
 
 namespace ccdt::lattice {
@@ -121,23 +123,29 @@ class ObstacleList {
  public:
   ObstacleList(const Octree& tree, const DomainSurface& surface, double sphere_factor)
       : tree_(tree), surface_(surface), sphere_factor_(sphere_factor) {
-    obstacles_.reserve(surface.triangles.size() + surface.subsegments.size());
     std::vector<bool> in_triangle(surface.vertices.size(), false);
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-      const auto& vertices = surface.triangles[t].vertices;
-      add(vertices, true, smallest_ball(surface.corners(t)));
-      for (const VertexId v : vertices) in_triangle[v] = true;
-    }
-    for (const auto& [a, b] : surface.subsegments)
-      add({a, b, b}, !in_triangle[a] || !in_triangle[b], smallest_ball(surface.vertices[a], surface.vertices[b]));
+    for (const SurfaceTriangle& t : surface.triangles)
+      for (const VertexId v : t.vertices) in_triangle[v] = true;
+    const std::size_t triangles = surface.triangles.size(), subsegments = surface.subsegments.size();
+    obstacles_.resize(triangles + subsegments);
+    parallel_for(triangles, 1024, [&](std::size_t t) {
+      obstacles_[t] =
+          obstacle(surface.triangles[t].vertices, true, smallest_ball(surface.corners(static_cast<std::uint32_t>(t))));
+    });
+    parallel_for(subsegments, 1024, [&](std::size_t s) {
+      const auto& [a, b] = surface.subsegments[s];
+      obstacles_[triangles + s] = obstacle({a, b, b}, !in_triangle[a] || !in_triangle[b],
+                                           smallest_ball(surface.vertices[a], surface.vertices[b]));
+    });
     for (std::uint32_t v = 0; v < in_triangle.size(); ++v)
-      if (!in_triangle[v]) add({VertexId(v), VertexId(v), VertexId(v)}, true, {surface.vertices[v], 0});
+      if (!in_triangle[v])
+        obstacles_.push_back(obstacle({VertexId(v), VertexId(v), VertexId(v)}, true, {surface.vertices[v], 0}));
   }
 
-  std::vector<Obstacle> take() { return std::move(obstacles_); }
+  RawVector<Obstacle> take() { return std::move(obstacles_); }
 
  private:
-  void add(const std::array<VertexId, 3>& vertices, bool needs_clearance, const Ball& ball) {
+  Obstacle obstacle(const std::array<VertexId, 3>& vertices, bool needs_clearance, const Ball& ball) const {
     Obstacle o{vertices, needs_clearance, {}, {}, ball.center};
     const Box box = bounding_box(
         std::array{surface_.vertices[vertices[0]], surface_.vertices[vertices[1]], surface_.vertices[vertices[2]]});
@@ -148,7 +156,7 @@ class ObstacleList {
       o.in_ball = range(
           bounding_box(std::array{box.low, box.high, ball.center - Point3{r, r, r}, ball.center + Point3{r, r, r}}));
     }
-    obstacles_.push_back(o);
+    return o;
   }
 
   /// A bounding box, slightly enlarged.
@@ -166,7 +174,7 @@ class ObstacleList {
   const Octree& tree_;
   const DomainSurface& surface_;
   double sphere_factor_;
-  std::vector<Obstacle> obstacles_;
+  RawVector<Obstacle> obstacles_;
 };
 
 /// Passes the obstacles down the octree to the leaves whose sites they may remove.
@@ -359,7 +367,7 @@ class Clearing {
   const Octree& tree_;
   const DomainSurface& surface_;
   const std::vector<Site>& sites_;
-  std::vector<Obstacle> obstacles_;
+  RawVector<Obstacle> obstacles_;
   std::vector<NodeSites> nodes_;
   std::vector<Clearance> clearance_;  ///< by level
   std::vector<std::uint8_t> stays_;   ///< by site; each leaf has its own
@@ -415,13 +423,17 @@ bool is_in_one_level(const Octree& tree, const OctreeNode& leaf) {
 
 double share_in_one_level(const Octree& tree) {
   constexpr std::uint32_t every = 16;
-  std::uint32_t leaves = 0, sampled = 0, in_one_level = 0;
-  for (const OctreeNode& node : tree.nodes) {
-    if (!node.is_leaf() || node.place != NodePlace::inside || leaves++ % every != 0) continue;
-    ++sampled;
-    in_one_level += is_in_one_level(tree, node);
-  }
-  return sampled == 0 ? 0 : static_cast<double>(in_one_level) / sampled;
+  std::vector<const OctreeNode*> sample;
+  std::uint32_t leaves = 0;
+  for (const OctreeNode& node : tree.nodes)
+    if (node.is_leaf() && node.place == NodePlace::inside && leaves++ % every == 0) sample.push_back(&node);
+  const auto counts = parallel_chunks(sample.size(), 256, [&](std::size_t i, std::size_t end) {
+    std::size_t in_one_level = 0;
+    for (; i < end; ++i) in_one_level += is_in_one_level(tree, *sample[i]);
+    return in_one_level;
+  });
+  const auto in_one_level = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  return sample.empty() ? 0 : static_cast<double>(in_one_level) / static_cast<double>(sample.size());
 }
 
 /// Sorts things with corners among the vertices along a space-filling curve, so that neighbors in space are neighbors
@@ -430,11 +442,12 @@ template <class Thing, class Corners>
 std::vector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<const Thing> things,
                                    const Corners& corners_of) {
   std::vector<Point3> places(things.size());
-  for (std::size_t i = 0; i < things.size(); ++i)
+  parallel_for(things.size(), 4096, [&](std::size_t i) {
     for (const VertexId v : corners_of(things[i])) places[i] = places[i] + vertices[v];
-  std::vector<Thing> sorted;
-  sorted.reserve(things.size());
-  for (const std::uint32_t i : morton_order(places)) sorted.push_back(things[i]);
+  });
+  const std::vector<std::uint32_t> order = morton_order(places);
+  std::vector<Thing> sorted(things.size());
+  parallel_for(things.size(), 4096, [&](std::size_t i) { sorted[i] = things[order[i]]; });
   return sorted;
 }
 
@@ -469,11 +482,22 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
     if (leaf.place == NodePlace::inside || is_inside(tree, surface, tree.point(coordinates), leaf))
       levels[i] = leaf.level;
   });
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (levels[i] == outside) continue;
-    result.points.push_back(tree.point(coordinates_of(sites[i])));
-    result.levels.push_back(levels[i]);
-  }
+  parallel_pack(
+      sites.size(), 8192,
+      [&](std::size_t i, std::size_t end) {
+        return end - i - static_cast<std::size_t>(std::count(levels.data() + i, levels.data() + end, outside));
+      },
+      [&](std::size_t count) {
+        result.points.resize(count);
+        result.levels.resize(count);
+      },
+      [&](std::size_t i, std::size_t end, std::size_t place) {
+        for (; i < end; ++i) {
+          if (levels[i] == outside) continue;
+          result.points[place] = tree.point(coordinates_of(sites[i]));
+          result.levels[place++] = levels[i];
+        }
+      });
   const auto vertices = static_cast<double>(surface.vertices.size() + result.points.size());
   if (vertices > plc::most_vertices) plc::throw_too_many_vertices(vertices);
   report(progress, stage, steps, steps);

@@ -70,6 +70,7 @@ class SizeTree {
 
   /// Where half of the items [begin, end) go to the first child: the same rule must hold for boxes and queries.
   static std::size_t middle(std::size_t begin, std::size_t end) { return begin + (end - begin) / 2; }
+  static Group both(const Group& a, const Box& box, double size);
   Group surround(std::size_t begin, std::size_t end, std::size_t group);
 
   std::vector<Item> items_;

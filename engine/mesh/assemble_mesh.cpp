@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -231,20 +232,15 @@ std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMe
 
 TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
                            const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay) {
-  TetMesh mesh;
-  const auto outside = std::ranges::count(region_of_cell, RegionId());
-  const std::size_t size = front.tetrahedra.size() + region_of_cell.size() - static_cast<std::size_t>(outside);
-  mesh.tetrahedra.reserve(size);
-  mesh.regions.reserve(size);
-  mesh.tetrahedra = front.tetrahedra;
-  for (const RegionId region : front.regions) mesh.regions.push_back(plc.regions[region].attribute);
-  for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c) {
-    if (region_of_cell[c].is_none()) continue;
-    mesh.tetrahedra.push_back(delaunay.cells[c].vertices);
-    mesh.regions.push_back(plc.regions[region_of_cell[c]].attribute);
-  }
-  sort_tetrahedra(mesh);
-  return mesh;
+  const std::size_t cells = delaunay.cells.size();
+  return sorted_mesh(delaunay.vertices.size(), cells + front.tetrahedra.size(),
+                     [&](std::size_t i) -> std::optional<LabeledCell> {
+                       const bool of_front = i >= cells;
+                       const RegionId region = of_front ? front.regions[i - cells] : region_of_cell[i];
+                       if (region.is_none()) return std::nullopt;
+                       return LabeledCell{of_front ? front.tetrahedra[i - cells] : delaunay.cells[i].vertices,
+                                          plc.regions[region].attribute};
+                     });
 }
 
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,

@@ -17,7 +17,7 @@
 namespace ccdt::mesh {
 
 /// The tetrahedra of the front and the labeled cells, with their regions: the constrained Delaunay tetrahedralization,
-/// in the order of `sort_tetrahedra`. The mesh has nothing else yet.
+/// in the order of `sorted_mesh`. The mesh has nothing else yet.
 TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
                            const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay);
 

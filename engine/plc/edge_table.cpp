@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "engine/base/merge_sort.h"
 #include "engine/base/parallel.h"
@@ -56,34 +55,32 @@ EdgeTable make_edge_table(std::span<const VertexTriple> triangles) {
   });
   sort_by_edge(slots);
 
-  // Chunks count their edges first, so that each knows the number of its first edge.
   const auto begins_edge = [&](std::size_t i) { return i == 0 || slots[i].edge != slots[i - 1].edge; };
-  std::vector<std::uint32_t> edges_before =
-      parallel_chunks(slots.size(), chunk_length, [&](std::size_t i, std::size_t end) {
-        std::uint32_t count = 0;
-        for (; i < end; ++i) count += begins_edge(i);
-        return count;
-      });
-  std::uint32_t edges = 0;
-  for (std::uint32_t& count : edges_before) edges += std::exchange(count, edges);
-
   EdgeTable table;
-  table.ends.resize(edges);
-  table.first.resize(edges + 1, static_cast<std::uint32_t>(slots.size()));
   table.triangles.resize(slots.size());
   table.edges_of.resize(triangles.size());
-  parallel_for(edges_before.size(), 1, [&](std::size_t chunk) {
-    std::uint32_t next = edges_before[chunk];
-    for (std::size_t i = chunk * chunk_length; i < std::min(slots.size(), (chunk + 1) * chunk_length); ++i) {
-      const auto [key, slot] = slots[i];
-      if (begins_edge(i)) {
-        table.ends[next] = {VertexId(key >> 32), VertexId(key & 0xFFFFFFFFu)};
-        table.first[next++] = static_cast<std::uint32_t>(i);
-      }
-      table.triangles[i] = slot / 3;
-      table.edges_of[slot / 3][slot % 3] = next - 1;
-    }
-  });
+  parallel_pack(
+      slots.size(), chunk_length,
+      [&](std::size_t i, std::size_t end) {
+        std::size_t edges = 0;
+        for (; i < end; ++i) edges += begins_edge(i);
+        return edges;
+      },
+      [&](std::size_t edges) {
+        table.ends.resize(edges);
+        table.first.resize(edges + 1, static_cast<std::uint32_t>(slots.size()));
+      },
+      [&](std::size_t i, std::size_t end, std::size_t next) {
+        for (; i < end; ++i) {
+          const auto [key, slot] = slots[i];
+          if (begins_edge(i)) {
+            table.ends[next] = {VertexId(key >> 32), VertexId(key & 0xFFFFFFFFu)};
+            table.first[next++] = static_cast<std::uint32_t>(i);
+          }
+          table.triangles[i] = slot / 3;
+          table.edges_of[slot / 3][slot % 3] = static_cast<std::uint32_t>(next - 1);
+        }
+      });
   return table;
 }
 

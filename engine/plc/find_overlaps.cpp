@@ -124,21 +124,27 @@ bool share_end(const std::array<VertexId, 2>& a, const std::array<VertexId, 2>& 
 
 std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
                                    const FacetPatches& facets, std::span<const TrianglePair> close, std::size_t limit) {
-  const auto find_overlap = [&](const TrianglePair& pair, std::vector<Overlap>& found) {
+  // Pairs of one facet mostly follow one another.
+  struct FacetAxis {
+    std::uint32_t facet = EdgeTable::none;
+    int axis = -1;
+  };
+  const auto find_overlap = [&](const TrianglePair& pair, FacetAxis& last, std::vector<Overlap>& found) {
     const auto [i, j] = pair;
     const std::uint32_t facet = facets.facet_of[i];
     const bool one_facet = facet == facets.facet_of[j];
     if (one_facet && !facets.exactly_flat[facet]) return;
     const VertexTriple &s = triangles.corners[i], &t = triangles.corners[j];
-    const int axis = one_facet ? dominant_axis(points_of(vertices, s)) : -1;
-    if (const auto contact = meet(vertices, s, t, axis)) {
+    if (one_facet && last.facet != facet) last = {facet, dominant_axis(points_of(vertices, s))};
+    if (const auto contact = meet(vertices, s, t, one_facet ? last.axis : -1)) {
       const bool covering = contact->coplanar && are_coplanar(points_of(vertices, s), points_of(vertices, t));
       found.push_back({covering ? Between::covering_facets : Between::facets, i, j, contact->where});
     }
   };
   std::vector<Overlap> all = parallel_collect<Overlap>(
       close.size(), 1024, [&](std::size_t begin, std::size_t end, std::vector<Overlap>& found) {
-        for (; begin < end && found.size() < limit; ++begin) find_overlap(close[begin], found);
+        FacetAxis last;
+        for (; begin < end && found.size() < limit; ++begin) find_overlap(close[begin], last, found);
       });
   if (all.size() > limit) all.erase(all.begin() + static_cast<std::ptrdiff_t>(limit), all.end());
   return all;

@@ -5,6 +5,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/protection/split_edges.h"
@@ -13,6 +14,8 @@ namespace ccdt::protection {
 namespace {
 
 constexpr std::uint32_t whole = whole_segment;
+/// Fewer edges are not worth the trouble of several threads.
+constexpr std::size_t least_for_threads = 5000;
 
 /// Splits pieces of segments until all that need protection are Delaunay edges. A stack holds those that may not be:
 /// all at first, then those of cells that a split destroyed. A stack needs fewer splits than a queue, because one place
@@ -34,6 +37,7 @@ class Protector {
   }
 
   void protect(const Progress& progress) {
+    if (thread_count() > 1 && stack_.size() > least_for_threads) drop_edges_that_exist();
     for (std::uint64_t done = 0; !stack_.empty(); ++done) {
       if ((done & 0xFFF) == 0) report(progress, "protect", done, done + stack_.size());
       const std::uint64_t edge = stack_.back();
@@ -45,6 +49,18 @@ class Protector {
   }
 
  private:
+  /// From the stack; most do. One that a split destroys later comes onto the stack again.
+  void drop_edges_that_exist() {
+    stack_ = parallel_collect<std::uint64_t>(
+        stack_.size(), 1024, [&](std::size_t i, std::size_t end, std::vector<std::uint64_t>& missing) {
+          for (; i < end; ++i) {
+            const Subsegment* piece = pieces_.find(stack_[i]);
+            if (piece != nullptr && !has_edge(state_.delaunay, piece->from.vertex, piece->to.vertex))
+              missing.push_back(stack_[i]);
+          }
+        });
+  }
+
   void add(const Subsegment& piece) {
     const std::uint64_t edge = edge_key(piece.from.vertex, piece.to.vertex);
     pieces_.set(edge, piece);
