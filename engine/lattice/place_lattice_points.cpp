@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -427,13 +426,10 @@ double share_in_one_level(const Octree& tree) {
   std::uint32_t leaves = 0;
   for (const OctreeNode& node : tree.nodes)
     if (node.is_leaf() && node.place == NodePlace::inside && leaves++ % every == 0) sample.push_back(&node);
-  const auto counts = parallel_chunks(sample.size(), 256, [&](std::size_t i, std::size_t end) {
-    std::size_t in_one_level = 0;
-    for (; i < end; ++i) in_one_level += is_in_one_level(tree, *sample[i]);
-    return in_one_level;
-  });
-  const auto in_one_level = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-  return sample.empty() ? 0 : static_cast<double>(in_one_level) / static_cast<double>(sample.size());
+  std::vector<char> in_one_level(sample.size());
+  parallel_for(sample.size(), 256, [&](std::size_t i) { in_one_level[i] = is_in_one_level(tree, *sample[i]); });
+  const auto count = static_cast<double>(std::ranges::count(in_one_level, 1));
+  return sample.empty() ? 0 : count / static_cast<double>(sample.size());
 }
 
 /// Sorts things with corners among the vertices along a space-filling curve, so that neighbors in space are neighbors
@@ -482,22 +478,17 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
     if (leaf.place == NodePlace::inside || is_inside(tree, surface, tree.point(coordinates), leaf))
       levels[i] = leaf.level;
   });
-  parallel_pack(
-      sites.size(), 8192,
-      [&](std::size_t i, std::size_t end) {
-        return end - i - static_cast<std::size_t>(std::count(levels.data() + i, levels.data() + end, outside));
-      },
-      [&](std::size_t count) {
-        result.points.resize(count);
-        result.levels.resize(count);
-      },
-      [&](std::size_t i, std::size_t end, std::size_t place) {
-        for (; i < end; ++i) {
-          if (levels[i] == outside) continue;
-          result.points[place] = tree.point(coordinates_of(sites[i]));
-          result.levels[place++] = levels[i];
-        }
+  const auto kept = parallel_collect<std::uint32_t>(
+      sites.size(), 8192, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
+        for (; i < end; ++i)
+          if (levels[i] != outside) found.push_back(static_cast<std::uint32_t>(i));
       });
+  result.points.resize(kept.size());
+  result.levels.resize(kept.size());
+  parallel_for(kept.size(), 4096, [&](std::size_t i) {
+    result.points[i] = tree.point(coordinates_of(sites[kept[i]]));
+    result.levels[i] = levels[kept[i]];
+  });
   const auto vertices = static_cast<double>(surface.vertices.size() + result.points.size());
   if (vertices > plc::most_vertices) plc::throw_too_many_vertices(vertices);
   report(progress, stage, steps, steps);
