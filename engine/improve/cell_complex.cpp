@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
@@ -56,7 +58,7 @@ constexpr std::size_t grain = 4096;  // of loops on several threads
 
 /// A face of a cell, among those with the same least corner.
 struct FaceEntry {
-  std::uint64_t rest;  ///< the other two corners, in growing order
+  std::uint64_t rest;  ///< the other two corners, in ascending order
   std::uint32_t code;
 };
 
@@ -166,13 +168,13 @@ void CellComplex::find_last_cells() {
 }
 
 void CellComplex::set_wall(std::uint32_t code) {
-  // Neighboring faces of a cell may be looked at by several threads.
+  // Several threads may set walls of the same cell.
   std::atomic_ref(walls_[cell_of(code)])
       .fetch_or(static_cast<std::uint8_t>(1u << face_of(code)), std::memory_order_relaxed);
 }
 
-/// Joins equal faces: at most two cells, and a face on a facet. Faces meet at their least corners. Three faces of a
-/// cell contain its least vertex, and the fourth contains the next.
+/// Joins the cells on both sides of each face, and marks faces on facets as walls. Faces are compared with those that
+/// have the same least corner. Three faces of a cell contain its least vertex, and the fourth contains the next.
 void CellComplex::find_neighbors() {
   const auto by_vertex = [&](std::size_t which) {
     return group_indices(points_.size(), cells_.size(),
@@ -265,7 +267,7 @@ std::uint32_t CellComplex::take_place() {
   return place;
 }
 
-/// Joins a face of a new cell to the waiting one, or lets it wait.
+/// Joins a face of a new cell to the one that waits for it, or lets it wait.
 void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flips) {
   const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
   const bool becomes_wall = !flips.empty() && is_new_wall(flips, key);
@@ -318,8 +320,8 @@ void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std:
     for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.flips);
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
   }
-  // The faces that a flip left open on a boundary facet: its two old triangles are removed, and the two new ones are
-  // walls already.
+  // A flip on a boundary facet leaves faces open: its two old triangles, which are gone, and the two new ones, which
+  // are walls already.
   for (const FacetFlip& flip : change.flips) flip_walls(flip);
   ++change_count_;
   for (const NewCell& cell : change.new_cells)

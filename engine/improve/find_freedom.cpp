@@ -1,5 +1,6 @@
 #include "engine/improve/find_freedom.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -21,8 +22,8 @@ Freedom along_line(const Point3& a, const Point3& b) {
 struct VertexSurroundings {
   std::uint32_t facet = none;  ///< the first
   bool several_facets = false;
-  bool flat = true;      ///< all facets are exactly so
-  bool crossed = false;  ///< a facet does not contain all of the first two segments
+  bool flat = true;      ///< all facets are exactly flat
+  bool crossed = false;  ///< a facet does not contain both of the first two segments
   std::uint32_t segment_count = 0;
   std::array<std::uint32_t, 2> segments = {none, none};  ///< the first two
 };

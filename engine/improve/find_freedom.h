@@ -17,8 +17,8 @@ namespace ccdt::improve {
 /// - interior vertices, anywhere;
 /// - all others, nowhere: corners, isolated vertices, and vertices on facets that are flat only within the tolerance.
 ///
-/// Straightness and flatness are decided exactly. Vertices of the PLC are multiples of the quantum, so that the
-/// quotients by `DyadicGrid::quantum` of the differences between them have integer coordinates: such are the steps.
+/// Straightness and flatness are decided exactly. Vertices of the PLC are multiples of `DyadicGrid::quantum`. So their
+/// differences, divided by it, have integer coordinates; these give the steps.
 ///
 /// \param vertices  the number of vertices of the mesh: those of the PLC, Steiner vertices, then interior vertices
 std::vector<Freedom> find_freedom(const plc::Plc& plc, const protection::SegmentChains& chains, std::size_t vertices);

@@ -1,6 +1,6 @@
 #include "engine/improve/find_step.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "engine/base/count_work.h"
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <iterator>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
@@ -39,7 +41,7 @@ struct EarlyStep {
   Work work;
 };
 
-/// How many steps are found ahead at a time: enough for several threads, few enough that most are still right at their
+/// How many steps are found ahead at a time: enough for several threads, few enough that most are still valid at their
 /// turn.
 constexpr std::size_t most_early = 512;
 /// Fewer are not worth the trouble of several threads.
@@ -129,8 +131,8 @@ class Improver {
     return x_.change_count() != changes;
   }
 
-  /// Finds the next steps of the queue on several threads. Each is used at its turn if it is still right then, so they
-  /// all are what one thread finds.
+  /// Finds the next steps of the queue on several threads. Each is used at its turn if it is still valid then. So the
+  /// steps are those that one thread finds.
   void find_early(std::size_t begin, Effort effort) {
     const std::size_t count = std::min(most_early, queue_.size() - begin);
     if (finders_.size() == 1) return;

@@ -15,7 +15,7 @@ namespace ccdt::improve {
 
 namespace {
 
-/// How much more the quality of the star may grow than a 1 / r above its goal shrinks.
+/// The weight of a surplus of 1 / r above its goal beside the quality of the star.
 constexpr double surplus_weight = 4;
 
 // The following loops have no branches and no calls, so that compilers vectorize them.
@@ -60,7 +60,8 @@ void compute_sines(const Point3& p, ScaledStar& star) {
   }
 }
 
-/// 1 / r = sqrt(2) det / m^(3/2). The gradient of det is the normal, that of m the way from the face's centroid.
+/// 1 / r = sqrt(2) det / m^(3/2). The gradient of det is the normal, and that of m is the vector from the face's
+/// centroid.
 void add_inverse_r(const ScaledStar& star, std::size_t i, const Point3& p, double weight, double value,
                    LinearModels& models) {
   const Point3 normal = star.normal[i], from_centroid = p - star.centroid[i];
@@ -71,7 +72,7 @@ void add_inverse_r(const ScaledStar& star, std::size_t i, const Point3& p, doubl
 }
 
 /// The sine at an edge of length l between faces of doubled areas F and G is det l / (F G). So its gradient is the sine
-/// times the sum of those of the logarithms; only for det, which may be zero, not by its logarithm.
+/// times the sum of the gradients of the logarithms. Only det, which may be zero, is not taken by its logarithm.
 void add_sines(const ScaledStar& star, std::size_t i, const Point3& p, double offset, double below,
                LinearModels& models) {
   const Point3 a = star.a[i], b = star.b[i], c = star.c[i], normal = star.normal[i];
@@ -170,7 +171,7 @@ void model_star(const QualityGoal& goal, const Point3& x, double least, double r
 
 namespace {
 
-/// Gradients in space have four that are affinely independent; one more joins before another leaves.
+/// At most four gradients in space are affinely independent. A fifth joins before another leaves.
 constexpr int most_in_support = 5;
 
 /// Models with their weights in the combination: the weights are positive, and their sum is 1.
@@ -196,8 +197,8 @@ struct Support {
   }
 };
 
-/// The shares, of any sign, with the sum 1, that minimize sum of share * value + length / 2 * |combination|^2.
-/// By Cholesky's decomposition of the matrix of the differences to the first gradient.
+/// The shares, of any sign, with the sum 1, that minimize sum of share * value + length / 2 * |combination|^2. By
+/// Cholesky decomposition of the matrix of the differences from the first gradient.
 std::array<double, most_in_support> free_shares(const Support& support, double length) {
   constexpr double regularization = 1e-12;
   const int n = support.size - 1;
@@ -272,7 +273,7 @@ Lowest find_lowest(const LinearModels& models, const Point3& step) {
 
 ProximalStep proximal_step(const LinearModels& models, double length) {
   constexpr int most_rounds = 16;
-  constexpr double enough = 0.02;  // of the gain may be missing
+  constexpr double enough = 0.02;  // share of the gain that may be missing
   Lowest lowest = find_lowest(models, {});
   const double now = lowest.value;
   Support support;
@@ -344,7 +345,7 @@ std::optional<Point3> round_move(const Freedom& freedom, const Point3& move) {
     const double det = uu * vv - uv * uv;
     i = std::round((um * vv - vm * uv) / det), j = std::round((vm * uu - um * uv) / det);
   }
-  // Beyond, the multiples would not be exact.
+  // Larger multiples would not be exact.
   if (std::fabs(i) * largest_of(u) > 0x1p52 || std::fabs(j) * largest_of(v) > 0x1p52) return std::nullopt;
   return i * u + j * v;
 }

@@ -28,8 +28,8 @@ void gather_star(const CellComplex& complex, std::uint32_t vertex, CellMarks& ma
 
 /// Where a vertex may move: to any point with integer coordinates, or to those exactly on its facet or segment.
 struct Freedom {
-  int dimensions =
-      3;  ///< 0: nowhere; 1: its position + i u; 2: its position + i u + j v, with integers i and j; 3: anywhere
+  /// 0: nowhere; 1: its position + i u; 2: its position + i u + j v, with integers i and j; 3: anywhere
+  int dimensions = 3;
   Point3 u = {}, v = {};  ///< steps of integer coordinates
 };
 
@@ -54,8 +54,8 @@ struct ScaledStar {
   Coordinates normal;          ///< (b - a) x (c - a)
   Coordinates centroid;        ///< of a face
   std::vector<double> height;  ///< normal . a
-  std::vector<double>
-      mean_square;  ///< mean square of the six edges of the tetrahedron, without the part that depends on the apex
+  /// Mean square of the six edges of the tetrahedron, without the part that depends on the apex.
+  std::vector<double> mean_square;
   std::vector<double> inverse_area;     ///< 1 / normal^2
   std::vector<double> inverse_r, sine;  ///< of the tetrahedra, for the last computed apex
 
@@ -94,8 +94,8 @@ struct ProximalStep {
   double least = 0;  ///< least value of the models after the step
 };
 
-/// The step s that makes the least of the models as great as possible, less s^2 / (2 `length`): a proximal point. The
-/// step is `length` times a convex combination of gradients, found by its dual: where only models of one value matter,
+/// The step s that maximizes the least of the models minus s^2 / (2 `length`): a proximal point. The step is `length`
+/// times a convex combination of gradients, which solves the dual problem. If only models of one value matter, it is
 /// their combination of least norm, the direction of steepest ascent.
 ///
 /// \param models  at least one

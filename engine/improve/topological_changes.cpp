@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "engine/base/count_work.h"
@@ -30,7 +31,7 @@ struct Ring {
   std::uint32_t vertex_count() const { return is_closed ? size : size + 1; }
 };
 
-/// From a cell with edge ab around it, through the face of its vertex `from`, as long as there are no walls.
+/// Walks around the edge ab from one of its cells, first through the face opposite to `from`, up to a wall.
 /// \param visit  called with each cell that is entered and its fourth vertex; false ends the walk
 /// \return       the code of the wall that ends the walk, as the cell before it calls it; `no_neighbor`: `visit` did
 template <class Visit>
@@ -155,7 +156,7 @@ std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, s
   return face ? x.facet_of_face()[*face] : no_neighbor;
 }
 
-/// The cells on the other side of the facet that the ring ends at, from its last wall to its first.
+/// Finds the ring on the other side of the facet where this ring ends, from its last wall to its first.
 /// \return false: the cells there do not allow exchanging the diagonal
 bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
   other.size = 0;
@@ -166,7 +167,7 @@ bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
          other.vertices[0] == first && other.vertices[other.size] == ring.vertices[0];
 }
 
-/// An edge on a facet, between walls: both sides of it change, and the facet has the other diagonal.
+/// Plans to flip an edge on a facet: the cells on both sides change, and the facet gets the other diagonal.
 bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& change) {
   const std::uint32_t a = ring.a, b = ring.b, first = ring.vertices[0], last = ring.vertices[ring.size];
   const std::uint32_t facet = facet_at(x, a, b, first);
@@ -187,7 +188,8 @@ class SandwichedFaces {
   SandwichedFaces(const CellComplex& x, std::uint32_t above, std::uint32_t below, double least, Change& change)
       : x_(x), above_(above), below_(below), least_(least), change_(change) {}
 
-  /// Adds a face by the cells on its two sides. Its edges are at the rim, or further faces are removed as well.
+  /// Removes a face with the cells on its two sides. Each of its edges is at the rim, or the next face is removed as
+  /// well.
   /// \return the quality of the worst new cell; when that is not above `least`, not all of them were made
   double add_face(std::uint32_t upper, std::uint32_t lower, const std::array<std::uint32_t, 3>& corners, int edges) {
     change_.old_cells.push_back(upper);
@@ -214,7 +216,7 @@ class SandwichedFaces {
     return at_rim;
   }
 
-  /// \return the quality that crossing the edge gives; nothing if the next face is not between the same vertices
+  /// \return the quality that crossing the edge gives; -1 if the next face is not between the same vertices
   double cross(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
     if (change_.old_cells.size() >= std::size_t{2} * most_faces) return -1;
     const std::uint32_t up = face_code(upper, x_.place(upper, w)), down = face_code(lower, x_.place(lower, w));
@@ -224,7 +226,7 @@ class SandwichedFaces {
     if (next == below_ || next != x_.apex_of(down_code)) return -1;
     if (x_.is_wall(face_code(next_upper, x_.place(next_upper, above_)))) return -1;
     if (std::ranges::find(change_.old_cells, next_upper) != change_.old_cells.end()) return -1;
-    // The corner across the edge comes first: its two edges are those that are not the one we came by.
+    // Only the edges at the corner across are new. The third edge is the one that was crossed.
     return add_face(next_upper, next_lower, {u, next, v}, 2);
   }
 
@@ -266,8 +268,8 @@ bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t f
 
 namespace {
 
-constexpr std::size_t most_cavity_cells = 40;  ///< in a cavity
-constexpr int most_insertion_rounds = 3;       ///< of growing the cavity and moving the vertex
+constexpr std::size_t most_cavity_cells = 40;
+constexpr int most_insertion_rounds = 3;  ///< of growing the cavity and moving the vertex
 
 /// Finds the hull of the current cavity.
 void find_hull(const CellComplex& x, const CellMarks& in_cavity, VertexCavity& cavity) {

@@ -11,11 +11,11 @@
 /// that of `cell`. The new cells are not yet tested for exact positivity, except by `plan_insertion`.
 namespace ccdt::improve {
 
-/// Marked cells that a new vertex replaces, and their hull.
+/// The cells that a new vertex replaces, and their hull.
 struct VertexCavity {
   std::vector<std::uint32_t> cells;
   std::vector<std::array<std::uint32_t, 3>> hull;  ///< corners of its faces, the inside above
-  std::vector<StarFace> faces;                     ///< the same
+  std::vector<StarFace> faces;                     ///< the same, by their points
 };
 
 /// Working memory of the plans.

@@ -1,6 +1,8 @@
 #include "engine/lattice/size_field.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"

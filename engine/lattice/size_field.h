@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -14,8 +14,8 @@
 
 namespace ccdt::lattice {
 
-/// Things in space that have a size, in Morton order as the leaves of a complete binary tree of boxes, in an array: the
-/// children of group g are 2g+1 and 2g+2.
+/// Things in space that have a size. In Morton order they are the leaves of a complete binary tree of boxes. The tree
+/// is an array: the children of group g are 2g+1 and 2g+2.
 class SizeTree {
  public:
   struct Item {
@@ -26,8 +26,6 @@ class SizeTree {
 
   SizeTree() = default;
   explicit SizeTree(const std::vector<Item>& items);
-
-  bool empty() const { return items_.empty(); }
 
   /// Is `holds(item)` true for any item? Tests only those whose `lower(box, size)` is below the bound, which `holds`
   /// may lower.
@@ -105,7 +103,7 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
 /// Without a background: the least over the surface of (edge length there + grading * distance). The surface is sampled
 /// at its vertices (mean length of the edges there) and the centroids of its triangles (mean of their edges). With a
 /// background of vertices alone: the least over these of (size + grading * distance). With a background mesh: linear
-/// within its tetrahedra (size_field.cpp).
+/// within its tetrahedra (`InterpolatedSizes`).
 class SizeField {
  public:
   /// In grid units. Without a background a grading of 0 means uniform.

@@ -32,8 +32,8 @@ SplitPlace split_near_foot(double foot, double squared_height, double from, doub
   return {std::clamp(wanted, low, high), low, high};
 }
 
-/// Where a line, between two distances from its origin, meets the plane whose coordinate is a multiple of the greatest
-/// power of two, across the dominant axis of the line. Parallel lines meet the same planes.
+/// Where a line, between two distances from its origin, meets a round plane: of the planes across its dominant axis,
+/// the one whose coordinate is a multiple of the greatest power of two. Parallel lines meet the same planes.
 double distance_of_round_plane(const Point3& origin, const Point3& direction, double from, double to) {
   const auto along = as_array(direction);
   std::size_t axis = 0;
@@ -47,7 +47,7 @@ double distance_of_round_plane(const Point3& origin, const Point3& direction, do
 }
 
 /// The least fraction of a segment whose multiples are on the grid. The coordinates of its ends are multiples of 2^20,
-/// and those of regular shapes of greater powers.
+/// and in regular shapes of greater powers of two.
 std::uint32_t finest_step(const Point3& along) {
   int zeros = std::countr_zero(whole);
   for (const double part : as_array(along))
@@ -62,8 +62,8 @@ Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_
   return a + fraction * ((1.0 / whole) * (b - a));
 }
 
-/// More than any real part needed (six splits per vertex), so that segments that split each other forever end within
-/// seconds.
+/// More than any real part needed (six splits per vertex). So segments that would split each other forever are refused
+/// within seconds.
 std::size_t most_splits(std::size_t vertices) {
   return 100000 + 10 * vertices;
 }
@@ -156,7 +156,7 @@ std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& 
       if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
       const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
       const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
-      // The first of equal ones, for any order of the cells.
+      // Of equal ones the least vertex, for any order of the cells.
       if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
       least_cosine = cosine;
       worst = v;
@@ -176,7 +176,8 @@ SplitPlace EdgeSplitter::split_place(const Subsegment& piece, std::uint32_t encr
   const std::uint32_t other =
       encroaching < plc_.vertices.size() ? no_segment : segment_of_[encroaching - plc_.vertices.size()];
   if (other != no_segment) {
-    // On a segment that meets this one: on its shell, so that the two do not split each other forever.
+    // The vertex is on a segment that meets this one. The split is on its shell, so that the two do not split each
+    // other forever.
     const double margin = length * std::min(usual_step, (piece.to.fraction - piece.from.fraction) / 2) / whole;
     const auto& others = plc_.segments[other].ends;
     for (int i = 0; i < 2; ++i) {

@@ -33,7 +33,7 @@ class EdgeSplitter {
   /// \param chains  the vertices on the segments so far
   EdgeSplitter(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay, const SegmentChains& chains);
 
-  /// Is it long enough to have a place between its ends where it may be split?
+  /// Is the piece long enough to have a place between its ends where it may be split?
   bool can_split(const Subsegment& piece) const;
 
   /// Inserts a vertex that splits the piece, where `strategy` says. The caller adds it to the chain.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace ccdt::protection {
 namespace {
@@ -53,8 +54,8 @@ Ball VoronoiFace::ball(const Place& center) const {
 }
 
 Ball VoronoiFace::covering_ball() {
-  // Edges much shorter than those around them have centers far away. The nearer all centers are, the smaller is the
-  // allowance for rounding.
+  // An edge much shorter than those around it has centers far away. Small distances are tried first: the nearer all
+  // centers are, the smaller is the allowance for rounding.
   for (const double half_lengths : {farthest, 1e2 * farthest, 1e4 * farthest, 1e6 * farthest}) {
     const double far = half_lengths * std::sqrt(squared_half_);
     make_polygon(far, margin * far * far);  // with all of the true polygon that is not too far away

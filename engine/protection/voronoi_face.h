@@ -9,7 +9,7 @@
 
 namespace ccdt::protection {
 
-/// The cells around a Delaunay edge, in their order, and their vertices that are not on the edge, without the ghost.
+/// The cells around a Delaunay edge, in order, and their vertices that are not on the edge, without the ghost vertex.
 struct EdgeRing {
   std::vector<std::uint32_t> cells, vertices;
 };
@@ -18,8 +18,8 @@ struct EdgeRing {
 void gather_ring(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring);
 
 /// The face of the Voronoi diagram that is dual to a Delaunay edge: the centers of the spheres through the edge's ends
-/// that hold no vertex. It is a convex polygon in the plane that halves the edge. It is computed in floating point, but
-/// all spheres that it offers are empty by a margin; so it offers none if the polygon is too small.
+/// that hold no vertex. It is a convex polygon in the plane that bisects the edge. It is computed in floating point,
+/// but all spheres that it offers are empty by a margin; so it offers none if the polygon is too small.
 class VoronoiFace {
  public:
   /// \param d     points in grid units
@@ -35,7 +35,7 @@ class VoronoiFace {
     if (polygon_.empty()) return;
     const Place center = center_of_polygon();
     const auto visit_near = [&](const Place& p) {
-      const Place inner = p + inwards * (center - p);
+      const Place inner = p + inward * (center - p);
       return !is_empty(inner) || visit(ball(inner));
     };
     if (!visit_near(nearest_to_middle()) || !visit_near(center)) return;
@@ -64,8 +64,8 @@ class VoronoiFace {
   /// Centers farther from the edge than this many half lengths of it are left out: their spheres are nearly
   /// half-spaces.
   static constexpr double farthest = 100;
-  static constexpr double margin = 1e-9;   ///< of squared radii
-  static constexpr double inwards = 1e-3;  ///< how far a place of the polygon is moved to its center, as a share
+  static constexpr double margin = 1e-9;  ///< of squared radii
+  static constexpr double inward = 1e-3;  ///< share of the way to the center that a place of the polygon is moved
 
   double squared_radius(const Place& center) const { return squared_half_ + dot(center, center); }
   bool is_empty(const Place& center) const;

@@ -1,6 +1,7 @@
 #include "engine/refine/close_segments.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "engine/base/box_tree.h"
@@ -12,7 +13,8 @@
 namespace ccdt::refine {
 namespace {
 
-/// Segments are too close if their distance is not more than this times that of the places for vertices on the longer.
+/// Segments are too close if they are at most this many steps apart. A step is the distance between the places for
+/// vertices on the longer one.
 constexpr double close_steps = 1;
 
 /// Squared sine of a small angle between segments: 30 degrees.
@@ -40,7 +42,7 @@ class CloseSegmentSearch {
     const auto& [a, b] = plc_.segments[s].ends;
     return length(point(b) - point(a));
   }
-  /// Between the places for vertices.
+  /// The distance between neighboring places for vertices.
   double step_of(std::uint32_t s) const { return length_of(s) * protection::usual_step / protection::whole_segment; }
   std::uint32_t other_end(std::uint32_t s, std::uint32_t v) const {
     const auto& [a, b] = plc_.segments[s].ends;
@@ -48,8 +50,8 @@ class CloseSegmentSearch {
   }
   double& least_at(std::uint32_t s, std::uint32_t v) { return least_[s][plc_.segments[s].ends[0] == v ? 0 : 1]; }
 
-  /// Compares the segments that meet at a vertex. A vertex on one of those that are joined by small angles encroaches
-  /// on all others, so the closest two of them decide for all.
+  /// Compares the segments that meet at a vertex. Those that are joined by small angles form a fan. A vertex on one of
+  /// these encroaches on all others, so the closest two decide for the whole fan.
   void compare_at(std::uint32_t v) {
     const auto around = segments_of_vertex_.of(v);
     UnionFind fans(around.size());
@@ -69,7 +71,8 @@ class CloseSegmentSearch {
     for (std::uint32_t i = 0; i < around.size(); ++i) least_at(around[i], v) = least[fans.find(i)];
   }
 
-  /// From a common end of two segments: there they are so far apart that places on them fit each other.
+  /// The least distance from the common end of two segments at which they are so far apart that places on both fit each
+  /// other.
   double least_distance(std::uint32_t s, std::uint32_t t, std::uint32_t v) const {
     const Point3 a = point(other_end(s, v)) - point(v), b = point(other_end(t, v)) - point(v);
     const double squared_sine = squared_length(cross(a, b)) / (squared_length(a) * squared_length(b));
@@ -77,7 +80,7 @@ class CloseSegmentSearch {
     const double step = std::max(step_of(s), step_of(t));
     // Only protected segments are split because of each other.
     if (!plc_.segments[s].grazeable || !plc_.segments[t].grazeable) return step;
-    // At a distance r they are r sin apart. A vertex there serves the other one if it is at the same height up to a
+    // At a distance r they are r sin apart. Vertices there fit each other if their distances differ by at most a
     // multiple of (r sin)^2 / r.
     return squared_sine > 0 ? close_steps * step / squared_sine : no_vertices;
   }
@@ -99,7 +102,7 @@ class CloseSegmentSearch {
     }
   }
 
-  /// Are two ends of segments close to the other segment?
+  /// Are at least two of the four ends close to the other segment?
   bool run_side_by_side(std::uint32_t s, std::uint32_t t) const {
     const double most = close_steps * std::max(step_of(s), step_of(t));
     const auto is_close = [&](std::uint32_t v, std::uint32_t segment) {
@@ -109,7 +112,7 @@ class CloseSegmentSearch {
     int count = 0;
     for (const VertexId v : plc_.segments[s].ends)
       if (v != plc_.segments[t].ends[0] && v != plc_.segments[t].ends[1]) count += is_close(v, t) ? 1 : 0;
-    for (const VertexId v : plc_.segments[t].ends) count += is_close(v, s) ? 1 : 0;  // also a common end
+    for (const VertexId v : plc_.segments[t].ends) count += is_close(v, s) ? 1 : 0;  // a common end counts here
     return count >= 2;
   }
 

@@ -8,19 +8,19 @@
 
 namespace ccdt::refine {
 
-/// How near to each end of a segment it may get vertices, as distances from that end.
+/// How near to each of its ends a segment may get vertices, as distances from these ends.
 ///
-/// A vertex on a segment is in the diametral spheres of the pieces of a segment close beside it, unless that has a
-/// vertex at the same height. But vertices are on the grid: a segment has 2^20 places for them. Where segments are too
-/// close for that, each new vertex would need another one on the other segment, again and again.
+/// A vertex on a segment is inside a diametral sphere of a segment close beside it, unless that one has a vertex at the
+/// same height. But vertices must be on the grid, where a segment has 2^20 places for them. Where two segments are too
+/// close for these places to fit, each new vertex on one would need another on the other, without end.
 using LeastDistances = std::array<double, 2>;
 
-/// Segments that meet at this end have no small angle.
+/// No segments meet at a small angle at this end.
 inline constexpr double no_small_angle = 0;
-/// The segment runs beside another one so closely that it may get no vertices at all.
+/// The segment runs so close beside another that it may get no vertices at all.
 inline constexpr double no_vertices = std::numeric_limits<double>::infinity();
 
-/// \return  by segment of the PLC, in grid units
+/// \return  for each segment of the PLC, in grid units
 std::vector<LeastDistances> find_close_segments(const plc::Plc& plc);
 
 }  // namespace ccdt::refine

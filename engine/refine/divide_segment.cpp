@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace ccdt::refine {
@@ -10,14 +11,14 @@ namespace {
 /// On shells, an interval is halved if it is longer than this times the wanted length.
 constexpr double longest_on_shells = 1.4;
 
-/// No shell is used that is nearer than this times the wanted length to where the segment ends.
+/// Shells stay at least this times the wanted length away from the far end of their part of the segment.
 constexpr double shortest_on_shells = 0.5;
 
 Point3 at_share(const std::array<Point3, 2>& ends, double share) {
   return at_fraction(ends, static_cast<std::uint32_t>(share * all_steps));
 }
 
-/// Nearly equal intervals, where they are measured by the wanted lengths.
+/// Divides a segment into intervals that are nearly equal, in units of the wanted lengths.
 std::vector<double> even_shares(const std::array<Point3, 2>& ends, SurfaceSizes& sizes) {
   const double whole = length(ends[1] - ends[0]);
   std::vector<std::pair<double, double>> passed = {{0, 0}};  // share of the length, wanted edges up to there
@@ -40,11 +41,11 @@ std::vector<double> even_shares(const std::array<Point3, 2>& ends, SurfaceSizes&
   return shares;
 }
 
-/// The distances from the first end that are halves of halves of a power of two. Segments that meet at a small angle
-/// then have vertices at the same distances, as they must (Ruppert 1995).
+/// Shells: distances from the first end that come from halving the interval up to a power of two, again and again. So
+/// segments that meet at a small angle have vertices at the same distances, as they must (Ruppert 1995).
 class Shells {
  public:
-  /// \param least, most  of the distances
+  /// \param least, most  distances from the first end
   Shells(const std::array<Point3, 2>& ends, double least, double most, SurfaceSizes& sizes)
       : ends_(ends), whole_(length(ends[1] - ends[0])), least_(least), most_(most), sizes_(sizes) {}
 
@@ -72,7 +73,7 @@ class Shells {
   std::vector<double> shares_;
 };
 
-/// Shells around the end with the small angle, or each half around its end.
+/// Shells around the end with a small angle. If both ends have one, each half has shells around its own end.
 std::vector<double> shares_on_shells(const std::array<Point3, 2>& ends, const LeastDistances& least,
                                      SurfaceSizes& sizes) {
   const double whole = length(ends[1] - ends[0]);

@@ -11,18 +11,18 @@
 
 namespace ccdt::refine {
 
-/// Fractions of segments are counted in steps that are on the grid on every segment.
+/// Fractions of segments are counted in this many steps. Their ends are on the grid on every segment.
 inline constexpr std::uint32_t all_steps = protection::whole_segment / protection::usual_step;
 
-/// A point of a segment between two points whose coordinates are multiples of 2^20; exact.
+/// A point on the segment between two points whose coordinates are multiples of 2^20; exact.
 inline Point3 at_fraction(const std::array<Point3, 2>& ends, std::uint32_t fraction) {
   return ends[0] + fraction * ((1.0 / all_steps) * (ends[1] - ends[0]));
 }
 
-/// Where a segment gets vertices so that its pieces have about the wanted lengths: at nearly equal intervals, or, with
-/// a small angle at an end, on shells.
+/// Where a segment gets vertices, so that its pieces have about the wanted lengths: at nearly equal intervals, or on
+/// shells if an end has a small angle.
 ///
-/// \param least  from the ends
+/// \param least  how near to each end vertices may be
 /// \return  fractions, in increasing order
 std::vector<std::uint32_t> divide_segment(const std::array<Point3, 2>& ends, const LeastDistances& least,
                                           SurfaceSizes& sizes);

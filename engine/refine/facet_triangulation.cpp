@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "engine/numbers/grid.h"
 #include "engine/numbers/predicates.h"
@@ -22,14 +23,14 @@ Point3 mean_normal(const plc::Facet& facet, const std::vector<Point3>& points) {
   return normalized(sum);
 }
 
-/// The axis last, the other two in the order that leaves the orientation as it is.
+/// Puts an axis last, and the other two in the order that keeps the orientation.
 Point3 turned(const Point3& p, int axis) {
   if (axis == 0) return {p.y, p.z, p.x};
   if (axis == 1) return {p.z, p.x, p.y};
   return p;
 }
 
-/// The least of the barycentric coordinates of a point against a triangle, seen along its normal.
+/// The least barycentric coordinate of a point in a triangle, seen along its normal.
 double least_weight(const std::array<Point3, 3>& t, const Point3& p) {
   const Point3 normal = area_vector(t);
   double least = HUGE_VAL;
@@ -37,7 +38,7 @@ double least_weight(const std::array<Point3, 3>& t, const Point3& p) {
   return least / squared_length(normal);
 }
 
-/// base + i u + j v with the integers i and j for which that is nearest to p, up to one.
+/// The point base + i u + j v near p: i and j are rounded to integers.
 Point3 nearest_in_plane(const plc::PlaneSteps& steps, const Point3& p) {
   const auto& [base, u, v] = steps;
   const Point3 offset = p - base;
@@ -79,8 +80,8 @@ FacetPlane::FacetPlane(const plc::Facet& facet, const std::vector<Point3>& point
   }
 }
 
-/// With the other two coordinates (s, t) and the heights that the plane has there, the distances are those of a linear
-/// image of (s, t), which loses no orientation.
+/// Maps the other two coordinates (s, t) linearly, so that distances are those in the plane. Orientations stay the
+/// same.
 Point3 FacetPlane::flattened(const Point3& p) const {
   const Point3 s = turned(p, axis_);
   return {numbers::round_to_unit(0.25 * (first_ * s.x + shear_ * s.y)), numbers::round_to_unit(0.25 * second_ * s.y),
@@ -113,7 +114,7 @@ FacetTriangulation::FacetTriangulation(const plc::Facet& facet, const std::vecto
   }
 }
 
-std::optional<Point3> FacetTriangulation::snap(const Point3& p, double furthest) const {
+std::optional<Point3> FacetTriangulation::snap(const Point3& p, double farthest) const {
   if (patches_.empty()) return std::nullopt;
   const Patch* patch = patches_.data();
   if (patches_.size() > 1) {
@@ -126,7 +127,7 @@ std::optional<Point3> FacetTriangulation::snap(const Point3& p, double furthest)
     }
   }
   const Point3 snapped = nearest_in_plane(patch->steps, p);
-  if (!(squared_length(snapped - p) <= furthest * furthest)) return std::nullopt;
+  if (!(squared_length(snapped - p) <= farthest * farthest)) return std::nullopt;
   return snapped;
 }
 
@@ -136,7 +137,7 @@ WalkEnd FacetTriangulation::walk(std::uint32_t from, VertexId to) const {
   for (int steps = 0; steps < most_steps; ++steps) {
     const std::array<int, 3> signs = planar::signs_at_edges(t_, triangle, to, plane_);
     if (planar::is_within(signs)) return {triangle, {}};
-    // Another edge first at each step, so that the walk cannot go in circles for long; walls last.
+    // Each step begins with another edge, so that the walk cannot go in circles for long. A wall in the way ends it.
     std::optional<Side> exit;
     for (int i = 0; i < 3; ++i) {
       const Side side{triangle, static_cast<std::uint32_t>(i + steps) % 3};

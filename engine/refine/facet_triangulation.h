@@ -14,11 +14,11 @@
 namespace ccdt::refine {
 
 /// Exact planar predicates within a facet (a model of `planar::Predicates`). A facet that is flat only within the
-/// tolerance is flattened: its vertices are seen along the axis that its normal is nearest to, stretched to their true
-/// distances and rounded, which gives points that are exactly in one plane.
+/// tolerance is flattened: its vertices are projected along the axis nearest to its normal, stretched to their true
+/// distances, and rounded. So they are exactly in one plane.
 class FacetPlane {
  public:
-  /// \param points  of all vertices, also of those to come; must outlive this
+  /// \param points  of all vertices, including those that come later; must outlive this
   FacetPlane(const plc::Facet& facet, const std::vector<Point3>& points);
 
   int orient(VertexId a, VertexId b, VertexId c) const;
@@ -31,7 +31,7 @@ class FacetPlane {
   const std::vector<Point3>& points_;
   bool exactly_flat_;
   Point3 normal_, apex_;
-  int axis_;                                   ///< that the normal is nearest to
+  int axis_;                                   ///< the one nearest to the normal
   double first_ = 1, shear_ = 0, second_ = 1;  ///< how the other two coordinates are stretched
 };
 
@@ -51,11 +51,11 @@ class FacetTriangulation {
   const planar::Triangulation& triangulation() const { return t_; }
   const FacetPlane& plane() const { return plane_; }
 
-  /// The point nearest to this one that is exactly in the facet and has integer coordinates; nothing if it is further
-  /// away than that.
-  std::optional<Point3> snap(const Point3& p, double furthest) const;
+  /// A point near this one that is exactly in the facet and has integer coordinates; nothing if it is more than
+  /// `farthest` away.
+  std::optional<Point3> snap(const Point3& p, double farthest) const;
 
-  /// Walks from a triangle towards a vertex that is not part of the triangulation yet.
+  /// Walks from a triangle toward a vertex that is not part of the triangulation yet.
   WalkEnd walk(std::uint32_t from, VertexId to) const;
 
   /// A triangle that contains a vertex that is not part of the triangulation yet.
@@ -69,7 +69,7 @@ class FacetTriangulation {
   bool split(VertexId a, VertexId b, VertexId v) { return planar::split_edge(t_, a, b, v, plane_); }
 
  private:
-  /// The triangle of the facet as it was, over or under which the point is, and the steps in its plane.
+  /// A triangle of the facet as it was, and the steps in its plane.
   struct Patch {
     std::array<Point3, 3> corners;
     plc::PlaneSteps steps;

@@ -1,7 +1,10 @@
 #include "engine/refine/refine_plc.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <queue>
 #include <span>
@@ -21,31 +24,32 @@ namespace {
 using planar::Side;
 using protection::ChainVertex;
 
-/// A triangle is too large if its circumradius is more than this times the wanted length; 0.58 times is the radius of
-/// the equilateral triangle of that length.
+/// A triangle is too large if its circumradius is more than this times the wanted length; an equilateral triangle of
+/// that length has 0.58.
 constexpr double largest_radius = 0.75;
 
-/// A triangle is badly shaped if its circumradius is more than this times its shortest edge: an angle is below 30
-/// degrees.
+/// A triangle is badly shaped if its circumradius is more than this times its shortest edge, so that an angle is below
+/// 30 degrees.
 constexpr double worst_shape = 1;
 
 /// No vertex is nearer to another than this times the wanted length.
 constexpr double least_distance = 0.4;
 
-/// An edge of a segment is halved for the sake of the triangles if it is longer than this times the wanted length.
+/// To improve triangles, an edge of a segment is halved if it is longer than this times the wanted length.
 constexpr double least_halved = 1.1;
 
-/// A vertex encroaches on an edge of a segment that it sees under an angle of more than 120 degrees.
+/// A vertex encroaches on an edge of a segment that it sees at an angle of more than 120 degrees.
 constexpr double encroaching_cosine = -0.5;
 
 /// Largest distance of a new vertex from its wanted place, as a fraction of the wanted length.
 constexpr double most_shift = 0.2;
 
-/// On parts with many thin places, the mesh has about this many tetrahedra for each triangle of the surface: 21 to 27.
+/// On parts with many thin places, the mesh has about this many tetrahedra for each triangle of the surface; measured:
+/// 21 to 27.
 constexpr double tetrahedra_of_triangle = 25;
 
-/// The surface is refined with other limits until the mesh has between these times the allowed tetrahedra, but no more
-/// often than that.
+/// The surface is refined with other limits until the tetrahedra are between these multiples of the allowed number, but
+/// at most this often.
 constexpr double least_excess = 0.3, most_excess = 1.3;
 constexpr int most_tries = 4;
 
@@ -110,8 +114,8 @@ class Refiner {
     std::vector<std::uint32_t> in_facets;
     std::vector<std::vector<ChainVertex>> inside(plc_.segments.size());
     const std::span<const Point3> added = std::span(points_).subspan(of_input);
-    for (const std::uint32_t i :
-         delaunay::hilbert_order(added)) {  // neighbors are near each other in it, so searches are short
+    // In Hilbert order, neighbors are near each other, so searches are short.
+    for (const std::uint32_t i : delaunay::hilbert_order(added)) {
       const std::uint32_t v = of_input + i;
       if (place_[v].segment != none) continue;
       plc_.vertices.push_back(points_[v]);
@@ -244,7 +248,7 @@ class Refiner {
     return (wanted_[a] + wanted_[b] + wanted_[c]) / 3;
   }
 
-  /// The badness of a triangle, from 1; too large ones come first. 0: good.
+  /// How bad a triangle is: more than 1, and most of all if it is too large; 0 if it is good.
   double badness_of(std::uint32_t facet, std::uint32_t triangle) const {
     const std::array<Point3, 3> t = corners(facet, triangle);
     const Shape shape = shape_of(t);
@@ -286,7 +290,8 @@ class Refiner {
     const Point3 middle = 0.5 * (t[(shape.corner + 1) % 3] + t[(shape.corner + 2) % 3]);
     const Point3 up = shape.circumcenter - middle;
     const double wanted = wanted_in(facet, triangle), height = length(up);
-    // With the shortest edge an even triangle of the wanted length (Rebay 1993), or of its own (Uengoer 2009).
+    // The squared height over the shortest edge of a triangle whose sides have the wanted length (Rebay 1993), or at
+    // least of the equilateral one (Uengoer 2009).
     const double even =
         std::max(wanted * wanted - 0.25 * shape.shortest * shape.shortest, 0.75 * shape.shortest * shape.shortest);
     if (height * height > even && put(facet, triangle, middle + (std::sqrt(even) / height) * up)) return true;
@@ -363,7 +368,7 @@ class Refiner {
 
   // ---- Result -------------------------------------------------------------------------------------------------------
 
-  /// Triangulates the facets with the vertices inside them, but without those on segments, as a PLC has it.
+  /// Triangulates the facets with the vertices inside them, but without those on segments, as a PLC requires.
   void retriangulate(const std::vector<std::uint32_t>& in_facets, std::uint32_t of_input) {
     facets_.clear();
     std::vector<std::vector<VertexId>> vertices_of(plc_.facets.size());
@@ -401,7 +406,7 @@ class Refiner {
   std::vector<std::uint32_t> cavity_;  // working memory
 };
 
-/// The triangles of a surface without thin places.
+/// The number of triangles that the surface would have without thin places.
 double count_even_triangles(const plc::Plc& plc, double edge_length) {
   double count = 0;
   for (const plc::Facet& facet : plc.facets)

@@ -12,8 +12,8 @@ namespace ccdt::refine {
 struct RefineOptions {
   double edge_length = 0;        ///< longest wanted edges, in grid units; must be positive
   double grading = 0.5;          ///< growth of the edge length per unit of distance from places where it is short
-  double most_tetrahedra = 2e6;  ///< from thin places, approximately; the thinnest then count as thicker
-  /// Places where a shorter edge length is wanted count as thicker; in grid units. 0: the limit of tetrahedra decides.
+  double most_tetrahedra = 2e6;  ///< that thin places may lead to, approximately
+  /// No thin place gets a shorter edge length than this; in grid units. 0: `most_tetrahedra` decides.
   double least_size = 0;
 };
 
@@ -25,16 +25,17 @@ struct RefinedPlc {
   double least_size = 0;             ///< the `least_size` that was used
 };
 
-/// Gives facets and segments the vertices with which their triangles are well shaped and have edges of a wanted length
-/// (`SurfaceSizes`): segments are divided first, then each facet is refined by circumcenters of its worst triangles
+/// Gives facets and segments new vertices, so that their triangles are well shaped and have edges of the wanted lengths
+/// (`SurfaceSizes`). Segments are divided first. Then each facet is refined at circumcenters of its worst triangles
 /// (Chew 1993, Ruppert 1995, Shewchuk 2002).
 ///
 /// A vertex inside a segment is a dyadic fraction of it, and one inside a facet a corner of it plus integer multiples
 /// of two steps in its plane (`plc::PlaneSteps`), so all are exactly in place. In a facet that is flat only within the
-/// tolerance, they are exactly in one of its triangles' planes.
+/// tolerance, a vertex is exactly in the plane of one of its triangles.
 ///
-/// It terminates at all angles: no edge shorter than the length wanted there is halved, and no vertex is placed nearer
-/// to another one than a fraction of that length.
+/// Where thin places would lead to more than `most_tetrahedra`, the surface is refined again with a lower limit of the
+/// edge lengths there. It terminates at all angles: no edge shorter than the length wanted there is halved, and no
+/// vertex is placed nearer to another one than a fraction of that length.
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress = {});
 
 }  // namespace ccdt::refine

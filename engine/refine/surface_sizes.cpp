@@ -1,6 +1,7 @@
 #include "engine/refine/surface_sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -13,10 +14,10 @@ namespace {
 /// A node with no more places than this is not split.
 constexpr std::uint32_t most_in_leaf = 32;
 
-/// Nor is one smaller than this times the size there: its children would have nearly the same places.
+/// A node smaller than this times the size there is not split either: its children would have nearly the same places.
 constexpr double least_side = 0.5;
 
-/// Thin places may be found for this times the allowed tetrahedra, because the number is known only roughly then.
+/// Thin places are found for up to this times the allowed tetrahedra, because their number is only an estimate then.
 constexpr double most_excess = 4;
 
 std::vector<SizedPoint> in_morton_order(const std::vector<SizedPoint>& places) {
@@ -84,7 +85,7 @@ double SurfaceSizes::at(const Point3& p) {
   double least = largest_;
   for (std::uint32_t i = 0; i < nodes_[n].count; ++i) {
     const SizedPoint& place = places_[listed_[nodes_[n].first + i]];
-    // A square root only if it matters.
+    // The square root is taken only if it matters.
     const double rest = least - place.size, squared = grading_ * grading_ * squared_length(place.point - p);
     if (rest > 0 && squared < rest * rest) least = place.size + grading_ * std::sqrt(squared_length(place.point - p));
   }
@@ -102,7 +103,7 @@ bool SurfaceSizes::has_children(std::uint32_t node) {
   return true;
 }
 
-/// A place that is decisive anywhere in the child differs by so little from the least one at the center.
+/// A place that decides anywhere in the child is, at the center, at most 2 * grading * reach above the least one.
 void SurfaceSizes::list(std::uint32_t parent, std::uint32_t child) {
   const Node from = nodes_[parent];
   Node& to = nodes_[child];

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,14 +14,14 @@ namespace ccdt::refine {
 /// The wanted edge length of the surface at a point: at most that of the options, less at thin places
 /// (`find_thin_places`). From there it grows by the distance times the grading.
 ///
-/// An octree has in each leaf the places that have a say there. It is built where points are asked for.
+/// Each leaf of an octree lists the places that may decide there. The octree grows where points are asked for.
 class SurfaceSizes {
  public:
   SurfaceSizes(const plc::Plc& plc, const RefineOptions& options);
 
   double at(const Point3& p);
 
-  /// Lets thinner places count as if this were their wanted length.
+  /// Raises the wanted lengths of thin places to at least this.
   void limit_from_below(double least);
 
   /// The limit that leaves about this share of the vertices at thin places; `largest` if none does.
@@ -35,12 +34,12 @@ class SurfaceSizes {
     std::uint32_t first = 0, count = 0;  ///< of its part of `listed_`
     std::uint32_t first_child = 0;       ///< eight in a row; 0: not split
     bool is_listed = false;
-    double least = 0;  ///< size of its places
+    double least = 0;  ///< the least size of its places
   };
 
   /// Splits the node first if it has many places.
   bool has_children(std::uint32_t node);
-  /// Lists those places of the parent that may be decisive in the child.
+  /// Lists those places of the parent that may decide in the child.
   void list(std::uint32_t parent, std::uint32_t child);
 
   double largest_, grading_, least_ = 0;

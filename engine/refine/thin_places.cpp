@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "engine/base/closest_on_segment.h"
@@ -14,8 +15,8 @@
 
 namespace ccdt::refine {
 
-/// The cube of a grid of cubes that a point is in, whose edges are the power of two that is not above a size, among
-/// those of one facet.
+/// The cube that a point is in, in a grid of one facet whose edges are the greatest power of two that is not above a
+/// size.
 struct SampleCell {
   std::array<std::int64_t, 3> place;
   std::int32_t exponent;
@@ -45,19 +46,19 @@ using Triangle = std::array<Point3, 3>;
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-/// Edges may be longer than what is between two segments or facets by these factors.
+/// Edges may be this many times as long as a strip or a wall is wide.
 constexpr double of_strip = 1.3, of_wall = 1.2;
 
 /// The tried lengths are halved at most this many times.
 constexpr int most_halvings = 14;
 
-/// Short segments, strips and walls fill cubes: one of each power of two times their size, up to the largest length.
-/// Each leads to about this many tetrahedra. Around a segment or a strip the edges inside the domain are short too; a
-/// wall has no inside.
+/// Thin places are covered by cubes whose edges double from the size of the place up to the largest length. Each cube
+/// leads to about this many tetrahedra: many at a segment or a strip, where the edges inside the domain are short too,
+/// but few at a wall, which has no inside.
 constexpr double of_strip_cube = 60, of_wall_cube = 2;
 
-/// At most this many pieces of walls are measured for one length. The facets of two solids that nearly touch would need
-/// an unlimited number.
+/// At most this many pieces of walls are measured for one length. Two solids that nearly touch would need any number of
+/// them.
 constexpr std::size_t most_pieces = 200000;
 
 Point3 nearest_on_triangle(const Triangle& t, const Point3& p) {
@@ -144,7 +145,7 @@ class Strips {
   }
 
   void begin(std::vector<FacetEdge> edges) {
-    if (edges.size() <= 3) return;  // of a triangle all edges meet
+    if (edges.size() <= 3) return;  // in a triangle, all edges meet
     const auto facet = static_cast<std::uint32_t>(facets_.size());
     std::vector<Item> items;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
@@ -172,8 +173,8 @@ class Strips {
     measure(piece, least, places);
   }
 
-  /// Reduces a distance to that from a point of an edge to the nearest edge or vertex across the facet, if that is
-  /// smaller.
+  /// The distance from a point of an edge to the nearest edge or vertex across the facet, but not more than matters.
+  /// Stores what is near in the piece.
   double width_at(const Point3& p, Piece& piece) const {
     const Edges& facet = facets_[piece.facet];
     const FacetEdge& edge = facet.edges[piece.edge];
@@ -257,7 +258,7 @@ class Walls {
     Sides near;
   };
 
-  /// A triangle in pieces not much longer than the longest edges, so that their boxes are small.
+  /// Cuts a triangle into pieces that are not longer than the longest wanted edges, so that their boxes are small.
   void take_pieces(const Triangle& t, std::uint32_t facet) {
     const auto [a, b, c] = longest_edge_first(t);
     if (length(b - a) <= largest_) {
@@ -307,8 +308,8 @@ class Walls {
     return sample;
   }
 
-  /// Looks from a point of a facet for the nearest triangle of facets that it does not meet, within a cone of 60
-  /// degrees around a direction, which is nearer than `width`.
+  /// Looks from a point of a facet, up to 60 degrees away from a direction, for the nearest triangle of a facet that
+  /// this one does not meet. If that is nearer than `width`, stores its number and distance.
   void look(std::uint32_t facet, const Point3& direction, const Point3& p, std::uint32_t& near, double& width) const {
     const auto try_triangle = [&](std::uint32_t number) {
       const FacetTriangle& t = triangles_[number];
@@ -344,7 +345,7 @@ class Walls {
 
 // ---- All ------------------------------------------------------------------------------------------------------------
 
-/// The number of cubes of a grid with a place that needs less than twice their edge.
+/// The number of cubes of a grid that have a place whose size is below twice their edge.
 std::size_t count_cubes(const std::vector<SizedPoint>& places, double edge) {
   HashSet<SampleCell> cubes;
   for (const SizedPoint& p : places)

@@ -1,6 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "engine/base/count_work.h"
 #include "engine/surface/working_mesh.h"
@@ -26,7 +31,7 @@ bool touches_frozen_face(const WorkingMesh& m, EdgeHandle e) {
 
 // ---- Splits ---------------------------------------------------------------------------------------------------------
 
-// Is no edge of a triangle much longer than its first one?
+// Is the first edge of a triangle its longest, or nearly so?
 bool starts_at_longest_edge(const std::array<Point3, 3>& p) {
   constexpr double much_longer = 1.21;  // squared
   const double most = much_longer * squared_length(p[1] - p[0]);
@@ -35,7 +40,7 @@ bool starts_at_longest_edge(const std::array<Point3, 3>& p) {
 
 // May the triangles at an edge be split with the new vertex at a point where the surface has that normal?
 bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3& normal) {
-  // If longest edges are split, angles stay above half of the least (Rivara 1984), and flips then repair the needles.
+  // If longest edges are split, angles stay above half the least one (Rivara 1984), and flips then repair the needles.
   // Splits of other edges would turn needles into thinner needles forever.
   constexpr double least_part_at_longest = 0.5;
   double least_part = least_part_at_longest;
@@ -52,13 +57,13 @@ bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3
   return may_replace({least_part * before.worst.quality, before.worst.agreement}, after.worst, good_after_split);
 }
 
-// In the middle of an edge between places where such lengths are wanted. A long edge between short ones does not need
+// The wanted length in the middle of an edge, from those at its ends. A long edge between short ones does not need
 // short edges all along it.
 double wanted_between(const WorkingMesh& m, const Point3& middle, double one, double other, double size) {
   return std::min(m.lengths.at(middle), std::min(one, other) + length_growth * 0.5 * size);
 }
 
-// What splits have changed: the edges of the triangles around new vertices.
+// The edges that splits may have affected: those of the triangles around new vertices.
 using ChangedEdges = std::vector<EdgeHandle>;
 
 void split(WorkingMesh& m, EdgeHandle e, VertexHandle v, ChangedEdges& changed) {
@@ -71,7 +76,8 @@ void split(WorkingMesh& m, EdgeHandle e, VertexHandle v, ChangedEdges& changed) 
   }
 }
 
-// The middle of the edge lies on the surface of before, if not on the original one, and is tried next.
+// Splits an edge at the point of the original surface nearest to its middle. If that is not allowed, the middle itself
+// is tried: it lies on the current surface.
 bool try_split(WorkingMesh& m, EdgeHandle e, ChangedEdges& changed) {
   constexpr double most_step = 0.25;  // of a new vertex to the original surface, as a fraction of the edge's length
   const auto [a, b] = m.ends(e);
@@ -115,8 +121,8 @@ bool try_split_link(WorkingMesh& m, std::uint32_t l, ChangedEdges& changed) {
   return true;
 }
 
-// The corners of the triangles at some edges, which tell together with the places of the vertices whether the edges may
-// be split.
+// The corners of the triangles at some edges. Together with the positions of the vertices, they decide whether the
+// edges may be split.
 std::vector<int> corners_around(const WorkingMesh& m, const std::vector<EdgeHandle>& edges) {
   std::vector<int> corners;
   for (const EdgeHandle e : edges)
@@ -189,8 +195,8 @@ class LongEdgeSplitter {
   }
 
   WorkingMesh& m_;
-  ChangedEdges open_;  // that may be too long: all at first, then those that have changed and those that failed
-  std::unordered_map<int, std::vector<int>> failed_edges_, failed_links_;  // the corners around them then
+  ChangedEdges open_;  // may be too long: at first all, then those that changed or could not be split
+  std::unordered_map<int, std::vector<int>> failed_edges_, failed_links_;  // the corners around them at that time
 };
 
 // ---- Collapses ------------------------------------------------------------------------------------------------------
@@ -204,7 +210,7 @@ struct CollapseAim {
 constexpr CollapseAim no_short_edges = {TriangleMeasure::area, too_long, most_deviation};
 constexpr CollapseAim better_triangles = {TriangleMeasure::angle, 1.3 * too_long, most_deviation_of_improved};
 
-// Is this a vertex opposite to the edge of the halfedge? There are one or two.
+// Is this one of the one or two vertices opposite to the edge of the halfedge?
 bool is_apex(const WorkingMesh& m, HalfedgeHandle h, VertexHandle v) {
   for (const HalfedgeHandle side : {h, m.mesh.opposite_halfedge_handle(h)})
     if (!m.mesh.is_boundary(side) && m.corners(side)[2] == v) return true;
@@ -225,8 +231,8 @@ bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t alon
   return false;
 }
 
-// May there be an edge between n and `to` instead of the one between n and `from`? Bad triangles lose edges even if the
-// new ones are not better.
+// May there be an edge between n and `to` instead of the one between n and `from`? To improve bad triangles, an edge
+// may be replaced even by one that is no better.
 bool may_have_edge(const WorkingMesh& m, VertexHandle n, VertexHandle to, VertexHandle from, const CollapseAim& aim) {
   const bool may_be_alike = aim.measure == TriangleMeasure::angle;
   const double size = m.edge_length(n, to);
@@ -262,7 +268,7 @@ bool stays_near_surface(const WorkingMesh& m, HalfedgeHandle h, const CollapseAi
   return true;
 }
 
-// \param along_link  the knot on the other side of the start along its curve, if it is on one
+// \param along_link  the previous knot on the curve of the start, if it is on one
 bool may_collapse(WorkingMesh& m, HalfedgeHandle h, std::uint32_t along_link, const CollapseAim& aim) {
   return !m.at(m.mesh.from_vertex_handle(h)).is_frozen && m.mesh.is_collapse_ok(h) &&
          !would_join_knots(m, h, along_link) && has_good_result(m, h, aim) && stays_near_surface(m, h, aim);
@@ -275,8 +281,8 @@ bool try_collapse(WorkingMesh& m, HalfedgeHandle h, const CollapseAim& aim) {
   return true;
 }
 
-// The halfedge to the next knot from each copy of a knot that is not fixed. Nothing if they and the halfedges to the
-// previous knot do not lead to two different pairs of copies each: collapsed, they would be one edge.
+// The halfedge to the next knot from each copy of a knot that is not fixed. Nothing if two copies have the same two
+// neighbors along the curve: the collapse would make one edge of theirs.
 std::vector<HalfedgeHandle> halfedges_to(const WorkingMesh& m, std::uint32_t next, std::uint32_t knot) {
   std::vector<HalfedgeHandle> halfedges;
   std::vector<std::array<int, 2>> ends;
@@ -385,7 +391,8 @@ bool try_flip(WorkingMesh& m, EdgeHandle e, const Flip& f) {
   return true;
 }
 
-// The ideal number of neighbors of a vertex on a feature: its wedge divided into equal parts near 60 degrees.
+// The ideal number of neighbors of a vertex: six, or, on a feature, as many as divide its wedge into equal parts near
+// 60 degrees.
 int ideal_valence(const WorkingMesh& m, VertexHandle v) {
   if (!m.mesh.is_boundary(v)) return 6;
   double angle = 0;

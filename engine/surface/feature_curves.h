@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,15 +18,15 @@ struct FeatureCurve {
   /// The point at an arc length, exactly on the chain where that is parallel to an axis.
   Point3 at(double arc_length) const;
 
-  /// The arc length of the bend of the chain that is nearest to another arc length, if it is within reach; else that
-  /// one itself. A chain that runs through its bends does not shrink.
+  /// The arc length of the bend nearest to a given arc length, if one is within reach; otherwise the given one. A chain
+  /// that runs through its bends does not shrink.
   double at_bend(double arc_length, double reach) const;
 
-  /// The largest distance of the chain between two arc lengths from the straight line between these.
+  /// The largest distance of the chain, between two arc lengths, from the straight line through its points there.
   double deviation(double from, double to) const;
 };
 
-/// The curve of a feature edge, and its place on it.
+/// The curve that a feature edge is on, and where.
 struct CurvePiece {
   std::uint32_t curve;
   std::array<double, 2> arc;  ///< at the ends of the feature, in its order
@@ -37,9 +38,9 @@ struct FeatureCurves {
   std::vector<char> is_corner;       ///< of each point: it must stay where it is
 };
 
-/// Chains the features. A point is a corner if not exactly two features end at it, if they turn by more than the sharp
-/// angle or are of different kinds, if it belongs to more than the two features bound, or if the input lists it alone.
-/// A loop without a corner gets one.
+/// Chains the features. A point is a corner if one feature ends at it or more than two do, if its two features turn by
+/// more than the sharp angle or are of different kinds, if one of its wedges does not reach from feature to feature, or
+/// if the input lists it alone. A loop without a corner gets one.
 FeatureCurves chain_features(const OriginalSurface& surface, double sharp_angle);
 
 }  // namespace ccdt::surface

@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "engine/base/count_work.h"
 #include "engine/surface/working_mesh.h"
@@ -41,7 +45,7 @@ void add_triangles_around(const WorkingMesh& m, VertexHandle v, const Spot& spot
   }
 }
 
-// Would all edges of the vertex be near the original surface, except those that are not near it already?
+// Would all edges of the vertex be near the original surface, except those that are not near it now?
 bool edges_would_stay_near(const WorkingMesh& m, VertexHandle v, const Point3& p) {
   if (m.is_flat(v)) return true;
   for (auto n = m.mesh.cvv_iter(v); n.is_valid(); ++n)
@@ -81,7 +85,7 @@ bool may_relax(const WorkingMesh& m, VertexHandle v, const Spot& spot) {
   return may_replace(fit.before.worst, fit.after.worst, good_quality);
 }
 
-// The center of the triangles around, by their areas in units of the wanted edge length.
+// The center of the triangles around a vertex, weighted by their areas in units of the wanted edge length.
 Point3 center_around(const WorkingMesh& m, VertexHandle v) {
   Point3 sum;
   double weights = 0;
@@ -113,7 +117,7 @@ void relax_vertex(WorkingMesh& m, VertexHandle v) {
   }
 }
 
-// Between its neighbors, so that both edges fit the wanted lengths alike.
+// Moves a knot between its neighbors, so that both edges fit the wanted lengths equally well.
 void relax_knot(WorkingMesh& m, std::uint32_t k) {
   ++work_done.moves_tried;
   constexpr double bend_reach = 0.3;  // of the new edges' length
@@ -173,7 +177,7 @@ std::array<Point3, directions> tangential_directions(const Point3& normal) {
   return result;
 }
 
-// In the tangent plane, by pattern search (Hooke and Jeeves 1961).
+// The best place in the tangent plane, by pattern search (Hooke and Jeeves 1961).
 Point3 best_place(const WorkingMesh& m, VertexHandle v) {
   constexpr int most_steps = 16;
   const std::array<Point3, directions> around = tangential_directions(m.at(v).normal);

@@ -1,9 +1,10 @@
 #include "engine/surface/original_surface.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "engine/base/closest_on_triangle.h"
 #include "engine/base/count_work.h"
@@ -129,7 +130,7 @@ class SurfaceCutter {
 
   int marker_of(std::uint32_t t) const { return plc_.facets[surface_.facet_of[t]].marker; }
 
-  // Orients each patch as its first triangle is. Where that is impossible (a Moebius strip), it is cut.
+  // Orients each patch like its first triangle. Where that is impossible (a Moebius strip), the patch is cut.
   void join_patches() {
     const auto count = static_cast<std::uint32_t>(corners_.size());
     surface_.patch_of.assign(count, none);
@@ -186,8 +187,8 @@ class SurfaceCutter {
     }
   }
 
-  // A feature that is a single edge within a patch does not cut it: both sides have the same wedges at its ends. In the
-  // middle of it they have not.
+  // A feature that is a single edge within a patch does not cut it: both sides have the same wedges at its ends. A
+  // vertex in the middle of the edge has two wedges.
   bool split_features_that_do_not_cut() {
     std::vector<char> is_split(corners_.size(), 0);
     bool any = false;
@@ -277,7 +278,7 @@ class SurfaceCutter {
 
 // ---- The closest point of a patch -----------------------------------------------------------------------------------
 
-// a + v ab + w ac; where a coordinate is the same for all three, it stays so.
+// The nearest point of a triangle: a + v ab + w ac. A coordinate that all three corners share stays exactly the same.
 Foot closest_foot(const Point3& p, const std::array<Point3, 3>& t) {
   Foot foot;
   foot.weights = closest_on_triangle(p, t);
@@ -310,7 +311,7 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   constexpr std::uint32_t leaf_size = 4;
   nodes_[node] = {box, begin, end - begin};
   if (end - begin <= leaf_size) {
-    // The order of the rest depends on the standard library.
+    // The order that nth_element leaves depends on the standard library.
     std::sort(items_.begin() + begin, items_.begin() + end);
     return;
   }
@@ -344,7 +345,7 @@ Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
   return foot;
 }
 
-// The nearest point, or the first one within a sufficient distance.
+// The nearest point, or the first one that is near enough.
 Foot ClosestPoint::search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const {
   Foot best = foot_on(near, p);
   std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items, as each node is halved

@@ -21,9 +21,9 @@ struct FeatureEdge {
 
 /// The surface before remeshing, cut along its features.
 ///
-/// A *patch* is a set of triangles that are joined through edges that are no features; all of them are oriented alike.
-/// A *wedge* (Hoppe 1998) is a patch's part at a point: the triangles around the point that are joined through edges at
-/// the point that are no features.
+/// A *patch* is a set of triangles that are joined through edges that are not features. All of them are oriented alike.
+/// A *wedge* (Hoppe 1998) is the part of a patch at a point: triangles around the point that are joined through edges
+/// at the point that are not features.
 ///
 ///      \ w0 /        two features cross at the point in the middle:
 ///       \  /         four wedges
@@ -43,7 +43,7 @@ struct OriginalSurface {
                                                          ///< and below?
   std::vector<std::uint32_t> wedge_points;
   std::vector<std::uint32_t> wedge_patches;
-  std::vector<Point3> wedge_normals;  ///< of length one, mean of the triangles in the wedge by their angles
+  std::vector<Point3> wedge_normals;  ///< of length one: mean over the wedge, weighted by angles
   std::vector<FeatureEdge> features;
   std::vector<char> is_listed_alone;  ///< by point: the input lists it, but no facet or segment uses it
 };
@@ -65,7 +65,7 @@ class ClosestPoint {
  public:
   explicit ClosestPoint(const OriginalSurface& surface);
 
-  /// \param near  a triangle of the patch; the nearer it is, the faster
+  /// \param near  a triangle of the patch; the nearer it is, the faster the search
   Foot on_patch(std::uint32_t patch, const Point3& p, std::uint32_t near) const { return search(patch, p, near, 0); }
 
   /// Is the patch within this distance of a point? Faster than finding the nearest point.

@@ -1,9 +1,13 @@
 #include "engine/surface/remesh_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
@@ -32,9 +36,10 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
                      "give the edge length of the new surface, in the units of the input");
   const bool is_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
   if (!is_angle)
-    throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place, "give one, 30 say");
+    throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place,
+                     "give an angle in between, such as 30");
   if (options.iterations < 1)
-    throw InputError("remeshing needs at least one iteration", place, "give a greater number, 8 say");
+    throw InputError("remeshing needs at least one iteration", place, "give a greater number, such as 8");
 }
 
 /// What must stay the same: the regions, in any order.
@@ -45,7 +50,7 @@ std::vector<std::pair<bool, int>> regions_of(const plc::Plc& plc) {
   return regions;
 }
 
-// Triangles with their smallest angles, the worst first.
+// Bad triangles with their smallest angles, the worst first.
 std::vector<std::pair<double, FaceHandle>> bad_triangles(const WorkingMesh& m) {
   constexpr double good_angle = 36;  // degrees
   std::vector<std::pair<double, FaceHandle>> found;
@@ -58,7 +63,7 @@ std::vector<std::pair<double, FaceHandle>> bad_triangles(const WorkingMesh& m) {
   return found;
 }
 
-// Its halfedges, along the longest edge first.
+// The halfedges of a triangle, that of the longest edge first.
 std::array<HalfedgeHandle, 3> halfedges_by_length(const WorkingMesh& m, FaceHandle f) {
   const HalfedgeHandle h = m.mesh.halfedge_handle(f);
   std::array<HalfedgeHandle, 3> halfedges = {h, m.mesh.next_halfedge_handle(h), m.mesh.prev_halfedge_handle(h)};
@@ -144,7 +149,7 @@ void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
 }
 
 /// Places, in the units of the surface, where its triangles or segments meet in more than common vertices and edges, or
-/// where a triangle has no area: all of them up to some thousands, unlike `build_plc`, which stops at the first.
+/// where a triangle has no area: up to a few thousand, unlike `build_plc`, which stops at the first.
 std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness) {
   constexpr std::size_t most_places = 4000;
   plc::Plc plc;

@@ -17,21 +17,22 @@ struct RemeshOptions {
   double flatness = 1e-8;  ///< see PlcOptions
 };
 
-/// Replaces the triangles of a surface by ones that are nearly equilateral with edges of nearly one length, by rounds
-/// of edge splits, collapses, flips and tangential relaxation, each projected back to the surface as it was (Botsch and
-/// Kobbelt, "A remeshing approach to multiresolution modeling", 2004).
+/// Replaces the triangles of a surface by nearly equilateral ones with edges of nearly one length: in rounds of edge
+/// splits, collapses, flips and tangential relaxation, each projected back to the original surface (Botsch and Kobbelt,
+/// "A remeshing approach to multiresolution modeling", 2004).
 ///
 /// The following keep their shape: sharp edges, edges where one facet ends or more than two meet, borders between
-/// facets of different markers, and the segments of the input. All of these are divided again along themselves. Their
+/// facets of different markers, and the segments of the input. All of these get new vertices along themselves. Their
 /// corners, and the vertices that the input lists without using them, stay as points. Flat patches stay flat. Facet
 /// markers, segments with their markers, holes and regions are preserved.
 ///
 /// No triangle is turned over or made worse than a limit. Edges are shorter where features are short or near each
 /// other, where the surface is curved, and where another sheet is opposite, through the solid or a gap. They grow
-/// gently from there, so that neither needles nor flat tetrahedra are needed. At the end, the worst triangles are
-/// improved one by one: angles below 30 degrees remain only at sharp corners and where the surface is rough. If
-/// triangles of the result would still cross, that place gets shorter edges, and, if that does not help, its old
-/// triangles. The result always builds (`build_plc`).
+/// gently from there, so that neither needles nor flat tetrahedra are needed. All these short edges cost at most about
+/// 40,000 triangles more than the given edge length would; beyond that, the shortest become longer. At the end, the
+/// worst triangles are improved one by one: angles below 30 degrees remain only at sharp corners and where the surface
+/// is rough. If triangles of the result still cross, the edges there become shorter. If that does not help, the old
+/// triangles stay there. The result always builds (`build_plc`).
 ///
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is not a valid PLC, or an option is out of range

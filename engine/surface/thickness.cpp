@@ -1,6 +1,9 @@
 #include "engine/surface/thickness.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace ccdt::surface {
 namespace {
@@ -80,7 +83,7 @@ double Thickness::measure(const Foot& foot, double most) const {
   return std::max(wanted, least_wanted());
 }
 
-// To the first sheet in a direction; infinite if there is none within reach, or if that one is slanted.
+// The distance to the first sheet in a direction; infinite if there is none within reach, or if that one is slanted.
 double Thickness::distance(const Foot& foot, const Point3& direction, double reach) const {
   double nearest = HUGE_VAL;
   bool is_slanted = false;

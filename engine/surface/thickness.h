@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/base/box_tree.h"
@@ -11,7 +10,7 @@ namespace ccdt::surface {
 /// The edge lengths for thin places: those where the original surface has another sheet opposite, through the solid or
 /// a gap.
 ///
-///     ------ x ------    the sheet that is asked
+///     ------ x ------    the sheet that is measured
 ///            | distance
 ///     ------ * ------    the opposite one: nearly parallel, as the sides of a wedge are not
 class Thickness {
@@ -19,7 +18,7 @@ class Thickness {
   /// \param usual  the edge length wanted where no place needs less
   Thickness(const OriginalSurface& surface, double usual);
 
-  /// The edge length that a point needs. A large triangle needs at most `most`; a small one is measured once, at its
+  /// The edge length that a point needs: at most `most` on a large triangle. A small triangle is measured once, at its
   /// center.
   double wanted_at(const Foot& foot, double most) const;
 
@@ -33,7 +32,7 @@ class Thickness {
   const OriginalSurface& surface_;
   double usual_;
   BoxTree tree_;
-  mutable std::vector<double> of_small_triangles_;  // at their centers; less than 0: not computed yet
+  mutable std::vector<double> of_small_triangles_;  // at their centers; below 0: not computed yet
 };
 
 }  // namespace ccdt::surface

@@ -1,8 +1,12 @@
 #include "engine/surface/wanted_lengths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <queue>
+#include <utility>
 
 #include "engine/surface/working_mesh.h"
 
@@ -11,7 +15,8 @@ namespace {
 
 constexpr double step = 0.9;  // from one tried length to the next
 
-// The pieces of the chain are not an obstacle: a vertex may be put on each bend.
+// The longest edge at a point of a curve that stays near to it. An edge as long as a piece of the chain is always
+// allowed: each bend may get a vertex.
 double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
   const double whole = curve.arc.back();
   const double before = i > 0 ? curve.arc[i] - curve.arc[i - 1] : 0;
@@ -29,8 +34,8 @@ constexpr std::uint32_t none = WorkingMesh::none;
 constexpr double most_ratio = 2;       // of the wanted length to the shortest edge of a vertex
 constexpr double most_turn = 0.42;     // radians, of the normals along an edge
 constexpr double width_ratio = 1.15;   // of edges along a strip to its width: equilateral triangles fill it
-constexpr double least_width = 0.002;  // of the usual length: the shortest edges would not fit less
-constexpr double narrow_wedge = 0.5;   // its width by the distance from its tip
+constexpr double least_width = 0.002;  // of the usual length: narrower strips fit no allowed edge
+constexpr double narrow_wedge = 0.5;   // its width over the distance from its tip
 
 // None of these makes edges shorter than this fraction of the usual length: slits may be arbitrarily narrow, and noise
 // has bends too.
@@ -72,7 +77,7 @@ void limit_by_edges(WorkingMesh& m) {
   }
 }
 
-// Is a knot within reach of a corner that is also near another knot? The space between them is not a strip.
+// Is there a corner that is at, or next to, each of two knots? Then the space between them is not a strip.
 bool share_a_corner(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
   const auto is_corner_near = [&](std::uint32_t corner, std::uint32_t k) {
     return m.knots[corner].is_fixed && (corner == k || link_between(m, corner, k) != none);
@@ -84,7 +89,7 @@ bool share_a_corner(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
   return false;
 }
 
-// Does a narrow wedge between two curves reach from a corner of both to a point? No edge length is small enough there.
+// Is a point in a narrow wedge between two curves that meet at a corner? No edge length is small enough there.
 bool is_in_narrow_wedge(const FeatureCurve& one, const FeatureCurve& other, const Point3& p, double width) {
   for (const Point3& end : {one.points.front(), one.points.back()})
     if ((end == other.points.front() || end == other.points.back()) && width < narrow_wedge * length(p - end))
@@ -127,11 +132,12 @@ void limit_by_thickness(WorkingMesh& m) {
   }
 }
 
-/// Short edges at features may cost this many triangles; the shortest are made longer if they would cost more. It leads
-/// to about a million tetrahedra.
+/// Short edges at features may cost this many triangles, which lead to about a million tetrahedra. If they would cost
+/// more, the shortest become longer.
 constexpr double most_triangles_at_features = 40000;
 
-/// The number of equilateral triangles of the wanted lengths, where none is below `least` unless it is everywhere.
+/// The number of equilateral triangles of the wanted lengths, if none was below `least` except where the given length
+/// is.
 double count_triangles(const WorkingMesh& m, double least) {
   double count = 0;
   for (const FaceHandle f : m.mesh.faces()) {
@@ -143,6 +149,7 @@ double count_triangles(const WorkingMesh& m, double least) {
   return count;
 }
 
+/// Makes the shortest wanted lengths longer until features cost no more triangles than they may.
 void limit_count(WorkingMesh& m) {
   const double usual = m.lengths.usual();
   const double most = count_triangles(m, usual) + most_triangles_at_features;
@@ -195,7 +202,7 @@ double CurveLengths::at(std::uint32_t curve, double arc) const {
   return std::min(lengths[i - 1] + length_growth * (arc - arcs[i - 1]), lengths[i] + length_growth * (arcs[i] - arc));
 }
 
-// Dijkstra's algorithm from the smallest lengths on.
+// The lengths spread from the smallest ones by Dijkstra's algorithm.
 void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
   for (WorkingMesh::Knot& k : m.knots) k.wanted = m.lengths.at(k.position);
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = m.lengths.at(m.point(v));

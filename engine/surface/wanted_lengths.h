@@ -19,7 +19,7 @@ inline constexpr double most_deviation = 0.044;
 /// The same for the edges that improve bad triangles: a circle keeps fifteen edges.
 inline constexpr double most_deviation_of_improved = 0.055;
 
-/// The wanted edge length at each place: that of the options, except in some balls, where it is less; around them it
+/// The wanted edge length at each place: that of the options, except in some balls, where it is less. Around these it
 /// grows gently.
 class EdgeLengths {
  public:
@@ -42,7 +42,7 @@ class EdgeLengths {
 };
 
 /// The longest edges that feature curves allow: short curves between corners stay single edges, and a bent curve needs
-/// edges that stay near to it (`most_deviation`).
+/// edges that stay near it (`most_deviation`).
 class CurveLengths {
  public:
   /// \param usual  the edge length wanted where the curve does not need less

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "engine/base/errors.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t none = WorkingMesh::none;
 
-// By point; `none` for those in the middle of one patch that may move.
+// Adds the knots. Returns that of each point; `none` for points inside one patch that may move.
 std::vector<std::uint32_t> add_knots(WorkingMesh& m) {
   const OriginalSurface& original = m.original;
   std::vector<char> has_feature(original.points.size(), 0);

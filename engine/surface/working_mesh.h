@@ -3,8 +3,9 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "engine/base/count_work.h"
@@ -101,8 +102,8 @@ using FaceHandle = HalfedgeMesh::FaceHandle;
 /// features, and every patch (every wedge, where one patch is there several times) has a copy of its own of the
 /// vertices there. So an edge of the halfedge mesh is a boundary edge exactly if it lies on a feature. The copies are
 /// tied together by *knots*: a knot is a vertex on a feature, or any other vertex that has several copies or must not
-/// move. Knots are joined by links, the edges along the features, which may have any number of copies: also none, when
-/// a segment is in no facet.
+/// move. Knots are joined by links, the edges along the features, which may have any number of copies, even none if a
+/// segment is in no facet.
 struct WorkingMesh {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -237,7 +238,7 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
 
 /// Gives every vertex and knot the wanted edge length (`EdgeLengths`), but less around edges that are much shorter and
 /// could not be collapsed, because the surface is too narrow or too strongly curved there: long edges beside them would
-/// turn the triangles into needles.
+/// turn the triangles into needles. Short edges at features cost a limited number of triangles.
 ///
 /// \param is_remeshed  false for the original mesh: its short edges, narrow strips and thin places do not count yet
 void find_wanted_lengths(WorkingMesh& m, bool is_remeshed);
@@ -255,7 +256,7 @@ void flip_edges_for_valence(WorkingMesh& m);
 /// Flips edges if that improves the worse of the two triangles.
 void flip_edges_for_quality(WorkingMesh& m);
 
-/// Moves vertices towards the center of their neighborhood, along the original surface or along their feature.
+/// Moves vertices toward the center of their neighborhood, along the original surface or along their feature.
 void relax_vertices(WorkingMesh& m);
 /// @}
 

@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/numbers/predicates.h"

@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <random>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"
@@ -188,7 +193,7 @@ TEST(Improving, CountsWhatItDid) {
   });
 }
 
-TEST(Improving, HasTheSameResultAgain) {
+TEST(Improving, IsDeterministic) {
   visit_cases([](const Case& c) {
     const improve::QualityGoal goal = improve::goal_of(c.options);
     improve::CellComplex x = complex_of(c.cube.model, goal), y = x;
@@ -199,7 +204,7 @@ TEST(Improving, HasTheSameResultAgain) {
   });
 }
 
-TEST(Improving, ThatFindsNoMoreSwapsLeavesNone) {
+TEST(Improving, LeavesNoSwapsOnceItFindsNone) {
   visit_cases([](const Case& c) {
     if (c.options.improvement != improve::Improvement::swap) return;
     const improve::QualityGoal goal = improve::goal_of(c.options);
@@ -247,7 +252,7 @@ TEST(Improving, NoneChangesNothing) {
   EXPECT_TRUE(points_of(x) == points_of(before));
 }
 
-TEST(Improving, ReachesATargetThatIsLow) {
+TEST(Improving, ReachesALowTarget) {
   improve::ImproveOptions options{
       improve::Improvement::all, improve::Objective::dihedral, improve::BoundaryRule::keep, 5, 2, 0};
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -259,7 +264,7 @@ TEST(Improving, ReachesATargetThatIsLow) {
   }
 }
 
-TEST(Improving, StopsWhenTheTimeIsUpWithAMeshThatIsWhole) {
+TEST(Improving, LeavesAConsistentMeshWhenTheTimeIsUp) {
   improve::ImproveOptions options{
       improve::Improvement::all, improve::Objective::r, improve::BoundaryRule::keep, 60, 1, 1e-9};
   const improve::QualityGoal goal = improve::goal_of(options);

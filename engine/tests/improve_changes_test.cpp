@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"
@@ -74,7 +78,7 @@ Model square_between_regions() {
   return model;
 }
 
-/// An octahedron of the vertices 0 to 5, whose inner vertex 6 is near to the vertex 0.
+/// An octahedron of the vertices 0 to 5, whose inner vertex 6 is near vertex 0.
 Model octahedron() {
   Model model;
   model.points = {{100, 0, 0}, {-100, 0, 0}, {0, 100, 0}, {0, -100, 0}, {0, 0, 100}, {0, 0, -100}, {80, 1, 2}};
@@ -255,7 +259,7 @@ TEST(Changes, DanglingSegmentBetweenTwoFacesStays) {
   expect_every_plan_is_sound(x);
 }
 
-TEST(Changes, InnerVertexOfOursIsCollapsed) {
+TEST(Changes, InteriorVertexIsCollapsed) {
   improve::CellComplex x = complex_of(octahedron(), by_shape);
   improve::Change change;
   improve::PlanScratch scratch;
@@ -267,7 +271,7 @@ TEST(Changes, InnerVertexOfOursIsCollapsed) {
   EXPECT_EQ(mesh.tetrahedra.size(), 4u);
 }
 
-TEST(Changes, CavityOfANewVertexSwallowsVerticesOfOurs) {
+TEST(Changes, CavityOfANewVertexSwallowsInteriorVertices) {
   const PlanCounts counts = expect_every_plan_is_sound(complex_of(octahedron(), by_angle));
   EXPECT_GT(counts.insertions, 0);
   EXPECT_TRUE(counts.vertices_gone.contains(6));

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 namespace ccdt::improve_test {
@@ -59,7 +62,7 @@ void orient(const std::vector<Point3>& points, Tetrahedron& t) {
   if (sixfold_volume(points, t) < 0) std::swap(t[0], t[1]);
 }
 
-/// Faces of the boundary that are on no facet get one each, the face seen from outside counterclockwise.
+/// Gives each face of the boundary that is on no facet one of its own, counterclockwise as seen from outside.
 void add_boundary(Model& model) {
   std::set<FaceKey> known;
   for (const Triangle& f : model.faces) known.insert(face_key(f[0], f[1], f[2]));

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <vector>
@@ -21,7 +23,7 @@ struct Model {
   std::vector<Point3> points;
   std::vector<Tetrahedron> cells;    ///< of any orientation
   std::vector<int> regions = {};     ///< empty: all 0
-  std::vector<Triangle> faces = {};  ///< on facets; faces of the boundary that are missing become facets of their own
+  std::vector<Triangle> faces = {};  ///< on facets; missing faces of the boundary become facets of their own
   std::vector<std::uint32_t> facet_of_face = {};
   std::vector<Edge> segments = {};
   std::uint32_t first_interior = 0xFFFFFFFFu;  ///< none is interior
@@ -60,11 +62,11 @@ struct PlanCounts {
   int total() const { return edge_removals + face_removals + insertions + collapses; }
 };
 
-/// Makes each change that any cell can have part in, in a copy of the complex, and expects that it is an improvement,
-/// that everything is consistent, and that the invariants hold.
+/// Makes each change that involves any cell, in a copy of the complex. Expects that each is an improvement, that
+/// everything is consistent, and that the invariants hold.
 PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex);
 
-/// The tetrahedra that live, with sorted vertices.
+/// The tetrahedra that are not dead, with sorted vertices.
 std::set<Tetrahedron> cells_of(const improve::CellComplex& complex);
 
 bool has_edge(const improve::CellComplex& complex, std::uint32_t a, std::uint32_t b);

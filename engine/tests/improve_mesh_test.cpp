@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
 
 #include "engine/improve/cell_complex.h"
 #include "engine/tests/mesh_checks.h"
@@ -82,7 +87,7 @@ bool anything_done(const ImproveCounts& c) {
   return c.removed_edges + c.removed_faces + c.moved_vertices + c.inserted_vertices + c.collapsed_edges > 0;
 }
 
-/// All that holds of an improved mesh, whatever the input.
+/// Everything that must hold for an improved mesh, whatever the input.
 ///
 /// \return how far a vertex of the input, or a Steiner vertex, has moved
 double expect_improved(const InputPlc& input, const MeshResult& plain, const MeshOptions& options) {
@@ -169,7 +174,7 @@ TEST(ImprovedMesh, FacetsWithVerticesInsidePlainAndRotated) {
   }
 }
 
-TEST(ImprovedMesh, HasSteinerVerticesMovedAlongTheirSegmentsAndThoseOfTheInputWhereTheyWere) {
+TEST(ImprovedMesh, MovesSteinerVerticesAlongSegmentsAndKeepsThoseOfTheInput) {
   const InputPlc prism = twisted_prism(6, 0.25);
   const MeshResult plain = mesh_plc(prism, options_of(Improvement::none));
   const MeshResult improved = mesh_plc(prism, options_of(Improvement::all));

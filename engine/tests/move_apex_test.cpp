@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <random>
+#include <span>
+#include <vector>
 
 #include "engine/improve/smoothing.h"
 #include "engine/numbers/predicates.h"
@@ -106,7 +110,7 @@ TEST(CellQuality, KnowsTheCornerOfACube) {
   EXPECT_NEAR(improve::least_sine(b, a, c, d), std::sqrt(2.0 / 3), 1e-15);
 }
 
-TEST(StarFunctions, AgreeWithTheWorthOfSingleTetrahedra) {
+TEST(StarFunctions, AgreeWithTheQualityOfSingleTetrahedra) {
   improve::ScaledStar scaled;
   for (const Star& star : jittered_stars(0.3, 1)) {
     improve::load_star(star.faces, star.apex, scaled);
@@ -199,7 +203,7 @@ TEST(ProximalStep, EndsWhereFourModelsMeet) {
   EXPECT_NEAR(found.least, 2, 1e-2);
 }
 
-/// All models keep the prediction, and it is not less than that of many random steps with their costs.
+/// No model is below the prediction, and no random step is much better, with the cost of its length.
 TEST(ProximalStep, IsBetterThanOtherSteps) {
   std::mt19937_64 random(5);
   const auto number = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
@@ -347,7 +351,7 @@ TEST(MoveApex, IsSeldomWorseThanASearchOfThePlaneOrTheLine) {
   }
 }
 
-/// All tetrahedra around the apex are slivers, of a height that is a millionth of their edges and less.
+/// All tetrahedra around the apex are slivers whose height is at most a millionth of their edges.
 TEST(MoveApex, LeavesNearlyFlatPlacesAndStaysPositive) {
   const double size = 0x1p40;
   for (const double depth : {0x1p-20, 0x1p-30, 0x1p-40}) {

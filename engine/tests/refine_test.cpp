@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "engine/base/count_work.h"
 #include "engine/base/portable_math.h"
@@ -128,7 +132,7 @@ TEST(Refine, ACubeGetsEvenTriangles) {
   EXPECT_GE(least_angle_of_faces(r.mesh), 29);
 }
 
-TEST(Refine, VerticesThatSplitSegmentsAreNoSteinerVertices) {
+TEST(Refine, VerticesThatSplitSegmentsAreNotSteinerVertices) {
   EXPECT_EQ(mesh_plc(unit_cube(), refining(0.2)).counts.steiner_vertices, 0u);
 }
 
@@ -198,7 +202,7 @@ TEST(Refine, TheThicknessOfAFlatPlateIsMeasuredOnce) {
   EXPECT_LT(work_done.box_tree_nodes - nodes, 1000 * all_points(r.after).size());
 }
 
-TEST(Refine, WallsAsThinAsYouLikeAreNotMeasuredForEver) {
+TEST(Refine, ExtremelyThinWallsDoNotTakeForever) {
   const std::uint64_t nodes = work_done.box_tree_nodes;
   refined(box({0, 0, 0}, {4, 4, 1e-5}), 0.2);
   EXPECT_LT(work_done.box_tree_nodes - nodes, 60'000'000u);
@@ -215,7 +219,7 @@ TEST(Refine, VerticesInsideFacetsGetEdgesThatFit) {
   EXPECT_GE(least_angle_of_faces(mesh_plc(plc, options).mesh), 25);
 }
 
-TEST(Refine, EndsAtSmallAngles) {
+TEST(Refine, TerminatesAtSmallAngles) {
   for (const double width : {1.0, 0.1, 0.001}) {
     SCOPED_TRACE(width);
     const Refined r = refined(wedge(width), 0.5);
@@ -276,7 +280,7 @@ TEST(Refine, SegmentsThatNearlyTouchSideBySideGetNoVertices) {
   EXPECT_EQ(close_segments({0.5, 5e-7, -1}, {0.5, 5e-7, 1}), (std::vector{any, any})) << "they cross";
 }
 
-TEST(Refine, TheSmallerTheAngleTheFurtherAwayAreTheFirstVertices) {
+TEST(Refine, TheSmallerTheAngleTheFartherAreTheFirstVertices) {
   const auto least_at = [](double angle) {
     return close_segments({0, 0, 0}, {1, angle, 0})[0][0] / close_segments({0, 0, 0}, {1, 0.1, 0})[0][0];
   };
@@ -285,7 +289,7 @@ TEST(Refine, TheSmallerTheAngleTheFurtherAwayAreTheFirstVertices) {
   EXPECT_EQ(close_segments({0, 0, 0}, {0, 1, 0})[0], (LeastDistances{no_small_angle, no_small_angle}));
 }
 
-TEST(Refine, MeshesAreVerifiedAgainstTheInputAsItWas) {
+TEST(Refine, MeshesAreVerifiedAgainstTheOriginalInput) {
   for (const auto& [name, plc] : small_inputs()) {
     for (const InputPlc& input : {plc, rotated(oblique, plc)}) {
       SCOPED_TRACE(name);

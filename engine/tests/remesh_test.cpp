@@ -1,9 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 // after GoogleTest, whose macros it uses
 #include "engine/base/count_work.h"
@@ -54,7 +61,7 @@ InputPlc slotted_plate(int slots) {
   return plate;
 }
 
-/// Flat facets, so everything but the triangles is as before, to the last bits.
+/// For flat facets: everything but the triangles stays the same, up to rounding.
 void expect_same_shape(const InputPlc& before, const InputPlc& after) {
   expect_near(areas(before), areas(after), 1e-9);
   expect_near(odd_edge_lengths(before), odd_edge_lengths(after), 1e-9);
@@ -194,7 +201,7 @@ TEST(Remeshing, ModelsReachTheirEdgeLength) {
 
 TEST(Remeshing, ShellsThinnerThanTheEdgesDoNotCross) {
   InputPlc shell = models::make_solid("sphere", 0.1);
-  const auto shrunk = [](const Point3& p) { return 0.995 * p; };  // too thin to ask for shorter edges
+  const auto shrunk = [](const Point3& p) { return 0.995 * p; };  // so thin that it gets no shorter edges
   append(shell, rotated(oblique, mapped(shell, shrunk)));
   shell.triangle_markers.clear();
   std::uint64_t attempts = 0;
@@ -268,7 +275,7 @@ TEST(RemeshedThinParts, EdgesFitTheThicknessOfAPlate) {
   }
 }
 
-TEST(RemeshedThinParts, PlatesAsThinAsYouLikeAreRemeshed) {
+TEST(RemeshedThinParts, ExtremelyThinPlatesAreRemeshed) {
   for (const double height : {4e-3, 4e-6, 4e-9}) {
     SCOPED_TRACE(height);
     for (const InputPlc& plate : {gridded_plate(4, height), rotated(oblique, gridded_plate(4, height))}) {
@@ -281,19 +288,19 @@ TEST(RemeshedThinParts, PlatesAsThinAsYouLikeAreRemeshed) {
   }
 }
 
-TEST(RemeshedThinParts, PlatesTooThinForAnyEdgesGetTheUsualOnes) {
+TEST(RemeshedThinParts, PlatesTooThinForAnyEdgesGetUsualEdges) {
   const InputPlc result = remeshed(box({0, 0, 0}, {1, 1, 1e-5}), 0.1);
   EXPECT_LT(result.triangles.size(), 4000u);
 }
 
-TEST(RemeshedThinParts, FlatGapsAskForNothing) {
+TEST(RemeshedThinParts, FlatGapsNeedNoShortEdges) {
   InputPlc plc = box({0, 0, 0}, {1, 1, 1});
   append(plc, box({0, 0, 1.02}, {1, 1, 2}));
   const InputPlc alone = remeshed(box({0, 0, 0}, {1, 1, 1}), 0.2), both = remeshed(plc, 0.2);
   EXPECT_LT(both.triangles.size(), 2.2 * static_cast<double>(alone.triangles.size()));
 }
 
-TEST(RemeshedThinParts, NoiseIsNoThinFeature) {
+TEST(RemeshedThinParts, NoiseIsNotAThinFeature) {
   InputPlc sphere = models::make_solid("sphere", 0.05);
   const std::size_t smooth = remeshed(sphere, 0.15).triangles.size();
   std::mt19937 random(3);

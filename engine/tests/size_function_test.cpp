@@ -1,8 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/lattice/size_field.h"
@@ -126,7 +131,7 @@ TEST(SizeField, OfABackgroundIsBoundedByTheEdgeLength) {
   }
 }
 
-TEST(SizeFunction, ThatIsConstantMakesTheVeryLatticeOfThatEdgeLength) {
+TEST(SizeFunction, ThatIsConstantMakesTheLatticeOfThatEdgeLength) {
   const Shape shape = cube(6);
   for (const double part : {0.3, 0.45, 0.7}) {
     const double edge_length = part * shape.unit;
