@@ -52,7 +52,9 @@ class Shells {
   /// \return  shares of the whole length, in increasing order
   std::vector<double> shares() {
     shares_.clear();
-    divide(0, std::exp2(std::ceil(std::log2(whole_))));
+    int exponent = 0;
+    std::frexp(whole_, &exponent);
+    divide(0, std::ldexp(1.0, exponent));  // a power of two above the length
     return shares_;
   }
 
@@ -89,7 +91,6 @@ std::vector<double> shares_on_shells(const std::array<Point3, 2>& ends, const Le
 
 std::vector<std::uint32_t> divide_segment(const std::array<Point3, 2>& ends, const LeastDistances& least,
                                           SurfaceSizes& sizes) {
-  if (least[0] == no_vertices) return {};
   const bool has_small_angle = least[0] != no_small_angle || least[1] != no_small_angle;
   std::vector<std::uint32_t> fractions;
   for (const double share : has_small_angle ? shares_on_shells(ends, least, sizes) : even_shares(ends, sizes)) {

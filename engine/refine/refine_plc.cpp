@@ -78,13 +78,14 @@ Shape shape_of(const std::array<Point3, 3>& t) {
 
 class Refiner {
  public:
-  /// \param sizes  must outlive this
-  Refiner(plc::Plc plc, SurfaceSizes& sizes, const Progress& progress)
+  /// \param sizes, least_distances  must outlive this
+  Refiner(plc::Plc plc, SurfaceSizes& sizes, const std::vector<LeastDistances>& least_distances,
+          const Progress& progress)
       : plc_(std::move(plc)),
         sizes_(sizes),
         progress_(progress),
         points_(plc_.vertices),
-        least_distances_(find_close_segments(plc_)),
+        least_distances_(least_distances),
         facets_of_segment_(plc_.segments.size()) {
     std::vector<std::array<VertexId, 2>> edges;
     for (const plc::Segment& s : plc_.segments) edges.push_back(s.ends);
@@ -399,7 +400,7 @@ class Refiner {
   std::vector<PlaceOfVertex> place_;  // of each
   std::vector<double> wanted_;        // length of edges at each
   EdgeMap segment_of_edge_;
-  std::vector<LeastDistances> least_distances_;  // by segment: of its vertices from its ends
+  const std::vector<LeastDistances>& least_distances_;  // by segment: of its vertices from its ends
   std::vector<std::vector<std::uint32_t>> facets_of_segment_;
   std::vector<FacetTriangulation> facets_;
   std::priority_queue<BadTriangle> queue_;
@@ -428,11 +429,12 @@ double next_limit(const SurfaceSizes& sizes, double excess, double too_many, dou
 
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress) {
   SurfaceSizes sizes(plc, options);
+  const std::vector<LeastDistances> least_distances = find_close_segments(plc);
   const double even_triangles = count_even_triangles(plc, options.edge_length);
   double least = options.least_size, too_many = 0, too_few = 0;
   for (int tries = options.least_size > 0 ? most_tries : 1;; ++tries) {
     sizes.limit_from_below(least);
-    Refiner refiner(plc, sizes, progress);
+    Refiner refiner(plc, sizes, least_distances, progress);
     refiner.run();
     const double excess = tetrahedra_of_triangle * (static_cast<double>(refiner.triangle_count()) - even_triangles) /
                           options.most_tetrahedra;
