@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -284,8 +285,9 @@ TEST(Refine, TheSmallerTheAngleTheFartherAreTheFirstVertices) {
   const auto least_at = [](double angle) {
     return close_segments({0, 0, 0}, {1, angle, 0})[0][0] / close_segments({0, 0, 0}, {1, 0.1, 0})[0][0];
   };
-  EXPECT_NEAR(least_at(0.05), 4, 0.05);
-  EXPECT_NEAR(least_at(0.01), 100, 2);
+  // The longer segment's length over the squared sine.
+  const auto expected = [](double angle) { return std::pow(1 + angle * angle, 1.5) / (angle * angle); };
+  for (const double angle : {0.05, 0.01}) EXPECT_NEAR(least_at(angle), expected(angle) / expected(0.1), 1e-6);
   EXPECT_EQ(close_segments({0, 0, 0}, {0, 1, 0})[0], (LeastDistances{no_small_angle, no_small_angle}));
 }
 
