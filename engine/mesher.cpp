@@ -162,10 +162,12 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   std::vector<Point3> points = t.plc.vertices;
   if (options.refine_surface) {
     refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
-      return refine::refine_plc(
-          t.plc,
-          {.edge_length = options.edge_length / t.plc.grid.unit, .grading = options.grading, .least_size = least_size},
-          progress);
+      return refine::refine_plc(t.plc,
+                                {.edge_length = options.edge_length / t.plc.grid.unit,
+                                 .grading = options.grading,
+                                 .most_tetrahedra = options.thin_tetrahedra,
+                                 .least_size = least_size},
+                                progress);
     });
     t.least_size = refined.least_size;
     t.plc = std::move(refined.plc);

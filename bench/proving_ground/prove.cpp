@@ -26,7 +26,7 @@ Progress limited_to(double seconds) {
 std::string name(const MeshOptions& o) {
   return "lattice " + std::string(name_of(o.lattice)) + ", protection " + std::string(name_of(o.protection)) +
          ", locator " + std::string(name_of(o.locator)) + ", delaunay " + std::string(name_of(o.delaunay)) +
-         (o.face_protection ? "" : ", without face protection") + ", improve " +
+         (o.face_protection ? "" : ", without face protection") + (o.refine_surface ? ", refined" : "") + ", improve " +
          std::string(name_of(improvement_of(o)));
 }
 
@@ -51,6 +51,14 @@ constexpr std::array others = {Strategy{true, LocatorKind::octree, DelaunayMetho
                                Strategy{false, LocatorKind::cavity, DelaunayMethod::wrap},
                                Strategy{false, LocatorKind::octree, DelaunayMethod::insert},
                                Strategy{false, LocatorKind::grid, DelaunayMethod::wrap}};
+
+/// Midpoints may pile up at a small angle. Uniform grids are for even density; with all vertices in a few cells, they
+/// would take most of the time. So larger meshes are compared without them.
+constexpr std::size_t most_in_grids = 2000;
+
+bool uses_grid(const Strategy& strategy) {
+  return strategy.locator == LocatorKind::grid || strategy.delaunay == DelaunayMethod::wrap;
+}
 
 class Prover {
  public:
@@ -78,6 +86,7 @@ class Prover {
     options.lattice = Lattice::none;
     options.threads = 1;  // several seeds run at the same time
     options.delaunay = DelaunayMethod::insert, options.least_core = 0;
+    options.thin_tetrahedra = 2000;  // thin plates must not decide how long everything takes
     options.improve.improvement = Improvement::none;
     compare(options, mesh(options, options_.seconds).mesh);
     for (const Lattice lattice : options_.lattices) {
@@ -88,6 +97,11 @@ class Prover {
       options.improve.improvement = Improvement::none;
     }
     options.lattice = Lattice::none;
+    if (options_.refined) {
+      options.refine_surface = true;
+      verify(mesh(options, options_.seconds).mesh);
+      options.refine_surface = false;
+    }
     options.protection = Protection::midpoint;
     if (const auto result = mesh_if_it_ends(options)) compare(options, result->mesh);
   }
@@ -125,6 +139,7 @@ class Prover {
     verify(first);
     const auto cells = sorted_cells(first);
     for (const Strategy& other : others) {
+      if (cells.size() > most_in_grids && uses_grid(other)) continue;
       options.face_protection = other.face_protection;
       options.locator = other.locator;
       options.delaunay = other.delaunay;

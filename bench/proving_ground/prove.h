@@ -12,6 +12,7 @@ namespace ccdt::proving_ground {
 struct ProofOptions {
   double seconds = 20;                             ///< seconds for one mesh; a longer one counts as endless
   std::vector<Lattice> lattices = {Lattice::fcc};  ///< beside none
+  bool refined = true;                             ///< also refine the surface, which takes half of the time
 };
 
 /// The outcome for one PLC.
@@ -30,7 +31,7 @@ struct Proof {
 
 /// Meshes a PLC with all strategies, compares their tetrahedra as sorted lists, and verifies the common result: with
 /// both protections of edges, with and without face protection, with all locators and both ways to the Delaunay
-/// tetrahedralization (each pair of values at least once), with lattices, and improved.
+/// tetrahedralization (each pair of values at least once), with lattices, improved, and with a refined surface.
 ///
 /// With `Protection::midpoint`, splitting need not end; then there is nothing to compare.
 Proof prove(const InputPlc& input, const ProofOptions& options = {});

@@ -19,7 +19,7 @@ using Outcome = Proof::Outcome;
 
 ProofOptions options_of(std::uint64_t seed, double seconds) {
   constexpr std::array lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
-  return {.seconds = seconds, .lattices = {lattices[seed % lattices.size()]}};
+  return {.seconds = seconds, .lattices = {lattices[seed % lattices.size()]}, .refined = seed % 4 == 0};
 }
 
 void keep(const std::filesystem::path& folder, std::uint64_t seed, const InputPlc& plc, const ProofOptions& options,

@@ -150,6 +150,12 @@ TEST(ProvingGround, AnOpenSurfaceIsInvalid) {
   EXPECT_EQ(prove(open).outcome, Outcome::invalid);
 }
 
+TEST(ProvingGround, ARefinedSurfaceIsVerifiedToo) {
+  const Proof without = prove(box(), {.refined = false}), with = prove(box());
+  EXPECT_EQ(with.meshes, without.meshes + 1);
+  EXPECT_EQ(with.verified, without.verified + 1);
+}
+
 TEST(ProvingGround, NoMeshTakesNoTime) {
   const Proof proof = prove(box(), {.seconds = 0});
   EXPECT_EQ(proof.outcome, Outcome::endless);
