@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,21 +12,35 @@ namespace ccdt::improve {
 /// The effort for a cell.
 enum class Effort { usual, greatest };
 
+/// A vertex and the place that it moves to.
+struct Move {
+  std::uint32_t vertex = 0;
+  Point3 place;
+  std::vector<std::uint32_t> star;  ///< the cells around it
+};
+
 /// What improves a bad cell next.
 struct Step {
-  enum class Kind { none, swap, move };
+  enum class Kind { none, change, moves };
 
   Kind kind = Kind::none;
 
-  // A swap.
+  // A change.
   Change change;                                  ///< all new cells are positive
   std::uint64_t ImproveCounts::*count = nullptr;  ///< where it counts
 
-  // A move.
-  std::uint32_t corner = 0;         ///< of the cell: the vertex that moves
-  Point3 place;                     ///< where it moves to
-  std::vector<std::uint32_t> star;  ///< the cells around it
+  // Moves of vertices of the cell, one after the other.
+  std::array<Move, 4> moves;
+  std::size_t move_count = 0;
+
+  /// The vertices of all cells that could have been replaced by a new vertex.
+  std::vector<std::uint32_t> far_vertices;
 };
+
+/// The corners of a cell and the apexes of its neighbors; a corner again where a neighbor is missing. All that
+/// `StepFinder::find` looks at is in cells with one of these vertices or with one of `Step::far_vertices`. So a change
+/// that touches such a cell is a change around one of them.
+std::array<std::uint32_t, 8> vertices_near(const CellComplex& complex, std::uint32_t cell);
 
 /// Finds steps. It does not change the complex, so several finders may work at the same time.
 class StepFinder {
@@ -34,22 +49,21 @@ class StepFinder {
   StepFinder(const CellComplex& complex, const std::vector<Freedom>& freedom, Improvement improvement)
       : x_(complex), freedom_(freedom), improvement_(improvement) {}
 
-  /// The best of all swaps that involve a cell; if there is none, the first of its vertices that can move to a better
-  /// place.
-  void find(std::uint32_t cell, Effort effort, Step& step);
-
-  /// The first move among the vertices of a cell from this corner on.
-  void find_move(std::uint32_t cell, std::uint32_t first_corner, Effort effort, Step& step);
-
-  /// Does `find` give the same as after this many changes of the complex? The cell itself must be the same.
+  /// The best of all swaps that involve a cell; if there is none, its vertices that can move to better places, until
+  /// it is good enough; with the greatest effort, else a vertex to remove or to insert.
   ///
-  /// Each cell and each point that `find` looks at is in a cell with a corner of the given cell, or with the apex of
-  /// one of its neighbors. A change that touches such a cell changes the surroundings of that vertex.
-  bool is_unchanged_since(std::uint64_t change_count, std::uint32_t cell) const;
+  /// \param has_moved  try only the last
+  void find(std::uint32_t cell, bool has_moved, Effort effort, Step& step);
 
  private:
   bool find_swap(std::uint32_t cell, Step& step);
+  bool find_moves(std::uint32_t cell, Effort effort, Step& step);
+  bool find_collapse(std::uint32_t cell, Step& step);
+  bool find_insertion(std::uint32_t cell, Step& step);
   bool can_move(std::uint32_t vertex, Effort effort, Step& step);
+  double gather_moved_star(std::uint32_t vertex, const Step& step);
+  Point3 point_after(const Step& step, std::uint32_t vertex) const;
+  double quality_after(const Step& step, const std::array<std::uint32_t, 4>& vertices) const;
 
   const CellComplex& x_;
   const std::vector<Freedom>& freedom_;
@@ -57,9 +71,8 @@ class StepFinder {
 
   // Working memory.
   Change plan_;
-  CellMarks marks_;
+  PlanScratch scratch_;
   VertexStar star_;
-  MoveScratch move_;
 };
 
 }  // namespace ccdt::improve

@@ -10,9 +10,9 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/sort_in_runs.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/find_step.h"
-#include "engine/improve/topological_changes.h"
 
 namespace ccdt::improve {
 namespace {
@@ -26,26 +26,25 @@ struct BadCell {
   std::uint32_t generation;    ///< version of the cell: a different one means a new cell
   std::uint64_t tried_at = 0;  ///< the number of the last change when no improvement was found
   int tries = 0;               ///< how often no improvement was found
+  bool has_moved = false;      ///< its vertices have moved, but not far enough
 };
 
 /// After this many failed attempts, a cell is given up. More attempts would cost 50% more time to fix one more percent
 /// of the bad cells.
 constexpr int most_tries = 3;
 
-/// A step that was found ahead of its turn.
-struct EarlyStep {
+/// What was found for a bad cell.
+struct Attempt {
   Step step;
-  std::uint32_t generation = 0;    ///< of the cell
-  std::uint64_t change_count = 0;  ///< when it was found
-  bool is_known = false;
   Work work;
 };
 
-/// How many steps are found ahead at a time: enough for several threads, few enough that most are still valid at their
-/// turn.
-constexpr std::size_t most_early = 512;
+/// How many cells are tried together: enough for many threads, few enough that most do not disturb each other.
+constexpr std::size_t window_length = 128;
 /// Fewer are not worth the trouble of several threads.
-constexpr std::size_t least_early = 32;
+constexpr std::size_t least_shared = 16;
+/// How many cells may wait until those near them have had their turn.
+constexpr std::size_t most_waiting = window_length;
 
 class Improver {
  public:
@@ -54,10 +53,13 @@ class Improver {
         options_(options),
         improvement_(options.improvement.value_or(Improvement::all)),
         begin_(Clock::now()),
-        finders_(thread_count(), StepFinder(x, freedom, improvement_)) {}
+        finders_(thread_count(), StepFinder(x, freedom, improvement_)),
+        attempts_(1) {}
 
   ImproveCounts run(const Progress& progress) {
-    for (std::uint32_t c = 0; c < x_.cell_count(); ++c) add_bad(c);
+    found_ = parallel_collect<BadCell>(x_.cell_count(), 16384, [&](std::size_t c, std::size_t end, auto& bad) {
+      for (; c < end; ++c) add_bad(static_cast<std::uint32_t>(c), bad);
+    });
     counts_.bad_cells = found_.size();
     Effort effort = Effort::usual;
     while (!found_.empty() && !time_is_up()) {
@@ -86,8 +88,8 @@ class Improver {
     return options_.time > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= options_.time;
   }
 
-  void add_bad(std::uint32_t cell) {
-    if (is_bad(cell)) found_.push_back({x_.quality(cell), cell, x_.generation(cell)});
+  void add_bad(std::uint32_t cell, std::vector<BadCell>& bad) const {
+    if (is_bad(cell)) bad.push_back({x_.quality(cell), cell, x_.generation(cell)});
   }
 
   /// Keeps one entry for each cell that is still bad, the one with the fewest attempts, sorted with the worst first. A
@@ -95,7 +97,7 @@ class Improver {
   void tidy(std::vector<BadCell>& bad) const {
     std::erase_if(bad, [&](const BadCell& b) { return is_stale(b); });
     for (BadCell& b : bad) b.quality = x_.quality(b.cell);
-    std::ranges::sort(bad, [](const BadCell& a, const BadCell& b) {
+    sort_in_runs(bad, [](const BadCell& a, const BadCell& b) {
       return std::tie(a.quality, a.cell, a.tries, a.tried_at) < std::tie(b.quality, b.cell, b.tries, b.tried_at);
     });
     const auto rest = std::ranges::unique(bad, {}, &BadCell::cell);
@@ -109,105 +111,128 @@ class Improver {
     found_.clear();
     tidy(queue_);
     const std::uint64_t changes = x_.change_count();
-    std::uint64_t done = 0;
-    for (BadCell& bad : queue_) {
-      if (done % most_early == 0) find_early(done, effort);
-      const EarlyStep* const early = early_.empty() ? nullptr : &early_[done % most_early];
-      if (done++ % 256 == 0) {
-        report(progress, "improve", done, queue_.size());
-        if (time_is_up()) {
-          found_.insert(found_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(done) - 1, queue_.end());
-          break;
-        }
+    next_ = 0;
+    while (next_ < queue_.size() || !waiting_.empty()) {
+      report(progress, "improve", next_, queue_.size());
+      if (time_is_up()) {
+        found_.insert(found_.end(), waiting_.begin(), waiting_.end());
+        found_.insert(found_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(next_), queue_.end());
+        waiting_.clear();
+        break;
       }
-      if (is_stale(bad)) continue;
-      if (should_be_tried(bad)) {
-        if (improve(bad.cell, effort, early) && is_stale(bad)) continue;
-        bad.tried_at = x_.change_count() + 1;
-        ++bad.tries;
-      }
-      found_.push_back(bad);
+      fill_window();
+      try_window(effort);
     }
     return x_.change_count() != changes;
   }
 
-  /// Finds the next steps of the queue on several threads. Each is used at its turn if it is still valid then. So the
-  /// steps are those that one thread finds.
-  void find_early(std::size_t begin, Effort effort) {
-    const std::size_t count = std::min(most_early, queue_.size() - begin);
-    if (finders_.size() == 1) return;
-    early_.resize(most_early);
-    for (EarlyStep& early : early_) early.is_known = false;
-    if (count < least_early) return;
+  /// Takes the next cells to try: first those that wait, then those of the queue. A cell close to one that was taken
+  /// before waits, since it would probably be disturbed.
+  void fill_window() {
+    window_.clear();
+    returning_.clear();
+    returning_.swap(waiting_);
+    ++window_number_;
+    window_near_.resize(x_.vertex_count(), 0);
+    std::size_t i = 0;
+    while (i < returning_.size() && window_.size() < window_length) take(returning_[i++]);
+    waiting_.insert(waiting_.end(), returning_.begin() + static_cast<std::ptrdiff_t>(i), returning_.end());
+    while (next_ < queue_.size() && window_.size() < window_length && waiting_.size() < most_waiting)
+      take(queue_[next_++]);
+  }
+
+  void take(const BadCell& bad) {
+    if (is_stale(bad)) return;
+    if (!should_be_tried(bad)) {
+      found_.push_back(bad);
+      return;
+    }
+    const auto near = vertices_near(x_, bad.cell);
+    if (std::ranges::any_of(near, [&](std::uint32_t v) { return window_near_[v] == window_number_; })) {
+      waiting_.push_back(bad);
+      return;
+    }
+    for (const std::uint32_t v : near) window_near_[v] = window_number_;
+    window_.push_back(bad);
+  }
+
+  /// Tries the cells of the window in their order. One that was disturbed by a change in the same window waits. So each
+  /// step is found in the complex as it was before the window, and several threads can find them.
+  void try_window(Effort effort) {
+    const std::uint64_t before = x_.change_count();
+    const auto is_disturbed = [&](std::uint32_t v) { return x_.changed_at(v) > before; };
+    const bool is_shared = finders_.size() > 1 && window_.size() >= least_shared;
+    if (is_shared) find_steps(effort);
+    for (std::size_t i = 0; i < window_.size(); ++i) {
+      BadCell& bad = window_[i];
+      if (is_stale(bad)) continue;
+      Attempt& attempt = attempts_[is_shared ? i : 0];
+      bool waits = std::ranges::any_of(vertices_near(x_, bad.cell), is_disturbed);
+      if (!waits && !is_shared) find_step(finders_[0], bad, effort, attempt);
+      waits = waits || std::ranges::any_of(attempt.step.far_vertices, is_disturbed);
+      if (waits) {
+        waiting_.push_back(bad);
+        continue;
+      }
+      work_done += attempt.work;
+      make_step(bad, attempt.step, effort);
+    }
+  }
+
+  void find_steps(Effort effort) {
+    attempts_.resize(window_length);
     std::atomic<std::size_t> next = 0;
     parallel_for(finders_.size(), 1, [&](std::size_t f) {
-      for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < count;
+      for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < window_.size();
            i = next.fetch_add(1, std::memory_order_relaxed)) {
-        const BadCell& bad = queue_[begin + i];
-        EarlyStep& early = early_[i];
-        if (is_stale(bad) || !should_be_tried(bad)) continue;
-        early.work = {};
-        const WorkElsewhere scope(early.work);
-        early.generation = bad.generation;
-        early.change_count = x_.change_count();
-        early.is_known = true;
-        finders_[f].find(bad.cell, effort, early.step);
+        find_step(finders_[f], window_[i], effort, attempts_[i]);
       }
     });
   }
 
-  bool improve(std::uint32_t cell, Effort effort, const EarlyStep* early) {
-    const Step* step = &step_;
-    if (early != nullptr && early->is_known && early->generation == x_.generation(cell) &&
-        finders_[0].is_unchanged_since(early->change_count, cell)) {
-      work_done += early->work;
-      step = &early->step;
-    } else {
-      finders_[0].find(cell, effort, step_);
-    }
-    if (step->kind == Step::Kind::swap) {
-      ++(counts_.*step->count);
-      counts_.facet_flips += step->change.flips.size();
-      apply(step->change);
-      return true;
-    }
-    bool improved = false;
-    while (step->kind == Step::Kind::move) {
-      improved = true;
-      move(cell, *step);
-      if (!is_bad(cell)) return true;
-      finders_[0].find_move(cell, step->corner + 1, effort, step_);
-      step = &step_;
-    }
-    const bool everything = effort == Effort::greatest && improvement_ == Improvement::all;
-    return (everything && insert_or_collapse(cell)) || improved;
+  static void find_step(StepFinder& finder, const BadCell& bad, Effort effort, Attempt& attempt) {
+    attempt.work = {};
+    const WorkElsewhere scope(attempt.work);
+    finder.find(bad.cell, bad.has_moved, effort, attempt.step);
   }
 
-  void apply(const Change& change) {
-    x_.apply(change, scratch_.marks, new_cells_);
-    for (const std::uint32_t c : new_cells_) add_bad(c);
+  void make_step(BadCell& bad, Step& step, Effort effort) {
+    if (step.kind == Step::Kind::change) {
+      ++(counts_.*step.count);
+      counts_.facet_flips += step.change.flips.size();
+      apply(step.change);
+      return;
+    }
+    if (step.kind == Step::Kind::moves) {
+      for (std::size_t i = 0; i < step.move_count; ++i) move(step.moves[i]);
+      if (!is_bad(bad.cell)) return;
+      if (effort == Effort::greatest && improvement_ == Improvement::all) {
+        bad.has_moved = true;
+        waiting_.push_back(bad);
+        return;
+      }
+    }
+    bad.tried_at = x_.change_count() + 1;
+    ++bad.tries;
+    bad.has_moved = false;
+    found_.push_back(bad);
   }
 
-  void move(std::uint32_t cell, const Step& step) {
+  void apply(Change& change) {
+    // Others may have been inserted since the change was planned.
+    if (change.new_vertex)
+      for (NewCell& cell : change.new_cells) cell.vertices[3] = static_cast<std::uint32_t>(x_.vertex_count());
+    x_.apply(change, marks_, new_cells_);
+    for (const std::uint32_t c : new_cells_) add_bad(c, found_);
+  }
+
+  void move(const Move& move) {
     good_cells_.clear();
-    std::ranges::copy_if(step.star, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
-    x_.move_vertex(x_.cell(cell).vertices[step.corner], step.place, step.star);
+    std::ranges::copy_if(move.star, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
+    x_.move_vertex(move.vertex, move.place, move.star);
     ++counts_.moved_vertices;
     ++work_done.vertices_moved;
-    for (const std::uint32_t c : good_cells_) add_bad(c);
-  }
-
-  bool insert_or_collapse(std::uint32_t cell) {
-    const double least = x_.quality(cell);
-    if (plan_collapse(x_, cell, least, scratch_, plan_) && x_.all_positive(plan_)) {
-      ++counts_.collapsed_edges;
-      apply(plan_);
-      return true;
-    }
-    if (!plan_insertion(x_, cell, least, scratch_, plan_)) return false;
-    ++counts_.inserted_vertices;
-    apply(plan_);
-    return true;
+    for (const std::uint32_t c : good_cells_) add_bad(c, found_);
   }
 
   CellComplex& x_;
@@ -216,13 +241,17 @@ class Improver {
   const Clock::time_point begin_;
   ImproveCounts counts_;
   std::vector<BadCell> queue_, found_;  ///< of this pass, the worst first; of the next pass
+  std::size_t next_ = 0;                ///< of the queue
+  std::vector<BadCell> window_;         ///< those that are tried together
+  std::vector<BadCell> waiting_;        ///< those that come first in the next window
+  std::uint32_t window_number_ = 0;
+  std::vector<std::uint32_t> window_near_;  ///< of each vertex: the last window with a cell close to it
 
   // Working memory.
   std::vector<StepFinder> finders_;  ///< one for each thread
-  std::vector<EarlyStep> early_;
-  Step step_;
-  Change plan_;
-  PlanScratch scratch_;
+  std::vector<Attempt> attempts_;
+  std::vector<BadCell> returning_;
+  CellMarks marks_;
   std::vector<std::uint32_t> new_cells_, good_cells_;
 };
 

@@ -301,6 +301,7 @@ bool grow(const CellComplex& x, double wanted, const Point3& apex, CellMarks& in
       if (cavity.cells.size() >= most_cavity_cells) return false;
       in_cavity.mark(next);
       cavity.cells.push_back(next);
+      cavity.tried.push_back(next);
     }
   }
   find_hull(x, in_cavity, cavity);
@@ -361,6 +362,7 @@ bool plan_insertion(const CellComplex& x, std::uint32_t cell, double least, Plan
   marks.clear(x.cell_count());
   marks.mark(cell);
   cavity.cells.assign(1, cell);
+  cavity.tried.assign(1, cell);
   const auto& v = x.cell(cell).vertices;
   const Point3 origin = x.point(v[0]);
   const Point3 sum = (x.point(v[1]) - origin) + (x.point(v[2]) - origin) + (x.point(v[3]) - origin);

@@ -14,6 +14,7 @@ namespace ccdt::improve {
 /// The cells that a new vertex replaces, and their hull.
 struct VertexCavity {
   std::vector<std::uint32_t> cells;
+  std::vector<std::uint32_t> tried;                ///< all cells that were ever in it
   std::vector<std::array<std::uint32_t, 3>> hull;  ///< corners of its faces, the inside above
   std::vector<StarFace> faces;                     ///< the same, by their points
 };

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/improve/find_step.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"
 
@@ -250,6 +251,36 @@ TEST(Improving, NoneChangesNothing) {
   EXPECT_EQ(improve::improve_cells(x, {}, options).stop, improve::ImproveStop::none);
   EXPECT_TRUE(cells_of(x) == cells_of(before));
   EXPECT_TRUE(points_of(x) == points_of(before));
+}
+
+TEST(Improving, MovesOfOneStepAreThoseFoundOneAfterTheOther) {
+  const improve::ImproveOptions options{.improvement = improve::Improvement::smooth, .target_dihedral = 50};
+  const improve::QualityGoal goal = improve::goal_of(options);
+  const improve::CellComplex x = complex_of(cube_of(4, 0.4, 1).model, goal);
+  const std::vector<improve::Freedom> freedom;  // none for vertices on the boundary
+  improve::StepFinder finder(x, freedom, improve::Improvement::smooth);
+  improve::Step step;
+  std::size_t second_moves = 0;
+  for (const std::uint32_t c : bad_cells(x, goal)) {
+    finder.find(c, false, improve::Effort::usual, step);
+    if (step.kind != improve::Step::Kind::moves) continue;
+    improve::CellComplex moved = x;
+    for (std::size_t i = 0; i < step.move_count; ++i) {
+      const improve::Move& move = step.moves[i];
+      improve::CellMarks marks;
+      improve::VertexStar star;
+      improve::MoveScratch scratch;
+      improve::gather_star(moved, move.vertex, marks, star);
+      Point3 place = moved.point(move.vertex);
+      improve::move_apex(star.faces, goal, {}, moved.worst_of(star.cells), scratch, place);
+      EXPECT_TRUE(place == move.place) << "cell " << c << ", move " << i;
+      EXPECT_TRUE(star.cells == move.star);
+      moved.move_vertex(move.vertex, move.place, move.star);
+      second_moves += i > 0;
+    }
+    expect_consistent(moved);
+  }
+  EXPECT_GT(second_moves, 0u);
 }
 
 TEST(Improving, ReachesALowTarget) {

@@ -232,7 +232,7 @@ finish.peak_bytes 5520
 improve.cells_created 59
 improve.cells_destroyed 77
 improve.changes_tried 220
-improve.quality_evaluations 1011
+improve.quality_evaluations 1022
 improve.peak_bytes 18738
 )");
 }
@@ -372,14 +372,14 @@ TEST(WorkOfSmallInputs, Improvement) {
 improve.orient3d_filter_failures 288
 improve.narrow_evaluations 288
 improve.exact_evaluations 288
-improve.cells_created 173
-improve.cells_destroyed 161
-improve.changes_tried 1228
-improve.moves_tried 185
-improve.vertices_moved 34
-improve.ascent_steps 214
-improve.quality_evaluations 24180
-improve.peak_bytes 21548
+improve.cells_created 180
+improve.cells_destroyed 163
+improve.changes_tried 1210
+improve.moves_tried 178
+improve.vertices_moved 48
+improve.ascent_steps 196
+improve.quality_evaluations 23069
+improve.peak_bytes 21829
 )");
 }
 
