@@ -29,10 +29,10 @@ struct RawAllocator : std::allocator<T> {
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
-/// Memory in large pages, which goes back to the system when it is freed.
+/// Memory in large pages.
 /// \throw std::bad_alloc  there is not so much
 void* allocate_large_pages(std::size_t bytes);
-void free_large_pages(void* place, std::size_t bytes);
+void free_large_pages(void* place);
 
 /// The same in large pages. Small arrays are allocated as usual.
 template <class T>
@@ -49,7 +49,7 @@ struct LargePageAllocator : RawAllocator<T> {
   }
   void deallocate(T* place, std::size_t count) {
     if (count * sizeof(T) < least_bytes) return RawAllocator<T>::deallocate(place, count);
-    free_large_pages(place, count * sizeof(T));
+    free_large_pages(place);
   }
 };
 

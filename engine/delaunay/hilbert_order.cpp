@@ -7,6 +7,7 @@
 #include "engine/base/box.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
+#include "engine/numbers/filters.h"
 
 namespace ccdt::delaunay {
 namespace {
@@ -14,27 +15,33 @@ namespace {
 constexpr int bits_per_axis = 20;
 constexpr int round_shift = 3 * bits_per_axis;  // rounds above the 60 bits of the curve
 
-/// Distance along the Hilbert curve of a point of the cube [0, 2^bits)^3 (Skilling 2004: transpose form, then
-/// interleaved).
-std::uint64_t hilbert_distance(std::array<std::uint32_t, 3> x) {
-  for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1) {
-    const std::uint32_t p = q - 1;
-    for (int i = 0; i < 3; ++i) {
-      if (x[i] & q) {
-        x[0] ^= p;
-      } else {
-        const std::uint32_t t = (x[0] ^ x[i]) & p;
-        x[0] ^= t;
-        x[i] ^= t;
+constexpr std::size_t lanes = 16;  ///< points that are computed at the same time
+using Coordinates = std::array<std::array<std::uint32_t, lanes>, 3>;
+
+/// Distances along the Hilbert curve of points of the cube [0, 2^bits)^3 (Skilling 2004: transpose form, then
+/// interleaved), without branches.
+CCDT_WIDE_LANES void hilbert_distances(Coordinates& x, std::array<std::uint64_t, lanes>& distances) {
+  for (int bit = bits_per_axis - 1; bit > 0; --bit) {
+    const std::uint32_t below = (1u << bit) - 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        // Inverts the lower bits of the first axis, or exchanges them with those of this axis.
+        const std::uint32_t is_set = 0u - (x[i][lane] >> bit & 1u);
+        const std::uint32_t exchanged = (x[0][lane] ^ x[i][lane]) & below & ~is_set;
+        x[0][lane] ^= exchanged | (below & is_set);
+        if (i > 0) x[i][lane] ^= exchanged;
       }
     }
   }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1)
-    if (x[2] & q) t ^= q - 1;
-  return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    x[1][lane] ^= x[0][lane];
+    x[2][lane] ^= x[1][lane];
+    // Gray code: a bit is inverted for each higher one that is set.
+    std::uint32_t t = x[2][lane] >> 1;
+    for (int shift = 1; shift < bits_per_axis; shift *= 2) t ^= t >> shift;
+    for (std::size_t i = 0; i < 3; ++i) x[i][lane] ^= t;
+    distances[lane] = spread_bits(x[0][lane]) << 2 | spread_bits(x[1][lane]) << 1 | spread_bits(x[2][lane]);
+  }
 }
 
 /// A well-mixed hash of an index: the random bits of the rounds, the same on every machine.
@@ -56,13 +63,26 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
   int rounds = 0;
   for (std::size_t n = points.size(); n > 2000 && rounds < 6; n /= 8) ++rounds;
   std::vector<KeyedIndex> keyed(points.size());
-  parallel_for(points.size(), 4096, [&](std::size_t i) {
-    const Point3& p = points[i];
-    const auto cell = [&](double c, double l) { return static_cast<std::uint32_t>((c - l) * scale); };
+  const auto round_of = [&](std::size_t i) {
     std::uint64_t round = static_cast<std::uint64_t>(rounds);
     for (std::uint64_t bits = random_bits(i); round > 0 && (bits & 7) == 0; bits >>= 3) --round;
-    keyed[i] = {round << round_shift | hilbert_distance({cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)}),
-                static_cast<std::uint32_t>(i)};
+    return round;
+  };
+  parallel_ranges(points.size(), 4096, [&](std::size_t i, std::size_t end) {
+    Coordinates cells{};
+    std::array<std::uint64_t, lanes> distances;
+    for (; i < end; i += lanes) {
+      const std::size_t count = std::min(lanes, end - i);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Point3 p = scale * (points[i + lane] - low);
+        cells[0][lane] = static_cast<std::uint32_t>(p.x);
+        cells[1][lane] = static_cast<std::uint32_t>(p.y);
+        cells[2][lane] = static_cast<std::uint32_t>(p.z);
+      }
+      hilbert_distances(cells, distances);
+      for (std::size_t lane = 0; lane < count; ++lane)
+        keyed[i + lane] = {round_of(i + lane) << round_shift | distances[lane], static_cast<std::uint32_t>(i + lane)};
+    }
   });
   return sorted_by_key(std::move(keyed));
 }
