@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "bench/verify/verify.h"
 #include "engine/base/parallel.h"
@@ -32,9 +33,13 @@ bool run(const VerifyCommand& command) {
   verify::Verification verification;
   {
     ProgressBar bar;
-    const InputPlc given = io::read_plc(command.input);
-    const InputPlc input = plc::triangulate_bent_facets(given).value_or(given);
-    const TetMesh mesh = io::read_tet_mesh(command.mesh);
+    InputPlc input;
+    TetMesh mesh;
+    const auto read_input = [&] {
+      input = io::read_plc(command.input);
+      if (auto triangulated = plc::triangulate_bent_facets(input)) input = std::move(*triangulated);
+    };
+    parallel_both(read_input, [&] { mesh = io::read_tet_mesh(command.mesh); });
     verification = verify::verify(input, mesh, command.options, bar.progress());
   }
   const std::string text = command.details ? reports::to_terminal(verification) : reports::summarize(verification);

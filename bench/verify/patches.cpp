@@ -146,31 +146,38 @@ void find_links(const Surface& surface, const Chains& chains, const std::vector<
       for (std::size_t k = 1; k < chain.size(); ++k)
         patches.links[patch].push_back({chain[backward ? k : k - 1], chain[backward ? k - 1 : k]});
     }
-  for (auto& links : patches.links) std::sort(links.begin(), links.end());
+  parallel_for(patches.links.size(), short_chunk_length,
+               [&](std::size_t n) { std::sort(patches.links[n].begin(), patches.links[n].end()); });
+}
+
+void find_plane(const Surface& surface, std::uint32_t n, Patches& patches) {
+  Point3 sum, center;
+  double corners = 0, thickness = 0, perimeter = 0;
+  for (const std::uint32_t p : patches.pieces.of(n)) {
+    sum = sum + (patches.flipped[p] ? -1.0 : 1.0) * surface.area_vector[p];
+    for (const auto& [site, next] : surface.edges_of(p)) {
+      center = center + (surface.at(site) - surface.origin(p)) + surface.origin(p);
+      ++corners;
+    }
+  }
+  const double area = length(sum);
+  patches.normal[n] = area > 0 ? (1 / area) * sum : Point3{};
+  patches.center[n] = (1 / corners) * center;
+  for (const std::uint32_t p : patches.pieces.of(n))
+    for (const auto& [site, next] : surface.edges_of(p))
+      thickness = std::max(thickness, std::fabs(patches.height(n, surface.at(site))));
+  for (const auto& [a, b] : patches.links[n]) perimeter += length(surface.at(a) - surface.at(b));
+  patches.area[n] = area;
+  patches.thickness[n] = thickness;
+  patches.perimeter[n] = perimeter;
 }
 
 void find_planes(const Surface& surface, Patches& patches) {
-  for (std::uint32_t n = 0; n < patches.count(); ++n) {
-    Point3 sum, center;
-    double corners = 0, thickness = 0, perimeter = 0;
-    for (const std::uint32_t p : patches.pieces.of(n)) {
-      sum = sum + (patches.flipped[p] ? -1.0 : 1.0) * surface.area_vector[p];
-      for (const auto& [site, next] : surface.edges_of(p)) {
-        center = center + (surface.at(site) - surface.origin(p)) + surface.origin(p);
-        ++corners;
-      }
-    }
-    const double area = length(sum);
-    patches.normal.push_back(area > 0 ? (1 / area) * sum : Point3{});
-    patches.center.push_back((1 / corners) * center);
-    for (const std::uint32_t p : patches.pieces.of(n))
-      for (const auto& [site, next] : surface.edges_of(p))
-        thickness = std::max(thickness, std::fabs(patches.height(n, surface.at(site))));
-    for (const auto& [a, b] : patches.links[n]) perimeter += length(surface.at(a) - surface.at(b));
-    patches.area.push_back(area);
-    patches.thickness.push_back(thickness);
-    patches.perimeter.push_back(perimeter);
-  }
+  const std::size_t count = patches.count();
+  for (std::vector<Point3>* const list : {&patches.normal, &patches.center}) list->resize(count);
+  for (std::vector<double>* const list : {&patches.area, &patches.thickness, &patches.perimeter}) list->resize(count);
+  parallel_for(count, short_chunk_length,
+               [&](std::size_t n) { find_plane(surface, static_cast<std::uint32_t>(n), patches); });
 }
 
 /// The vertices along an edge. Two edges of a needle may be within the tolerance of each other, so chains closer to the

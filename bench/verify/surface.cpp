@@ -9,6 +9,7 @@
 
 #include "bench/verify/exact.h"
 #include "engine/base/hash_table.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/sort_in_runs.h"
 
@@ -254,16 +255,25 @@ void add_piece(PolygonCell cell, int marker, std::uint32_t number, std::span<con
   if (!is_empty(cell, position)) pieces.add(cell, marker, number);
 }
 
+/// The same for triangles.
+void add_triangles(const plc::InputPlc& input, const Sites& sites, Pieces& pieces) {
+  const auto site = [&](std::size_t i, std::size_t k) { return sites.of_input[input.triangles[i][k]]; };
+  const auto at = [&](std::size_t i, std::size_t k) { return sites.position[site(i, k)]; };
+  const auto with_area = parallel_collect<std::uint32_t>(
+      input.triangles.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
+        for (; i < end; ++i)
+          if (!are_on_one_line(at(i, 0), at(i, 1), at(i, 2))) found.push_back(static_cast<std::uint32_t>(i));
+      });
+  for (const std::uint32_t i : with_area)
+    pieces.add(std::array<Edge, 3>{{{site(i, 0), site(i, 1)}, {site(i, 1), site(i, 2)}, {site(i, 2), site(i, 0)}}},
+               input.triangle_markers.empty() ? 0 : input.triangle_markers[i],
+               input.triangle_numbers.empty() ? i : input.triangle_numbers[i]);
+}
+
 Pieces find_pieces(const plc::InputPlc& input, Surface& surface) {
   const auto& site = surface.sites.of_input;
   Pieces pieces;
-  for (std::size_t i = 0; i < input.triangles.size(); ++i) {
-    const auto& [a, b, c] = input.triangles[i];
-    add_piece({{site[a], site[b]}, {site[b], site[c]}, {site[c], site[a]}},
-              input.triangle_markers.empty() ? 0 : input.triangle_markers[i],
-              input.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : input.triangle_numbers[i],
-              surface.sites.position, pieces);
-  }
+  add_triangles(input, surface.sites, pieces);
   for (const plc::PolygonFacet& facet : input.polygon_facets) {
     PolygonCells cells = find_polygon_cells(facet, surface);
     for (PolygonCell& cell : cells.cells)

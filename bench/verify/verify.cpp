@@ -14,6 +14,7 @@
 #include "bench/verify/findings.h"
 #include "bench/verify/listed_faces.h"
 #include "bench/verify/on_grid.h"
+#include "engine/base/parallel.h"
 #include "engine/base/shared_progress.h"
 #include "engine/base/sort_in_runs.h"
 
@@ -257,27 +258,44 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
   report(progress, "verify facets", 0, 0);
   Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
   embed_lines(surface);
-  Regions regions = find_regions(input, surface);
-  if (options.boundary == VerifyOptions::Boundary::slide) let_vertices_slide(surface, regions);
-  const std::vector<bool> features = find_features(surface);
-  const Chains edges = find_chains(topology, surface, surface.edges);
-  const Chains segments = find_chains(topology, surface, surface.segments);
-  const FacetMatches matches = match_facets(topology, surface, edges, features);
+  const bool may_slide = options.boundary == VerifyOptions::Boundary::slide;
+  Regions regions;
+  if (may_slide) {
+    regions = find_regions(input, surface);
+    let_vertices_slide(surface, regions);
+  }
+  std::vector<bool> features;
+  Chains edges, segments;
+  FacetMatches matches;
+  const auto match = [&] {
+    features = find_features(surface);
+    edges = find_chains(topology, surface, surface.edges);
+    segments = find_chains(topology, surface, surface.segments);
+    matches = match_facets(topology, surface, edges, features);
+  };
+  parallel_both(match, [&] {
+    if (!may_slide) regions = find_regions(input, surface);
+  });
   report(progress, "verify domain", 0, 0);
-  const RegionsOfTetrahedra assigned = assign_regions(topology, regions, matches, tolerances.flat);
-  resolve_unknown(assigned, regions);
-
-  const RayShooter rays(surface);
   auto& checks = result.checks;
-  checks.push_back(check_vertices(input, surface, regions, rays));
-  checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
-  checks.push_back(check_facets(surface, matches, regions));
-  checks.push_back(check_boundary(topology, matches));
-  checks.push_back(check_face_markers(topology, surface, matches));
-  check_domain(input, topology.mesh, surface, regions, assigned, result);
-  if (options.delaunay == VerifyOptions::Delaunay::no) return;
-  auto delaunay = check_delaunay(topology, matches.is_matched, largest_rounding(input, tolerances),
-                                 wants_delaunay(options, topology.mesh), progress);
+  const auto compare_domain = [&] {
+    const RegionsOfTetrahedra assigned = assign_regions(topology, regions, matches, tolerances.flat);
+    resolve_unknown(assigned, regions);
+    const RayShooter rays(surface);
+    checks.push_back(check_vertices(input, surface, regions, rays));
+    checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
+    checks.push_back(check_facets(surface, matches, regions));
+    checks.push_back(check_boundary(topology, matches));
+    checks.push_back(check_face_markers(topology, surface, matches));
+    check_domain(input, topology.mesh, surface, regions, assigned, result);
+  };
+  if (options.delaunay == VerifyOptions::Delaunay::no) return compare_domain();
+  std::array<Check, 2> delaunay;
+  const auto compare_spheres = [&] {
+    delaunay = check_delaunay(topology, matches.is_matched, largest_rounding(input, tolerances),
+                              wants_delaunay(options, topology.mesh), progress);
+  };
+  parallel_both(compare_spheres, compare_domain);
   checks.insert(checks.end(), delaunay.begin(), delaunay.end());
 }
 

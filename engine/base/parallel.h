@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -75,6 +77,23 @@ void parallel_for(std::size_t count, std::size_t grain, const Work& work) {
   parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
+}
+
+/// Calls two functions, on two threads if there are several.
+///
+/// \throw ...  what the first one throws, or else the second
+template <class First, class Second>
+void parallel_both(const First& first, const Second& second) {
+  std::array<std::exception_ptr, 2> failures;
+  parallel_for(2, 1, [&](std::size_t i) {
+    try {
+      i == 0 ? first() : second();
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 /// Calls `work(begin, end)` for ranges of this length that cover 0 .. count, as `parallel_ranges` does. The ranges do

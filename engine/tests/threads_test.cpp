@@ -213,6 +213,19 @@ TEST(Threads, MakeOneMeshTimeAndAgain) {
   }
 }
 
+TEST(Threads, DoBothAndThrowWhatTheFirstThrows) {
+  with_threads(2, [] {
+    int first = 0, second = 0;
+    parallel_both([&] { first = 1; }, [&] { second = 2; });
+    EXPECT_EQ(first + second, 3);
+    for (int repetition = 0; repetition < 100; ++repetition) {
+      EXPECT_THROW(parallel_both([] { throw 1; }, [] { throw 2.5; }), int);
+      EXPECT_THROW(parallel_both([] {}, [] { throw 2.5; }), double);
+    }
+    return true;
+  });
+}
+
 TEST(Threads, StopWhenProgressThrows) {
   struct Canceled {};
   MeshOptions options;
