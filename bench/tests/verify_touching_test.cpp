@@ -217,6 +217,18 @@ TEST(VerifyTouching, AVertexOutsideBesideAFacetMayBeMissing) {
   expect_ok(m);
 }
 
+TEST(VerifyTouching, TwoSheetsOutsideMayEachBeAboveTheOther) {
+  InputPlc input = big_cube(false);
+  for (const bool other : {false, true}) {
+    const double near = other ? 3 : 0, far = 3 - near, back = other ? 1.2 : 0, front = other ? 0.2 : 1;
+    const auto add = [&](const std::vector<Point3>& corners) { add_quadrilateral(input, corners, false); };
+    add({{near, back, 5}, {near + 1, back, 5}, {near + 1, front, 5}, {near, front, 5}});
+    add({{far, back, 8}, {far + 1, back, 8}, {far + 1, front, 8}, {far, front, 8}});
+    add({{near, back, 5}, {near + 1, back, 5}, {far + 1, back, 8}, {far, back, 8}});
+  }
+  expect_ok(mesh_with_engine(input));
+}
+
 TEST(VerifyTouching, ALineDividesAFacetFromBorderToBorder) {
   for (const Foot& line : {Foot{{{3, 1, 0}, {0, 2, 0}}}, Foot{{{3, 0, 0}, {0, 2, 0}}}, Foot{{{3, 1, 0}, {1, 1, 0}}}}) {
     InputPlc input = big_cube(false);

@@ -120,8 +120,8 @@ Shells find_shells(const Surface& surface) {
   return shells;
 }
 
-/// A ray through a piece leaves its shell for the last time on the outside. The next piece that it meets surrounds the
-/// shell.
+/// A ray through a piece leaves its shell for the last time on the outside. From there to infinity, each piece faces
+/// the one before. (The next piece alone is not enough: two shells may each be next to the other one.)
 bool nest_shell(const Surface& surface, const RayShooter& rays, std::uint32_t piece, int attempt, Shells& shells,
                 UnionFind& sides) {
   const std::uint32_t begin = surface.piece_begin[piece], corners = surface.piece_begin[piece + 1] - begin;
@@ -132,17 +132,15 @@ bool nest_shell(const Surface& surface, const RayShooter& rays, std::uint32_t pi
   const auto hits = rays.shoot(through - 0.01 * surface.tolerances.box * RayShooter::direction(attempt), attempt);
   if (!hits) return false;
   const std::uint32_t infinity = 2 * surface.pieces(), shell = shells.of_piece[piece];
-  std::uint32_t around = infinity;
-  for (const Hit& hit : *hits) {
-    if (shells.of_piece[hit.piece] == shell) {
-      shells.outer_side[shell] = 2 * hit.piece + (hit.from_above ? 1 : 0);
-      around = infinity;
-    } else if (around == infinity) {
-      around = 2 * hit.piece + (hit.from_above ? 0 : 1);
-    }
+  const auto is_own = [&](const Hit& hit) { return shells.of_piece[hit.piece] == shell; };
+  const auto last = std::ranges::find_if(hits->rbegin(), hits->rend(), is_own).base();
+  if (last == hits->begin()) return false;  // a corner of a polygon that is not its own
+  std::uint32_t left = shells.outer_side[shell] = (last - 1)->side_left();
+  for (auto hit = last; hit != hits->end(); ++hit) {
+    sides.join(left, hit->side_met());
+    left = hit->side_left();
   }
-  if (shells.outer_side[shell] == none) return false;  // a corner of a polygon that is not its own
-  sides.join(shells.outer_side[shell], around);
+  sides.join(left, infinity);
   return true;
 }
 
@@ -313,11 +311,11 @@ std::vector<std::uint32_t> regions_at(const Surface& surface, const Regions& reg
     const auto hits = rays.shoot(point - back * RayShooter::direction(i), i);
     if (!hits) continue;
     std::vector<std::uint32_t> found = {0};
-    if (!hits->empty()) found[0] = regions.of_side[2 * hits->front().piece + (hits->front().from_above ? 0 : 1)];
+    if (!hits->empty()) found[0] = regions.of_side[hits->front().side_met()];
     const double slope = length(RayShooter::direction(i));
     for (const Hit& hit : *hits) {
       if (hit.along * rays.length(point.z - back) * slope > 2 * back) break;
-      found.push_back(regions.of_side[2 * hit.piece + (hit.from_above ? 1 : 0)]);
+      found.push_back(regions.of_side[hit.side_left()]);
     }
     sort_and_unique(found);
     return found;

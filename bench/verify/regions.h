@@ -12,6 +12,10 @@ struct Hit {
   std::uint32_t piece;
   double along;     ///< 0 at the start of the ray, 1 at its end
   bool from_above;  ///< the ray comes from the side that the piece's normal points to
+
+  /// The side that the ray meets, and the one from which it goes on; numbered as in `Regions::of_side`.
+  std::uint32_t side_met() const { return 2 * piece + (from_above ? 0 : 1); }
+  std::uint32_t side_left() const { return 2 * piece + (from_above ? 1 : 0); }
 };
 
 /// Shoots rays at the surface. Exact signs decide which pieces a ray meets.
