@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -8,7 +9,8 @@
 
 namespace ccdt::refine {
 
-/// How near to each of its ends a segment may get vertices, as distances from these ends.
+/// How near to each of its ends a segment may get vertices, as distances from these ends; short pieces may end nearer
+/// (`may_end_at`).
 ///
 /// A vertex on a segment is inside a diametral sphere of a segment close beside it, unless that one has a vertex at the
 /// same height. But vertices must be on the grid, where a segment has 2^20 places for them. Where two segments are too
@@ -19,6 +21,13 @@ using LeastDistances = std::array<double, 2>;
 inline constexpr double no_small_angle = 0;
 /// The segment runs so close beside another that it may get no vertices at all.
 inline constexpr double no_vertices = std::numeric_limits<double>::infinity();
+
+/// May pieces of this length end at a distance from the end of a segment? Two segments with a small angle are r sin
+/// apart at a distance r, and vertices there fit pieces of the length l if their distances differ by at most (r sin)^2
+/// / l.
+inline bool may_end_at(double distance, double least, double length) {
+  return distance * distance >= least * std::min(length, distance);
+}
 
 /// \return  for each segment of the PLC, in grid units
 std::vector<LeastDistances> find_close_segments(const plc::Plc& plc);

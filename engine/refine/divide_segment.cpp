@@ -61,11 +61,13 @@ class Shells {
  private:
   void divide(double low, double high) {
     const double half = 0.5 * (low + high);
-    if (low >= most_ || half < std::max(least_, whole_ / all_steps)) return;
+    if (low >= most_ || half < whole_ / all_steps) return;
     const double wanted = sizes_.at(at_share(ends_, std::min(half, most_) / whole_));
     if (high - low < longest_on_shells * wanted) return;
-    divide(low, half);
-    if (half < most_ - shortest_on_shells * wanted) shares_.push_back(half / whole_);
+    if (may_end_at(half, least_, wanted)) {
+      divide(low, half);
+      if (half < most_ - shortest_on_shells * wanted) shares_.push_back(half / whole_);
+    }
     divide(half, high);
   }
 

@@ -208,19 +208,21 @@ class Refiner {
     return segment_of_edge_.find(a, b);
   }
 
-  bool may_have_vertex(std::uint32_t segment, std::uint32_t fraction) const {
+  bool may_have_vertex(std::uint32_t segment, std::uint32_t fraction, double wanted) const {
     const auto& [a, b] = ends_of(segment);
     const double whole = length(b - a), distance = whole * fraction / all_steps;
-    return distance >= least_distances_[segment][0] && whole - distance >= least_distances_[segment][1];
+    const auto& [of_first, of_second] = least_distances_[segment];
+    return may_end_at(distance, of_first, wanted) && may_end_at(whole - distance, of_second, wanted);
   }
 
   /// Halves an edge of a segment if it is long enough.
   bool halve(VertexId a, VertexId b) {
-    if (length(points_[b] - points_[a]) < least_halved * 0.5 * (wanted_[a] + wanted_[b])) return false;
+    const double wanted = 0.5 * (wanted_[a] + wanted_[b]);
+    if (length(points_[b] - points_[a]) < least_halved * wanted) return false;
     const std::uint32_t segment = segment_of(a, b);
     const std::uint32_t from = fraction_of(segment, a), to = fraction_of(segment, b);
     const std::uint32_t half = std::min(from, to) + (std::max(from, to) - std::min(from, to)) / 2;
-    if (half == std::min(from, to) || !may_have_vertex(segment, half)) return false;
+    if (half == std::min(from, to) || !may_have_vertex(segment, half, wanted)) return false;
     const VertexId v = add_on_segment(segment, a, b, half);
     for (const std::uint32_t f : facets_of_segment_[segment]) enter_around(f, v);
     return true;

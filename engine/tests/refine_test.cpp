@@ -9,9 +9,11 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/portable_math.h"
+#include "engine/base/union_find.h"
 #include "engine/numbers/predicates.h"
 #include "engine/refine/close_segments.h"
 #include "engine/refine/refine_plc.h"
+#include "engine/refine/segment_fans.h"
 #include "engine/refine/surface_sizes.h"
 #include "engine/refine/thin_places.h"
 #include "engine/tests/mesh_checks.h"
@@ -289,6 +291,89 @@ TEST(Refine, TheSmallerTheAngleTheFartherAreTheFirstVertices) {
   const auto expected = [](double angle) { return std::pow(1 + angle * angle, 1.5) / (angle * angle); };
   for (const double angle : {0.05, 0.01}) EXPECT_NEAR(least_at(angle), expected(angle) / expected(0.1), 1e-6);
   EXPECT_EQ(close_segments({0, 0, 0}, {0, 1, 0})[0], (LeastDistances{no_small_angle, no_small_angle}));
+}
+
+/// The definition of `find_fan_distances`: all pairs.
+std::vector<double> distances_of_all_pairs(const std::vector<Spoke>& spokes) {
+  const auto n = static_cast<std::uint32_t>(spokes.size());
+  UnionFind fans(n);
+  std::vector<double> largest(n, 0), result;
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < i; ++j) {
+      const Point3 &a = spokes[i].along, &b = spokes[j].along;
+      const double squared_sine = squared_length(cross(a, b)) / (squared_length(a) * squared_length(b));
+      if (dot(a, b) <= 0 || squared_sine >= 0.25) continue;
+      const double step = std::max(spokes[i].step, spokes[j].step);
+      fans.join(i, j);
+      largest[i] = std::max(largest[i], spokes[i].grazeable && spokes[j].grazeable ? step / squared_sine : step);
+    }
+  for (std::uint32_t i = 0; i < n; ++i) largest[fans.find(i)] = std::max(largest[fans.find(i)], largest[i]);
+  for (std::uint32_t i = 0; i < n; ++i) result.push_back(largest[fans.find(i)]);
+  return result;
+}
+
+/// Segments with directions in some clusters, and different lengths.
+std::vector<Spoke> random_spokes(std::uint64_t seed, int count, int clusters, double width) {
+  std::uint64_t state = seed;
+  const auto random = [&] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 33) / 0x1p30 - 1;
+  };
+  const auto random_point = [&] {
+    const double x = random(), y = random(), z = random();
+    return Point3{x, y, z};
+  };
+  std::vector<Point3> centers;
+  for (int i = 0; i < clusters; ++i) centers.push_back(random_point());
+  std::vector<Spoke> spokes;
+  for (int i = 0; i < count; ++i) {
+    const Point3 direction = centers[i % clusters] + width * random_point();
+    const double size = 1 + random();
+    spokes.push_back({(0.01 + size) * direction, 0.01 + size, i % 3 != 0});
+  }
+  return spokes;
+}
+
+TEST(Refine, FansAreThoseOfAllPairs) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed)
+    for (const int count : {1, 2, 7, 30, 200})
+      for (const int clusters : {1, 4, 40}) {
+        const std::vector<Spoke> spokes = random_spokes(seed, count, clusters, seed % 2 == 0 ? 0.5 : 1e-3);
+        EXPECT_EQ(find_fan_distances(spokes), distances_of_all_pairs(spokes))
+            << seed << ' ' << count << ' ' << clusters;
+      }
+}
+
+TEST(Refine, FansOfManySegmentsTakeNearlyLinearTime) {
+  const auto pairs_of = [](const std::vector<Spoke>& spokes) {
+    const std::uint64_t pairs = work_done.box_pairs, nodes = work_done.box_tree_nodes;
+    find_fan_distances(spokes);
+    return work_done.box_pairs - pairs + work_done.box_tree_nodes - nodes;
+  };
+  constexpr int count = 20000;
+  for (const int clusters : {1, 2, 1000})
+    for (const double width : {1e-3, 0.5}) EXPECT_LT(pairs_of(random_spokes(1, count, clusters, width)), 40 * count);
+  std::vector<Spoke> cone;  // all neighbors are equally near
+  for (int i = 0; i < count; ++i) {
+    const double angle = to_radians(360.0 * i / count);
+    cone.push_back({{10, portable::cosine(angle), portable::sine(angle)}, 1, true});
+  }
+  EXPECT_LT(pairs_of(cone), 40 * count);
+}
+
+TEST(Refine, SegmentsAtVerySmallAnglesGetVerticesWhereTheirPiecesFit) {
+  // Their directions differ by 0.0003, their lengths by up to 0.03.
+  InputPlc plc = pleated_cone(20);
+  for (std::size_t i = 2; i < plc.vertices.size(); ++i) {
+    Point3& p = plc.vertices[i];
+    p = {p.x + 0.03 * portable::sine(static_cast<double>(i * i)), 0.1 * p.y, 0.1 * p.z};
+  }
+  MeshOptions options = refining(2.5);
+  options.lattice = Lattice::none;
+  const MeshResult r = mesh_plc(plc, options);
+  EXPECT_GT(r.counts.refined_on_segments, 1500u);
+  EXPECT_LT(r.counts.steiner_vertices, r.counts.refined_on_segments);
+  expect_verified(plc, r.mesh);
 }
 
 TEST(Refine, MeshesAreVerifiedAgainstTheOriginalInput) {
