@@ -10,40 +10,13 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/improve/options.h"
+#include "engine/improve/cell_quality.h"
 #include "engine/mesh/tet_mesh.h"
 
 namespace ccdt::improve {
 
 using delaunay::Cell, delaunay::cell_of, delaunay::corners_of_face, delaunay::face_code, delaunay::face_of,
     delaunay::ghost_vertex, delaunay::join_faces, delaunay::no_neighbor;
-
-/// The goals, as numbers to compare with 1 / r and the least sine.
-struct QualityGoal {
-  Objective objective = Objective::r;
-  double inverse_r = 0.5;
-  double sine = 0.34;
-};
-
-QualityGoal goal_of(const ImproveOptions& options);
-
-/// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m the mean square of the six edges. The apex d
-/// is above abc in a positive tetrahedron.
-double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
-
-/// The sine of the dihedral angle at an edge of length l between faces of areas A and B in a tetrahedron of volume V is
-/// 3 V l / (2 A B).
-double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
-
-/// The quality of a tetrahedron by the objective: greater is better, and 0 or less is flat or inverted. That of a set
-/// of tetrahedra is that of its worst.
-///
-/// For `Objective::r` it is 1 / r up to the goal; from there on, it is 1 plus the least sine of the dihedral angles: r
-/// comes first, angles decide where r is good.
-double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
-
-/// The quality from which a tetrahedron is good enough.
-double goal_quality(const QualityGoal& goal);
 
 /// A cell to be made.
 struct NewCell {

@@ -1,0 +1,103 @@
+#include "engine/improve/cell_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/base/count_work.h"
+#include "engine/base/portable_math.h"
+#include "engine/numbers/filters.h"
+
+namespace ccdt::improve {
+
+QualityGoal goal_of(const ImproveOptions& options) {
+  return {options.objective, 1 / options.target_r, portable::sine(to_radians(options.target_dihedral))};
+}
+
+namespace {
+
+// The edges u, v, w of a tetrahedron lead from its apex to the corners of its base.
+
+CCDT_ALWAYS_INLINE double inverse_r_of(const Point3& u, const Point3& v, const Point3& w) {
+  const double det = dot(u, cross(w, v));
+  const double mean =
+      0.5 * (squared_length(u) + squared_length(v) + squared_length(w)) - (dot(u, v) + dot(v, w) + dot(w, u)) / 3;
+  return std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
+}
+
+CCDT_ALWAYS_INLINE double least_sine_of(const Point3& u, const Point3& v, const Point3& w) {
+  const Point3 vw = cross(w, v), wu = cross(u, w), uv = cross(v, u);
+  const double det = dot(u, vw);
+  // Squares of twice the areas of the faces opposite to a, b, c, d, inverted.
+  const double fa = 1 / squared_length(vw), fb = 1 / squared_length(wu), fc = 1 / squared_length(uv);
+  const double fd = 1 / squared_length(vw + wu + uv);
+  const auto smaller = [](double a, double b) { return b < a ? b : a; };
+  double least = smaller(squared_length(u) * fb * fc, squared_length(v) * fa * fc);
+  least = smaller(least, squared_length(w) * fa * fb);
+  least = smaller(least, squared_length(v - u) * fc * fd);
+  least = smaller(least, squared_length(w - v) * fa * fd);
+  least = smaller(least, squared_length(u - w) * fb * fd);
+  return det * std::sqrt(least);
+}
+
+constexpr std::size_t lanes = 8;  ///< tetrahedra that are measured at the same time
+
+/// Coordinates of the edges of several tetrahedra.
+struct Edges {
+  std::array<double, lanes> ux, uy, uz, vx, vy, vz, wx, wy, wz;
+};
+
+/// Without branches. A tetrahedron below the least shape has its shape as its quality.
+CCDT_WIDE_LANES void measure(const Edges& e, double least_shape, double offset, std::array<double, lanes>& qualities) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const Point3 u{e.ux[i], e.uy[i], e.uz[i]}, v{e.vx[i], e.vy[i], e.vz[i]}, w{e.wx[i], e.wy[i], e.wz[i]};
+    const double shape = inverse_r_of(u, v, w), sine = offset + least_sine_of(u, v, w);
+    qualities[i] = shape < least_shape ? shape : sine;
+  }
+}
+
+}  // namespace
+
+double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  return inverse_r_of(a - d, b - d, c - d);
+}
+
+double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  return least_sine_of(a - d, b - d, c - d);
+}
+
+double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  ++work_done.quality_evaluations;
+  if (goal.objective == Objective::dihedral) return least_sine(a, b, c, d);
+  const double shape = inverse_r(a, b, c, d);
+  return shape < goal.inverse_r ? shape : 1 + least_sine(a, b, c, d);
+}
+
+void compute_qualities(const QualityGoal& goal, std::span<const Point3> points,
+                       std::span<const std::array<std::uint32_t, 4>> cells, std::span<double> qualities) {
+  work_done.quality_evaluations += cells.size();
+  const bool by_r = goal.objective == Objective::r;
+  const double least_shape = by_r ? goal.inverse_r : -std::numeric_limits<double>::infinity();
+  Edges e{};
+  std::array<double, lanes> some;
+  for (std::size_t first = 0; first < cells.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, cells.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& cell = cells[first + i];
+      const Point3& d = points[cell[3]];
+      const Point3 u = points[cell[0]] - d, v = points[cell[1]] - d, w = points[cell[2]] - d;
+      e.ux[i] = u.x, e.uy[i] = u.y, e.uz[i] = u.z;
+      e.vx[i] = v.x, e.vy[i] = v.y, e.vz[i] = v.z;
+      e.wx[i] = w.x, e.wy[i] = w.y, e.wz[i] = w.z;
+    }
+    measure(e, least_shape, by_r ? 1 : 0, some);
+    std::copy_n(some.begin(), count, qualities.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+double goal_quality(const QualityGoal& goal) {
+  return goal.objective == Objective::dihedral ? goal.sine : 1 + goal.sine;
+}
+
+}  // namespace ccdt::improve

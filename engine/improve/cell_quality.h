@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/base/point.h"
+#include "engine/improve/options.h"
+
+namespace ccdt::improve {
+
+/// The goals, as numbers to compare with 1 / r and the least sine.
+struct QualityGoal {
+  Objective objective = Objective::r;
+  double inverse_r = 0.5;
+  double sine = 0.34;
+};
+
+QualityGoal goal_of(const ImproveOptions& options);
+
+/// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m the mean square of the six edges. The apex d
+/// is above abc in a positive tetrahedron.
+double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// The sine of the dihedral angle at an edge of length l between faces of areas A and B in a tetrahedron of volume V is
+/// 3 V l / (2 A B).
+double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// The quality of a tetrahedron by the objective: greater is better, and 0 or less is flat or inverted. That of a set
+/// of tetrahedra is that of its worst.
+///
+/// For `Objective::r` it is 1 / r up to the goal; from there on, it is 1 plus the least sine of the dihedral angles: r
+/// comes first, angles decide where r is good.
+double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// The quality from which a tetrahedron is good enough.
+double goal_quality(const QualityGoal& goal);
+
+/// The qualities of many cells, bit for bit those of `cell_quality`.
+///
+/// \param cells  vertices of each
+void compute_qualities(const QualityGoal& goal, std::span<const Point3> points,
+                       std::span<const std::array<std::uint32_t, 4>> cells, std::span<double> qualities);
+
+}  // namespace ccdt::improve
