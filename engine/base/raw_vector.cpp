@@ -1,6 +1,5 @@
 #include "engine/base/raw_vector.h"
 
-#include <cstdlib>
 #include <new>
 
 #ifdef __linux__
@@ -23,14 +22,13 @@ std::size_t whole_pages(std::size_t bytes) {
 
 void* allocate_large_pages(std::size_t bytes) {
   const std::size_t size = whole_pages(bytes);
-  void* const place = std::aligned_alloc(large_page, size);
-  if (place == nullptr) throw std::bad_alloc();
+  void* const place = ::operator new (size, std::align_val_t{large_page});
   madvise(place, size, MADV_HUGEPAGE);  // a hint: without large pages, all is as usual
   return place;
 }
 
 void free_large_pages(void* place) {
-  std::free(place);
+  ::operator delete (place, std::align_val_t{large_page});
 }
 
 #else
