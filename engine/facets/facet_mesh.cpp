@@ -281,10 +281,17 @@ class FacetMesher {
           if (face[0] > v || face[1] > v || face[2] > v) continue;  // once per face
           if (plane.orient(face[0], face[1], face[2]) != domain_side_ || is_chain(face[0], face[1], face[2])) continue;
           if (is_kept_cell(delaunay::cell_of(d_.cells[c].neighbors[f]), plane)) continue;
-          for (int i = 0; i < 3; ++i) edges.push_back({face[i], face[(i + 1) % 3]});
+          for (int i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(face[i], face[(i + 1) % 3]);
+            edges.push_back({low, high});
+          }
         }
       }
     }
+    // The numbers of cells depend on how the tetrahedralization was made. The triangles must not.
+    std::ranges::sort(edges);
+    const auto rest = std::ranges::unique(edges);
+    edges.erase(rest.begin(), rest.end());
     return edges;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include "engine/base/parallel.h"
@@ -153,6 +154,15 @@ TEST(Threads, MakeOneMesh) {
     options.lattice = Lattice::none;
     expect_one_mesh(c.name + ", surface alone", c.input, options);
   }
+}
+
+/// Its remeshed facets are flat only within the tolerance, and follow the faces of the tetrahedralization.
+TEST(Threads, MakeOneListOfFaces) {
+  const auto part = folder_of_hard_parts() / "TR12J_OCC.stl";
+  if (is_sanitized || !std::filesystem::exists(part)) GTEST_SKIP() << "takes " << part << ", and too long";
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  expect_one_mesh("TR12J", surface::remesh_surface(io::read_plc(part), {.edge_length = 19.51372113411484}), options);
 }
 
 /// With enough to improve that many changes are next to each other.
