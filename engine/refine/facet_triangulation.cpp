@@ -39,18 +39,22 @@ double least_weight(const std::array<Point3, 3>& t, const Point3& p) {
 }
 
 /// The point base + i u + j v near p: i and j are rounded to integers.
-Point3 nearest_in_plane(const plc::PlaneSteps& steps, const Point3& p) {
+/// \return  none if the plane has so few integer points that i or j is too large
+std::optional<Point3> nearest_in_plane(const plc::PlaneSteps& steps, const Point3& p) {
   const auto& [base, u, v] = steps;
   const Point3 offset = p - base;
   const double uu = squared_length(u), uv = dot(u, v), vv = squared_length(v), pu = dot(offset, u), pv = dot(offset, v);
   const double determinant = uu * vv - uv * uv;
-  // Exact in integers: the products may have more bits than a double.
-  const auto i = static_cast<std::int64_t>(std::nearbyint((pu * vv - pv * uv) / determinant));
-  const auto j = static_cast<std::int64_t>(std::nearbyint((pv * uu - pu * uv) / determinant));
+  const double i = std::nearbyint((pu * vv - pv * uv) / determinant);
+  const double j = std::nearbyint((pv * uu - pu * uv) / determinant);
+  if (!(std::fabs(i) < 0x1p60 && std::fabs(j) < 0x1p60)) return std::nullopt;
+  // Exact in integers: the products may have more bits than a double, and more than 64 before they cancel.
+  using numbers::Int128;
   const auto combine = [&](double o, double s, double t) {
-    return o + static_cast<double>(i * static_cast<std::int64_t>(s) + j * static_cast<std::int64_t>(t));
+    return o + static_cast<double>(static_cast<Int128>(i) * static_cast<Int128>(s) +
+                                   static_cast<Int128>(j) * static_cast<Int128>(t));
   };
-  return {combine(base.x, u.x, v.x), combine(base.y, u.y, v.y), combine(base.z, u.z, v.z)};
+  return Point3{combine(base.x, u.x, v.x), combine(base.y, u.y, v.y), combine(base.z, u.z, v.z)};
 }
 
 }  // namespace
@@ -126,8 +130,8 @@ std::optional<Point3> FacetTriangulation::snap(const Point3& p, double farthest)
       patch = &other;
     }
   }
-  const Point3 snapped = nearest_in_plane(patch->steps, p);
-  if (!(squared_length(snapped - p) <= farthest * farthest)) return std::nullopt;
+  const std::optional<Point3> snapped = nearest_in_plane(patch->steps, p);
+  if (!snapped || !(squared_length(*snapped - p) <= farthest * farthest)) return std::nullopt;
   return snapped;
 }
 
