@@ -298,7 +298,9 @@ class Refiner {
     const double even =
         std::max(wanted * wanted - 0.25 * shape.shortest * shape.shortest, 0.75 * shape.shortest * shape.shortest);
     if (height * height > even && put(facet, triangle, middle + (std::sqrt(even) / height) * up)) return true;
-    return put(facet, triangle, shape.circumcenter);
+    // The circumcenter of a needle may be beyond all coordinates. The way to it is blocked much nearer.
+    constexpr double farthest = 0x1p50;
+    return put(facet, triangle, height < farthest ? shape.circumcenter : middle + (farthest / height) * up);
   }
 
   /// Adds a vertex at a place in a facet, or halves an edge of a segment in the way. False if neither is possible.
