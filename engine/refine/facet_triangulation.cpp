@@ -47,7 +47,8 @@ std::optional<Point3> nearest_in_plane(const plc::PlaneSteps& steps, const Point
   const double determinant = uu * vv - uv * uv;
   const double i = std::nearbyint((pu * vv - pv * uv) / determinant);
   const double j = std::nearbyint((pv * uu - pu * uv) / determinant);
-  if (!(std::fabs(i) < 0x1p60 && std::fabs(j) < 0x1p60)) return std::nullopt;
+  const auto fits = [](double count) { return std::fabs(count) < 0x1p60; };
+  if (!fits(i) || !fits(j)) return std::nullopt;
   // Exact in integers: the products may have more bits than a double, and more than 64 before they cancel.
   using numbers::Int128;
   const auto combine = [&](double o, double s, double t) {
