@@ -16,6 +16,7 @@
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
+#include "engine/mesh/collect_tetrahedra.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/edge_length_bounds.h"
@@ -105,6 +106,7 @@ struct Tetrahedralization {
   plc::Plc plc;
   protection::SegmentChains chains;
   TetMesh mesh;                              ///< without coordinates
+  LargeVector<delaunay::Cell> cells;         ///< its tetrahedra, some of them joined, for improvement
   std::vector<Point3> points;                ///< of the mesh, in grid units
   std::size_t first_interior = 0;            ///< of the points
   std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
@@ -115,7 +117,9 @@ struct Tetrahedralization {
 
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
 /// enclose.
-void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
+///
+/// \param delaunay  loses its cells
+void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
     std::vector<std::uint32_t> found = front::find_delaunay_faces(facets, delaunay);
@@ -142,14 +146,19 @@ void constrain(const delaunay::Delaunay& delaunay, facets::FacetMesh facets, con
       measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   t.stuck = labels.stuck;
   if (t.stuck) return;
-  t.mesh = measured(costs, mesh_stage::label,
-                    [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
-  t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, t.mesh); });
+  mesh::CollectedMesh collected = measured(
+      costs, mesh_stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  t.stuck =
+      measured(costs, mesh_stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, collected.mesh); });
   if (t.stuck) return;
   t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); });
   if (t.stuck) return;
   t.facet_of_face = measured(costs, mesh_stage::finish,
-                             [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), t.mesh); });
+                             [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), collected); });
+  if (improvement_of(options) != Improvement::none)
+    t.cells = measured(costs, mesh_stage::improve,
+                       [&] { return mesh::join_tetrahedra(collected, std::move(delaunay.cells)); });
+  t.mesh = std::move(collected.mesh);
 }
 
 /// All stages but improvement.
@@ -261,7 +270,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
   if (improve.improvement != Improvement::none) {
-    improve::ImproveInput mesh{t.plc, t.chains, std::move(t.facet_of_face), t.first_interior};
+    improve::ImproveInput mesh{t.plc, t.chains, std::move(t.cells), std::move(t.facet_of_face), t.first_interior};
     mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
     t.counts.improve = measured(costs, mesh_stage::improve, [&] {
       return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress);

@@ -36,6 +36,7 @@ namespace {
 /// The data that `improve_mesh` gets and changes.
 struct Unimproved {
   mesh::TetMesh mesh;
+  LargeVector<delaunay::Cell> cells;
   std::vector<std::uint32_t> facet_of_face;
   std::vector<Point3> points;
 };
@@ -45,9 +46,11 @@ const Unimproved& unimproved(const Stages& s) {
   const auto [at, is_new] = made.try_emplace(&s);
   Unimproved& u = at->second;
   if (is_new) {
-    u.mesh = mesh::collect_tetrahedra(s.plc, s.front,
-                                      label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions, s.delaunay);
-    u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.facets, u.mesh);
+    const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
+    mesh::CollectedMesh collected = mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay);
+    u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.facets, collected);
+    u.cells = mesh::join_tetrahedra(collected, s.delaunay.cells);
+    u.mesh = std::move(collected.mesh);
     u.points = points_of(s.delaunay);
   }
   return u;
@@ -60,8 +63,8 @@ improve::ImproveOptions options_of(improve::Improvement improvement) {
 }
 
 improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement, Unimproved& u) {
-  return improve::improve_mesh({s.plc, s.chains, std::move(u.facet_of_face), s.first_interior}, options_of(improvement),
-                               u.points, u.mesh);
+  return improve::improve_mesh({s.plc, s.chains, std::move(u.cells), std::move(u.facet_of_face), s.first_interior},
+                               options_of(improvement), u.points, u.mesh);
 }
 
 /// The quality of the worst cell; not positive if a cell is not.

@@ -17,8 +17,8 @@ namespace ccdt::benchmarks {
 namespace {
 
 mesh::TetMesh label(const Stages& s) {
-  return mesh::collect_tetrahedra(s.plc, s.front, label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions,
-                                  s.delaunay);
+  const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
+  return mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay).mesh;
 }
 
 /// The volume by the divergence theorem, from the triangles of the input.

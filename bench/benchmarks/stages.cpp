@@ -89,7 +89,7 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   const label::CellLabels labels = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   s.front.stuck = labels.stuck;
   if (!labels.stuck)
-    s.tetrahedra = sorted(mesh::collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay).tetrahedra);
+    s.tetrahedra = sorted(mesh::collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay).mesh.tetrahedra);
   return s;
 }
 

@@ -36,6 +36,7 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::buil
                                                                {"ccdt::mesh::check_volume", "finish"},
                                                                {"ccdt::mesh::finish_mesh", "finish"},
                                                                {"ccdt::mesh::to_world", "finish"},
+                                                               {"ccdt::mesh::join_tetrahedra", "improve"},
                                                                {"ccdt::improve::improve_mesh", "improve"}});
 constexpr std::string_view whole = "ccdt::mesh_plc";
 constexpr std::string_view remesh = "ccdt::surface::remesh_surface";

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
+#include "engine/base/sort_in_buckets.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
@@ -17,49 +17,17 @@ namespace {
 
 constexpr std::size_t grain = 4096;  // of loops on several threads
 
-/// A face of a cell, among those with the same least corner.
-struct FaceEntry {
-  std::uint64_t rest;  ///< the other two corners, in ascending order
+/// A face of a cell that has no neighbor there.
+struct OpenCellFace {
+  FaceKey key;
   std::uint32_t code;
-};
 
-std::uint64_t rest_of(const FaceKey& key) {
-  return std::uint64_t{key[1]} << 32 | key[2];
-}
+  auto operator<=>(const OpenCellFace&) const = default;
+};
 
 FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   const auto [a, b, c] = corners_of_face(v, f);
   return face_key(a, b, c);
-}
-
-/// The positions of the two least vertices of a cell.
-std::array<std::uint32_t, 2> two_least(const std::array<std::uint32_t, 4>& v) {
-  std::uint32_t least = v[0] < v[1] ? 0 : 1, next = 1 - least;
-  for (std::uint32_t i = 2; i < 4; ++i) {
-    if (v[i] < v[least])
-      next = least, least = i;
-    else if (v[i] < v[next])
-      next = i;
-  }
-  return {least, next};
-}
-
-/// Joins the cells at a face that occurs in two entries. Changes the entries.
-void join_same_faces(std::vector<FaceEntry>& entries, LargeVector<Cell>& cells) {
-  constexpr std::size_t most_unsorted = 64;  // comparing so few is faster than sorting
-  if (entries.size() > most_unsorted) {
-    std::ranges::sort(entries, {}, &FaceEntry::rest);
-    for (std::size_t i = 1; i < entries.size(); ++i)
-      if (entries[i - 1].rest == entries[i].rest) join_faces(cells, entries[i - 1].code, entries[i].code);
-    return;
-  }
-  for (std::size_t i = 0, end = entries.size(); i < end; ++i) {
-    std::size_t j = i + 1;
-    while (j < end && entries[j].rest != entries[i].rest) ++j;
-    if (j >= end) continue;
-    join_faces(cells, entries[i].code, entries[j].code);
-    entries[j] = entries[--end];
-  }
 }
 
 bool is_new_wall(const std::vector<FacetFlip>& flips, const FaceKey& key) {
@@ -76,7 +44,7 @@ void Change::clear() {
   new_vertex.reset();
 }
 
-CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
+CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<Point3> points,
                          std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior,
                          const QualityGoal& goal)
     : goal_(goal),
@@ -84,7 +52,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
       first_interior_(first_interior),
       cell_at_(points_.size(), no_neighbor),
       changed_at_(points_.size(), 0),
-      cells_(mesh.tetrahedra.size()),
+      cells_(std::move(cells)),
       walls_(cells_.size(), 0),
       regions_(mesh.regions),
       qualities_(cells_.size()),
@@ -92,12 +60,9 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c)
-      cells_[c] = {mesh.tetrahedra[c], {no_neighbor, no_neighbor, no_neighbor, no_neighbor}};
     compute_qualities(goal_, points_, std::span(mesh.tetrahedra).subspan(begin, end - begin),
                       std::span(qualities_).subspan(begin, end - begin));
   });
-  find_neighbors();
   const auto list_segments = [&] {
     segments_.reserve(mesh.edges.size());
     for (const auto& edge : mesh.edges) segments_.insert(edge_key(edge[0], edge[1]));
@@ -108,6 +73,8 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points,
       face_table_.insert(face_key(faces_[f][0], faces_[f][1], faces_[f][2]), f);
   };
   parallel_for(2, 1, [&](std::size_t i) { i == 0 ? list_segments() : list_faces(); });
+  join_open_faces();
+  find_walls();
   find_last_cells();
 }
 
@@ -131,43 +98,34 @@ void CellComplex::find_last_cells() {
 }
 
 void CellComplex::set_wall(std::uint32_t code) {
-  // Several threads may set walls of the same cell.
-  std::atomic_ref(walls_[cell_of(code)])
-      .fetch_or(static_cast<std::uint8_t>(1u << face_of(code)), std::memory_order_relaxed);
+  walls_[cell_of(code)] |= static_cast<std::uint8_t>(1u << face_of(code));
 }
 
-/// Joins the cells on both sides of each face, and marks faces on facets as walls. Faces are compared with those that
-/// have the same least corner. Three faces of a cell contain its least vertex, and the fourth contains the next.
-void CellComplex::find_neighbors() {
-  const auto by_vertex = [&](std::size_t which) {
-    return group_indices(points_.size(), cells_.size(),
-                         [&](std::size_t c) { return cells_[c].vertices[two_least(cells_[c].vertices)[which]]; });
-  };
-  const IndexLists least = by_vertex(0), next = by_vertex(1);
-  const IndexLists walls = group_indices(points_.size(), faces_.size(),
-                                         [&](std::size_t f) { return std::uint32_t{std::ranges::min(faces_[f])}; });
-  parallel_ranges(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    std::vector<FaceEntry> entries;
-    const auto add = [&](std::uint32_t c, std::uint32_t f) {
-      entries.push_back({rest_of(key_of_face(cells_[c].vertices, f)), face_code(c, f)});
-    };
-    for (std::size_t v = begin; v < end; ++v) {
-      entries.clear();
-      for (const std::uint32_t c : least.of(v))
-        for (std::uint32_t f = 0; f < 4; ++f)
-          if (cells_[c].vertices[f] != v) add(c, f);
-      for (const std::uint32_t c : next.of(v)) add(c, two_least(cells_[c].vertices)[0]);
-      for (const std::uint32_t f : walls.of(v)) {
-        const std::uint64_t rest = rest_of(face_key(faces_[f][0], faces_[f][1], faces_[f][2]));
-        for (const FaceEntry& entry : entries)
-          if (entry.rest == rest) set_wall(entry.code);
-      }
-      join_same_faces(entries, cells_);
+/// Joins the cells on both sides of each face where the neighbors are missing. What is left is on the boundary.
+void CellComplex::join_open_faces() {
+  auto open = parallel_collect<OpenCellFace>(
+      cells_.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<OpenCellFace>& found) {
+        for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
+          for (std::uint32_t f = 0; f < 4; ++f)
+            if (cells_[c].neighbors[f] == no_neighbor)
+              found.push_back({key_of_face(cells_[c].vertices, f), face_code(c, f)});
+      });
+  sort_in_buckets(open, [](const OpenCellFace& face) { return face.key[0]; });
+  for (std::size_t i = 1; i < open.size(); ++i)
+    if (open[i - 1].key == open[i].key) join_faces(cells_, open[i - 1].code, open[i].code);
+}
+
+/// Marks the faces on facets. Interior vertices are on none.
+void CellComplex::find_walls() {
+  parallel_for(cells_.size(), grain, [&](std::size_t i) {
+    const auto c = static_cast<std::uint32_t>(i);
+    const auto& v = cells_[c].vertices;
+    const auto interior = std::ranges::count_if(v, [&](std::uint32_t corner) { return is_interior(corner); });
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const bool may_be_on_facet = interior == (is_interior(v[f]) ? 1 : 0);
+      if (cells_[c].neighbors[f] == no_neighbor || (may_be_on_facet && face_table_.find(key_of_face(v, f)) != nullptr))
+        set_wall(face_code(c, f));
     }
-  });
-  parallel_for(cells_.size(), grain, [&](std::size_t c) {
-    for (std::uint32_t f = 0; f < 4; ++f)
-      if (cells_[c].neighbors[f] == no_neighbor) set_wall(face_code(static_cast<std::uint32_t>(c), f));
   });
 }
 

@@ -64,11 +64,12 @@ class CellMarks {
 class CellComplex {
  public:
   /// \param mesh            tetrahedra, regions, faces and edges; its coordinates are not used
+  /// \param cells           its tetrahedra; neighbors may be missing
   /// \param points          its vertices in grid units
   /// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
-  CellComplex(const mesh::TetMesh& mesh, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
-              std::uint32_t first_interior, const QualityGoal& goal);
+  CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<Point3> points,
+              std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior, const QualityGoal& goal);
 
   const QualityGoal& goal() const { return goal_; }
   std::uint64_t change_count() const { return change_count_; }
@@ -147,7 +148,8 @@ class CellComplex {
     bool is_wall;
   };
 
-  void find_neighbors();
+  void join_open_faces();
+  void find_walls();
   void find_last_cells();
   void open_hull(const Change& change, CellMarks& marks);
   void free_cells(const std::vector<std::uint32_t>& cells);

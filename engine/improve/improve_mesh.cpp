@@ -271,7 +271,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
     freedom = find_freedom(input.plc, input.chains, points.size());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
-  CellComplex complex(mesh, std::move(points), std::move(input.facet_of_face),
+  CellComplex complex(mesh, std::move(input.cells), std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
   note_bytes(complex.bytes());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/progress.h"
+#include "engine/base/raw_vector.h"
 #include "engine/improve/counts.h"
 #include "engine/improve/smoothing.h"
 #include "engine/plc/plc.h"
@@ -26,6 +27,7 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 struct ImproveInput {
   const plc::Plc& plc;
   const protection::SegmentChains& chains;
+  LargeVector<Cell> cells;                   ///< the mesh's tetrahedra; neighbors may be missing
   std::vector<std::uint32_t> facet_of_face;  ///< of each of the mesh's faces
   std::size_t first_interior;                ///< the least interior vertex
   /// The least vertex that was put inside a segment or a facet and may slide there whatever the options say.

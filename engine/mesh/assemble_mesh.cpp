@@ -11,7 +11,6 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
-#include "engine/mesh/sort_tetrahedra.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::mesh {
@@ -50,8 +49,8 @@ bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
 class FlatTetrahedronPeeler {
  public:
   FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
-                        TetMesh& mesh)
-      : plc_(plc), facets_(facets), mesh_(mesh) {
+                        CollectedMesh& collected)
+      : plc_(plc), facets_(facets), mesh_(collected.mesh), sources_(collected.sources) {
     for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
       if (!is_bent_boundary(plc, plc.facets[facets.facet[i]])) continue;
       triangle_of_.set(key_of(facets.triangles[i]), i);
@@ -92,10 +91,12 @@ class FlatTetrahedronPeeler {
     for (std::size_t i = 0; i < gone.size(); ++i) {
       if (gone[i]) continue;
       mesh_.tetrahedra[kept] = mesh_.tetrahedra[i];
-      mesh_.regions[kept++] = mesh_.regions[i];
+      mesh_.regions[kept] = mesh_.regions[i];
+      sources_[kept++] = sources_[i];
     }
     mesh_.tetrahedra.resize(kept);
     mesh_.regions.resize(kept);
+    sources_.resize(kept);
   }
 
  private:
@@ -140,6 +141,7 @@ class FlatTetrahedronPeeler {
   const plc::Plc& plc_;
   facets::FacetMesh& facets_;
   TetMesh& mesh_;
+  RawVector<std::uint32_t>& sources_;
   HashTable<FaceKey, std::size_t> triangle_of_;               // of those facets
   HashTable<std::uint32_t, std::vector<FacetId>> facets_of_;  // by vertex, each once
   HashSet<std::uint64_t> segment_edges_;
@@ -230,24 +232,11 @@ std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMe
                    "some facets are almost but not quite flat: try another --flatness");
 }
 
-TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                           const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay) {
-  const std::size_t cells = delaunay.cells.size();
-  return sorted_mesh(delaunay.vertices.size(), cells + front.tetrahedra.size(),
-                     [&](std::size_t i) -> std::optional<LabeledCell> {
-                       const bool of_front = i >= cells;
-                       const RegionId region = of_front ? front.regions[i - cells] : region_of_cell[i];
-                       if (region.is_none()) return std::nullopt;
-                       return LabeledCell{of_front ? front.tetrahedra[i - cells] : delaunay.cells[i].vertices,
-                                          plc.regions[region].attribute};
-                     });
-}
-
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                       facets::FacetMesh facets, TetMesh& mesh) {
-  FlatTetrahedronPeeler(plc, chains, facets, mesh).peel();
-  mesh.constrained_delaunay = true;
-  return add_faces_and_edges(plc, chains, facets, mesh);
+                                       facets::FacetMesh facets, CollectedMesh& collected) {
+  FlatTetrahedronPeeler(plc, chains, facets, collected).peel();
+  collected.mesh.constrained_delaunay = true;
+  return add_faces_and_edges(plc, chains, facets, collected.mesh);
 }
 
 // ---- Coordinates

@@ -10,16 +10,12 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
+#include "engine/mesh/collect_tetrahedra.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
 namespace ccdt::mesh {
-
-/// The tetrahedra of the front and the labeled cells, with their regions: the constrained Delaunay tetrahedralization,
-/// in the order of `sorted_mesh`. The mesh has nothing else yet.
-TetMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                           const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay);
 
 /// The error if the volume of the tetrahedra differs from that inside the facets. All cells are positive and share
 /// their faces; if the volume is right too, they fill the domain once, and there is no error.
@@ -37,7 +33,7 @@ std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMes
 ///
 /// \return the facet of each of the mesh's faces
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                       facets::FacetMesh facets, TetMesh& mesh);
+                                       facets::FacetMesh facets, CollectedMesh& collected);
 
 /// The vertices of a mesh in the units of the input. Input vertices get back their original coordinates wherever every
 /// tetrahedron around them stays positively oriented in the written coordinates, tested exactly. Elsewhere they keep

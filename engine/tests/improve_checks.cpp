@@ -165,7 +165,10 @@ improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal) {
   mesh.faces = model.faces;
   mesh.edges = model.segments;
   const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
-  return improve::CellComplex(mesh, model.points, model.facet_of_face, first_interior, goal);
+  constexpr auto none = delaunay::no_neighbor;
+  LargeVector<delaunay::Cell> cells;
+  for (const Tetrahedron& t : mesh.tetrahedra) cells.push_back({t, {none, none, none, none}});
+  return improve::CellComplex(mesh, std::move(cells), model.points, model.facet_of_face, first_interior, goal);
 }
 
 Invariants invariants_of(const improve::CellComplex& x) {

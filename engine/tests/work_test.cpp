@@ -226,7 +226,7 @@ face_check.triangles_visited 261
 face_check.faces_tested 762
 face_check.peak_bytes 1728
 label.cells_visited 694
-label.peak_bytes 3123
+label.peak_bytes 18936
 finish.cells_visited 156
 finish.peak_bytes 5520
 improve.cells_created 59

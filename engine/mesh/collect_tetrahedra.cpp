@@ -1,0 +1,185 @@
+#include "engine/mesh/collect_tetrahedra.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
+
+namespace ccdt::mesh {
+namespace {
+
+using delaunay::Cell, delaunay::cell_of, delaunay::face_code, delaunay::face_of, delaunay::no_neighbor;
+using Tetrahedron = std::array<std::uint32_t, 4>;
+
+constexpr std::size_t grain = 4096;  // of loops on several threads
+
+/// How the corners of a cell are arranged in its tetrahedron.
+struct Arrangement {
+  std::array<std::uint8_t, 4> corners;  ///< by place
+  std::array<std::uint8_t, 4> places;   ///< by corner
+};
+
+/// The even permutations. Those that begin with the same corner follow each other; each next one brings the next of the
+/// other corners forward.
+constexpr std::array<Arrangement, 12> even_arrangements = [] {
+  constexpr std::uint8_t first[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}};
+  std::array<Arrangement, 12> all{};
+  for (unsigned i = 0; i < 12; ++i) {
+    const auto& [a, b, c, d] = first[i / 3];
+    const std::uint8_t others[] = {b, c, d};
+    all[i].corners = {a, others[i % 3], others[(i + 1) % 3], others[(i + 2) % 3]};
+    for (std::uint8_t place = 0; place < 4; ++place) all[i].places[all[i].corners[place]] = place;
+  }
+  return all;
+}();
+
+/// The number of the even arrangement with the least vertex first and the least of the others second. No branch depends
+/// on the vertices: it would be mispredicted half of the time.
+unsigned arrangement_of(const Tetrahedron& t) {
+  const unsigned low = t[1] < t[0] ? 1 : 0, high = t[3] < t[2] ? 3 : 2;
+  const unsigned first = t[high] < t[low] ? high : low;
+  const auto& corners = even_arrangements[3 * first].corners;
+  const std::uint32_t b = t[corners[1]], c = t[corners[2]], d = t[corners[3]];
+  const unsigned second = c < b ? 1 : 0;
+  return 3 * first + (d < std::min(b, c) ? 2 : second);
+}
+
+Tetrahedron arranged(const Tetrahedron& t) {
+  const auto& [a, b, c, d] = even_arrangements[arrangement_of(t)].corners;
+  return {t[a], t[b], t[c], t[d]};
+}
+
+std::uint32_t least_vertex(const Tetrahedron& t) {
+  return std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
+}
+
+/// The labeled cells and the tetrahedra of the front, by their sources.
+class Parts {
+ public:
+  Parts(const plc::Plc& plc, const front::FrontResult& front, const std::vector<RegionId>& region_of_cell,
+        const LargeVector<Cell>& cells)
+      : plc_(plc), front_(front), region_of_cell_(region_of_cell), cells_(cells) {}
+
+  std::size_t size() const { return cells_.size() + front_.tetrahedra.size(); }
+  bool is_in_mesh(std::size_t source) const { return !region(source).is_none(); }
+  const Tetrahedron& operator[](std::size_t source) const {
+    return source < cells_.size() ? cells_[source].vertices : front_.tetrahedra[source - cells_.size()];
+  }
+  int attribute(std::size_t source) const { return plc_.regions[region(source)].attribute; }
+
+ private:
+  RegionId region(std::size_t source) const {
+    return source < cells_.size() ? region_of_cell_[source] : front_.regions[source - cells_.size()];
+  }
+
+  const plc::Plc& plc_;
+  const front::FrontResult& front_;
+  const std::vector<RegionId>& region_of_cell_;
+  const LargeVector<Cell>& cells_;
+};
+
+/// Lists of sources, by their least vertices. The order within a list is any.
+struct Buckets {
+  std::vector<std::uint32_t> ends;  ///< by vertex
+  RawVector<std::uint32_t> sources;
+};
+
+Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
+  const bool alone = thread_count() == 1;
+  const auto take_one = [&](std::uint32_t& number) { return alone ? number++ : add_one(number); };
+  Buckets buckets;
+  std::vector<std::uint32_t>& ends = buckets.ends;
+  ends.assign(vertices + 1, 0);
+  RawVector<std::uint32_t> least(parts.size());
+  constexpr std::uint32_t not_in_mesh = delaunay::ghost_vertex;
+  parallel_for(parts.size(), grain, [&](std::size_t i) {
+    least[i] = parts.is_in_mesh(i) ? least_vertex(parts[i]) : not_in_mesh;
+    if (least[i] != not_in_mesh) take_one(ends[least[i] + 1]);
+  });
+  for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
+  // So far each entry is where the bucket begins. Each source moves it on, to where the bucket ends.
+  buckets.sources.resize(ends.back());
+  parallel_for(parts.size(), grain, [&](std::size_t i) {
+    if (least[i] != not_in_mesh) buckets.sources[take_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
+  });
+  ends.pop_back();
+  return buckets;
+}
+
+}  // namespace
+
+CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
+                                 const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay) {
+  const Parts parts(plc, front, region_of_cell, delaunay.cells);
+  const std::size_t vertices = delaunay.vertices.size();
+  Buckets buckets = group_by_least_vertex(parts, vertices);
+  CollectedMesh collected{{}, std::move(buckets.sources)};
+  auto& [mesh, sources] = collected;
+  mesh.tetrahedra.resize(sources.size());
+  mesh.regions.resize(sources.size());
+  parallel_ranges(vertices, grain, [&](std::size_t v, std::size_t end) {
+    constexpr std::size_t ahead = 16;  // cells of a bucket are far apart, so memory is asked for them early
+    const std::size_t last = buckets.ends[end - 1];
+    std::vector<std::pair<Tetrahedron, std::uint32_t>> bucket;
+    for (; v < end; ++v) {
+      bucket.clear();
+      const std::size_t first = v == 0 ? 0 : buckets.ends[v - 1];
+      for (std::size_t i = first; i < buckets.ends[v]; ++i) {
+        if (i + ahead < last) __builtin_prefetch(&parts[sources[i + ahead]]);
+        bucket.emplace_back(arranged(parts[sources[i]]), sources[i]);
+      }
+      std::ranges::sort(bucket);
+      for (std::size_t i = 0; i < bucket.size(); ++i) {
+        std::tie(mesh.tetrahedra[first + i], sources[first + i]) = bucket[i];
+        mesh.regions[first + i] = parts.attribute(bucket[i].second);
+      }
+    }
+  });
+  note_bytes(bytes_of(delaunay.vertices, delaunay.cells, region_of_cell, buckets.ends, sources, mesh.tetrahedra,
+                      mesh.regions));
+  return collected;
+}
+
+LargeVector<Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<Cell> cells) {
+  const auto& [mesh, sources] = collected;
+  const std::size_t cell_count = cells.size(), count = sources.size();
+  if (cell_count < count) cells.resize(count);
+  constexpr Tetrahedron no_neighbors = {no_neighbor, no_neighbor, no_neighbor, no_neighbor};
+  constexpr std::uint32_t not_in_mesh = delaunay::no_cell;
+  std::vector<std::uint32_t> tetrahedron_of(cell_count, not_in_mesh);
+  RawVector<std::uint8_t> arrangements(cell_count);
+  parallel_for(count, grain, [&](std::size_t i) {
+    if (sources[i] < cell_count) tetrahedron_of[sources[i]] = static_cast<std::uint32_t>(i);
+  });
+  parallel_for(cell_count, grain, [&](std::size_t c) {
+    if (tetrahedron_of[c] != not_in_mesh)
+      arrangements[c] = static_cast<std::uint8_t>(arrangement_of(cells[c].vertices));
+  });
+  // The vertices of the cells are no longer needed. The new neighbors take their place until all are found. Close cells
+  // are close in the order of the Delaunay cells, so this is the order of the search.
+  parallel_for(cell_count, grain, [&](std::size_t c) {
+    if (tetrahedron_of[c] == not_in_mesh) return;
+    Tetrahedron neighbors = no_neighbors;
+    const auto& places = even_arrangements[arrangements[c]].places;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t code = cells[c].neighbors[f], other = tetrahedron_of[cell_of(code)];
+      if (other == not_in_mesh) continue;
+      const auto& places_there = even_arrangements[arrangements[cell_of(code)]].places;
+      neighbors[places[f]] = face_code(other, places_there[face_of(code)]);
+    }
+    cells[tetrahedron_of[c]].vertices = neighbors;
+  });
+  parallel_for(count, grain, [&](std::size_t i) {
+    const bool is_of_front = sources[i] >= cell_count;
+    cells[i] = {mesh.tetrahedra[i], is_of_front ? no_neighbors : cells[i].vertices};
+  });
+  cells.resize(count);
+  note_bytes(bytes_of(mesh.tetrahedra, mesh.regions, sources, cells));  // the same on any number of threads
+  return cells;
+}
+
+}  // namespace ccdt::mesh

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/raw_vector.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/front/advance_front.h"
+#include "engine/mesh/tet_mesh.h"
+#include "engine/plc/plc.h"
+
+namespace ccdt::mesh {
+
+/// The constrained Delaunay tetrahedralization as a mesh, and where its tetrahedra come from.
+struct CollectedMesh {
+  TetMesh mesh;
+  /// By tetrahedron: the Delaunay cell that it is, or, beyond those, the tetrahedron of the front.
+  RawVector<std::uint32_t> sources;
+};
+
+/// The tetrahedra of the front and the labeled cells, with their regions. The mesh has nothing else yet.
+///
+/// They and the corners of each are in an order that depends on nothing but the set of tetrahedra: the mesh is the
+/// same, byte for byte, whatever strategy made it and on however many threads. The first corner of each is its least
+/// vertex. Tetrahedra that are close in space are mostly close in this order, because interior vertices are numbered
+/// along a space-filling curve.
+CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
+                                 const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay);
+
+/// The tetrahedra of the mesh as cells, in the same order. Two that come from Delaunay cells with a common face are
+/// neighbors; the other neighbors are missing (`no_neighbor`).
+///
+/// \param cells  of the Delaunay tetrahedralization; their memory is used again
+LargeVector<delaunay::Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<delaunay::Cell> cells);
+
+}  // namespace ccdt::mesh
