@@ -244,6 +244,20 @@ TEST(VerifyTouching, ALineDividesAFacetFromBorderToBorder) {
   }
 }
 
+TEST(VerifyTouching, AnEdgeMayDivideATriangleFromItsCornerToASingleVertex) {
+  // The triangle is partly within the cube. The cube's edge from its corner crosses its border at a vertex that is a
+  // corner of no facet.
+  for (const bool triangles : {false, true}) {
+    InputPlc input = big_cube(triangles);
+    const auto corner =
+        static_cast<std::uint32_t>(std::ranges::find(input.vertices, Point3{0, 3, 3}) - input.vertices.begin());
+    const auto first = static_cast<std::uint32_t>(input.vertices.size());
+    input.vertices.insert(input.vertices.end(), {{1.5, 3, 3}, {1.5, 12, 12}, {1.5, 0, 0}});
+    input.triangles.push_back({corner, first + 1, first + 2});
+    expect_ok(mesh_with_engine(input));
+  }
+}
+
 TEST(VerifyTouching, AVertexThatIsOnTheBoundaryOnlyWithinTheToleranceMayBeMissing) {
   const MeshedInput cube = mesh_with_engine(big_cube(false));
   InputPlc input = big_cube(false);

@@ -1,215 +1,16 @@
-#include "bench/verify/edit_surface.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "bench/verify/edit_surface.h"
 #include "bench/verify/patches.h"
-#include "engine/base/parallel.h"
+#include "bench/verify/piece_tree.h"
 
 namespace ccdt::verify {
 
 namespace {
-
-/// The pieces by their bounding boxes.
-class PieceTree {
- public:
-  explicit PieceTree(const Surface& surface)
-      : tolerance_(surface.tolerances.flat), tree_(surface.boxes_of_pieces(), surface.tolerances) {}
-
-  /// Calls visit(piece) for all pieces whose box the box of a and b touches within the tolerance.
-  template <class Visit>
-  void for_each_near(const Point3& a, const Point3& b, const Visit& visit) const {
-    tree_.for_each_meeting(expanded(hull(box_of(a), box_of(b)), tolerance_), visit);
-  }
-
- private:
-  double tolerance_;
-  ScaledBoxTree tree_;
-};
-
-double squared_distance(const Point3& p, const Point3& a, const Point3& b) {
-  const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
-  return squared_length(p - a - along * (b - a));
-}
-
-/// The position of a point relative to a piece: in its plane and near its border, or within it.
-enum class PointOnPiece { off, border, within };
-
-PointOnPiece locate_on_piece(const Surface& surface, std::uint32_t piece, const Point3& p) {
-  const Point3& area = surface.area_vector[piece];
-  const double size = length(area), tolerance = surface.tolerances.place;
-  const double height = dot(area, p - surface.origin(piece)) / size;
-  if (std::fabs(height) > surface.tolerances.touch) return PointOnPiece::off;
-  for (const auto& [a, b] : surface.edges_of(piece))
-    if (squared_distance(p, surface.at(a), surface.at(b)) <= tolerance * tolerance) return PointOnPiece::border;
-  // Its foot, as the drawing is seen along an axis, not along the normal.
-  const Point3 foot = p - (height / size) * area;
-  return encloses(area, surface.edges_of(piece), surface.sites.position, foot) ? PointOnPiece::within
-                                                                               : PointOnPiece::off;
-}
-
-// Lines within facets.
-
-Point3 point_along(const Surface& surface, std::uint32_t edge, double fraction) {
-  const auto& [a, b] = surface.edges[edge];
-  return surface.at(a) + fraction * (surface.at(b) - surface.at(a));
-}
-
-bool has_edge(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
-  return std::ranges::any_of(surface.uses.of(edge), [&](std::uint32_t use) { return surface.piece_of[use] == piece; });
-}
-
-/// Does an edge run along the plane of the piece, as far as a piece of that size determines its slope?
-bool runs_along(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
-  const Point3& area = surface.area_vector[piece];
-  const Point3 along = surface.at(surface.edges[edge][1]) - surface.at(surface.edges[edge][0]);
-  const double squared_size = length(area);
-  const double slack = 1 + std::sqrt(squared_length(along) / squared_size);
-  return std::fabs(dot(area, along)) <= 2 * surface.tolerances.touch * slack * squared_size;
-}
-
-/// The edges whose midpoint lies on a foreign piece, along its plane.
-std::vector<std::uint32_t> find_touching(const Surface& surface, const PieceTree& tree) {
-  const auto touches_a_piece = [&](std::uint32_t e) {
-    const Point3 middle = point_along(surface, e, 0.5);
-    bool touches = false;
-    tree.for_each_near(middle, middle, [&](std::uint32_t p) {
-      touches = touches || (!has_edge(surface, p, e) && runs_along(surface, p, e) &&
-                            locate_on_piece(surface, p, middle) != PointOnPiece::off);
-    });
-    return touches;
-  };
-  return joined(parallel_chunks(surface.edges.size(), short_chunk_length, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> touching;
-    for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e)
-      if (touches_a_piece(e)) touching.push_back(e);
-    return touching;
-  }));
-}
-
-std::vector<std::uint32_t> sites_of(const Surface& surface, std::uint32_t piece) {
-  std::vector<std::uint32_t> sites;
-  for (const auto& [site, next] : surface.edges_of(piece)) sites.push_back(site);
-  return sites;
-}
-
-/// Splits the lines at all sites that lie on them, and all edges at the ends of the lines. An edge is not split at a
-/// vertex of its own triangles, which then have no height.
-void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& lines, Surface& surface) {
-  std::vector<std::uint32_t> sites;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> candidates;  // of each edge
-  for (const std::uint32_t e : lines) {
-    const auto& [a, b] = surface.edges[e];
-    sites.insert(sites.end(), {a, b});
-    tree.for_each_near(surface.at(a), surface.at(b), [&](std::uint32_t p) {
-      const auto of_piece = sites_of(surface, p);
-      candidates[e].insert(candidates[e].end(), of_piece.begin(), of_piece.end());
-    });
-  }
-  sort_and_unique(sites);
-  for (const std::uint32_t s : sites)
-    tree.for_each_near(surface.at(s), surface.at(s), [&](std::uint32_t p) {
-      for (const std::uint32_t use : surface.uses_of(p)) candidates[surface.edge_of[use]].push_back(s);
-    });
-  for (auto& [e, list] : candidates) {
-    list = select_within(surface, surface.edges[e], list);
-    for (const std::uint32_t use : surface.uses.of(e)) {
-      if (list.empty()) break;
-      if (!surface.is_triangle(surface.piece_of[use])) continue;
-      const auto own = sites_of(surface, surface.piece_of[use]);
-      std::erase_if(list, [&](std::uint32_t s) { return std::find(own.begin(), own.end(), s) != own.end(); });
-    }
-  }
-  split_directed(
-      [&](std::uint32_t e) {
-        const auto found = candidates.find(e);
-        return found == candidates.end() ? std::vector<std::uint32_t>{} : found->second;
-      },
-      surface);
-}
-
-/// Patches in one plane, and the lines of others within each.
-struct Drawings {
-  std::vector<bool> joined;  ///< of each edge: it is within a patch
-  Patches patches;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> lines;  ///< of a patch
-};
-
-/// The patches that contain a line with both ends.
-std::vector<std::uint32_t> patches_around(const Surface& surface, const PieceTree& tree, const Patches& patches,
-                                          std::uint32_t line) {
-  const double flat = surface.tolerances.flat;
-  std::vector<std::uint32_t> found;
-  for (const double fraction : {0.5, 0.382, 0.707}) {  // where one is on an edge within the patch, another is not
-    const Point3 point = point_along(surface, line, fraction);
-    tree.for_each_near(point, point, [&](std::uint32_t p) {
-      const std::uint32_t patch = patches.of_piece[p];
-      const auto in_plane = [&](std::uint32_t site) {
-        return std::fabs(patches.height(patch, surface.at(site))) <= flat;
-      };
-      if (patches.thickness[patch] > flat || !in_plane(surface.edges[line][0]) || !in_plane(surface.edges[line][1]))
-        return;
-      if (std::ranges::any_of(patches.pieces.of(patch), [&](std::uint32_t q) { return has_edge(surface, q, line); }))
-        return;
-      if (locate_on_piece(surface, p, point) == PointOnPiece::within) found.push_back(patch);
-    });
-  }
-  sort_and_unique(found);
-  return found;
-}
-
-Drawings find_drawings(const Surface& surface, const PieceTree& tree) {
-  const std::vector<std::uint32_t> touching = find_touching(surface, tree);
-  Drawings drawings;
-  drawings.joined = find_features(surface);
-  drawings.joined.flip();
-  for (const std::uint32_t e : touching) drawings.joined[e] = false;
-  drawings.patches = group_pieces(surface, drawings.joined);
-  for (const std::uint32_t e : touching)
-    for (const std::uint32_t patch : patches_around(surface, tree, drawings.patches, e))
-      drawings.lines[patch].push_back(e);
-  return drawings;
-}
-
-/// The cells into which lines divide a patch: loops that have an edge of its outline to run along, or lines alone.
-std::vector<PolygonCell> divide_patch(const Surface& surface, const Drawings& drawings, std::uint32_t patch,
-                                      const std::vector<std::uint32_t>& lines) {
-  std::set<Edge> outline, undirected;
-  for (const std::uint32_t p : drawings.patches.pieces.of(patch))
-    for (const std::uint32_t use : surface.uses_of(p)) {
-      if (drawings.joined[surface.edge_of[use]]) continue;
-      const auto& [a, b] = surface.directed[use];
-      outline.insert(drawings.patches.flipped[p] ? Edge{b, a} : Edge{a, b});
-      undirected.insert(surface.edges[surface.edge_of[use]]);
-    }
-  for (const std::uint32_t e : lines) undirected.insert(surface.edges[e]);
-  const auto drawn = trace_drawing(drawings.patches.normal[patch], undirected, surface.sites.position);
-  std::vector<PolygonCell> cells;
-  for (std::size_t i = 0; i < drawn.loops.size(); ++i) {
-    const PolygonCell& loop = drawn.loops[i];
-    const auto is_wrong_way = [&](const Edge& e) { return outline.count(e) == 0 && outline.count({e[1], e[0]}) > 0; };
-    if (drawn.areas[i] > 0 && std::none_of(loop.begin(), loop.end(), is_wrong_way)) cells.push_back(drawn.cells[i]);
-  }
-  return cells;
-}
-
-void divide_patches(const Drawings& drawings, Surface& surface) {
-  Pieces divided;
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    if (drawings.lines.count(drawings.patches.of_piece[p]) == 0)
-      divided.add(surface.edges_of(p), surface.marker[p], surface.number[p]);
-  for (const auto& [patch, lines] : drawings.lines) {
-    const std::uint32_t first = drawings.patches.pieces.of(patch)[0];
-    for (const PolygonCell& cell : divide_patch(surface, drawings, patch, lines))
-      divided.add(cell, surface.marker[first], surface.number[first]);
-  }
-  set_pieces(std::move(divided), surface);
-}
-
-// Vertices that may slide.
 
 /// The flatness of a patch that counts as flat, times the tolerance. The rest of the tolerance is for its other
 /// vertices, which are compared with the plane of its corners.
@@ -467,17 +268,6 @@ bool is_on_something(const Surface& surface, const PieceTree& tree, std::uint32_
 }
 
 }  // namespace
-
-void embed_lines(Surface& surface) {
-  const PieceTree tree(surface);
-  std::vector<std::uint32_t> lines = find_touching(surface, tree);
-  for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
-    if (surface.use_count(e) != 2) lines.push_back(e);
-  if (lines.empty()) return;
-  split_at_touches(tree, lines, surface);
-  const Drawings drawings = find_drawings(surface, tree);
-  if (!drawings.lines.empty()) divide_patches(drawings, surface);
-}
 
 void let_vertices_slide(Surface& surface, Regions& regions) {
   const std::vector<bool> was_used = find_used(surface);
