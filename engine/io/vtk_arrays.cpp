@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -20,26 +22,41 @@ constexpr const char* outline_remedy = "export the file again as a VTK XML unstr
 constexpr std::string_view appended_tag = "<AppendedData", appended_end_tag = "</AppendedData";
 
 template <class Stored, class Value>
-RawVector<Value> convert(std::string_view bytes, bool big_endian) {
-  RawVector<Value> values(bytes.size() / sizeof(Stored));
-  parallel_for(values.size(), 16384, [&](std::size_t i) {
-    const Stored stored = number_at<Stored>(bytes.data() + i * sizeof(Stored), big_endian);
+void convert(const char* bytes, std::size_t count, bool big_endian, Value* values) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Stored stored = number_at<Stored>(bytes + i * sizeof(Stored), big_endian);
     if constexpr (std::is_floating_point_v<Stored> && std::is_integral_v<Value>)
       values[i] = std::fabs(stored) < 9e18 ? static_cast<Value>(stored) : -1;  // -1 is no index and no cell type
     else
       values[i] = static_cast<Value>(stored);
-  });
-  return values;
+  }
 }
 
 template <class Value>
-constexpr std::pair<std::string_view, RawVector<Value> (*)(std::string_view, bool)> converters[] = {
-    {"Float32", convert<float, Value>},      {"Float64", convert<double, Value>},
-    {"Int8", convert<std::int8_t, Value>},   {"UInt8", convert<std::uint8_t, Value>},
-    {"Int16", convert<std::int16_t, Value>}, {"UInt16", convert<std::uint16_t, Value>},
-    {"Int32", convert<std::int32_t, Value>}, {"UInt32", convert<std::uint32_t, Value>},
-    {"Int64", convert<std::int64_t, Value>}, {"UInt64", convert<std::uint64_t, Value>},
+struct StoredType {
+  std::string_view name;
+  std::size_t bytes;
+  typename StoredNumbers<Value>::Convert convert_all;
 };
+
+template <class Value>
+constexpr StoredType<Value> stored_types[] = {
+    {"Float32", 4, convert<float, Value>},      {"Float64", 8, convert<double, Value>},
+    {"Int8", 1, convert<std::int8_t, Value>},   {"UInt8", 1, convert<std::uint8_t, Value>},
+    {"Int16", 2, convert<std::int16_t, Value>}, {"UInt16", 2, convert<std::uint16_t, Value>},
+    {"Int32", 4, convert<std::int32_t, Value>}, {"UInt32", 4, convert<std::uint32_t, Value>},
+    {"Int64", 8, convert<std::int64_t, Value>}, {"UInt64", 8, convert<std::uint64_t, Value>},
+};
+
+/// The numbers of a text, as values of this machine.
+template <class Value>
+StoredNumbers<Value> stored(std::span<const Value> values) {
+  const auto bytes = std::as_bytes(values);
+  StoredNumbers<Value> numbers{.bytes_each = sizeof(Value), .convert = convert<Value, Value>};
+  numbers.bytes.resize(bytes.size());
+  std::ranges::transform(bytes, numbers.bytes.begin(), [](std::byte b) { return static_cast<char>(b); });
+  return numbers;
+}
 
 std::string_view attribute_of(pugi::xml_node node, const char* name) {
   return node.attribute(name).value();
@@ -126,10 +143,10 @@ void VtkArrays::check_size(Array array, std::size_t found, std::size_t due) cons
 }
 
 template <class Value>
-RawVector<Value> VtkArrays::read(Array array) const {
+StoredNumbers<Value> VtkArrays::read(Array array) const {
   const std::string_view type = attribute_of(array, "type"), format = attribute_of(array, "format");
   if (format.empty() || format == "ascii") {
-    RawVector<Value> values;
+    std::vector<Value> values;
     const std::string_view text = text_of(array);
     const std::size_t begin = begin_of(array);
     TextScanner in(file_, TextScanner::no_comments, begin, begin + text.size());
@@ -140,18 +157,15 @@ RawVector<Value> VtkArrays::read(Array array) const {
       else
         values.push_back(in.number(std::string_view(name)));
     }
-    return values;
+    return stored<Value>(values);
   }
-  for (const auto& [name, convert_bytes] : converters<Value>)
-    if (type == name) {
-      const RawVector<char> bytes = bytes_of(array);
-      return convert_bytes({bytes.data(), bytes.size()}, big_endian_);
-    }
+  for (const auto& [name, bytes, convert_all] : stored_types<Value>)
+    if (type == name) return {bytes_of(array), bytes, convert_all, big_endian_};
   fail(begin_of(array), name_of(array) + ": unknown type " + in_quotes(type));
 }
 
-template RawVector<double> VtkArrays::read<double>(Array array) const;
-template RawVector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
+template StoredNumbers<double> VtkArrays::read<double>(Array array) const;
+template StoredNumbers<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
 
 /// An array's text ends with the next tag: its own end, or the metadata that ParaView puts after the numbers.
 std::string_view VtkArrays::text_of(Array array) const {

@@ -11,6 +11,23 @@
 
 namespace ccdt::io {
 
+/// The numbers of an array as the file stores them. They are converted where they are read, so that no second array is
+/// needed. Value is double or std::int64_t.
+template <class Value>
+struct StoredNumbers {
+  using Convert = void (*)(const char* bytes, std::size_t count, bool big_endian, Value* values);
+
+  RawVector<char> bytes = {};
+  std::size_t bytes_each = 1;
+  Convert convert = nullptr;
+  bool big_endian = false;
+
+  std::size_t size() const { return bytes.size() / bytes_each; }
+  void read(std::size_t begin, std::size_t end, Value* values) const {
+    if (begin < end) convert(bytes.data() + begin * bytes_each, end - begin, big_endian, values);
+  }
+};
+
 /// The arrays of a VTK XML unstructured grid of one piece: as text, in base64 or appended, compressed by zlib or not,
 /// of any type and byte order, with lengths of 32 or 64 bits.
 class VtkArrays {
@@ -33,7 +50,7 @@ class VtkArrays {
 
   /// The numbers of an array. Value is double or std::int64_t.
   template <class Value>
-  RawVector<Value> read(Array array) const;
+  StoredNumbers<Value> read(Array array) const;
 
   /// The place of an array in the file.
   std::size_t begin_of(Array array) const;
@@ -60,7 +77,7 @@ class VtkArrays {
   std::size_t length_size_ = 4;  ///< of the numbers before an array, in bytes
 };
 
-extern template RawVector<double> VtkArrays::read<double>(Array array) const;
-extern template RawVector<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
+extern template StoredNumbers<double> VtkArrays::read<double>(Array array) const;
+extern template StoredNumbers<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
 
 }  // namespace ccdt::io

@@ -19,33 +19,47 @@ namespace {
 // VTK's types of cells
 constexpr std::uint8_t vertex = 1, poly_vertex = 2, line = 3, triangle = 5, tetrahedron = 10;
 
+/// The length of the ranges of points and cells that one thread reads at a time.
+constexpr std::size_t range_length = 16384;
+
 std::vector<Point3> read_points(const VtkArrays& arrays) {
   const auto array = arrays.required("Points", "");
-  const auto xyz = arrays.read<double>(array);
+  const StoredNumbers<double> xyz = arrays.read<double>(array);
   arrays.check_size(array, xyz.size(), 3 * arrays.claimed("NumberOfPoints"));
   std::vector<Point3> points(xyz.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
-      arrays.fail(arrays.begin_of(array),
-                  "vertex " + std::to_string(i) + ": a coordinate is not a finite number (NaN or infinite)",
-                  "repair this vertex, or export the file again");
-  }
+  const auto read_some = [&](std::size_t i, std::size_t end, std::vector<std::size_t>& bad) {
+    for (; i < end; ++i) {
+      std::array<double, 3> at;
+      xyz.read(3 * i, 3 * i + 3, at.data());
+      points[i] = {at[0], at[1], at[2]};
+      if (!std::ranges::all_of(at, [](double x) { return std::isfinite(x); })) bad.push_back(i);
+    }
+  };
+  if (const auto bad = parallel_collect<std::size_t>(points.size(), range_length, read_some); !bad.empty())
+    arrays.fail(arrays.begin_of(array),
+                "vertex " + std::to_string(bad[0]) + ": a coordinate is not a finite number (NaN or infinite)",
+                "repair this vertex, or export the file again");
   return points;
 }
+
+struct VtuCell {
+  std::size_t number;
+  std::size_t kind;         ///< 0 to 2: the place of its elements among those of a mesh; 3: none
+  std::int64_t begin, end;  ///< of its corners in the connectivity
+  int region, marker;
+};
 
 struct VtuCells {
   const VtkArrays& arrays;
   std::size_t vertices = 0;
-  RawVector<std::int64_t> connectivity, offsets, types, regions, markers;
+  StoredNumbers<std::int64_t> connectivity, offsets, types, regions, markers;
 
   [[noreturn]] void refuse(std::size_t cell, const std::string& what, const char* remedy) const {
     arrays.fail(0, "cell " + std::to_string(cell) + ": " + what, remedy);
   }
 
-  /// \return  0 to 2: the place of its elements among those of a mesh; 3: none
-  std::size_t kind(std::size_t cell) const {
-    const std::int64_t type = types[cell];
+  /// Of a cell of this type, as in `VtuCell`.
+  std::size_t kind(std::size_t cell, std::int64_t type) const {
     if (type == tetrahedron) return 0;
     if (type == triangle) return 1;
     if (type == line) return 2;
@@ -56,54 +70,82 @@ struct VtuCells {
   }
 
   template <std::size_t Corners>
-  std::array<std::uint32_t, Corners> corners(std::size_t cell) const {
-    const std::int64_t begin = cell == 0 ? 0 : offsets[cell - 1], end = offsets[cell];
+  std::array<std::uint32_t, Corners> corners(const VtuCell& cell) const {
+    const auto [number, kind, begin, end, region, marker] = cell;
     if (begin < 0 || end < begin || end - begin != static_cast<std::int64_t>(Corners) ||
         static_cast<std::size_t>(end) > connectivity.size())
-      refuse(cell, "its offsets " + std::to_string(begin) + " and " + std::to_string(end) + " are wrong",
+      refuse(number, "its offsets " + std::to_string(begin) + " and " + std::to_string(end) + " are wrong",
              VtkArrays::damaged_remedy);
+    std::array<std::int64_t, Corners> indices;
+    connectivity.read(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), indices.data());
     std::array<std::uint32_t, Corners> its;
     for (std::size_t k = 0; k < Corners; ++k) {
-      const std::int64_t index = connectivity[static_cast<std::size_t>(begin) + k];
-      if (index < 0 || static_cast<std::size_t>(index) >= vertices)
-        refuse(cell,
-               "vertex index " + std::to_string(index) + " is out of range: the file has " + std::to_string(vertices) +
-                   " vertices, counted from 0",
+      if (indices[k] < 0 || static_cast<std::size_t>(indices[k]) >= vertices)
+        refuse(number,
+               "vertex index " + std::to_string(indices[k]) + " is out of range: the file has " +
+                   std::to_string(vertices) + " vertices, counted from 0",
                VtkArrays::damaged_remedy);
-      its[k] = static_cast<std::uint32_t>(index);
+      its[k] = static_cast<std::uint32_t>(indices[k]);
     }
     return its;
   }
 };
 
+/// Calls visit(begin, end) for short ranges that cover a range. Their numbers are converted before they are used.
+constexpr std::size_t few = 512;
+template <class Visit>
+void for_few(std::size_t begin, std::size_t end, const Visit& visit) {
+  for (; begin < end; begin += few) visit(begin, std::min(end, begin + few));
+}
+using Few = std::array<std::int64_t, few>;
+
+/// Calls visit(cell) for a range of cells.
+template <class Visit>
+void visit_cells(const VtuCells& cells, std::size_t range_begin, std::size_t range_end, const Visit& visit) {
+  Few types, ends, regions = {}, markers = {};
+  std::int64_t corners_begin = 0;
+  if (range_begin > 0) cells.offsets.read(range_begin - 1, range_begin, &corners_begin);
+  for_few(range_begin, range_end, [&](std::size_t begin, std::size_t end) {
+    cells.types.read(begin, end, types.data());
+    cells.offsets.read(begin, end, ends.data());
+    if (cells.regions.size() > 0) cells.regions.read(begin, end, regions.data());
+    if (cells.markers.size() > 0) cells.markers.read(begin, end, markers.data());
+    for (std::size_t cell = begin, i = 0; cell < end; ++cell, ++i) {
+      visit(VtuCell{cell, cells.kind(cell, types[i]), corners_begin, ends[i], static_cast<int>(regions[i]),
+                    static_cast<int>(markers[i])});
+      corners_begin = ends[i];
+    }
+  });
+}
+
 /// How many cells are of each kind.
 using KindCounts = std::array<std::size_t, 4>;
 
-KindCounts count_kinds(const VtuCells& cells, std::size_t begin, std::size_t end) {
+KindCounts count_kinds(const VtuCells& cells, std::size_t range_begin, std::size_t range_end) {
   KindCounts counts = {};
-  for (; begin < end; ++begin) ++counts[cells.kind(begin)];
+  Few types;
+  for_few(range_begin, range_end, [&](std::size_t begin, std::size_t end) {
+    cells.types.read(begin, end, types.data());
+    for (std::size_t cell = begin; cell < end; ++cell) ++counts[cells.kind(cell, types[cell - begin])];
+  });
   return counts;
 }
 
 /// Enters a range of cells into the lists of the mesh; `at` is the first place for each kind.
 void enter_cells(const VtuCells& cells, std::size_t begin, std::size_t end, KindCounts at, mesh::TetMesh& mesh) {
-  const auto enter = [&](std::size_t cell, std::size_t place, const auto& attributes, auto& elements,
-                         std::vector<int>& element_attributes) {
-    elements[place] = cells.corners<std::tuple_size_v<std::remove_reference_t<decltype(elements[0])>>>(cell);
-    element_attributes[place] = attributes.empty() ? 0 : static_cast<int>(attributes[cell]);
-  };
-  for (std::size_t cell = begin; cell < end; ++cell) {
-    const std::size_t kind = cells.kind(cell), place = at[kind]++;
-    if (kind == 0) enter(cell, place, cells.regions, mesh.tetrahedra, mesh.regions);
-    if (kind == 1) enter(cell, place, cells.markers, mesh.faces, mesh.face_markers);
-    if (kind == 2) enter(cell, place, cells.markers, mesh.edges, mesh.edge_markers);
-  }
+  visit_cells(cells, begin, end, [&](const VtuCell& cell) {
+    const std::size_t place = at[cell.kind]++;
+    if (cell.kind == 0) mesh.tetrahedra[place] = cells.corners<4>(cell), mesh.regions[place] = cell.region;
+    if (cell.kind == 1) mesh.faces[place] = cells.corners<3>(cell), mesh.face_markers[place] = cell.marker;
+    if (cell.kind == 2) mesh.edges[place] = cells.corners<2>(cell), mesh.edge_markers[place] = cell.marker;
+  });
 }
 
 /// \throw InputError  for one of the wrong cells
-void enter_all_cells(const VtuCells& cells, std::size_t length, mesh::TetMesh& mesh) {
+void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
+  const std::size_t size = cells.types.size();
   std::vector<KindCounts> starts = parallel_chunks(
-      cells.types.size(), length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
+      size, range_length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
   KindCounts sum = {};
   for (KindCounts& start : starts)
     for (std::size_t kind = 0; kind < sum.size(); ++kind) sum[kind] += std::exchange(start[kind], sum[kind]);
@@ -111,40 +153,53 @@ void enter_all_cells(const VtuCells& cells, std::size_t length, mesh::TetMesh& m
   mesh.faces.resize(sum[1]), mesh.face_markers.resize(sum[1]);
   mesh.edges.resize(sum[2]), mesh.edge_markers.resize(sum[2]);
   parallel_for(starts.size(), 1, [&](std::size_t i) {
-    enter_cells(cells, i * length, std::min(cells.types.size(), (i + 1) * length), starts[i], mesh);
+    enter_cells(cells, i * range_length, std::min(size, (i + 1) * range_length), starts[i], mesh);
   });
+}
+
+/// The attribute of cells with this name; none if there is no such array with one whole number per cell.
+StoredNumbers<std::int64_t> read_attributes(const VtkArrays& arrays, const char* name, std::size_t count) {
+  const auto array = arrays.find("CellData", name);
+  if (!array) return {};
+  auto values = arrays.read<std::int64_t>(array);
+  arrays.check_size(array, values.size(), count);
+  const auto find_large = [&](std::size_t range_begin, std::size_t range_end, std::vector<std::size_t>& large) {
+    Few some;
+    for_few(range_begin, range_end, [&](std::size_t begin, std::size_t end) {
+      values.read(begin, end, some.data());
+      for (std::size_t i = begin; i < end; ++i)
+        if (!std::in_range<int>(some[i - begin])) large.push_back(i);
+    });
+  };
+  if (const auto large = parallel_collect<std::size_t>(count, range_length, find_large); !large.empty())
+    arrays.fail(arrays.begin_of(array), "cell " + std::to_string(large[0]) + ": its " + name + " does not fit 32 bits",
+                "use smaller numbers");
+  return values;
 }
 
 VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
   const std::size_t count = arrays.claimed("NumberOfCells");
   const auto read = [&](const char* name) { return arrays.read<std::int64_t>(arrays.required("Cells", name)); };
-  // The attribute of cells with this name; none if there is no such array with one whole number per cell.
-  const auto read_attributes = [&](const char* name) {
-    const auto array = arrays.find("CellData", name);
-    if (!array) return RawVector<std::int64_t>();
-    auto values = arrays.read<std::int64_t>(array);
-    arrays.check_size(array, values.size(), count);
-    for (std::size_t i = 0; i < count; ++i)
-      if (values[i] < INT_MIN || values[i] > INT_MAX)
-        arrays.fail(arrays.begin_of(array), "cell " + std::to_string(i) + ": its " + name + " does not fit 32 bits",
-                    "use smaller numbers");
-    return values;
-  };
   VtuCells cells{arrays, vertices, read("connectivity"), read("offsets"), read("types"), {}, {}};
   arrays.check_size(arrays.required("Cells", "offsets"), cells.offsets.size(), count);
   arrays.check_size(arrays.required("Cells", "types"), cells.types.size(), count);
-  cells.regions = read_attributes("region");
-  cells.markers = read_attributes("marker");
+  cells.regions = read_attributes(arrays, "region", count);
+  cells.markers = read_attributes(arrays, "marker", count);
   return cells;
 }
 
 void refuse_first_wrong_cell(const VtuCells& cells) {
-  for (std::size_t cell = 0; cell < cells.types.size(); ++cell) {
-    const std::size_t kind = cells.kind(cell);
-    if (kind == 0) cells.corners<4>(cell);
-    if (kind == 1) cells.corners<3>(cell);
-    if (kind == 2) cells.corners<2>(cell);
-  }
+  visit_cells(cells, 0, cells.types.size(), [&](const VtuCell& cell) {
+    if (cell.kind == 0) cells.corners<4>(cell);
+    if (cell.kind == 1) cells.corners<3>(cell);
+    if (cell.kind == 2) cells.corners<2>(cell);
+  });
+}
+
+bool is_one(const StoredNumbers<std::int64_t>& numbers) {
+  std::int64_t first = 0;
+  if (numbers.size() == 1) numbers.read(0, 1, &first);
+  return first == 1;
 }
 
 /// An array that is appended after the XML.
@@ -222,13 +277,13 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
   mesh.vertices = read_points(arrays);
   const VtuCells cells = read_cells(arrays, mesh.vertices.size());
   try {
-    enter_all_cells(cells, 16384, mesh);
+    enter_all_cells(cells, mesh);
   } catch (const InputError&) {
     refuse_first_wrong_cell(cells);
     throw;
   }
   if (const auto claim = arrays.find("FieldData", "constrained_delaunay"))
-    mesh.constrained_delaunay = arrays.read<std::int64_t>(claim) == RawVector<std::int64_t>{1};
+    mesh.constrained_delaunay = is_one(arrays.read<std::int64_t>(claim));
   return mesh;
 }
 
