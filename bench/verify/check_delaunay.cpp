@@ -66,6 +66,12 @@ struct InnerFace {
   std::uint32_t before, behind;  ///< the opposite vertices
 };
 
+/// Fetches the tetrahedra at a face that will be looked at soon into the cache.
+void prefetch(const Topology& topology, std::size_t f) {
+  for (const std::uint32_t h : topology.half_faces[f])
+    if (h != none) __builtin_prefetch(&topology.mesh.tetrahedra[h / 4]);
+}
+
 InnerFace inner_face(const Topology& topology, std::size_t f) {
   const auto [h, other] = topology.half_faces[f];
   const auto [a, c, b] = outward(topology.mesh, h);
@@ -102,10 +108,11 @@ std::array<Check, 2> check_delaunay(const Topology& topology, const std::vector<
       {{.name = required ? "locally Delaunay faces" : "locally Delaunay faces, not claimed", .required = required},
        {.name = "locally Delaunay without rounding", .required = false}}};
   const mesh::TetMesh& mesh = topology.mesh;
-  SharedProgress shared(progress, "verify Delaunay", 0, topology.faces.size());
+  SharedProgress shared(progress, "verify Delaunay", 0, topology.face_count());
   const auto look = [&](std::size_t begin, std::size_t end) {
     Found found;
     for (std::size_t f = begin; f < end; ++f) {
+      prefetch(topology, std::min(f + 8, topology.face_count() - 1));
       if (constrained[f] || topology.on_boundary(static_cast<std::uint32_t>(f))) continue;
       ++found.checked;
       const std::array<Point3, 5> points = points_of(mesh, inner_face(topology, f));
@@ -118,10 +125,11 @@ std::array<Check, 2> check_delaunay(const Topology& topology, const std::vector<
     const InnerFace inner = inner_face(topology, f);
     char times[32];
     std::snprintf(times, sizeof times, "%.2g", ratio_to_rounding(points_of(mesh, inner), rounding));
-    return "the face" + text(mesh.vertices, topology.faces[f]) + " between " + text(mesh.vertices[inner.before]) +
-           " and " + text(mesh.vertices[inner.behind]) + ": " + times + " times the bound of rounding errors";
+    return "the face" + text(mesh.vertices, vertices_of_face(topology, static_cast<std::uint32_t>(f))) + " between " +
+           text(mesh.vertices[inner.before]) + " and " + text(mesh.vertices[inner.behind]) + ": " + times +
+           " times the bound of rounding errors";
   };
-  for (const Found& found : parallel_chunks(topology.faces.size(), chunk_length, look))
+  for (const Found& found : parallel_chunks(topology.face_count(), chunk_length, look))
     for (std::size_t i = 0; i < checks.size(); ++i) {
       checks[i].checked += found.checked;
       fail(checks[i], found.failures[i], describe);

@@ -61,7 +61,7 @@ void flood(const Topology& topology, std::vector<std::uint32_t>& queue, const Is
     const std::uint32_t t = queue.back();
     queue.pop_back();
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
-      const std::uint32_t f = topology.face_of[4 * t + corner];
+      const std::uint32_t f = face_of(topology, 4 * t + corner);
       if (!topology.on_boundary(f) && is_open(f)) enter(topology.across(f, t), t);
     }
   }
@@ -83,7 +83,7 @@ bool assign_to_components(const Topology& topology, const Regions& regions, cons
                           RegionsOfTetrahedra& assigned) {
   const std::size_t size = topology.mesh.tetrahedra.size();
   SharedUnionFind components(size);
-  parallel_for(topology.faces.size(), chunk_length, [&](std::size_t f) {
+  parallel_for(topology.face_count(), chunk_length, [&](std::size_t f) {
     const auto [one, other] = topology.half_faces[f];
     if (other != none && !matches.is_matched[f]) components.join(one / 4, other / 4);
   });
@@ -129,7 +129,8 @@ void find_flat_tetrahedra(const Topology& topology, const Regions& regions, std:
   const std::uint32_t a = regions.of_side[2 * sheet[0].piece], b = regions.of_side[2 * sheet[0].piece + 1];
   if (a == b) return;
   std::unordered_set<std::uint32_t> on_sheet;
-  for (const MatchedFace& f : sheet) on_sheet.insert(topology.faces[f.face].begin(), topology.faces[f.face].end());
+  for (const MatchedFace& f : sheet)
+    for (const std::uint32_t v : vertices_of_face(topology, f.face)) on_sheet.insert(v);
   const auto is_on_sheet = [&](std::uint32_t v) {
     return std::fabs(dot(plane.normal, topology.mesh.vertices[v] - plane.point)) <= flat && on_sheet.count(v) > 0;
   };
@@ -186,6 +187,7 @@ Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const Reg
 /// No tetrahedron is in a region with a hole seed.
 Check check_holes(const plc::InputPlc& input, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check{.name = "holes", .checked = input.holes.size()};
+  if (input.holes.empty()) return check;
   std::vector<std::uint64_t> tetrahedra(regions.count(), 0);
   for (const std::uint32_t c : assigned.region)
     if (c != none) ++tetrahedra[c];
@@ -257,6 +259,7 @@ RegionsOfTetrahedra assign_regions(const Topology& topology, const Regions& regi
 }
 
 void resolve_unknown(const RegionsOfTetrahedra& assigned, Regions& regions) {
+  if (std::ranges::count(regions.inside, Inside::unknown) == 0) return;
   std::vector<bool> filled(regions.count(), false);
   for (const std::uint32_t c : assigned.region)
     if (c != none) filled[c] = true;

@@ -18,7 +18,7 @@ Check check_listed_faces(const Topology& topology) {
   const mesh::TetMesh& mesh = topology.mesh;
   Check check{.name = "listed faces"};
   if (mesh.faces.empty()) return check;
-  std::vector<bool> listed(topology.faces.size(), false);
+  std::vector<bool> listed(topology.face_count(), false);
   check.checked = mesh.faces.size();
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const Face& vertices = mesh.faces[i];
@@ -34,7 +34,7 @@ Check check_listed_faces(const Topology& topology) {
   for (const std::uint32_t f : topology.boundary_faces) {
     if (listed[f]) continue;
     ++check.checked;
-    fail(check, [&] { return described(mesh, topology.faces[f]) + " is on the boundary, but not listed"; });
+    fail(check, [&] { return described(mesh, vertices_of_face(topology, f)) + " is on the boundary, but not listed"; });
   }
   return check;
 }

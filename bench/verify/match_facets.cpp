@@ -13,45 +13,90 @@ namespace ccdt::verify {
 
 namespace {
 
-/// The entries of an edge in a sorted list.
-std::span<const AtEdge> entries_at(const std::vector<AtEdge>& sorted, const Edge& e) {
-  const auto found = std::ranges::equal_range(sorted, edge_key(e[0], e[1]), {}, &AtEdge::edge);
-  return {found.begin(), found.end()};
-}
-
 std::array<Edge, 3> edges_of(const Face& v) {
   return {{{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}}};
 }
 
-/// The boundary of the mesh: faces with one tetrahedron, counterclockwise seen from outside.
+/// The boundary of the mesh: faces with one tetrahedron, counterclockwise seen from outside. The half-edge 3 * n + k is
+/// the edge of face n that begins at its corner k.
 struct Boundary {
-  std::vector<std::uint32_t> faces;
-  std::vector<Face> corners;
-  std::vector<AtEdge> at_edges;  ///< each edge with the faces at it, sorted
+  std::span<const std::uint32_t> faces;
+  RawVector<Face> corners;
+  std::vector<std::uint64_t> edges;  ///< the `edge_key` of each edge, ascending
+  IndexLists half_edges;             ///< of each edge
+  RawVector<std::uint32_t> edge_of;  ///< of each half-edge
 };
 
 Boundary find_boundary(const Topology& topology) {
   Boundary boundary;
-  for (const std::uint32_t f : topology.boundary_faces) {
-    const auto n = static_cast<std::uint32_t>(boundary.faces.size());
-    boundary.faces.push_back(f);
-    boundary.corners.push_back(outward(topology.mesh, topology.half_faces[f][0]));
-    for (const Edge& e : edges_of(boundary.corners.back())) boundary.at_edges.push_back({edge_key(e[0], e[1]), n});
-  }
-  sort_in_runs(boundary.at_edges);
+  boundary.faces = topology.boundary_faces;
+  const std::size_t size = boundary.faces.size();
+  boundary.corners.resize(size);
+  boundary.edge_of.resize(3 * size);
+  std::vector<AtEdge> at_edges(3 * size);
+  parallel_for(size, chunk_length, [&](std::size_t n) {
+    boundary.corners[n] = outward(topology.mesh, topology.half_faces[boundary.faces[n]][0]);
+    const auto edges = edges_of(boundary.corners[n]);
+    for (std::size_t k = 0; k < 3; ++k)
+      at_edges[3 * n + k] = {edge_key(edges[k][0], edges[k][1]), static_cast<std::uint32_t>(3 * n + k)};
+  });
+  boundary.half_edges.items.reserve(3 * size);
+  for_each_edge_group(at_edges, [&](std::span<const AtEdge> group) {
+    boundary.half_edges.first.push_back(static_cast<std::uint32_t>(boundary.half_edges.items.size()));
+    for (const AtEdge& entry : group) {
+      boundary.edge_of[entry.value] = static_cast<std::uint32_t>(boundary.edges.size());
+      boundary.half_edges.items.push_back(entry.value);
+    }
+    boundary.edges.push_back(group[0].edge);
+  });
+  boundary.half_edges.first.push_back(static_cast<std::uint32_t>(3 * size));
   return boundary;
 }
 
+/// The links of the chains of edges, each with the edge, sorted.
+std::vector<AtEdge> find_links(const Chains& chains) {
+  std::vector<AtEdge> links;
+  const auto links_in = [&](std::size_t e) { return std::max<std::size_t>(chains.of(e).size(), 1) - 1; };
+  const auto count_in = [&](std::size_t e, std::size_t end) {
+    std::size_t count = 0;
+    for (; e < end; ++e) count += links_in(e);
+    return count;
+  };
+  const auto fill = [&](std::size_t e, std::size_t end, std::size_t place) {
+    for (; e < end; ++e)
+      for (std::size_t k = 1; k <= links_in(e); ++k)
+        links[place++] = {edge_key(chains.of(e)[k - 1], chains.of(e)[k]), static_cast<std::uint32_t>(e)};
+  };
+  parallel_pack(
+      chains.first.size() - 1, chunk_length, count_in, [&](std::size_t size) { links.resize(size); }, fill);
+  if (!std::ranges::is_sorted(links)) sort_in_runs(links);  // edges are, and most of them are chains of one link
+  return links;
+}
+
+/// The boundary's edge with each link, or `none`.
+RawVector<std::uint32_t> find_edges_with(const std::vector<AtEdge>& links, const Boundary& boundary) {
+  const auto& edges = boundary.edges;
+  RawVector<std::uint32_t> found(links.size());
+  parallel_ranges(links.size(), chunk_length, [&](std::size_t begin, std::size_t end) {
+    auto edge = std::ranges::lower_bound(edges, links[begin].edge);
+    for (std::size_t i = begin; i < end; ++i) {
+      while (edge != edges.end() && *edge < links[i].edge) ++edge;
+      found[i] =
+          edge != edges.end() && *edge == links[i].edge ? static_cast<std::uint32_t>(edge - edges.begin()) : none;
+    }
+  });
+  return found;
+}
+
 /// The edges between two pieces that are missing in the boundary.
-std::vector<bool> find_joined(const Surface& surface, const Chains& chains, const Boundary& boundary) {
+std::vector<bool> find_joined(const Surface& surface, const Chains& chains, const std::vector<AtEdge>& links,
+                              std::span<const std::uint32_t> edge_with_link) {
   std::vector<bool> joined(surface.edges.size(), false);
-  for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
-    if (surface.use_count(e) != 2) continue;
-    const auto chain = chains.of(e);
-    joined[e] = chain.empty();
-    for (std::size_t k = 1; k < chain.size() && !joined[e]; ++k)
-      joined[e] = entries_at(boundary.at_edges, {chain[k - 1], chain[k]}).empty();
-  }
+  const auto join = [&](std::uint32_t e) { joined[e] = surface.use_count(e) == 2; };
+  for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
+    if (chains.missing(e)) join(e);
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (edge_with_link[i] == none) join(links[i].value);
   return joined;
 }
 
@@ -59,6 +104,7 @@ std::vector<bool> find_joined(const Surface& surface, const Chains& chains, cons
 struct BoundaryPart {
   std::vector<Face> faces;
   std::vector<Edge> links;
+  std::vector<std::uint32_t> candidates;  ///< patches that have the first of these links
 
   /// The same seen from the other side.
   void turn() {
@@ -72,20 +118,24 @@ class BoundaryMatcher {
  public:
   BoundaryMatcher(const Topology& topology, const Surface& surface, const Chains& chains, FacetMatches& matches)
       : topology_(topology), surface_(surface), matches_(matches), boundary_(find_boundary(topology)) {
-    const std::vector<bool> joined = find_joined(surface, chains, boundary_);
+    const std::vector<AtEdge> links = find_links(chains);
+    const RawVector<std::uint32_t> edge_with_link = find_edges_with(links, boundary_);
+    const std::vector<bool> joined = find_joined(surface, chains, links, edge_with_link);
     patches_ = group_pieces(surface, chains, joined);
-    for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
-      const auto chain = chains.of(e);
-      for (std::size_t k = 1; k < chain.size() && !joined[e]; ++k)
-        walls_.push_back({edge_key(chain[k - 1], chain[k]), e});
-    }
-    sort_in_runs(walls_);
+    walls_ = make_index_lists(boundary_.edges.size(), [&](const auto& add) {
+      for (std::size_t i = 0; i < links.size(); ++i)
+        if (edge_with_link[i] != none && !joined[links[i].value]) add(edge_with_link[i], links[i].value);
+    });
   }
 
   void match() {
     const IndexLists parts = divide_boundary();
     std::vector<Match> first(boundary_.faces.size());  // of the part with the name n
-    parallel_for(first.size(), short_chunk_length, [&](std::size_t n) { first[n] = find_first(parts.of(n)); });
+    parallel_ranges(first.size(), short_chunk_length, [&](std::size_t n, std::size_t end) {
+      BoundaryPart part;
+      for (; n < end; ++n) first[n] = find_first(parts.of(n), part);
+    });
+    matches_.faces.reserve(boundary_.faces.size());
     for (std::size_t n = 0; n < boundary_.faces.size(); ++n) {
       const auto members = parts.of(n);
       if (members.empty() || record_if_free(members, first[n]) || match_part(members)) continue;
@@ -100,38 +150,48 @@ class BoundaryMatcher {
     bool turned = false;
   };
 
+  /// Does an edge of the boundary divide it into parts?
+  bool divides(std::uint32_t edge) const {
+    return boundary_.half_edges.of(edge).size() != 2 || !walls_.of(edge).empty();
+  }
+
   /// Sets of boundary faces that are not divided by walls.
   IndexLists divide_boundary() {
     UnionFind sets(boundary_.faces.size());
-    for_each_edge_group(boundary_.at_edges, [&](std::span<const AtEdge> group) {
-      const bool is_wall = std::ranges::binary_search(walls_, group[0].edge, {}, &AtEdge::edge);
-      if (group.size() == 2 && !is_wall) sets.join(group[0].value, group[1].value);
-    });
+    for (std::uint32_t edge = 0; edge < boundary_.edges.size(); ++edge) {
+      if (divides(edge)) continue;
+      const auto half_edges = boundary_.half_edges.of(edge);
+      sets.join(half_edges[0] / 3, half_edges[1] / 3);
+    }
     return make_index_lists(boundary_.faces.size(), [&](const auto& add) {
       for (std::uint32_t n = 0; n < boundary_.faces.size(); ++n) add(sets.find(n), n);
     });
   }
 
-  BoundaryPart make_part(std::span<const std::uint32_t> members) const {
-    BoundaryPart part;
+  void make_part(std::span<const std::uint32_t> members, BoundaryPart& part) const {
+    part.faces.clear();
+    part.links.clear();
     for (const std::uint32_t n : members) {
       part.faces.push_back(boundary_.corners[n]);
-      for (const Edge& e : edges_of(boundary_.corners[n]))
-        if (entries_at(boundary_.at_edges, e).size() != 2 || !entries_at(walls_, e).empty()) part.links.push_back(e);
+      const auto edges = edges_of(boundary_.corners[n]);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (divides(boundary_.edge_of[3 * n + k])) part.links.push_back(edges[k]);
     }
     std::sort(part.links.begin(), part.links.end());
-    return part;
   }
 
-  /// Patches that have the first link of a part.
-  std::vector<std::uint32_t> find_candidates(const BoundaryPart& part) const {
-    std::vector<std::uint32_t> result;
-    if (part.links.empty()) return result;
-    for (const auto& [wall, edge] : entries_at(walls_, part.links[0]))
-      for (const std::uint32_t use : surface_.uses.of(edge))
-        result.push_back(patches_.of_piece[surface_.piece_of[use]]);
-    sort_and_unique(result);
-    return result;
+  void find_candidates(std::span<const std::uint32_t> members, BoundaryPart& part) const {
+    part.candidates.clear();
+    for (const std::uint32_t n : members) {
+      const auto edges = edges_of(boundary_.corners[n]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (part.links.empty() || ascending(edges[k]) != ascending(part.links[0])) continue;
+        for (const std::uint32_t edge : walls_.of(boundary_.edge_of[3 * n + k]))
+          for (const std::uint32_t use : surface_.uses.of(edge))
+            part.candidates.push_back(patches_.of_piece[surface_.piece_of[use]]);
+      }
+    }
+    sort_and_unique(part.candidates);
   }
 
   /// The walls around a part determine its patch, because no two patches have the same loops, except needles, for which
@@ -139,12 +199,13 @@ class BoundaryMatcher {
   ///
   /// \return  whether it did
   template <class Visit>
-  bool visit_matches(std::span<const std::uint32_t> members, const Visit& visit) const {
-    BoundaryPart part = make_part(members);
+  bool visit_matches(std::span<const std::uint32_t> members, BoundaryPart& part, const Visit& visit) const {
+    make_part(members, part);
     for (const bool turned : {false, true}) {
       if (turned) part.turn();
-      for (const std::uint32_t patch : find_candidates(part)) {
-        if (patches_.open[patch] || patches_.links[patch] != part.links) continue;
+      find_candidates(members, part);
+      for (const std::uint32_t patch : part.candidates) {
+        if (patches_.open[patch] || !std::ranges::equal(patches_.links_of(patch), part.links)) continue;
         if (visit(Match{patch, turned}, compare_with_patch(topology_.mesh, surface_, patches_, patch, part.faces)))
           return true;
       }
@@ -153,10 +214,10 @@ class BoundaryMatcher {
   }
 
   /// The first patch with the part's walls, if nothing is wrong with it. It does not depend on other matches.
-  Match find_first(std::span<const std::uint32_t> members) const {
+  Match find_first(std::span<const std::uint32_t> members, BoundaryPart& part) const {
     Match first;
     if (members.empty()) return first;
-    visit_matches(members, [&](const Match& match, const std::string& problem) {
+    visit_matches(members, part, [&](const Match& match, const std::string& problem) {
       if (problem.empty()) first = match;
       return true;
     });
@@ -174,7 +235,8 @@ class BoundaryMatcher {
   }
 
   bool match_part(std::span<const std::uint32_t> members) {
-    return visit_matches(members, [&](const Match& match, const std::string& problem) {
+    BoundaryPart part;
+    return visit_matches(members, part, [&](const Match& match, const std::string& problem) {
       if (problem.empty() && record_if_free(members, match)) return true;
       matches_.problem[patches_.pieces.of(match.patch)[0]] =
           problem.empty() ? "two sheets of the boundary are on it" : problem;
@@ -199,7 +261,7 @@ class BoundaryMatcher {
   FacetMatches& matches_;
   Boundary boundary_;
   Patches patches_;
-  std::vector<AtEdge> walls_;  // links of the chains of edges that part patches, with the edge; sorted
+  IndexLists walls_;  // of each edge of the boundary: the surface's edges with chains along it that part patches
 };
 
 class InteriorMatcher {
@@ -293,7 +355,7 @@ FacetMatches match_facets(const Topology& topology, const Surface& surface, cons
   FacetMatches matches;
   matches.found.assign(surface.pieces(), FoundAs::nothing);
   matches.problem.resize(surface.pieces());
-  matches.is_matched.assign(topology.faces.size(), false);
+  matches.is_matched.assign(topology.face_count(), false);
   BoundaryMatcher(topology, surface, chains, matches).match();
   if (std::ranges::count(matches.found, FoundAs::nothing) > 0)
     InteriorMatcher(topology, surface, matches).match(chains, features);

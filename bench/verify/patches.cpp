@@ -128,26 +128,48 @@ void join_pieces(const Surface& surface, const std::vector<bool>& joined, Patche
     patches.of_piece.push_back(its_number);
     patches.flipped.push_back(first % 2 == 1);
   }
-  patches.open.assign(count, false);
+  patches.open.assign(count, 0);
   patches.pieces = make_index_lists(count, [&](const auto& add) {
     for (std::uint32_t p = 0; p < surface.pieces(); ++p) add(patches.of_piece[p], p);
   });
 }
 
+/// Calls visit(use, chain) for the edges of pieces around a patch.
+template <class Visit>
+void visit_outline(const Surface& surface, const Chains& chains, const std::vector<bool>& joined,
+                   const Patches& patches, std::size_t patch, const Visit& visit) {
+  for (const std::uint32_t p : patches.pieces.of(patch))
+    for (const std::uint32_t use : surface.uses_of(p))
+      if (!joined[surface.edge_of[use]]) visit(use, chains.of(surface.edge_of[use]));
+}
+
 void find_links(const Surface& surface, const Chains& chains, const std::vector<bool>& joined, Patches& patches) {
-  patches.links.resize(patches.count());
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    for (const std::uint32_t use : surface.uses_of(p)) {
-      const std::uint32_t e = surface.edge_of[use], patch = patches.of_piece[p];
-      if (joined[e]) continue;
-      const auto chain = chains.of(e);
-      if (chain.empty()) patches.open[patch] = true;
-      const bool backward = surface.is_forward(use) == patches.flipped[p];
-      for (std::size_t k = 1; k < chain.size(); ++k)
-        patches.links[patch].push_back({chain[backward ? k : k - 1], chain[backward ? k - 1 : k]});
+  patches.first_link.resize(patches.count() + 1);
+  const auto count_in = [&](std::size_t n, std::size_t end) {
+    std::size_t count = 0;
+    for (; n < end; ++n)
+      visit_outline(surface, chains, joined, patches, n, [&](std::uint32_t, std::span<const std::uint32_t> chain) {
+        count += std::max<std::size_t>(chain.size(), 1) - 1;
+      });
+    return count;
+  };
+  const auto make_room = [&](std::size_t size) {
+    patches.links.resize(size);
+    patches.first_link.back() = size;
+  };
+  const auto fill = [&](std::size_t n, std::size_t end, std::size_t place) {
+    for (; n < end; ++n) {
+      patches.first_link[n] = place;
+      visit_outline(surface, chains, joined, patches, n, [&](std::uint32_t use, std::span<const std::uint32_t> chain) {
+        if (chain.empty()) patches.open[n] = 1;
+        const bool backward = surface.is_forward(use) == patches.flipped[surface.piece_of[use]];
+        for (std::size_t k = 1; k < chain.size(); ++k)
+          patches.links[place++] = {chain[backward ? k : k - 1], chain[backward ? k - 1 : k]};
+      });
+      std::sort(patches.links.data() + patches.first_link[n], patches.links.data() + place);
     }
-  parallel_for(patches.links.size(), short_chunk_length,
-               [&](std::size_t n) { std::sort(patches.links[n].begin(), patches.links[n].end()); });
+  };
+  parallel_pack(patches.count(), short_chunk_length, count_in, make_room, fill);
 }
 
 void find_plane(const Surface& surface, std::uint32_t n, Patches& patches) {
@@ -166,7 +188,7 @@ void find_plane(const Surface& surface, std::uint32_t n, Patches& patches) {
   for (const std::uint32_t p : patches.pieces.of(n))
     for (const auto& [site, next] : surface.edges_of(p))
       thickness = std::max(thickness, std::fabs(patches.height(n, surface.at(site))));
-  for (const auto& [a, b] : patches.links[n]) perimeter += length(surface.at(a) - surface.at(b));
+  for (const auto& [a, b] : patches.links_of(n)) perimeter += length(surface.at(a) - surface.at(b));
   patches.area[n] = area;
   patches.thickness[n] = thickness;
   patches.perimeter[n] = perimeter;

@@ -22,14 +22,18 @@ Chains find_chains(const Topology& topology, const Surface& surface, std::span<c
 /// Sets of pieces that the mesh may triangulate freely, because their common edges are missing or not required.
 struct Patches {
   std::vector<std::uint32_t> of_piece;
-  std::vector<bool> flipped;             ///< of each piece: is it against the orientation of its patch?
-  IndexLists pieces;                     ///< of each patch
-  std::vector<std::vector<Edge>> links;  ///< of each patch: directed mesh edges around it, it is to their left; sorted
-  std::vector<bool> open;                ///< the mesh does not have all edges that bound the patch
-  std::vector<Point3> normal, center;    ///< of the plane of each patch
+  std::vector<bool> flipped;            ///< of each piece: is it against the orientation of its patch?
+  IndexLists pieces;                    ///< of each patch
+  std::vector<std::size_t> first_link;  ///< of each patch, in `links`; then how many there are
+  RawVector<Edge> links;                ///< directed mesh edges around the patches, which are to their left; sorted
+  std::vector<std::uint8_t> open;       ///< the mesh does not have all edges that bound the patch
+  std::vector<Point3> normal, center;   ///< of the plane of each patch
   std::vector<double> area, perimeter, thickness;  ///< projected area; greatest distance of a site from the plane
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(open.size()); }
+  std::span<const Edge> links_of(std::uint32_t patch) const {
+    return {links.data() + first_link[patch], links.data() + first_link[patch + 1]};
+  }
   double height(std::uint32_t patch, const Point3& p) const { return dot(normal[patch], p - center[patch]); }
 };
 

@@ -47,7 +47,7 @@ class PlaneFaces {
         // Seen from within the tetrahedron, which must be above, the face has the opposite orientation of `outward`.
         const bool runs = (u == b && v == a) || (v == b && w == a) || (w == b && u == a);
         if (!runs || !in_plane(third)) continue;
-        if (!topology_.on_boundary(topology_.face_of[4 * t + corner])) visit(FaceAtEdge{4 * t + corner, third, apex});
+        if (!topology_.on_boundary(face_of(topology_, 4 * t + corner))) visit(FaceAtEdge{4 * t + corner, third, apex});
       }
     }
   }
@@ -97,7 +97,7 @@ class FacesWithoutDeadEnds {
     const Edge reverse = {edge[1], edge[0]};
     const auto found = at_edge_.find(reverse);
     if (found == at_edge_.end() || links_.contains(reverse)) return false;
-    const auto [one, other] = topology_.half_faces[topology_.face_of[half_face]];
+    const auto [one, other] = topology_.half_faces[face_of(topology_, half_face)];
     return found->second > int{has(half_face == one ? other : one)};  // the same face from below is no other one
   }
 
@@ -129,7 +129,7 @@ class SheetSpreader {
       : topology_(topology),
         plane_(topology, surface, patches, patch),
         which_(which),
-        open_(patches.links[patch]),
+        open_(patches.links_of(patch).begin(), patches.links_of(patch).end()),
         greatest_area_(1.001 * patches.area[patch] + plane_.flat * patches.perimeter[patch]) {
     walls_.insert(open_.begin(), open_.end());
     if (which == SheetFaces::without_dead_ends) without_dead_ends_.emplace(topology, plane_, open_);
@@ -164,7 +164,7 @@ class SheetSpreader {
   }
 
   bool may_have(std::uint32_t half_face) const {
-    if (which_ == SheetFaces::listed) return topology_.listed[topology_.face_of[half_face]];
+    if (which_ == SheetFaces::listed) return topology_.listed[face_of(topology_, half_face)];
     return !without_dead_ends_ || without_dead_ends_->has(half_face);
   }
 

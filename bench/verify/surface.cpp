@@ -1,14 +1,11 @@
 #include "bench/verify/surface.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "bench/verify/exact.h"
-#include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/sort_in_runs.h"
@@ -16,19 +13,6 @@
 namespace ccdt::verify {
 
 namespace {
-
-/// Keys of a hash table.
-struct PointTraits {
-  static constexpr Point3 none() { return {HUGE_VAL, HUGE_VAL, HUGE_VAL}; }
-  static std::size_t hash(const Point3& p) {
-    std::uint64_t h = 0;
-    for (const double part : as_array(p)) {
-      h = (h ^ std::bit_cast<std::uint64_t>(part + 0.0)) * 0x9E3779B97F4A7C15u;  // -0 is 0
-      h ^= h >> 32;
-    }
-    return h;
-  }
-};
 
 std::vector<Edge> edges_of(const std::vector<std::uint32_t>& polygon, std::span<const std::uint32_t> site_of_input) {
   std::vector<Edge> edges;
@@ -207,34 +191,6 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, const Surface& s
   return result;
 }
 
-/// Gives each input vertex that has no site the nearest vertex of the mesh in use within `tolerances.place`, if any.
-void match_nearest(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances, Sites& sites) {
-  const auto& vertices = topology.mesh.vertices;
-  const Box bounds = expanded(bounding_box(input.vertices), tolerances.place);
-  std::vector<std::uint32_t> near_input;
-  std::vector<Box> places;
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    if (!topology.used(v) || !bounds.meets(box_of(vertices[v]))) continue;
-    near_input.push_back(v);
-    places.push_back(box_of(vertices[v]));
-  }
-  const ScaledBoxTree tree(std::move(places), tolerances);
-  for (std::size_t i = 0; i < input.vertices.size(); ++i) {
-    std::uint32_t& site = sites.of_input[i];
-    if (site != none) continue;
-    const Point3& p = input.vertices[i];
-    double best = tolerances.place * tolerances.place;
-    tree.for_each_meeting(expanded(box_of(p), tolerances.place), [&](std::uint32_t k) {
-      const double distance = squared_length(vertices[near_input[k]] - p);
-      if (distance > best) return;
-      best = distance;
-      site = near_input[k];
-    });
-    // The first of several input vertices in one place is where the site is.
-    if (site != none && sites.position[site] == vertices[site]) sites.position[site] = p;
-  }
-}
-
 /// Do the edges enclose nothing, because each runs there and back or because all are on one line?
 bool is_empty(const PolygonCell& cell, std::span<const Point3> position) {
   if (cell.empty()) return true;
@@ -288,25 +244,27 @@ Pieces find_pieces(const plc::InputPlc& input, Surface& surface) {
 void index_edges(Surface& surface) {
   const std::size_t n = surface.directed.size();
   surface.piece_of.resize(n);
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    for (const std::uint32_t use : surface.uses_of(p)) surface.piece_of[use] = p;
-  std::vector<std::uint64_t> keys(n);  // compare faster than edges
-  std::transform(surface.directed.begin(), surface.directed.end(), keys.begin(),
-                 [](const Edge& e) { return edge_key(e[0], e[1]); });
-  auto& [first, uses] = surface.uses;
-  uses.resize(n);
-  std::iota(uses.begin(), uses.end(), 0u);
-  sort_in_runs(uses, [&](std::uint32_t i, std::uint32_t j) { return keys[i] != keys[j] ? keys[i] < keys[j] : i < j; });
   surface.edge_of.resize(n);
+  std::vector<AtEdge> at_edges(n);  // the directed edges
+  parallel_for(surface.pieces(), chunk_length, [&](std::size_t p) {
+    for (const std::uint32_t use : surface.uses_of(static_cast<std::uint32_t>(p))) {
+      surface.piece_of[use] = static_cast<std::uint32_t>(p);
+      at_edges[use] = {edge_key(surface.directed[use][0], surface.directed[use][1]), use};
+    }
+  });
+  auto& [first, uses] = surface.uses;
   surface.edges.clear();
   first.clear();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    if (i == 0 || keys[uses[i]] != keys[uses[i - 1]]) {
-      surface.edges.push_back(ascending(surface.directed[uses[i]]));
-      first.push_back(i);
+  uses.clear();
+  uses.reserve(n);
+  for_each_edge_group(at_edges, [&](std::span<const AtEdge> group) {
+    first.push_back(static_cast<std::uint32_t>(uses.size()));
+    for (const AtEdge& entry : group) {
+      surface.edge_of[entry.value] = static_cast<std::uint32_t>(surface.edges.size());
+      uses.push_back(entry.value);
     }
-    surface.edge_of[uses[i]] = static_cast<std::uint32_t>(surface.edges.size() - 1);
-  }
+    surface.edges.push_back(ascending(surface.directed[group[0].value]));
+  });
   first.push_back(static_cast<std::uint32_t>(n));
 }
 
@@ -370,28 +328,6 @@ void split_segments(Surface& surface) {
 
 }  // namespace
 
-Sites match_sites(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances) {
-  const auto& vertices = topology.mesh.vertices;
-  Sites sites;
-  sites.mesh_vertices = static_cast<std::uint32_t>(vertices.size());
-  sites.position = vertices;
-  HashTable<Point3, std::uint32_t, PointTraits> exact;
-  exact.reserve(vertices.size());
-  for (std::uint32_t v = 0; v < vertices.size(); ++v)
-    if (topology.used(v)) exact.insert(vertices[v], v);
-  for (const Point3& p : input.vertices) sites.of_input.push_back(exact.get(p, none));
-  if (std::ranges::count(sites.of_input, none) == 0) return sites;
-
-  match_nearest(input, topology, tolerances, sites);
-  for (std::size_t i = 0; i < input.vertices.size(); ++i) {
-    std::uint32_t& site = sites.of_input[i];
-    if (site != none) continue;
-    site = *exact.insert(input.vertices[i], static_cast<std::uint32_t>(sites.position.size())).first;
-    if (site == sites.position.size()) sites.position.push_back(input.vertices[i]);
-  }
-  return sites;
-}
-
 Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
   const Box bounds = bounding_box(input.vertices);
   const Point3 extent = bounds.high - bounds.low;
@@ -423,17 +359,21 @@ ScaledBoxTree::ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerance
 
 std::vector<Box> Surface::boxes_of_pieces() const {
   std::vector<Box> boxes(pieces(), empty_box);
-  for (std::size_t i = 0; i < directed.size(); ++i)
-    boxes[piece_of[i]] = hull(boxes[piece_of[i]], box_of(at(directed[i][0])));
+  parallel_for(pieces(), chunk_length, [&](std::size_t p) {
+    for (const auto& [site, next] : edges_of(static_cast<std::uint32_t>(p)))
+      boxes[p] = hull(boxes[p], box_of(at(site)));
+  });
   return boxes;
 }
 
 void set_pieces(Pieces pieces, Surface& surface) {
   static_cast<Pieces&>(surface) = std::move(pieces);
   index_edges(surface);
-  surface.area_vector.clear();
-  for (std::uint32_t p = 0; p < surface.pieces(); ++p)
-    surface.area_vector.push_back(0.5 * area_vector(surface.edges_of(p), surface.sites.position));
+  surface.area_vector.resize(surface.pieces());
+  parallel_for(surface.pieces(), chunk_length, [&](std::size_t p) {
+    const auto edges = surface.edges_of(static_cast<std::uint32_t>(p));
+    surface.area_vector[p] = 0.5 * area_vector(edges, surface.sites.position);
+  });
 }
 
 std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edge,

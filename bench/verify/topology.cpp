@@ -1,5 +1,6 @@
 #include "bench/verify/topology.h"
 
+#include <ranges>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -9,14 +10,9 @@ namespace ccdt::verify {
 
 namespace {
 
-/// Is `v` an even permutation of its ascending order?
-bool is_even(const Face& v) {
-  return (v[0] < v[1]) == ((v[1] < v[2]) == (v[0] < v[2]));
-}
-
-/// Tetrahedra around each vertex, ascending. Each thread counts those of a part of the mesh, and enters them after
+/// Each thread counts those of a part of the mesh, and enters them after
 /// those of the earlier parts.
-IndexLists find_stars(const mesh::TetMesh& mesh) {
+Stars find_stars(const mesh::TetMesh& mesh) {
   const std::size_t size = mesh.tetrahedra.size(), vertices = mesh.vertices.size();
   const std::size_t parts = std::min<std::size_t>(thread_count(), size / chunk_length + 1);
   const auto visit_part = [&](std::size_t part, const auto& visit) {
@@ -29,7 +25,7 @@ IndexLists find_stars(const mesh::TetMesh& mesh) {
     count.assign(vertices, 0);
     visit_part(part, [&](std::uint32_t v, std::uint32_t) { ++count[v]; });
   });
-  IndexLists stars;
+  Stars stars;
   stars.first.resize(vertices + 1);
   std::uint32_t sum = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -49,33 +45,69 @@ IndexLists find_stars(const mesh::TetMesh& mesh) {
 struct Entry {
   std::uint64_t others;  ///< `edge_key` of its other vertices
   std::uint32_t half_face;
+  bool odd;  ///< do its vertices, counterclockwise seen from outside, make an odd permutation of their order?
 
-  auto operator<=>(const Entry&) const = default;
+  bool operator<(const Entry& e) const { return others != e.others ? others < e.others : half_face < e.half_face; }
 };
 
+/// A half-face as one of its vertices sees it.
+struct SeenHalfFace {
+  std::uint8_t one = 0, other = 0;  ///< the corners with its other two vertices, ascending
+  bool odd = false;                 ///< as in `Entry` if the vertices in all corners were ascending
+};
+
+/// The half-face opposite to `corner`, seen from the vertex in the corner `place`.
+constexpr SeenHalfFace see_half_face(unsigned place, unsigned corner) {
+  std::array<std::uint8_t, 4> others = {};
+  unsigned count = 0;
+  for (std::uint8_t k = 0; k < 4; ++k)
+    if (k != place && k != corner) others[count++] = k;
+  // Its corners in their order are counterclockwise if the one left out is the first or third.
+  const unsigned rank = place - (corner < place ? 1 : 0);
+  return {others[0], others[1], ((corner ^ rank) & 1) != 0};
+}
+
+constexpr auto seen_half_faces = [] {
+  std::array<std::array<SeenHalfFace, 4>, 4> seen;
+  for (unsigned place = 0; place < 4; ++place)
+    for (unsigned corner = 0; corner < 4; ++corner)
+      if (place != corner) seen[place][corner] = see_half_face(place, corner);
+  return seen;
+}();
+
+/// A vertex is the least one of three half-faces of a tetrahedron if no vertex is less, of one if one is less, and
+/// otherwise of none.
 void find_entries(const Topology& topology, std::uint32_t vertex, std::vector<Entry>& entries) {
-  entries.clear();
-  for (const std::uint32_t t : topology.stars.of(vertex)) {
-    const auto& tet = topology.mesh.tetrahedra[t];
-    for (std::uint32_t corner = 0; corner < 4; ++corner) {
-      if (tet[corner] == vertex) continue;
-      const Face face = outward(topology.mesh, 4 * t + corner);
-      if (std::ranges::min(face) != vertex) continue;
-      const auto [a, b] = face[0] == vertex   ? Edge{face[1], face[2]}
-                          : face[1] == vertex ? Edge{face[0], face[2]}
-                                              : Edge{face[0], face[1]};
-      entries.push_back({edge_key(a, b), 4 * t + corner});
+  constexpr std::uint32_t ahead = 16;
+  const auto& tetrahedra = topology.mesh.tetrahedra;
+  const auto& [first, items] = topology.stars;
+  entries.resize(3 * std::size_t{first[vertex + 1] - first[vertex]});
+  Entry* next = entries.data();
+  for (std::uint32_t i = first[vertex]; i < first[vertex + 1]; ++i) {
+    if (i + ahead < items.size()) __builtin_prefetch(&tetrahedra[items[i + ahead]]);
+    const std::uint32_t t = items[i];
+    const auto& tet = tetrahedra[t];
+    unsigned lesser = 0, place = 0, least = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+      lesser += tet[k] < vertex;
+      place += tet[k] == vertex ? k : 0;
+      least += tet[k] < vertex ? k : 0;
+    }
+    if (lesser > 1) continue;
+    for (unsigned corner = lesser == 1 ? least : 0; corner <= (lesser == 1 ? least : 3); ++corner) {
+      if (corner == place) continue;
+      const auto [one, other, odd] = seen_half_faces[place][corner];
+      *next++ = {edge_key(tet[one], tet[other]), 4 * t + corner, odd != (tet[one] > tet[other])};
     }
   }
+  entries.resize(static_cast<std::size_t>(next - entries.data()));
   std::sort(entries.begin(), entries.end());
 }
 
 /// The faces whose least vertex is in a range of vertices, numbered from 0.
 struct FacesOfRange {
   std::vector<std::uint32_t> first_face;  ///< of each vertex
-  std::vector<Face> faces;
   std::vector<Edge> half_faces;
-  std::vector<Edge> more;  ///< half-faces beyond the first two of a face, with the face
   std::vector<std::uint32_t> bad_faces, boundary_faces;
 };
 
@@ -83,36 +115,20 @@ FacesOfRange find_faces(const Topology& topology, std::size_t begin, std::size_t
   FacesOfRange range;
   std::vector<Entry> entries;
   for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
-    range.first_face.push_back(static_cast<std::uint32_t>(range.faces.size()));
+    range.first_face.push_back(static_cast<std::uint32_t>(range.half_faces.size()));
     find_entries(topology, v, entries);
     for (std::size_t i = 0, next = 0; i < entries.size(); i = next) {
-      const auto [others, first] = entries[i];
-      const auto face = static_cast<std::uint32_t>(range.faces.size());
-      for (; next < entries.size() && entries[next].others == others; ++next)
-        if (next > i + 1) range.more.push_back({entries[next].half_face, face});
-      const std::uint32_t second = next - i > 1 ? entries[i + 1].half_face : none;
-      if (second == none)
+      const Entry& first = entries[i];
+      for (next = i + 1; next < entries.size() && entries[next].others == first.others;) ++next;
+      const auto face = static_cast<std::uint32_t>(range.half_faces.size());
+      if (next - i == 1)
         range.boundary_faces.push_back(face);
-      else if (next - i > 2 || is_even(outward(topology.mesh, first)) == is_even(outward(topology.mesh, second)))
+      else if (next - i > 2 || first.odd == entries[i + 1].odd)
         range.bad_faces.push_back(face);
-      range.faces.push_back({v, static_cast<std::uint32_t>(others >> 32), static_cast<std::uint32_t>(others)});
-      range.half_faces.push_back({first, second});
+      range.half_faces.push_back({first.half_face, next - i > 1 ? entries[i + 1].half_face : none});
     }
   }
   return range;
-}
-
-/// Enters the faces of a range of vertices from `begin`. \param offset  the number of its first face
-void enter_faces(const FacesOfRange& range, std::size_t begin, std::uint32_t offset, Topology& topology) {
-  for (std::size_t i = 0; i < range.first_face.size(); ++i)
-    topology.first_face[begin + i] = offset + range.first_face[i];
-  for (std::uint32_t i = 0; i < range.faces.size(); ++i) {
-    topology.faces[offset + i] = range.faces[i];
-    topology.half_faces[offset + i] = range.half_faces[i];
-    for (const std::uint32_t h : range.half_faces[i])
-      if (h != none) topology.face_of[h] = offset + i;
-  }
-  for (const auto& [h, face] : range.more) topology.face_of[h] = offset + face;
 }
 
 void find_all_faces(Topology& topology) {
@@ -126,14 +142,16 @@ void find_all_faces(Topology& topology) {
     offsets.push_back(faces);
     for (const std::uint32_t f : range.bad_faces) topology.bad_faces.push_back(faces + f);
     for (const std::uint32_t f : range.boundary_faces) topology.boundary_faces.push_back(faces + f);
-    faces += static_cast<std::uint32_t>(range.faces.size());
+    faces += static_cast<std::uint32_t>(range.half_faces.size());
   }
-  topology.faces.resize(faces);
   topology.half_faces.resize(faces);
-  topology.face_of.resize(4 * topology.mesh.tetrahedra.size());
   topology.first_face.resize(vertices + 1);
   topology.first_face[vertices] = faces;
-  parallel_for(ranges.size(), 1, [&](std::size_t i) { enter_faces(ranges[i], length * i, offsets[i], topology); });
+  parallel_for(ranges.size(), 1, [&](std::size_t i) {
+    std::ranges::transform(ranges[i].first_face, topology.first_face.begin() + static_cast<std::ptrdiff_t>(length * i),
+                           [&](std::uint32_t face) { return offsets[i] + face; });
+    std::ranges::copy(ranges[i].half_faces, topology.half_faces.begin() + offsets[i]);
+  });
 }
 
 /// Finds the faces that the mesh lists.
@@ -142,7 +160,7 @@ void find_listed(Topology& topology) {
   topology.listed_faces.resize(faces.size());
   parallel_for(faces.size(), chunk_length,
                [&](std::size_t i) { topology.listed_faces[i] = find_face(topology, faces[i]); });
-  topology.listed.assign(topology.faces.size(), false);
+  topology.listed.assign(topology.face_count(), false);
   for (const std::uint32_t f : topology.listed_faces)
     if (f != none) topology.listed[f] = true;
 }
@@ -164,14 +182,22 @@ Topology find_topology(const mesh::TetMesh& mesh) {
   return topology;
 }
 
+Face vertices_of_face(const Topology& topology, std::uint32_t face) {
+  return ascending(outward(topology.mesh, topology.half_faces[face][0]));
+}
+
 std::uint32_t find_face(const Topology& topology, const Face& vertices) {
   const Face wanted = ascending(vertices);
   if (wanted[2] >= topology.mesh.vertices.size()) return none;
-  const auto begin = topology.faces.begin() + topology.first_face[wanted[0]];
-  const auto end = topology.faces.begin() + topology.first_face[wanted[0] + 1];
-  const auto found = std::lower_bound(begin, end, wanted);
-  if (found == end || *found != wanted) return none;
-  return static_cast<std::uint32_t>(found - topology.faces.begin());
+  const std::uint32_t end = topology.first_face[wanted[0] + 1];
+  const auto faces = std::views::iota(topology.first_face[wanted[0]], end);
+  const std::uint32_t found = *std::ranges::lower_bound(
+      faces, wanted, {}, [&](std::uint32_t face) { return vertices_of_face(topology, face); });
+  return found != end && vertices_of_face(topology, found) == wanted ? found : none;
+}
+
+std::uint32_t face_of(const Topology& topology, std::uint32_t half_face) {
+  return find_face(topology, outward(topology.mesh, half_face));
 }
 
 bool has_edge(const Topology& topology, std::uint32_t a, std::uint32_t b) {

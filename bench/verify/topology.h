@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/index_lists.h"
@@ -45,19 +46,29 @@ void sort_and_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+/// The tetrahedra around each vertex, ascending: those of vertex v are `items[first[v] .. first[v + 1])`.
+struct Stars {
+  RawVector<std::uint32_t> first, items;
+
+  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
+    return {items.data() + first[vertex], items.data() + first[vertex + 1]};
+  }
+};
+
 /// The adjacency of tetrahedra and faces of a mesh. A *half-face* is 4 * tetrahedron + the corner opposite to it.
 struct Topology {
   const mesh::TetMesh& mesh;
-  IndexLists stars = {};                      ///< tetrahedra around each vertex
-  RawVector<Face> faces = {};                 ///< vertices of each face, ascending; in lexicographic order
-  RawVector<std::uint32_t> first_face = {};   ///< by vertex: the first face that has it as its least; then their number
-  RawVector<Edge> half_faces = {};            ///< of each face, the first two half-faces; the second may be `none`
-  RawVector<std::uint32_t> face_of = {};      ///< of each half-face
-  std::vector<std::uint32_t> bad_faces = {};  ///< shared by more than two tetrahedra, or by two on one side
+  Stars stars = {};
+  RawVector<std::uint32_t> first_face = {};  ///< by vertex: the first face that has it as its least; then their number
+  /// Of each face, the first two half-faces; the second may be `none`. Faces are in lexicographic order of their
+  /// vertices, ascending.
+  RawVector<Edge> half_faces = {};
+  std::vector<std::uint32_t> bad_faces = {};       ///< shared by more than two tetrahedra, or by two on one side
   std::vector<std::uint32_t> boundary_faces = {};  ///< of one tetrahedron
   std::vector<std::uint32_t> listed_faces = {};    ///< of each face that the mesh lists: which it is, or `none`
   std::vector<bool> listed = {};                   ///< by face: does the mesh list it?
 
+  std::size_t face_count() const { return half_faces.size(); }
   bool on_boundary(std::uint32_t face) const { return half_faces[face][1] == none; }
   bool used(std::uint32_t vertex) const { return !stars.of(vertex).empty(); }
 
@@ -74,8 +85,14 @@ Topology find_topology(const mesh::TetMesh& mesh);
 /// The vertices of a half-face, counterclockwise seen from outside its tetrahedron if that is positively oriented.
 Face outward(const mesh::TetMesh& mesh, std::uint32_t half_face);
 
+/// The vertices of a face, ascending.
+Face vertices_of_face(const Topology& topology, std::uint32_t face);
+
 /// The face with these vertices, in any order, or `none`.
 std::uint32_t find_face(const Topology& topology, const Face& vertices);
+
+/// The face of a half-face.
+std::uint32_t face_of(const Topology& topology, std::uint32_t half_face);
 
 bool has_edge(const Topology& topology, std::uint32_t a, std::uint32_t b);
 

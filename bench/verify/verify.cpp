@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
+#include <ranges>
 #include <utility>
 
 #include "bench/verify/check_delaunay.h"
 #include "bench/verify/check_domain.h"
 #include "bench/verify/crossings.h"
+#include "bench/verify/distinct_vertices.h"
 #include "bench/verify/edit_surface.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
@@ -16,7 +19,6 @@
 #include "bench/verify/on_grid.h"
 #include "engine/base/parallel.h"
 #include "engine/base/shared_progress.h"
-#include "engine/base/sort_in_runs.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
@@ -43,8 +45,13 @@ void check_array(Check& check, const char* what, std::size_t size, std::size_t w
 template <class Elements>
 void check_elements(Check& check, const char* what, const Elements& elements, std::size_t vertices) {
   const auto is_right = [&](std::size_t i) {
-    const auto sorted = ascending(elements[i]);
-    return sorted.back() < vertices && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+    const auto& element = elements[i];
+    int wrong = 0;
+    for (std::size_t k = 0; k < element.size(); ++k) {
+      wrong |= int{element[k] >= vertices};
+      for (std::size_t j = 0; j < k; ++j) wrong |= int{element[j] == element[k]};
+    }
+    return wrong == 0;
   };
   check_each(check, elements.size(), is_right, [&](std::size_t i) {
     std::string s = std::string(what) + " " + std::to_string(i) + " has the vertices";
@@ -93,30 +100,6 @@ Check check_orientation(const mesh::TetMesh& mesh, const Progress& progress) {
   return check;
 }
 
-/// No two used vertices have the same position.
-Check check_distinct_vertices(const Topology& topology) {
-  Check check{.name = "distinct vertices"};
-  struct Vertex {
-    std::array<double, 3> at;
-    std::uint32_t number;
-
-    auto operator<=>(const Vertex&) const = default;
-  };
-  std::vector<Vertex> sorted;
-  for (std::uint32_t v = 0; v < topology.mesh.vertices.size(); ++v)
-    if (topology.used(v)) sorted.push_back({as_array(topology.mesh.vertices[v]), v});
-  check.checked = sorted.size();
-  sort_in_runs(sorted, [](const Vertex& a, const Vertex& b) { return a < b; });
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i - 1].at != sorted[i].at) continue;
-    fail(check, [&] {
-      return "vertices " + std::to_string(sorted[i - 1].number) + " and " + std::to_string(sorted[i].number) +
-             " are both at " + text(topology.mesh.vertices[sorted[i].number]);
-    });
-  }
-  return check;
-}
-
 /// Every vertex is used by a tetrahedron (not required).
 Check check_used_vertices(const Topology& topology) {
   Check check{.name = "vertices in use", .required = false};
@@ -130,11 +113,11 @@ Check check_used_vertices(const Topology& topology) {
 
 /// Every face belongs to one tetrahedron, or to two on opposite sides.
 Check check_shared_faces(const Topology& topology) {
-  Check check{.name = "faces of one or two tetrahedra", .checked = topology.faces.size()};
+  Check check{.name = "faces of one or two tetrahedra", .checked = topology.face_count()};
   for (const std::uint32_t f : topology.bad_faces) {
     fail(check, [&] {
       return "more than two tetrahedra, or two on one side, at the face" +
-             text(topology.mesh.vertices, topology.faces[f]);
+             text(topology.mesh.vertices, vertices_of_face(topology, f));
     });
   }
   return check;
@@ -142,9 +125,25 @@ Check check_shared_faces(const Topology& topology) {
 
 // The facets of the input in the mesh.
 
+/// A `RayShooter` that is made when it is first needed: for most meshes it never is.
+class RaysIfNeeded {
+ public:
+  explicit RaysIfNeeded(const Surface& surface) : surface_(surface) {}
+
+  const RayShooter& get() {
+    if (!rays_) rays_.emplace(surface_);
+    return *rays_;
+  }
+
+ private:
+  const Surface& surface_;
+  std::optional<RayShooter> rays_;
+};
+
 /// Is a point in or on the domain? One that is on its boundary only within the tolerance need not be: a mesher that
 /// takes coordinates as they are, or rounds them, may find it outside.
-bool is_in_domain(const Surface& surface, const Regions& regions, const RayShooter& rays, const Point3& p) {
+bool is_in_domain(const Surface& surface, const Regions& regions, RaysIfNeeded& rays_if_needed, const Point3& p) {
+  const RayShooter& rays = rays_if_needed.get();
   const auto is_inside = [&](std::uint32_t region) { return regions.inside[region] == Inside::yes; };
   const std::vector<std::uint32_t> around = regions_at(surface, regions, rays, p);
   if (std::ranges::none_of(around, is_inside)) return false;
@@ -158,8 +157,7 @@ bool is_in_domain(const Surface& surface, const Regions& regions, const RayShoot
 constexpr const char *vertices_check = "input vertices", *segments_check = "input segments";
 
 /// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
-Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions,
-                     const RayShooter& rays) {
+Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions, RaysIfNeeded& rays) {
   Check check{.name = surface.slides.empty() ? vertices_check : "input vertices that may not slide"};
   std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
@@ -181,7 +179,7 @@ Check check_vertices(const plc::InputPlc& input, const Surface& surface, const R
 
 /// Every segment and every feature edge in or on the domain is a chain of mesh edges.
 Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
-                     const std::vector<bool>& features, const Regions& regions, const RayShooter& rays) {
+                     const std::vector<bool>& features, const Regions& regions, RaysIfNeeded& rays) {
   Check check{.name = segments_check};
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (!features[e]) continue;
@@ -234,7 +232,8 @@ Check check_boundary(const Topology& topology, const FacetMatches& matches) {
   Check check{.name = "boundary faces on input facets", .checked = topology.boundary_faces.size()};
   for (const std::uint32_t f : matches.stray_faces) {
     fail(check, [&] {
-      return "boundary face" + text(topology.mesh.vertices, topology.faces[f]) + " lies on no facet of the input";
+      return "boundary face" + text(topology.mesh.vertices, vertices_of_face(topology, f)) +
+             " lies on no facet of the input";
     });
   }
   return check;
@@ -281,7 +280,7 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
   const auto compare_domain = [&] {
     const RegionsOfTetrahedra assigned = assign_regions(topology, regions, matches, tolerances.flat);
     resolve_unknown(assigned, regions);
-    const RayShooter rays(surface);
+    RaysIfNeeded rays(surface);
     checks.push_back(check_vertices(input, surface, regions, rays));
     checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
     checks.push_back(check_facets(surface, matches, regions));
