@@ -27,37 +27,43 @@ void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties 
   note_bytes(bytes_of(vertices, d.vertices, d.cells, d.free_cells) + insertion.bytes());
 }
 
-/// Makes room for more cells, which several threads move there.
-void reserve(LargeVector<Cell>& cells, std::size_t capacity) {
-  if (cells.capacity() >= capacity) return;
-  LargeVector<Cell> moved;
-  moved.reserve(capacity);
-  moved.resize(cells.size());
-  parallel_for(cells.size(), 4096, [&](std::size_t c) { moved[c] = cells[c]; });
-  cells.swap(moved);
-}
-
 constexpr std::size_t cells_of_vertex = 7;  ///< about as many as there are, ghosts included
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
 
+bool are_several_worth_it(std::size_t vertices) {
+  return thread_count() > 1 && vertices >= least_for_threads;
+}
+
 }  // namespace
 
+void reserve_cells(Delaunay& d, std::size_t capacity) {
+  if (d.cells.capacity() >= capacity) return;
+  LargeVector<Cell> moved;
+  moved.reserve(capacity);
+  moved.resize(d.cells.size());
+  parallel_for(d.cells.size(), 4096, [&](std::size_t c) { moved[c] = d.cells[c]; });
+  d.cells.swap(moved);
+}
+
+std::size_t most_new_cells(std::size_t vertices) {
+  return are_several_worth_it(vertices) ? PartedInsertion::most_cells(vertices) : cells_of_vertex * vertices + 64;
+}
+
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {
-  if (thread_count() == 1 || vertices.size() < least_for_threads) {
-    d.cells.reserve(d.cells.size() + cells_of_vertex * vertices.size() + 64);
+  reserve_cells(d, d.cells.size() + most_new_cells(vertices.size()));
+  if (!are_several_worth_it(vertices.size())) {
     insert_in_order(d, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
     return;
   }
-  reserve(d.cells, d.cells.size() + PartedInsertion::most_cells(vertices.size()));
-  const std::size_t present = d.cells.size() / cells_of_vertex, total = present + vertices.size();
-  // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere.
-  const std::size_t first = total / 64 - std::min(total / 64, present);
+  // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere. The
+  // vertices of a surface around them do not count: the cells between these cross the whole inside, so all would wait.
+  const std::size_t first = vertices.size() / 64;
   insert_in_order(d, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
   PartedInsertion parted(d);
   std::vector<std::uint32_t> waiting;
   for (std::size_t begin = first, end = 0; begin < vertices.size(); begin = end) {
-    end = 16 * (present + begin) < total ? begin + 7 * (present + begin) : vertices.size();
+    end = 16 * begin < vertices.size() ? 8 * begin : vertices.size();
     waiting = parted.insert(vertices.subspan(begin, end - begin), std::move(waiting), begin, vertices.size(), progress);
     if (waiting.size() < (end - begin) / 4) continue;
     // Without them, the cells of the next round would be too large.

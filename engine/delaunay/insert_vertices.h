@@ -15,4 +15,10 @@ namespace ccdt::delaunay {
 ///                  the same place.
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress = {});
 
+/// Makes room for more cells. Several threads move those that there are.
+void reserve_cells(Delaunay& d, std::size_t capacity);
+
+/// The largest number of cells, dead ones included, that `insert_vertices` adds for this many vertices, as a rule.
+std::size_t most_new_cells(std::size_t vertices);
+
 }  // namespace ccdt::delaunay
