@@ -1,6 +1,7 @@
 #include <array>
-#include <utility>
+#include <atomic>
 
+#include "engine/base/parallel.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/cores/split_by_rank.h"
 
@@ -8,6 +9,7 @@ namespace ccdt::cores {
 namespace {
 
 using delaunay::Cell;
+using delaunay::Delaunay;
 using delaunay::face_code;
 using delaunay::no_neighbor;
 
@@ -29,16 +31,12 @@ constexpr std::array<std::uint8_t, 8> place_of_corner = {0, 0, 1, 2, 2, 1, 3, 3}
 
 class CellMaker {
  public:
-  CellMaker(const LatticeCore& core, std::span<Cell> cells, std::uint32_t first)
-      : sites_(core.sites), cells_(cells), first_(first) {}
+  /// \param border  gets codes of faces
+  CellMaker(const SiteBlocks& sites, Delaunay& d, std::uint32_t first, std::vector<std::uint32_t>& border)
+      : sites_(sites), d_(d), cells_(d.cells.data() + first), first_(first), border_(border) {}
 
-  std::vector<std::uint32_t> run() {
-    for (const SiteBlock& block : sites_.blocks) make_cells_of(block);
-    return std::move(border_);
-  }
-
- private:
   void make_cells_of(const SiteBlock& block) {
+    if (block.cell_count == 0) return;
     point_.gather(sites_, block, &SiteBlock::point, nothing);
     cube_.gather(sites_, block, &SiteBlock::cube, nothing);
     kind_.gather(sites_, block, &SiteBlock::kind, 0);
@@ -56,6 +54,21 @@ class CellMaker {
       else
         make_cube(at, block.cube[i], split_of_kind(block.kind[i]));
     });
+    note_last_cells(block);
+  }
+
+ private:
+  /// From the last cell on, so that most vertices change once. Several blocks have cells of the same vertex.
+  void note_last_cells(const SiteBlock& block) {
+    for (std::uint32_t cell = block.first_cell + block.cell_count; cell-- > block.first_cell;)
+      for (const std::uint32_t v : cells_[cell].vertices) {
+        const std::uint32_t number = first_ + cell;
+        const std::atomic_ref last(d_.vertices[v].cell);
+        std::uint32_t before = last.load(std::memory_order_relaxed);
+        while ((before == delaunay::no_cell || before < number) &&
+               !last.compare_exchange_weak(before, number, std::memory_order_relaxed)) {
+        }
+      }
   }
 
   /// Joins face f of a cell to the face of another core cell with this code; `nothing`: there is none.
@@ -164,18 +177,24 @@ class CellMaker {
   }
 
   const SiteBlocks& sites_;
-  std::span<Cell> cells_;
+  Delaunay& d_;
+  Cell* const cells_;  ///< of the core
   const std::uint32_t first_;
-  std::vector<std::uint32_t> border_;
+  std::vector<std::uint32_t>& border_;
   Numbers point_, cube_;
   Kinds kind_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, std::span<delaunay::Cell> cells,
-                                           std::uint32_t first) {
-  return CellMaker(core, cells, first).run();
+std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, Delaunay& d, std::uint32_t first) {
+  constexpr std::size_t grain = 16;
+  const auto& blocks = core.sites.blocks;
+  return parallel_collect<std::uint32_t>(blocks.size(), grain,
+                                         [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& border) {
+                                           CellMaker maker(core.sites, d, first, border);
+                                           for (std::size_t b = begin; b < end; ++b) maker.make_cells_of(blocks[b]);
+                                         });
 }
 
 }  // namespace ccdt::cores

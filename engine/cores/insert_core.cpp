@@ -1,9 +1,11 @@
-#include <algorithm>
-#include <numeric>
+#include <atomic>
+#include <bit>
 #include <stdexcept>
 
 #include "engine/base/count_work.h"
+#include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/simplex_map.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/insert_vertices.h"
@@ -11,7 +13,6 @@
 namespace ccdt::cores {
 namespace {
 
-using delaunay::Cell;
 using delaunay::cell_of;
 using delaunay::corners_of_face;
 using delaunay::Delaunay;
@@ -24,37 +25,75 @@ bool same_direction(const std::array<std::uint32_t, 3>& a, const std::array<std:
   return a == b || (a[0] == b[1] && a[1] == b[2] && a[2] == b[0]) || (a[0] == b[2] && a[1] == b[0] && a[2] == b[1]);
 }
 
+/// The codes of the faces of the core's border, by their corners. Several threads may add faces at the same time, and
+/// find them later.
+class BorderFaces {
+ public:
+  explicit BorderFaces(std::size_t size) : size_(size), entries_(std::bit_ceil(2 * size + 1)) {
+    parallel_for(entries_.size(), 4096, [&](std::size_t i) { entries_[i].code = nothing; });
+  }
+
+  std::size_t size() const { return size_; }
+
+  /// \param key  of a face that has not been added
+  void add(const FaceKey& key, std::uint32_t code) {
+    std::size_t i = home(key);
+    for (std::uint32_t empty = nothing; !std::atomic_ref(entries_[i].code).compare_exchange_strong(empty, code);
+         empty = nothing)
+      i = next(i);
+    entries_[i].key = key;
+  }
+
+  /// \return  `nothing`: there is no such face
+  std::uint32_t find(const FaceKey& key) const {
+    std::size_t i = home(key);
+    while (entries_[i].code != nothing && !is_same_key(entries_[i].key, key)) i = next(i);
+    return entries_[i].code;
+  }
+
+ private:
+  struct Entry {
+    FaceKey key;
+    std::uint32_t code;
+  };
+
+  std::size_t home(const FaceKey& key) const { return HashTraits<FaceKey>::hash(key) & (entries_.size() - 1); }
+  std::size_t next(std::size_t i) const { return (i + 1) & (entries_.size() - 1); }
+
+  std::size_t size_;
+  RawVector<Entry> entries_;  ///< a hash table with linear probing, at least half of it empty
+};
+
 class Joiner {
  public:
   Joiner(Delaunay& d, std::uint32_t outer_cells, const std::vector<std::uint32_t>& border)
-      : d_(d), outer_cells_(outer_cells), walls_(outer_cells, 0), on_border_(d.vertices.size(), false) {
-    faces_.reserve(border.size());
-    for (const std::uint32_t code : border) {
-      const auto [a, b, c] = corners(code);
-      faces_.insert(face_key(a, b, c), code);
-      on_border_[a] = on_border_[b] = on_border_[c] = true;
-    }
+      : d_(d),
+        outer_cells_(outer_cells),
+        walls_(outer_cells, 0),
+        on_border_(d.vertices.size(), 0),
+        faces_(border.size()) {
+    parallel_for(border.size(), 4096, [&](std::size_t i) {
+      const auto face = corners(border[i]);
+      faces_.add(face_key(face[0], face[1], face[2]), border[i]);
+      for (const std::uint32_t v : face) std::atomic_ref(on_border_[v]).store(1, std::memory_order_relaxed);
+    });
   }
 
   void run() {
-    const std::size_t runs = thread_count();
-    std::vector<std::vector<std::uint32_t>> inside(runs);
-    std::vector<std::size_t> outside(runs, 0);
-    parallel_for(runs, 1, [&](std::size_t run) {
-      const auto begin = static_cast<std::uint32_t>(outer_cells_ * run / runs),
-                 end = static_cast<std::uint32_t>(outer_cells_ * (run + 1) / runs);
-      for (std::uint32_t c = begin; c < end; ++c)
-        if (!d_.is_dead(c)) outside[run] += find_border(c, inside[run]);
-    });
-    for (const auto& some : inside) inside_.insert(inside_.end(), some.begin(), some.end());
-    if (std::reduce(outside.begin(), outside.end()) != faces_.size() || inside_.empty() != faces_.empty())
+    std::atomic<std::size_t> outside = 0;
+    std::vector<std::uint32_t> inside = parallel_collect<std::uint32_t>(
+        outer_cells_, 1 << 14, [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+          std::size_t joined = 0;
+          for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
+            if (!d_.is_dead(c)) joined += find_border(c, found);
+          outside += joined;
+        });
+    if (outside != faces_.size() || inside.empty() != (faces_.size() == 0))
       throw std::logic_error("the core of the lattice does not fit into the tetrahedralization around it");
-    for (std::size_t i = 0; i < inside_.size(); ++i) spread(inside_[i]);
-    for (const std::uint32_t c : inside_) {
-      d_.cells[c].neighbors[0] = no_neighbor;
-      d_.free_cells.push_back(c);
-    }
-    work_done.cells_destroyed += inside_.size();
+    spread(inside);
+    parallel_for(inside.size(), 4096, [&](std::size_t i) { d_.cells[inside[i]].neighbors[0] = no_neighbor; });
+    d_.free_cells.insert(d_.free_cells.end(), inside.begin(), inside.end());
+    work_done.cells_destroyed += inside.size();
   }
 
  private:
@@ -63,7 +102,7 @@ class Joiner {
   std::array<std::uint32_t, 3> corners(std::uint32_t code) const {
     return corners_of_face(d_.cells[cell_of(code)].vertices, face_of(code));
   }
-  bool is_on_border(std::uint32_t v) const { return v != delaunay::ghost_vertex && on_border_[v]; }
+  bool is_on_border(std::uint32_t v) const { return v != delaunay::ghost_vertex && on_border_[v] != 0; }
 
   /// Joins the faces of a cell that are on the border. If the cell is within it, notes that.
   /// \return  how many faces were joined
@@ -72,39 +111,57 @@ class Joiner {
     const int others = !is_on_border(v[0]) + !is_on_border(v[1]) + !is_on_border(v[2]) + !is_on_border(v[3]);
     if (others > 1) return 0;
     std::size_t joined = 0;
+    bool is_inside = false;
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (others == 1 && is_on_border(v[f])) continue;
       const auto face = corners_of_face(v, f);
-      const std::uint32_t* code = faces_.find(face_key(face[0], face[1], face[2]));
-      if (code == nullptr) continue;
+      const std::uint32_t code = faces_.find(face_key(face[0], face[1], face[2]));
+      if (code == nothing) continue;
       walls_[c] |= static_cast<std::uint8_t>(1u << f);
-      if (same_direction(face, corners(*code))) {
-        remove(c, inside);
+      if (same_direction(face, corners(code))) {
+        is_inside = true;
       } else {
-        delaunay::join_faces(d_.cells, face_code(c, f), *code);
+        delaunay::join_faces(d_.cells, face_code(c, f), code);
         ++joined;
       }
+    }
+    if (is_inside) {
+      walls_[c] |= removed;
+      inside.push_back(c);
     }
     return joined;
   }
 
-  void remove(std::uint32_t c, std::vector<std::uint32_t>& inside) {
-    if ((walls_[c] & removed) != 0) return;
-    walls_[c] |= removed;
-    inside.push_back(c);
+  /// Adds all cells that are reached from the first ones without crossing the border, step by step.
+  void spread(std::vector<std::uint32_t>& inside) {
+    for (std::size_t done = 0; done < inside.size();) {
+      const std::vector<std::uint32_t> reached = parallel_collect<std::uint32_t>(
+          inside.size() - done, 1024, [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+            for (std::size_t i = begin; i < end; ++i) remove_neighbors(inside[done + i], found);
+          });
+      done = inside.size();
+      inside.insert(inside.end(), reached.begin(), reached.end());
+    }
   }
 
-  void spread(std::uint32_t c) {
-    for (std::uint32_t f = 0; f < 4; ++f)
-      if ((walls_[c] >> f & 1) == 0) remove(cell_of(d_.cells[c].neighbors[f]), inside_);
+  /// Several threads may reach the same neighbor; one of them gets it.
+  void remove_neighbors(std::uint32_t c, std::vector<std::uint32_t>& found) {
+    const std::uint8_t walls = std::atomic_ref(walls_[c]).load(std::memory_order_relaxed);
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if ((walls >> f & 1) != 0) continue;
+      const std::uint32_t next = cell_of(d_.cells[c].neighbors[f]);
+      const std::atomic_ref its(walls_[next]);
+      if ((its.load(std::memory_order_relaxed) & removed) == 0 &&
+          (its.fetch_or(removed, std::memory_order_relaxed) & removed) == 0)
+        found.push_back(next);
+    }
   }
 
   Delaunay& d_;
   const std::uint32_t outer_cells_;
-  std::vector<std::uint8_t> walls_;  ///< by cell: faces on the border; must it be removed?
-  std::vector<bool> on_border_;      ///< by vertex
-  HashTable<FaceKey, std::uint32_t> faces_;
-  std::vector<std::uint32_t> inside_;
+  std::vector<std::uint8_t> walls_;      ///< by cell: faces on the border; must it be removed?
+  std::vector<std::uint8_t> on_border_;  ///< by vertex
+  BorderFaces faces_;
 };
 
 /// Puts the core into the tetrahedralization of the other vertices. A flood fill from the core's border removes the old
@@ -115,14 +172,25 @@ void insert_core(const LatticeCore& core, Delaunay& d) {
   if (core.cell_count == 0) return;
   const auto first = static_cast<std::uint32_t>(d.cells.size());
   d.cells.resize(d.cells.size() + core.cell_count);
-  const std::span<Cell> cells = std::span(d.cells).subspan(first);
-  const std::vector<std::uint32_t> border = make_core_cells(core, cells, first);
+  const std::vector<std::uint32_t> border = make_core_cells(core, d, first);
   Joiner(d, first, border).run();
-  // All vertices of the removed cells belong to the core.
-  for (std::uint32_t c = first; c < d.cells.size(); ++c)
-    for (const std::uint32_t v : d.cells[c].vertices) d.vertices[v].cell = c;
   work_done.cells_created += core.cell_count;
   note_bytes(bytes_of(d.vertices, d.cells, d.free_cells, core.sites.blocks, border));
+}
+
+/// Among this many vertices one may be inserted although it is deep.
+constexpr std::uint32_t extra_vertices = 1024;
+
+/// The vertices to insert, in order. The cells between the others are as large as the core, and belong to the parts of
+/// space of several threads. Some of the first vertices, which are everywhere, keep them small.
+std::vector<std::uint32_t> vertices_to_insert(const LatticeCore& core, std::uint32_t first) {
+  const std::size_t count = core.is_deep.size() - first, extra = thread_count() == 1 ? 0 : count / extra_vertices;
+  return parallel_collect<std::uint32_t>(count, 1 << 14,
+                                         [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+                                           for (std::size_t i = begin; i < end; ++i)
+                                             if (i < extra || core.is_deep[first + i] == 0)
+                                               found.push_back(static_cast<std::uint32_t>(first + i));
+                                         });
 }
 
 }  // namespace
@@ -133,14 +201,13 @@ std::size_t insert_points(const lattice::LatticePoints& lattice, Delaunay& d, co
   for (const delaunay::DelaunayVertex& v : d.vertices) others.push_back(v.point);
   const auto first = static_cast<std::uint32_t>(d.vertices.size());
   const std::vector<std::uint32_t> order = append_vertices(d, lattice.points);
-  std::vector<std::uint32_t> vertex(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) vertex[order[i]] = first + i;
+  RawVector<std::uint32_t> vertex(order.size());
+  parallel_for(order.size(), 4096, [&](std::size_t i) { vertex[order[i]] = first + static_cast<std::uint32_t>(i); });
 
   const LatticeCore core = find_lattice_core(lattice, vertex, others, d.vertices.size());
-  std::vector<std::uint32_t> not_deep;
-  for (std::uint32_t v = first; v < d.vertices.size(); ++v)
-    if (!core.is_deep[v]) not_deep.push_back(v);
-  insert_vertices(d, not_deep, progress);
+  const std::vector<std::uint32_t> inserted = vertices_to_insert(core, first);
+  reserve_cells(d, d.cells.size() + delaunay::most_new_cells(inserted.size()) + core.cell_count);
+  insert_vertices(d, inserted, progress);
   insert_core(core, d);
   return core.cell_count;
 }

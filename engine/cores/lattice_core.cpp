@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/cores/split_by_rank.h"
 
 namespace ccdt::cores {
@@ -44,43 +45,65 @@ bool for_vertices_of_cube(Lattice kind, const Place& p, int at, const Visit& vis
   return true;
 }
 
+/// How many blocks one thread takes at a time.
+constexpr std::size_t grain = 16;
+
+/// Finds the core in a part of the blocks.
 class CoreFinder {
  public:
-  CoreFinder(SiteBlocks& sites, std::vector<bool>& is_deep) : sites_(sites), kind_(sites.kind), is_deep_(is_deep) {}
+  CoreFinder(SiteBlocks& sites, std::vector<std::uint8_t>& is_deep)
+      : sites_(sites), kind_(sites.kind), is_deep_(is_deep) {}
 
-  void find_whole_shapes() {
-    for (SiteBlock& block : sites_.blocks) find_whole_shapes(block);
-  }
-
-  std::uint32_t find_deep_vertices() {
-    for (SiteBlock& block : sites_.blocks) find_deep_vertices(block);
-    for (SiteBlock& block : sites_.blocks) number_cells(block);
-    return cells_;
-  }
-
- private:
-  /// Finds the shapes with all their vertices.
+  /// Finds the shapes with all their vertices, and how they are split.
   void find_whole_shapes(SiteBlock& block) {
     around_.gather(sites_, block, &SiteBlock::flags, 0);
+    vertex_.gather(sites_, block, &SiteBlock::point, nothing);
     const auto is_present = [&](int i) { return (around_[i] & present) != 0; };
     for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
       const Place p = {x, y, z};
-      std::uint8_t& flags = block.flags[i];
-      if (has_shape_at(kind_, p) && for_vertices_at(kind_, p, at, is_present)) flags |= core_point;
-      if (has_cubes(kind_) && for_vertices_of_cube(kind_, p, at, is_present)) flags |= core_cube;
-      if ((flags & (core_point | core_cube)) != 0) block.has_core = true;
+      std::uint8_t shapes = 0;
+      if (has_shape_at(kind_, p) && for_vertices_at(kind_, p, at, is_present)) {
+        shapes |= core_point;
+        if (kind_ == Lattice::fcc) block.kind[i] = static_cast<std::uint8_t>(diagonal_at(at));
+      }
+      if (has_cubes(kind_) && for_vertices_of_cube(kind_, p, at, is_present)) {
+        shapes |= core_cube;
+        if (kind_ == Lattice::sc) block.kind[i] = kind_of_cube(corners_of_cube(at));
+      }
+      block.shapes[i] = shapes;
+      if (shapes != 0) block.has_core = true;
     });
   }
 
   void find_deep_vertices(SiteBlock& block) {
-    around_.gather(sites_, block, &SiteBlock::flags, 0);
+    around_.gather(sites_, block, &SiteBlock::shapes, 0);
     for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
       if ((block.flags[i] & present) == 0 || !is_deep({x, y, z}, at)) return;
       block.flags[i] |= deep;
-      is_deep_[block.point[i]] = true;
+      is_deep_[block.point[i]] = 1;
     });
   }
 
+  /// Numbers the cells of core shapes with a deep vertex, from `first` on.
+  void number_cells(SiteBlock& block, std::uint32_t first) {
+    around_.gather(sites_, block, &SiteBlock::flags, 0);
+    const auto is_not_deep = [&](int i) { return (around_[i] & deep) == 0; };
+    std::uint32_t next = first;
+    for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
+      const Place p = {x, y, z};
+      if ((block.shapes[i] & core_point) != 0 && !for_vertices_at(kind_, p, at, is_not_deep)) {
+        block.point[i] = next;
+        next += 4;
+      }
+      if ((block.shapes[i] & core_cube) != 0 && !for_vertices_of_cube(kind_, p, at, is_not_deep)) {
+        block.cube[i] = next;
+        next += kind_ == Lattice::fcc ? 1 : split_of_kind(block.kind[i]).count;
+      }
+    });
+    block.first_cell = first, block.cell_count = next - first;
+  }
+
+ private:
   /// Are all shapes of a site core?
   bool is_deep(const Place& p, int at) const {
     const auto is_core_point = [&](int i) { return (around_[i] & core_point) != 0; };
@@ -104,56 +127,83 @@ class CoreFinder {
   bool is_odd(const Place& p) const { return (p[0] & 1) != 0; }
   bool has_faces_beside(const Place& p) const { return kind_ == Lattice::fcc || is_odd(p); }
 
-  /// Numbers the cells of core shapes with a deep vertex.
-  void number_cells(SiteBlock& block) {
-    around_.gather(sites_, block, &SiteBlock::flags, 0);
-    vertex_.gather(sites_, block, &SiteBlock::point, nothing);
-    const auto is_not_deep = [&](int i) { return (around_[i] & deep) == 0; };
-    for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
-      const Place p = {x, y, z};
-      if ((block.flags[i] & core_point) != 0 && !for_vertices_at(kind_, p, at, is_not_deep)) {
-        block.point[i] = cells_;
-        cells_ += 4;
-        if (kind_ == Lattice::fcc) {
-          for (int k = 0; k < 3; ++k)
-            corners_[2 * k] = vertex_[at - stride[k]], corners_[2 * k + 1] = vertex_[at + stride[k]];
-          block.kind[i] = static_cast<std::uint8_t>(diagonal_of_octahedron(corners_.data()));
-        }
-      }
-      if ((block.flags[i] & core_cube) != 0 && !for_vertices_of_cube(kind_, p, at, is_not_deep)) {
-        block.cube[i] = cells_;
-        if (kind_ == Lattice::fcc) {
-          ++cells_;
-        } else {
-          for (unsigned c = 0; c < 8; ++c) corners_[c] = vertex_[at + corner_offset(c)];
-          block.kind[i] = kind_of_cube(corners_);
-          cells_ += split_of_kind(block.kind[i]).count;
-        }
-      }
-    });
+  /// The axis around which the octahedron at a place is split.
+  int diagonal_at(int at) const {
+    std::array<std::uint32_t, 6> ends{};
+    for (std::size_t k = 0; k < 3; ++k)
+      ends[2 * k] = vertex_[at - stride[k]], ends[2 * k + 1] = vertex_[at + stride[k]];
+    return diagonal_of_octahedron(ends.data());
+  }
+
+  std::array<std::uint32_t, 8> corners_of_cube(int at) const {
+    std::array<std::uint32_t, 8> corners{};
+    for (unsigned c = 0; c < 8; ++c) corners[c] = vertex_[at + corner_offset(c)];
+    return corners;
   }
 
   SiteBlocks& sites_;
   const Lattice kind_;
-  std::vector<bool>& is_deep_;
-  std::uint32_t cells_ = 0;
+  std::vector<std::uint8_t>& is_deep_;
   Flags around_;
   Numbers vertex_;
-  std::array<std::uint32_t, 8> corners_{};
 };
+
+/// Calls visit(finder, block) for all blocks, on several threads.
+template <class Visit>
+void for_blocks(SiteBlocks& sites, std::vector<std::uint8_t>& is_deep, const Visit& visit) {
+  parallel_ranges(sites.blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
+    CoreFinder finder(sites, is_deep);
+    for (std::size_t b = begin; b < end; ++b) visit(finder, sites.blocks[b]);
+  });
+}
+
+void move_numbers(SiteBlock& block, std::uint32_t by) {
+  block.first_cell += by;
+  if (block.cell_count == 0) return;
+  for (std::size_t i = 0; i < SiteBlock::size; ++i) {
+    if ((block.shapes[i] & core_point) != 0 && block.point[i] != nothing) block.point[i] += by;
+    if (block.cube[i] != nothing) block.cube[i] += by;
+  }
+}
+
+/// Numbers the cells of all core shapes with a deep vertex: first in each chunk of blocks alone, then after the chunks
+/// before.
+/// \return  how many there are
+std::uint32_t number_cells(SiteBlocks& sites, std::vector<std::uint8_t>& is_deep) {
+  auto& blocks = sites.blocks;
+  const std::size_t length = thread_count() == 1 ? blocks.size() + 1 : grain;
+  std::vector<std::uint32_t> firsts = parallel_chunks(blocks.size(), length, [&](std::size_t begin, std::size_t end) {
+    CoreFinder finder(sites, is_deep);
+    std::uint32_t next = 0;
+    for (std::size_t b = begin; b < end; ++b) {
+      finder.number_cells(blocks[b], next);
+      next += blocks[b].cell_count;
+    }
+    return next;
+  });
+  std::uint32_t count = 0;
+  for (std::uint32_t& first : firsts) count += std::exchange(first, count);
+  parallel_for(firsts.size(), 1, [&](std::size_t chunk) {
+    if (firsts[chunk] == 0) return;
+    for (std::size_t b = chunk * length; b < std::min(blocks.size(), (chunk + 1) * length); ++b)
+      move_numbers(blocks[b], firsts[chunk]);
+  });
+  return count;
+}
 
 }  // namespace
 
-LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
+LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex,
                               std::span<const Point3> others, std::size_t vertices) {
   LatticeCore core;
-  core.is_deep.assign(vertices, false);
+  core.is_deep.assign(vertices, 0);
   SiteMap map(lattice, vertex);
-  CoreFinder finder(map.blocks(), core.is_deep);
-  finder.find_whole_shapes();
+  SiteBlocks& sites = map.blocks();
+  for_blocks(sites, core.is_deep, [](CoreFinder& finder, SiteBlock& block) { finder.find_whole_shapes(block); });
   map.discard_shapes_with(others);
-  core.cell_count = finder.find_deep_vertices();
-  core.sites = std::move(map.blocks());
+  for_blocks(sites, core.is_deep, [](CoreFinder& finder, SiteBlock& block) { finder.find_deep_vertices(block); });
+  core.cell_count = number_cells(sites, core.is_deep);
+  core.sites = std::move(sites);
   return core;
 }
 

@@ -22,24 +22,23 @@ namespace ccdt::cores {
 /// all its shapes are core. The core kept here consists of the core shapes with a deep vertex.
 struct LatticeCore {
   SiteBlocks sites;
-  std::vector<bool> is_deep;     ///< by vertex
-  std::uint32_t cell_count = 0;  ///< of all core shapes with a deep vertex
+  std::vector<std::uint8_t> is_deep;  ///< by vertex
+  std::uint32_t cell_count = 0;       ///< of all core shapes with a deep vertex
 };
 
 /// \param lattice  the interior points
 /// \param vertex   by point: its vertex, which is also its rank; or `nothing` if it is absent
 /// \param others   all vertices that are not lattice points
 /// \param vertices the number of all vertices
-LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex,
+LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex,
                               std::span<const Point3> others, std::size_t vertices);
 
-/// Makes the cells of the core and joins them to each other.
+/// Makes the cells of the core and joins them to each other. Each of their vertices gets the last of them that it has.
 ///
-/// \param cells  one for each cell of the core
-/// \param first  the number of the first one, for the codes of neighbors
+/// \param d      has room for the cells
+/// \param first  the first one; the cells before it are older
 /// \return       codes of the faces that belong to only one of them
-std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, std::span<delaunay::Cell> cells,
-                                           std::uint32_t first);
+std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, delaunay::Delaunay& d, std::uint32_t first);
 
 /// Adds the points of a lattice to a tetrahedralization: `delaunay::insert_points`, with the same result, but the cells
 /// deep within the lattice are written down, and only the vertices that are not deep are inserted.

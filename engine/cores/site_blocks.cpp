@@ -1,7 +1,10 @@
 #include "engine/cores/site_blocks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "engine/base/parallel.h"
 
 namespace ccdt::cores {
 namespace {
@@ -13,6 +16,9 @@ constexpr std::uint32_t reach_below = 1, reach_above = 2;
 
 /// Covers the rounding of squared distances in steps.
 constexpr double rounding = 1e-6;
+
+// How many points, runs and blocks one thread takes at a time.
+constexpr std::size_t point_grain = 1 << 14, run_grain = 16, block_grain = 64;
 
 Place block_at(const Place& p) {
   return {p[0] / SiteBlock::side, p[1] / SiteBlock::side, p[2] / SiteBlock::side};
@@ -37,20 +43,30 @@ bool is_in_sphere_of_cube(const Place& p, const std::array<double, 3>& x) {
   return squared <= 0.75 + rounding;
 }
 
+/// Several threads may note levels of the same block.
+void note_near_level(SiteBlock& block, std::uint32_t level) {
+  std::atomic_ref(block.near_levels).fetch_or(std::uint64_t{1} << level, std::memory_order_relaxed);
+}
+
 }  // namespace
 
-SiteMap::SiteMap(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex)
-    : lattice_(lattice), block_of_(lattice.points.size()) {
+SiteMap::SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex) : lattice_(lattice) {
   all_.kind = lattice.kind;
   make_levels();
-  for (std::uint32_t i = 0; i < lattice_.points.size(); ++i) {
-    const auto c = coordinates(i);
-    const std::uint32_t level = level_of(i, c);
-    block_of_[i] = own_block(level, place(level, c));
-    put(block_of_[i], place(level, c), vertex[i]);
-  }
-  for (std::uint32_t b = 0; b < all_.blocks.size(); ++b) find_neighbors(b);
-  for (std::uint32_t i = 0; i < lattice_.points.size(); ++i) put_on_other_levels(i, vertex[i]);
+  find_runs();
+  make_blocks();
+  // Each place belongs to at most one point, so no two threads write to the same.
+  parallel_for(runs_.size(), run_grain, [&](std::size_t r) {
+    const Run& run = runs_[r];
+    for (std::uint32_t i = run.begin; i < run.end; ++i) put(run.block, place(run.level, coordinates(i)), vertex[i]);
+  });
+  parallel_for(all_.blocks.size(), block_grain, [&](std::size_t b) { find_neighbors(static_cast<std::uint32_t>(b)); });
+  parallel_for(runs_.size(), run_grain, [&](std::size_t r) {
+    const Run& run = runs_[r];
+    const std::uint64_t near_levels = all_.blocks[run.block].near_levels;
+    if (near_levels == 0) return;
+    for (std::uint32_t i = run.begin; i < run.end; ++i) put_on_other_levels(near_levels, i, vertex[i]);
+  });
 }
 
 /// The levels with points. A point of a level may be a site of only the next finer one.
@@ -59,27 +75,63 @@ void SiteMap::make_levels() {
   for (const std::uint8_t level : lattice_.levels)
     for (unsigned l = level; l <= std::min(level + 1u, lattice_.depth); ++l) index_[l] = 0;
   index_[lattice_.depth] = 0;  // every point is a site of the finest level
-  const unsigned whole = lattice_.kind == Lattice::sc ? 2 : 1;
+  const unsigned log_whole = lattice_.kind == Lattice::sc ? 1 : 0;
   for (unsigned level = 0; level <= lattice_.depth; ++level) {
     if (index_[level] == nothing) continue;
     index_[level] = static_cast<std::uint32_t>(all_.levels.size());
-    all_.levels.push_back({whole << (lattice_.depth - level), {}});
+    all_.levels.push_back({log_whole + lattice_.depth - level, {}});
   }
 }
 
+/// Points that follow one another are near each other, so most runs hold all points of a block.
+void SiteMap::find_runs() {
+  runs_ = parallel_collect<Run>(lattice_.points.size(), point_grain,
+                                [&](std::size_t begin, std::size_t end, std::vector<Run>& runs) {
+                                  const std::size_t first = runs.size();
+                                  for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+                                    const Place c = coordinates(i);
+                                    const std::uint32_t level = level_of(i, c);
+                                    const Place at = block_at(place(level, c));
+                                    if (runs.size() == first || runs.back().level != level || runs.back().at != at)
+                                      runs.push_back({i, i, level, at, nothing});
+                                    runs.back().end = i + 1;
+                                  }
+                                });
+}
+
+void SiteMap::make_blocks() {
+  std::vector<std::uint32_t> first_runs;  // by block
+  for (std::uint32_t r = 0; r < runs_.size(); ++r) {
+    const auto next = static_cast<std::uint32_t>(first_runs.size());
+    const auto [block, is_new] = all_.levels[runs_[r].level].blocks.insert(morton_code(runs_[r].at), next);
+    if (is_new) first_runs.push_back(r);
+    runs_[r].block = *block;
+  }
+  all_.blocks.resize(first_runs.size());
+  parallel_for(first_runs.size(), block_grain, [&](std::size_t b) {
+    const Run& run = runs_[first_runs[b]];
+    SiteBlock& block = all_.blocks[b];
+    block.at = run.at, block.level = run.level;
+    block.has_core = false, block.near_levels = 0, block.first_cell = 0, block.cell_count = 0;
+    block.point.fill(nothing), block.cube.fill(nothing);
+    block.flags.fill(0), block.shapes.fill(0), block.kind.fill(0);
+  });
+}
+
 Place SiteMap::coordinates(std::uint32_t point) const {
-  const Point3 p = lattice_.points[point] - lattice_.origin;
-  const auto whole = [&](double x) { return static_cast<std::uint32_t>(x / lattice_.unit); };
+  const Point3 p = (1 / lattice_.unit) * (lattice_.points[point] - lattice_.origin);
+  constexpr double slack = 0.25;  // they are whole but for rounding
+  const auto whole = [](double x) { return static_cast<std::uint32_t>(x + slack); };
   return {whole(p.x), whole(p.y), whole(p.z)};
 }
 
 Place SiteMap::place(std::uint32_t level, const Place& c) const {
-  const std::uint32_t step = all_.levels[level].step;  // a power of two
-  return {c[0] / step + margin, c[1] / step + margin, c[2] / step + margin};
+  const unsigned log_step = all_.levels[level].log_step;
+  return {(c[0] >> log_step) + margin, (c[1] >> log_step) + margin, (c[2] >> log_step) + margin};
 }
 
 bool SiteMap::is_on(std::uint32_t level, const Place& c) const {
-  const std::uint32_t rest = all_.levels[level].step - 1;
+  const std::uint32_t rest = (1u << all_.levels[level].log_step) - 1;
   return ((c[0] | c[1] | c[2]) & rest) == 0 && is_site(all_.kind, place(level, c));
 }
 
@@ -90,20 +142,6 @@ std::uint32_t SiteMap::level_of(std::uint32_t point, const Place& c) const {
   return level;
 }
 
-std::uint32_t SiteMap::own_block(std::uint32_t level, const Place& p) {
-  const Place at = block_at(p);
-  const std::uint64_t key = morton_code(at);
-  if (key == last_key_ && level == last_level_) return last_;
-  last_key_ = key, last_level_ = level;
-  const auto [b, is_new] = all_.levels[level].blocks.insert(key, static_cast<std::uint32_t>(all_.blocks.size()));
-  if (is_new) {
-    SiteBlock& block = all_.blocks.emplace_back();
-    block.at = at, block.level = level;
-    block.point.fill(nothing), block.cube.fill(nothing), block.flags.fill(0), block.kind.fill(0);
-  }
-  return last_ = *b;
-}
-
 void SiteMap::put(std::uint32_t block, const Place& p, std::uint32_t vertex) {
   if (vertex == nothing) return;
   const std::size_t i = SiteBlocks::place_in_block(p);
@@ -112,12 +150,11 @@ void SiteMap::put(std::uint32_t block, const Place& p, std::uint32_t vertex) {
 }
 
 /// A point is a site of all finer lattices, and of some coarser ones.
-void SiteMap::put_on_other_levels(std::uint32_t point, std::uint32_t vertex) {
-  const SiteBlock& own = all_.blocks[block_of_[point]];
-  if (own.near_levels == 0 || vertex == nothing) return;
+void SiteMap::put_on_other_levels(std::uint64_t near_levels, std::uint32_t point, std::uint32_t vertex) {
+  if (vertex == nothing) return;
   const auto c = coordinates(point);
   for (std::uint32_t level = 0; level < all_.levels.size(); ++level) {
-    if ((own.near_levels >> level & 1) == 0 || !is_on(level, c)) continue;
+    if ((near_levels >> level & 1) == 0 || !is_on(level, c)) continue;
     if (const std::uint32_t b = all_.find(level, place(level, c)); b != nothing) put(b, place(level, c), vertex);
   }
 }
@@ -136,7 +173,8 @@ void SiteMap::find_neighbors(std::uint32_t b) {
 /// Notes that a block and those of a coarser level are near each other.
 void SiteMap::find_coarser(std::uint32_t b, std::uint32_t coarse) {
   SiteBlock& block = all_.blocks[b];
-  const std::int64_t step = all_.levels[block.level].step, coarse_step = all_.levels[coarse].step;
+  const std::int64_t step = std::int64_t{1} << all_.levels[block.level].log_step;
+  const std::int64_t coarse_step = std::int64_t{1} << all_.levels[coarse].log_step;
   Place low, high;
   for (int k = 0; k < 3; ++k) {
     const std::int64_t least = (std::int64_t{block.at[k]} * SiteBlock::side - margin) * step;
@@ -150,20 +188,24 @@ void SiteMap::find_coarser(std::uint32_t b, std::uint32_t coarse) {
       for (at[0] = low[0]; at[0] <= high[0]; ++at[0]) {
         const std::uint32_t other = all_.levels[coarse].blocks.get(morton_code(at), nothing);
         if (other == nothing) continue;
-        block.near_levels |= std::uint64_t{1} << coarse;
-        all_.blocks[other].near_levels |= std::uint64_t{1} << block.level;
+        note_near_level(block, coarse);
+        note_near_level(all_.blocks[other], block.level);
       }
 }
 
 void SiteMap::discard_shapes_with(std::span<const Point3> others) {
-  for (std::uint32_t i = 0; i < lattice_.points.size(); ++i) {
-    const SiteBlock& own = all_.blocks[block_of_[i]];
-    for (std::uint32_t level = 0; level < own.level; ++level)
-      if ((own.near_levels >> level & 1) != 0 && !is_on(level, coordinates(i)))
-        discard_shapes(level, lattice_.points[i]);
-  }
-  for (const Point3& p : others)
-    for (std::uint32_t level = 0; level < all_.levels.size(); ++level) discard_shapes(level, p);
+  parallel_for(runs_.size(), run_grain, [&](std::size_t r) {
+    const Run& run = runs_[r];
+    const std::uint64_t near_levels = all_.blocks[run.block].near_levels;
+    for (std::uint32_t level = 0; level < run.level; ++level) {
+      if ((near_levels >> level & 1) == 0) continue;
+      for (std::uint32_t i = run.begin; i < run.end; ++i)
+        if (!is_on(level, coordinates(i))) discard_shapes(level, lattice_.points[i]);
+    }
+  });
+  parallel_for(others.size(), 256, [&](std::size_t i) {
+    for (std::uint32_t level = 0; level < all_.levels.size(); ++level) discard_shapes(level, others[i]);
+  });
 }
 
 /// Calls visit(block, low, high) for the parts of a box of places that are in blocks with core shapes.
@@ -187,7 +229,7 @@ void SiteMap::for_blocks_in(std::uint32_t level, const Place& low, const Place& 
 
 /// Shapes of a level with a point in one of their spheres are no longer core.
 void SiteMap::discard_shapes(std::uint32_t level, const Point3& p) {
-  const double scale = 1 / (lattice_.unit * all_.levels[level].step);
+  const double scale = 1 / (lattice_.unit * (1u << all_.levels[level].log_step));
   const Point3 from_origin = p - lattice_.origin;
   const std::array<double, 3> x = {from_origin.x * scale + margin, from_origin.y * scale + margin,
                                    from_origin.z * scale + margin};
@@ -209,11 +251,13 @@ void SiteMap::discard_shapes(SiteBlock& block, const Place& low, const Place& hi
   for (Place p = low; p[2] <= high[2]; ++p[2])
     for (p[1] = low[1]; p[1] <= high[1]; ++p[1])
       for (p[0] = low[0]; p[0] <= high[0]; ++p[0]) {
-        std::uint8_t& flags = block.flags[SiteBlock::place(p[0], p[1], p[2])];
-        if ((flags & core_point) != 0 && is_in_sphere_at(all_.kind, p, x))
-          flags = static_cast<std::uint8_t>(flags & ~core_point);
-        if ((flags & core_cube) != 0 && is_in_sphere_of_cube(p, x))
-          flags = static_cast<std::uint8_t>(flags & ~core_cube);
+        // Several threads may discard shapes of the same block.
+        const std::atomic_ref shapes(block.shapes[SiteBlock::place(p[0], p[1], p[2])]);
+        const std::uint8_t core = shapes.load(std::memory_order_relaxed);
+        std::uint8_t left = core;
+        if ((core & core_point) != 0 && is_in_sphere_at(all_.kind, p, x)) left &= core_cube;
+        if ((core & core_cube) != 0 && is_in_sphere_of_cube(p, x)) left &= core_point;
+        if (left != core) shapes.fetch_and(left, std::memory_order_relaxed);
       }
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/morton.h"
+#include "engine/base/raw_vector.h"
 #include "engine/lattice/place_lattice_points.h"
 
 namespace ccdt::cores {
@@ -15,36 +16,44 @@ using lattice::Lattice;
 
 inline constexpr std::uint32_t nothing = 0xFFFFFFFFu;
 
-/// The flags of a place of a block: of the point there, and of the unit cube with this least corner.
-enum PlaceFlag : std::uint8_t {
-  present = 0x01,     ///< a vertex of the lattice is there
-  deep = 0x02,        ///< that vertex is deep
-  core_point = 0x04,  ///< the shape around the point is core
-  core_cube = 0x08,   ///< the shape in the cube is core
+/// The flags of a site.
+enum SiteFlag : std::uint8_t {
+  present = 0x01,  ///< a vertex of the lattice is there
+  deep = 0x02,     ///< that vertex is deep
+};
+
+/// The flags of the shapes at a place.
+enum ShapeFlag : std::uint8_t {
+  core_point = 0x01,  ///< the shape around the point is core
+  core_cube = 0x02,   ///< the shape in the unit cube with this least corner is core
 };
 
 /// A cube of 8 x 8 x 8 places of one level, x first. A place is a point with whole coordinates in *steps*: half the
 /// side of a lattice cell of the level, or the whole side for the simple cubic lattice.
+///
+/// Threads work on different blocks. No step writes to an array that it also reads in the blocks around.
 struct SiteBlock {
   static constexpr int side = 8;
   static constexpr std::size_t size = 512;
 
   std::array<std::uint32_t, 3> at;        ///< least place / side
   std::uint32_t level;                    ///< index of its `SiteLevel`
-  bool has_core = false;                  ///< is any of its shapes core?
-  std::uint64_t near_levels = 0;          ///< bits: levels with blocks near which vertices of this one may be
+  bool has_core;                          ///< is any of its shapes core?
+  std::uint32_t first_cell, cell_count;   ///< the cells of its shapes are first_cell .. first_cell + cell_count
+  std::uint64_t near_levels;              ///< bits: levels with blocks near which vertices of this one may be
   std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `nothing`: none
   std::array<std::uint32_t, size> point;  ///< at a site: its vertex; elsewhere: the first cell of a shape; or `nothing`
   std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `nothing`
-  std::array<std::uint8_t, size> flags;
-  std::array<std::uint8_t, size> kind;  ///< the split of a shape by the ranks of its vertices
+  std::array<std::uint8_t, size> flags;   ///< `SiteFlag`
+  std::array<std::uint8_t, size> shapes;  ///< `ShapeFlag`
+  std::array<std::uint8_t, size> kind;    ///< the split of a shape by the ranks of its vertices
 
   static std::size_t place(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x + side * (y + side * z); }
 };
 
 /// The lattice of one level of the octree.
 struct SiteLevel {
-  std::uint32_t step = 1;  ///< in octree units
+  unsigned log_step = 0;  ///< a step is 2 to this power octree units
   HashTable<std::uint64_t, std::uint32_t> blocks;
 };
 
@@ -69,7 +78,7 @@ constexpr bool is_site(Lattice kind, const Place& p) {
 struct SiteBlocks {
   Lattice kind = Lattice::fcc;
   std::vector<SiteLevel> levels;  ///< coarse ones first
-  std::vector<SiteBlock> blocks;
+  RawVector<SiteBlock> blocks;
 
   std::uint32_t find(std::uint32_t level, const Place& p) const {
     return levels[level].blocks.get(
@@ -85,7 +94,7 @@ class SiteMap {
  public:
   /// \param lattice  must outlive this
   /// \param vertex   by point of the lattice: its vertex, or `nothing` if it is absent
-  SiteMap(const lattice::LatticePoints& lattice, const std::vector<std::uint32_t>& vertex);
+  SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex);
 
   SiteBlocks& blocks() { return all_; }
   /// Finds core shapes with lattice points of other levels, or any of the other vertices, in their spheres: these are
@@ -93,14 +102,23 @@ class SiteMap {
   void discard_shapes_with(std::span<const Point3> others);
 
  private:
+  /// Points in a row that are in one block.
+  struct Run {
+    std::uint32_t begin, end;  ///< of the points
+    std::uint32_t level;       ///< index of their `SiteLevel`
+    Place at;                  ///< of the block
+    std::uint32_t block;
+  };
+
   void make_levels();
+  void find_runs();
+  void make_blocks();
   Place coordinates(std::uint32_t point) const;
   Place place(std::uint32_t level, const Place& c) const;
   bool is_on(std::uint32_t level, const Place& c) const;
   std::uint32_t level_of(std::uint32_t point, const Place& c) const;
-  std::uint32_t own_block(std::uint32_t level, const Place& p);
   void put(std::uint32_t block, const Place& p, std::uint32_t vertex);
-  void put_on_other_levels(std::uint32_t point, std::uint32_t vertex);
+  void put_on_other_levels(std::uint64_t near_levels, std::uint32_t point, std::uint32_t vertex);
   void find_neighbors(std::uint32_t b);
   void find_coarser(std::uint32_t b, std::uint32_t coarse);
   template <class Visit>
@@ -110,11 +128,8 @@ class SiteMap {
 
   const lattice::LatticePoints& lattice_;
   SiteBlocks all_;
-  std::vector<std::uint32_t> index_;     ///< of a level, by that of the octree
-  std::vector<std::uint32_t> block_of_;  ///< by point
-  // The block of the last point, which is often also that of the next.
-  std::uint32_t last_ = 0, last_level_ = nothing;
-  std::uint64_t last_key_ = 0;
+  std::vector<std::uint32_t> index_;  ///< of a level, by that of the octree
+  std::vector<Run> runs_;
 };
 
 /// A copy of one array of a block, and of the places around it.

@@ -1,7 +1,9 @@
 #include "engine/cores/split_by_rank.h"
 
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <atomic>
+#include <mutex>
 #include <vector>
 
 #include "engine/delaunay/delaunay.h"
@@ -49,7 +51,7 @@ unsigned face_mask(const CellCorners& cell, std::uint32_t f) {
 
 /// \param place  of each corner in the order of the ranks
 CubeSplit split_cube(const std::array<std::uint8_t, 8>& place) {
-  CubeSplit split;
+  CubeSplit split{};  // unused cells are zero, so that equal splits compare equal
   for (std::uint8_t a = 0; a < 8; ++a)
     for (std::uint8_t b = a + 1; b < 8; ++b)
       for (std::uint8_t c = b + 1; c < 8; ++c)
@@ -74,24 +76,45 @@ CubeSplit split_cube(const std::array<std::uint8_t, 8>& place) {
   return split;
 }
 
-/// The kinds by the order of the ranks; each is computed when first needed.
-struct KindTable {
+/// The kinds by the order of the ranks, for all threads; each is computed when first needed.
+class KindTable {
+ public:
+  KindTable() : kind_of_order_(40320) {
+    for (auto& kind : kind_of_order_) kind = unknown;
+  }
+
+  /// \param order  the number of the order of the ranks
+  /// \param place  of each corner in that order
+  std::uint8_t kind(std::size_t order, const std::array<std::uint8_t, 8>& place) {
+    std::atomic<std::uint8_t>& its = kind_of_order_[order];
+    std::uint8_t kind = its.load(std::memory_order_acquire);
+    if (kind == unknown) {
+      kind = find(split_cube(place));
+      its.store(kind, std::memory_order_release);
+    }
+    return kind;
+  }
+  const CubeSplit& split(std::uint8_t kind) const { return splits_[kind]; }
+
+ private:
   static constexpr std::uint8_t unknown = 0xFF;
 
-  std::vector<std::uint8_t> kind_of_order = std::vector<std::uint8_t>(40320, unknown);
-  std::vector<std::unique_ptr<CubeSplit>> kinds;
-
-  std::uint8_t find(const std::array<std::uint8_t, 8>& place) {
-    const auto split = std::make_unique<CubeSplit>(split_cube(place));
-    for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (kinds[k]->count == split->count && kinds[k]->cells == split->cells) return static_cast<std::uint8_t>(k);
-    kinds.push_back(std::make_unique<CubeSplit>(*split));
-    return static_cast<std::uint8_t>(kinds.size() - 1);
+  std::uint8_t find(const CubeSplit& split) {
+    const std::lock_guard lock(mutex_);
+    for (std::uint8_t k = 0; k < count_; ++k)
+      if (splits_[k].count == split.count && splits_[k].cells == split.cells) return k;
+    splits_[count_] = split;
+    return count_++;
   }
+
+  std::vector<std::atomic<std::uint8_t>> kind_of_order_;
+  std::array<CubeSplit, most_kinds> splits_;
+  std::uint8_t count_ = 0;
+  std::mutex mutex_;
 };
 
 KindTable& table() {
-  thread_local KindTable kinds;
+  static KindTable kinds;
   return kinds;
 }
 
@@ -109,14 +132,11 @@ std::uint8_t kind_of_cube(const std::array<std::uint32_t, 8>& ranks) {
     }
     order = order * (i + 1) + less_before;
   }
-  KindTable& kinds = table();
-  std::uint8_t& kind = kinds.kind_of_order[order];
-  if (kind == KindTable::unknown) kind = kinds.find(place);
-  return kind;
+  return table().kind(order, place);
 }
 
 const CubeSplit& split_of_kind(std::uint8_t kind) {
-  return *table().kinds[kind];
+  return table().split(kind);
 }
 
 }  // namespace ccdt::cores

@@ -49,10 +49,12 @@ struct CubeSplit {
   static constexpr std::uint8_t outer_face = 0xFF;
 };
 
-/// How ranks split a cube.
+inline constexpr std::size_t most_kinds = 70;
+
+/// How ranks split a cube. Several threads may ask at the same time.
 ///
 /// \param ranks  of its corners, all different
-/// \return       for `split_of_kind`; at most 74 different ones
+/// \return       for `split_of_kind`, less than `most_kinds`
 std::uint8_t kind_of_cube(const std::array<std::uint32_t, 8>& ranks);
 
 const CubeSplit& split_of_kind(std::uint8_t kind);

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <random>
+#include <set>
 
 #include "engine/base/parallel.h"
+#include "engine/cores/split_by_rank.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
@@ -93,6 +96,28 @@ TEST(Threads, MakeOneDelaunayTetrahedralization) {
   }
 }
 
+// ---- Splits of cubes
+
+TEST(Threads, ShareOneTableOfTheSplitsOfCubes) {
+  std::vector<std::array<std::uint32_t, 8>> orders;
+  std::array<std::uint32_t, 8> ranks{};
+  std::iota(ranks.begin(), ranks.end(), 0u);
+  do orders.push_back(ranks);
+  while (std::ranges::next_permutation(ranks).found);
+  if (is_sanitized) orders.resize(2000);
+  std::vector<std::uint8_t> kinds(orders.size());
+  with_threads(4, [&] {
+    parallel_for(orders.size(), 16, [&](std::size_t i) { kinds[i] = cores::kind_of_cube(orders[i]); });
+    return true;
+  });
+  for (std::size_t i = 0; i < orders.size(); ++i) ASSERT_EQ(cores::kind_of_cube(orders[i]), kinds[i]);
+  const std::set<std::uint8_t> different(kinds.begin(), kinds.end());
+  EXPECT_LE(different.size(), cores::most_kinds);
+  if (!is_sanitized) {
+    EXPECT_EQ(different.size(), cores::most_kinds);
+  }
+}
+
 // ---- Meshes
 
 void expect_same_bytes(const TetMesh& a, const TetMesh& b) {
@@ -106,10 +131,11 @@ void expect_same_bytes(const TetMesh& a, const TetMesh& b) {
   EXPECT_EQ(a.constrained_delaunay, b.constrained_delaunay);
 }
 
-void expect_one_mesh(const std::string& name, const InputPlc& input, MeshOptions options) {
+/// \return  what one thread makes
+MeshResult expect_one_mesh(const std::string& name, const InputPlc& input, MeshOptions options) {
   SCOPED_TRACE(name);
   options.threads = 1;
-  const MeshResult one = mesh_plc(input, options);
+  MeshResult one = mesh_plc(input, options);
   EXPECT_FALSE(one.mesh.tetrahedra.empty());
   for (const unsigned threads : several_threads) {
     SCOPED_TRACE(std::to_string(threads) + " threads");
@@ -119,7 +145,9 @@ void expect_one_mesh(const std::string& name, const InputPlc& input, MeshOptions
     // Vertices are inserted in another order, but otherwise several threads do what one does.
     EXPECT_TRUE(one.work.plc == several.work.plc);
     EXPECT_TRUE(one.work.improve == several.work.improve);
+    EXPECT_EQ(one.counts.core_tetrahedra, several.counts.core_tetrahedra);
   }
+  return one;
 }
 
 struct Case {
@@ -154,6 +182,20 @@ TEST(Threads, MakeOneMesh) {
     options.lattice = Lattice::none;
     expect_one_mesh(c.name + ", surface alone", c.input, options);
   }
+}
+
+/// So many vertices are around the core that several threads insert these, too.
+TEST(Threads, MakeOneCoreOfEachLattice) {
+  const double edge_length = is_sanitized ? 0.085 : 0.06;
+  const InputPlc sphere = models::make_solid("sphere", edge_length);
+  for (const Lattice lattice : {Lattice::fcc, Lattice::bcc, Lattice::sc})
+    for (const double grading : {0.0, 0.3}) {
+      MeshOptions options;
+      options.lattice = lattice, options.grading = grading;
+      options.delaunay = DelaunayMethod::core, options.least_core = 0;
+      const std::string name = "lattice " + std::string(name_of(lattice)) + ", grading " + std::to_string(grading);
+      EXPECT_GT(expect_one_mesh(name, sphere, options).counts.core_tetrahedra, 0u) << name;
+    }
 }
 
 /// Its remeshed facets are flat only within the tolerance, and follow the faces of the tetrahedralization.
