@@ -156,6 +156,13 @@ std::vector<std::uint32_t> apply_change(improve::CellComplex& x, const improve::
   return made;
 }
 
+LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh) {
+  constexpr auto none = delaunay::no_neighbor;
+  LargeVector<delaunay::Cell> cells;
+  for (const Tetrahedron& t : mesh.tetrahedra) cells.push_back({t, {none, none, none, none}});
+  return cells;
+}
+
 improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal) {
   for (Tetrahedron& t : model.cells) orient(model.points, t);
   add_boundary(model);
@@ -165,10 +172,7 @@ improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal) {
   mesh.faces = model.faces;
   mesh.edges = model.segments;
   const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
-  constexpr auto none = delaunay::no_neighbor;
-  LargeVector<delaunay::Cell> cells;
-  for (const Tetrahedron& t : mesh.tetrahedra) cells.push_back({t, {none, none, none, none}});
-  return improve::CellComplex(mesh, std::move(cells), model.points, model.facet_of_face, first_interior, goal);
+  return improve::CellComplex(mesh, unjoined_cells(mesh), model.points, model.facet_of_face, first_interior, goal);
 }
 
 Invariants invariants_of(const improve::CellComplex& x) {

@@ -34,6 +34,9 @@ std::vector<Point3> points_of(const improve::CellComplex& complex);
 /// \return the new cells
 std::vector<std::uint32_t> apply_change(improve::CellComplex& complex, const improve::Change& change);
 
+/// The tetrahedra of a mesh as cells without neighbors.
+LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh);
+
 improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal);
 
 /// Exact sums, which stay the same as long as the same space is filled once and the facets keep their orientation.
