@@ -79,7 +79,7 @@ void parallel_for(std::size_t count, std::size_t grain, const Work& work) {
   });
 }
 
-/// Calls two functions, on two threads if there are several.
+/// Calls two functions, on two threads if there are several; the first one on the thread of the caller.
 ///
 /// \throw ...  what the first one throws, or else the second
 template <class First, class Second>

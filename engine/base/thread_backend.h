@@ -101,7 +101,7 @@ inline void pause_at_random() {
 
 template <class Work>
 void for_ranges(std::size_t size, std::size_t grain, const Work& work) {
-  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> next = grain;  // the first range is the caller's, as with oneTBB
   std::atomic<bool> stop = false;
   std::exception_ptr failure;
   std::mutex mutex;
@@ -110,7 +110,8 @@ void for_ranges(std::size_t size, std::size_t grain, const Work& work) {
     number = thread;
     canceled = &stop;
     try {
-      for (std::size_t begin = next.fetch_add(grain); begin < size && !stop; begin = next.fetch_add(grain)) {
+      for (std::size_t begin = thread == 0 ? 0 : next.fetch_add(grain); begin < size && !stop;
+           begin = next.fetch_add(grain)) {
         if (are_several) pause_at_random();
         work(begin, std::min(begin + grain, size));
       }
