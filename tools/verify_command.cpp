@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -39,7 +40,17 @@ bool run(const VerifyCommand& command) {
       input = io::read_plc(command.input);
       if (auto triangulated = plc::triangulate_bent_facets(input)) input = std::move(*triangulated);
     };
-    parallel_both(read_input, [&] { mesh = io::read_tet_mesh(command.mesh); });
+    std::exception_ptr bad_mesh;  // what is wrong with the input comes first
+    const auto read_mesh = [&] {
+      try {
+        mesh = io::read_tet_mesh(command.mesh);
+      } catch (...) {
+        bad_mesh = std::current_exception();
+      }
+    };
+    // The caller's thread reads the mesh, because it can use the memory again that this takes.
+    parallel_both(read_mesh, read_input);
+    if (bad_mesh) std::rethrow_exception(bad_mesh);
     verification = verify::verify(input, mesh, command.options, bar.progress());
   }
   const std::string text = command.details ? reports::to_terminal(verification) : reports::summarize(verification);
