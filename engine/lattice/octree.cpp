@@ -161,29 +161,54 @@ class Builder {
 
   /// The neighbors of a split node must exist at its level; otherwise a leaf would meet one that is two levels coarser.
   void balance() {
-    std::vector<std::vector<std::uint32_t>> split_nodes(tree_.depth + 1);
+    std::vector<Nodes> split_nodes(tree_.depth + 1);
     for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
       if (!tree_.nodes[i].is_leaf()) split_nodes[tree_.nodes[i].level].push_back(i);
     }
     for (unsigned level = tree_.depth; level > 0; --level) {
-      for (std::uint32_t i : split_nodes[level]) {
-        for (int neighbor = 0; neighbor < 27; ++neighbor) {
-          const int step[] = {neighbor % 3 - 1, neighbor / 3 % 3 - 1, neighbor / 9 - 1};
-          const OctreeNode& node = tree_.nodes[i];
-          std::array<std::uint32_t, 3> corner;
-          // Below 0 wraps around to a large number.
-          for (int k = 0; k < 3; ++k)
-            corner[k] = node.corner[k] + static_cast<std::uint32_t>(step[k]) * tree_.side(node);
-          require(corner, level, split_nodes);
-        }
-      }
+      // Only coarser nodes are split from now on, by one thread. Several threads first look for what makes it split
+      // some.
+      Nodes nodes = std::move(split_nodes[level]);
+      if (thread_count() > 1) nodes = without_all_neighbors(nodes, level);
+      for (const std::uint32_t i : nodes)
+        for (int neighbor = 0; neighbor < 27; ++neighbor)
+          require(corner_of_neighbor(tree_.nodes[i], neighbor), level, split_nodes);
     }
   }
 
  private:
+  using Nodes = std::vector<std::uint32_t>;
+
+  /// \param neighbor  0 .. 26, x first; 13 is the node itself
+  std::array<std::uint32_t, 3> corner_of_neighbor(const OctreeNode& node, int neighbor) const {
+    const int step[] = {neighbor % 3 - 1, neighbor / 3 % 3 - 1, neighbor / 9 - 1};
+    std::array<std::uint32_t, 3> corner;
+    // Below 0 wraps around to a large number.
+    for (int k = 0; k < 3; ++k) corner[k] = node.corner[k] + static_cast<std::uint32_t>(step[k]) * tree_.side(node);
+    return corner;
+  }
+
+  /// The nodes of a level next to a leaf that must be split, in the same order.
+  Nodes without_all_neighbors(const Nodes& nodes, unsigned level) const {
+    return parallel_collect<std::uint32_t>(nodes.size(), 256, [&](std::size_t i, std::size_t end, Nodes& found) {
+      for (; i < end; ++i) {
+        int neighbor = 0;
+        while (neighbor < 27 && exists(corner_of_neighbor(tree_.nodes[nodes[i]], neighbor), level)) ++neighbor;
+        if (neighbor < 27) found.push_back(nodes[i]);
+      }
+    });
+  }
+
+  /// Is there a node with this corner at the level, or need there be none?
+  bool exists(const std::array<std::uint32_t, 3>& corner, unsigned level) const {
+    if (std::ranges::max(corner) >= tree_.side(tree_.nodes[0])) return true;
+    std::uint32_t i = 0;
+    while (tree_.nodes[i].level < level && !tree_.nodes[i].is_leaf()) i = tree_.child_at(tree_.nodes[i], corner);
+    return tree_.nodes[i].level >= level || tree_.nodes[i].place == NodePlace::outside;
+  }
+
   /// Splits nodes until one with this corner exists at the level.
-  void require(const std::array<std::uint32_t, 3>& corner, unsigned level,
-               std::vector<std::vector<std::uint32_t>>& split_nodes) {
+  void require(const std::array<std::uint32_t, 3>& corner, unsigned level, std::vector<Nodes>& split_nodes) {
     if (std::ranges::max(corner) >= tree_.side(tree_.nodes[0])) return;
     for (std::uint32_t i = 0; tree_.nodes[i].level < level;) {
       if (tree_.nodes[i].is_leaf()) {
