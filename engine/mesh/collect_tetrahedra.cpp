@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -48,9 +48,18 @@ unsigned arrangement_of(const Tetrahedron& t) {
   return 3 * first + (d < std::min(b, c) ? 2 : second);
 }
 
-Tetrahedron arranged(const Tetrahedron& t) {
+/// A tetrahedron among those with the same least vertex. They are compared by few large numbers, which is fast.
+struct BucketEntry {
+  std::uint64_t second_and_third;  ///< vertices
+  std::uint32_t fourth;
+  std::uint32_t source;
+
+  auto operator<=>(const BucketEntry&) const = default;
+};
+
+BucketEntry entry_of(const Tetrahedron& t, std::uint32_t source) {
   const auto& [a, b, c, d] = even_arrangements[arrangement_of(t)].corners;
-  return {t[a], t[b], t[c], t[d]};
+  return {std::uint64_t{t[b]} << 32 | t[c], t[d], source};
 }
 
 std::uint32_t least_vertex(const Tetrahedron& t) {
@@ -124,18 +133,21 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
   parallel_ranges(vertices, grain, [&](std::size_t v, std::size_t end) {
     constexpr std::size_t ahead = 16;  // cells of a bucket are far apart, so memory is asked for them early
     const std::size_t last = buckets.ends[end - 1];
-    std::vector<std::pair<Tetrahedron, std::uint32_t>> bucket;
+    std::vector<BucketEntry> bucket;
     for (; v < end; ++v) {
       bucket.clear();
       const std::size_t first = v == 0 ? 0 : buckets.ends[v - 1];
       for (std::size_t i = first; i < buckets.ends[v]; ++i) {
         if (i + ahead < last) __builtin_prefetch(&parts[sources[i + ahead]]);
-        bucket.emplace_back(arranged(parts[sources[i]]), sources[i]);
+        bucket.push_back(entry_of(parts[sources[i]], sources[i]));
       }
       std::ranges::sort(bucket);
       for (std::size_t i = 0; i < bucket.size(); ++i) {
-        std::tie(mesh.tetrahedra[first + i], sources[first + i]) = bucket[i];
-        mesh.regions[first + i] = parts.attribute(bucket[i].second);
+        const auto& [second_and_third, fourth, source] = bucket[i];
+        mesh.tetrahedra[first + i] = {static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(second_and_third >> 32),
+                                      static_cast<std::uint32_t>(second_and_third), fourth};
+        mesh.regions[first + i] = parts.attribute(source);
+        sources[first + i] = source;
       }
     }
   });
@@ -151,7 +163,7 @@ LargeVector<Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<Ce
   constexpr Tetrahedron no_neighbors = {no_neighbor, no_neighbor, no_neighbor, no_neighbor};
   constexpr std::uint32_t not_in_mesh = delaunay::no_cell;
   std::vector<std::uint32_t> tetrahedron_of(cell_count, not_in_mesh);
-  RawVector<std::uint8_t> arrangements(cell_count);
+  std::vector<std::uint8_t> arrangements(cell_count);
   parallel_for(count, grain, [&](std::size_t i) {
     if (sources[i] < cell_count) tetrahedron_of[sources[i]] = static_cast<std::uint32_t>(i);
   });
@@ -163,15 +175,13 @@ LargeVector<Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<Ce
   // are close in the order of the Delaunay cells, so this is the order of the search.
   parallel_for(cell_count, grain, [&](std::size_t c) {
     if (tetrahedron_of[c] == not_in_mesh) return;
-    Tetrahedron neighbors = no_neighbors;
+    Tetrahedron& neighbors = cells[tetrahedron_of[c]].vertices;
     const auto& places = even_arrangements[arrangements[c]].places;
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cells[c].neighbors[f], other = tetrahedron_of[cell_of(code)];
-      if (other == not_in_mesh) continue;
       const auto& places_there = even_arrangements[arrangements[cell_of(code)]].places;
-      neighbors[places[f]] = face_code(other, places_there[face_of(code)]);
+      neighbors[places[f]] = other == not_in_mesh ? no_neighbor : face_code(other, places_there[face_of(code)]);
     }
-    cells[tetrahedron_of[c]].vertices = neighbors;
   });
   parallel_for(count, grain, [&](std::size_t i) {
     const bool is_of_front = sources[i] >= cell_count;
