@@ -1,11 +1,9 @@
+#include <array>
 #include <atomic>
-#include <bit>
 #include <stdexcept>
 
 #include "engine/base/count_work.h"
-#include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
-#include "engine/base/raw_vector.h"
 #include "engine/base/simplex_map.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/insert_vertices.h"
@@ -25,58 +23,16 @@ bool same_direction(const std::array<std::uint32_t, 3>& a, const std::array<std:
   return a == b || (a[0] == b[1] && a[1] == b[2] && a[2] == b[0]) || (a[0] == b[2] && a[1] == b[0] && a[2] == b[1]);
 }
 
-/// The codes of the faces of the core's border, by their corners. Several threads may add faces at the same time, and
-/// find them later.
-class BorderFaces {
- public:
-  explicit BorderFaces(std::size_t size) : size_(size), entries_(std::bit_ceil(2 * size + 1)) {
-    parallel_for(entries_.size(), 4096, [&](std::size_t i) { entries_[i].code = nothing; });
-  }
-
-  std::size_t size() const { return size_; }
-
-  /// \param key  of a face that has not been added
-  void add(const FaceKey& key, std::uint32_t code) {
-    std::size_t i = home(key);
-    for (std::uint32_t empty = nothing; !std::atomic_ref(entries_[i].code).compare_exchange_strong(empty, code);
-         empty = nothing)
-      i = next(i);
-    entries_[i].key = key;
-  }
-
-  /// \return  `nothing`: there is no such face
-  std::uint32_t find(const FaceKey& key) const {
-    std::size_t i = home(key);
-    while (entries_[i].code != nothing && !is_same_key(entries_[i].key, key)) i = next(i);
-    return entries_[i].code;
-  }
-
- private:
-  struct Entry {
-    FaceKey key;
-    std::uint32_t code;
-  };
-
-  std::size_t home(const FaceKey& key) const { return HashTraits<FaceKey>::hash(key) & (entries_.size() - 1); }
-  std::size_t next(std::size_t i) const { return (i + 1) & (entries_.size() - 1); }
-
-  std::size_t size_;
-  RawVector<Entry> entries_;  ///< a hash table with linear probing, at least half of it empty
-};
-
 class Joiner {
  public:
   Joiner(Delaunay& d, std::uint32_t outer_cells, const std::vector<std::uint32_t>& border)
-      : d_(d),
-        outer_cells_(outer_cells),
-        walls_(outer_cells, 0),
-        on_border_(d.vertices.size(), 0),
-        faces_(border.size()) {
+      : d_(d), outer_cells_(outer_cells), border_(border), walls_(outer_cells, 0), on_border_(d.vertices.size(), 0) {
+    std::vector<std::array<std::uint32_t, 3>> faces(border.size());
     parallel_for(border.size(), 4096, [&](std::size_t i) {
-      const auto face = corners(border[i]);
-      faces_.add(face_key(face[0], face[1], face[2]), border[i]);
-      for (const std::uint32_t v : face) std::atomic_ref(on_border_[v]).store(1, std::memory_order_relaxed);
+      faces[i] = corners(border[i]);
+      for (const std::uint32_t v : faces[i]) std::atomic_ref(on_border_[v]).store(1, std::memory_order_relaxed);
     });
+    faces_ = FaceMap(faces, d.vertices.size());
   }
 
   void run() {
@@ -88,7 +44,7 @@ class Joiner {
             if (!d_.is_dead(c)) joined += find_border(c, found);
           outside += joined;
         });
-    if (outside != faces_.size() || inside.empty() != (faces_.size() == 0))
+    if (outside != border_.size() || inside.empty() != border_.empty())
       throw std::logic_error("the core of the lattice does not fit into the tetrahedralization around it");
     spread(inside);
     parallel_for(inside.size(), 4096, [&](std::size_t i) { d_.cells[inside[i]].neighbors[0] = no_neighbor; });
@@ -115,8 +71,9 @@ class Joiner {
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (others == 1 && is_on_border(v[f])) continue;
       const auto face = corners_of_face(v, f);
-      const std::uint32_t code = faces_.find(face_key(face[0], face[1], face[2]));
-      if (code == nothing) continue;
+      const std::uint32_t number = faces_.find(face[0], face[1], face[2]);
+      if (number == FaceMap::none) continue;
+      const std::uint32_t code = border_[number];
       walls_[c] |= static_cast<std::uint8_t>(1u << f);
       if (same_direction(face, corners(code))) {
         is_inside = true;
@@ -159,9 +116,10 @@ class Joiner {
 
   Delaunay& d_;
   const std::uint32_t outer_cells_;
-  std::vector<std::uint8_t> walls_;      ///< by cell: faces on the border; must it be removed?
-  std::vector<std::uint8_t> on_border_;  ///< by vertex
-  BorderFaces faces_;
+  const std::vector<std::uint32_t>& border_;  ///< codes of faces
+  std::vector<std::uint8_t> walls_;           ///< by cell: faces on the border; must it be removed?
+  std::vector<std::uint8_t> on_border_;       ///< by vertex
+  FaceMap faces_;                             ///< of the border
 };
 
 /// Puts the core into the tetrahedralization of the other vertices. A flood fill from the core's border removes the old
