@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <utility>
 
 #include "baselines/external_program.h"
 #include "baselines/known_meshers.h"
+#include "baselines/mesher_description.h"
 #include "baselines/mesher_input.h"
 #include "baselines/tests/shapes.h"
 #include "engine/base/digits.h"
@@ -213,6 +215,33 @@ TEST(GmshDelaunay, RefinesAndOptimizesAsAsked) {
   EXPECT_GT(fine, 2 * coarse);
   options.lattice = Lattice::none;
   EXPECT_LT(count(), coarse);
+}
+
+// HXT keeps the number of a surface and loses its physical group. A stand-in does the same to one tetrahedron.
+TEST(Hxt, KeepsFaceMarkers) {
+  if (!baselines::find_on_path("gmsh")) GTEST_SKIP() << "the program gmsh is not installed";
+  const baselines::TemporaryFolder folder;
+  const auto program = folder.path() / "tetMesh_CLI";
+  std::ofstream(program) << R"sh(#!/bin/sh
+for file; do input=$output; output=$file; done
+awk '
+  /^[$]EndElements/ { print count + 1, 4, 2, 0, 1, 1, 2, 3, 4 }
+  $2 == 2 && NF == 8 { $4 = 0 }
+  expects_count { count = $1; $1 = count + 1 }
+  { expects_count = /^[$]Elements/; print }
+' "$input" > "$output"
+)sh";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  baselines::MesherDescription description = baselines::read_mesher_description(described("hxt"));
+  description.environment = {{"PATH", folder.path().string() + ":" + std::getenv("PATH")}};
+  InputPlc plc;
+  plc.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  plc.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  plc.triangle_markers = {7, 8, 9, 10};
+  std::vector<int> markers =
+      baselines::described_mesher(description).run(plc, unimproved(), {}).result.mesh.face_markers;
+  std::ranges::sort(markers);
+  EXPECT_EQ(markers, plc.triangle_markers);
 }
 
 }  // namespace
