@@ -151,14 +151,16 @@ std::size_t CellComplex::bytes() const {
          segments_.bytes() + face_table_.bytes();
 }
 
-void CellComplex::open_hull(const Change& change, CellMarks& marks) {
+void CellComplex::open_hull(const Change& change) {
   open_.clear();
-  marks.clear(cells_.size());
-  for (const std::uint32_t c : change.old_cells) marks.mark(c);
+  // The old cells are few: comparing a neighbor with all of them costs less than marks in another array.
+  const auto is_old = [&](std::uint32_t cell) {
+    return std::ranges::find(change.old_cells, cell) != change.old_cells.end();
+  };
   for (const std::uint32_t c : change.old_cells) {
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t outside = cells_[c].neighbors[f];
-      if (outside != no_neighbor && marks.is_marked(cell_of(outside))) continue;
+      if (outside != no_neighbor && is_old(cell_of(outside))) continue;
       open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
     }
   }
@@ -220,7 +222,7 @@ void CellComplex::flip_walls(const FacetFlip& flip) {
   face_table_.insert(face_key(flip.b, flip.c, flip.d), second);
 }
 
-void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made) {
+void CellComplex::apply(const Change& change, std::vector<std::uint32_t>& made) {
   if (change.new_vertex) {
     points_.push_back(*change.new_vertex);
     cell_at_.push_back(no_neighbor);
@@ -228,7 +230,7 @@ void CellComplex::apply(const Change& change, CellMarks& marks, std::vector<std:
   }
   work_done.cells_destroyed += change.old_cells.size();
   work_done.cells_created += change.new_cells.size();
-  open_hull(change, marks);
+  open_hull(change);
   free_cells(change.old_cells);
   made.clear();
   for (const NewCell& cell : change.new_cells) {

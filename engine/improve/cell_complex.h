@@ -130,9 +130,8 @@ class CellComplex {
   std::size_t bytes() const;
 
   /// Applies a change whose cells are all positive. Interior vertices without new cells are removed.
-  /// \param marks  working memory
-  /// \param made   the new cells
-  void apply(const Change& change, CellMarks& marks, std::vector<std::uint32_t>& made);
+  /// \param made  the new cells
+  void apply(const Change& change, std::vector<std::uint32_t>& made);
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
@@ -151,7 +150,7 @@ class CellComplex {
   void join_open_faces();
   void find_walls();
   void find_last_cells();
-  void open_hull(const Change& change, CellMarks& marks);
+  void open_hull(const Change& change);
   void free_cells(const std::vector<std::uint32_t>& cells);
   std::uint32_t take_place();
   void set_wall(std::uint32_t code);

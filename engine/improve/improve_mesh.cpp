@@ -1,6 +1,7 @@
 #include "engine/improve/improve_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -32,6 +33,12 @@ struct BadCell {
 /// After this many failed attempts, a cell is given up. More attempts would cost 50% more time to fix one more percent
 /// of the bad cells.
 constexpr int most_tries = 3;
+
+/// A cell of the window.
+struct Trial {
+  BadCell bad;
+  std::array<std::uint32_t, 8> near;  ///< `vertices_near` it
+};
 
 /// What was found for a bad cell.
 struct Attempt {
@@ -153,7 +160,7 @@ class Improver {
       return;
     }
     for (const std::uint32_t v : near) window_near_[v] = window_number_;
-    window_.push_back(bad);
+    window_.push_back({bad, near});
   }
 
   /// Tries the cells of the window in their order. One that was disturbed by a change in the same window waits. So each
@@ -164,10 +171,10 @@ class Improver {
     const bool is_shared = finders_.size() > 1 && window_.size() >= least_shared;
     if (is_shared) find_steps(effort);
     for (std::size_t i = 0; i < window_.size(); ++i) {
-      BadCell& bad = window_[i];
+      auto& [bad, near] = window_[i];
       if (is_stale(bad)) continue;
       Attempt& attempt = attempts_[is_shared ? i : 0];
-      bool waits = std::ranges::any_of(vertices_near(x_, bad.cell), is_disturbed);
+      bool waits = std::ranges::any_of(near, is_disturbed);
       if (!waits && !is_shared) find_step(finders_[0], bad, effort, attempt);
       waits = waits || std::ranges::any_of(attempt.step.far_vertices, is_disturbed);
       if (waits) {
@@ -185,7 +192,7 @@ class Improver {
     parallel_for(finders_.size(), 1, [&](std::size_t f) {
       for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < window_.size();
            i = next.fetch_add(1, std::memory_order_relaxed)) {
-        find_step(finders_[f], window_[i], effort, attempts_[i]);
+        find_step(finders_[f], window_[i].bad, effort, attempts_[i]);
       }
     });
   }
@@ -222,7 +229,7 @@ class Improver {
     // Others may have been inserted since the change was planned.
     if (change.new_vertex)
       for (NewCell& cell : change.new_cells) cell.vertices[3] = static_cast<std::uint32_t>(x_.vertex_count());
-    x_.apply(change, marks_, new_cells_);
+    x_.apply(change, new_cells_);
     for (const std::uint32_t c : new_cells_) add_bad(c, found_);
   }
 
@@ -242,7 +249,7 @@ class Improver {
   ImproveCounts counts_;
   std::vector<BadCell> queue_, found_;  ///< of this pass, the worst first; of the next pass
   std::size_t next_ = 0;                ///< of the queue
-  std::vector<BadCell> window_;         ///< those that are tried together
+  std::vector<Trial> window_;           ///< those that are tried together
   std::vector<BadCell> waiting_;        ///< those that come first in the next window
   std::uint32_t window_number_ = 0;
   std::vector<std::uint32_t> window_near_;  ///< of each vertex: the last window with a cell close to it
@@ -251,7 +258,6 @@ class Improver {
   std::vector<StepFinder> finders_;  ///< one for each thread
   std::vector<Attempt> attempts_;
   std::vector<BadCell> returning_;
-  CellMarks marks_;
   std::vector<std::uint32_t> new_cells_, good_cells_;
 };
 

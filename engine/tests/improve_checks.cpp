@@ -150,9 +150,8 @@ std::vector<Point3> points_of(const improve::CellComplex& x) {
 }
 
 std::vector<std::uint32_t> apply_change(improve::CellComplex& x, const improve::Change& change) {
-  improve::CellMarks marks;
   std::vector<std::uint32_t> made;
-  x.apply(change, marks, made);
+  x.apply(change, made);
   return made;
 }
 
