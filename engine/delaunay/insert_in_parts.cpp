@@ -110,7 +110,7 @@ std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<con
                                                         CellPool& pool, SharedProgress& progress) {
   std::uint32_t last = start_[part];
   if (last == no_cell) return {vertices.begin(), vertices.end()};
-  Insertion insertion(d_, marks_, pool);
+  Insertion insertion(d_, marks_, {part_, part}, pool);
   std::vector<std::uint32_t> waiting;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i % report_every == report_every - 1 && !progress.add(report_every)) break;
@@ -118,6 +118,7 @@ std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<con
       last = insertion.fill_cavity();
     } else {
       insertion.discard_cavity();
+      last = insertion.reached();
       waiting.push_back(vertices[i]);
     }
   }

@@ -19,8 +19,9 @@ namespace ccdt::delaunay {
 /// Planes cut space into parts. A cell belongs to a part if all its finite vertices do; otherwise it is shared. A
 /// thread inserts the vertices of one part. It removes only cells of its part, and all cells that it makes belong to
 /// its part too, because the border of its cavities has no other vertices. Shared cells stay: all threads may read
-/// their vertices, and each of their neighbor codes is written only by the one part that has the face. A vertex whose
-/// cavity would contain a shared cell waits, and is tried again with other parts.
+/// their vertices, and each of their neighbor codes is written only by the one part that has the face. So a thread may
+/// walk through them, and back into its part. A vertex whose cavity would contain a shared cell waits, and is tried
+/// again with other parts.
 ///
 /// The Delaunay tetrahedralization is unique, so its cells do not depend on the parts or the threads. The order of the
 /// cells does.
@@ -40,7 +41,7 @@ class PartedInsertion {
   static std::size_t most_cells(std::size_t vertices);
 
  private:
-  using Part = std::uint16_t;
+  using Part = InsertionParts::Part;
 
   void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
   void mark_cells();

@@ -20,8 +20,8 @@ constexpr std::uint8_t no_local = InsertionMarks::no_local;
 
 Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), marks_(own_marks_), table_(table_side * table_side) {}
 
-Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, CellPool& pool)
-    : d_(delaunay), marks_(marks), pool_(&pool), table_(table_side * table_side) {}
+Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool)
+    : d_(delaunay), marks_(marks), parts_(parts), pool_(&pool), table_(table_side * table_side) {}
 
 bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   v_ = v;
@@ -33,7 +33,7 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
     if (marks_.local.size() < d_.vertices.size()) marks_.local.resize(d_.vertices.capacity(), no_local);
   }
   const unsigned turn = turn_;
-  const std::uint32_t first = walk(p_, start);
+  const std::uint32_t first = reached_ = walk(p_, start);
   work_done.walk_steps += turn_ - turn;
   if (marks_.cells[first] == Mark::shared) return false;
   for (const std::uint32_t corner : d_.cells[first].vertices) {
@@ -113,21 +113,22 @@ std::uint32_t Insertion::fill_cavity() {
   return some;
 }
 
-/// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell. The
-/// first face to try changes from step to step, so that the walk does not favor a side.
+/// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell from
+/// where it would get to cells of another part. The first face to try changes from step to step, so that the walk does
+/// not favor a side.
 std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   std::uint32_t from = no_neighbor;
   while (true) {
-    if (pool_ != nullptr && marks_.cells[here] == Mark::shared) return here;
+    const bool is_shared = pool_ != nullptr && marks_.cells[here] == Mark::shared;
     const Cell& cell = d_.cells[here];
     if (cell.vertices[3] == ghost_vertex) return here;
     std::uint32_t exit = 4;
     ++turn_;
     for (std::uint32_t k = 0; k < 4 && exit == 4; ++k) {
       const std::uint32_t f = (turn_ + k) & 3;
-      if (cell.neighbors[f] == from) continue;
       const auto [a, b, c] = corners_of_face(cell.vertices, f);
+      if ((is_shared && !parts_.may_cross(a, b, c)) || cell.neighbors[f] == from) continue;
       if (numbers::orient3d(d_.point(a), d_.point(b), d_.point(c), p) < 0) exit = f;
     }
     if (exit == 4) return here;

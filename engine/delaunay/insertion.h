@@ -38,6 +38,21 @@ struct InsertionMarks {
   std::vector<std::uint8_t> local;  ///< by vertex: its number among those of the cavity's border; `no_local`: none
 };
 
+/// The parts of space in which several insert at the same time.
+struct InsertionParts {
+  using Part = std::uint16_t;
+
+  std::span<const Part> of_vertex;
+  Part own;
+
+  /// Is the cell behind this face of a shared cell certain to be shared or of the own part? If not, another thread may
+  /// be replacing it.
+  bool may_cross(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const Part part = of_vertex[a];
+    return part == own || of_vertex[b] != part || of_vertex[c] != part;
+  }
+};
+
 /// Places for new cells, for several insertions at the same time.
 struct CellPool {
   static constexpr std::uint32_t chunk = 512;
@@ -55,7 +70,8 @@ class Insertion {
   /// except for the codes of its own faces.
   ///
   /// \param marks  of all cells and vertices, places of the pool included
-  Insertion(Delaunay& delaunay, InsertionMarks& marks, CellPool& pool);
+  /// \param parts  of the vertices in the tetrahedralization
+  Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool);
 
   /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
   /// \param start  a cell to start the walk; the nearer, the faster
@@ -67,6 +83,8 @@ class Insertion {
   std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
   std::span<const CavityFace> cavity_faces() const { return border_.items(); }
   std::uint32_t twin() const { return twin_; }
+  /// The cell where the walk ended.
+  std::uint32_t reached() const { return reached_; }
   bool in_cavity(std::uint32_t cell) const { return marks_.cells[cell] == Mark::conflict; }
   /// The bytes of the marks of cells and vertices; the rest of the working memory is small.
   std::size_t bytes() const { return bytes_of(marks_.cells) + d_.vertices.size() * sizeof(marks_.local[0]); }
@@ -114,9 +132,10 @@ class Insertion {
   Delaunay& d_;
   InsertionMarks own_marks_;
   InsertionMarks& marks_;
+  const InsertionParts parts_ = {};
   CellPool* const pool_ = nullptr;
   std::vector<std::uint32_t> places_from_pool_;
-  std::uint32_t v_ = 0, twin_ = 0;
+  std::uint32_t v_ = 0, twin_ = 0, reached_ = 0;
   Ties ties_ = Ties::greatest_rank;
   Point3 p_;
   unsigned turn_ = 0;
