@@ -127,8 +127,9 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
     ++turn_;
     for (std::uint32_t k = 0; k < 4 && exit == 4; ++k) {
       const std::uint32_t f = (turn_ + k) & 3;
+      if (!is_shared && cell.neighbors[f] == from) continue;
       const auto [a, b, c] = corners_of_face(cell.vertices, f);
-      if ((is_shared && !parts_.may_cross(a, b, c)) || cell.neighbors[f] == from) continue;
+      if (is_shared && !parts_.may_cross(a, b, c)) continue;
       if (numbers::orient3d(d_.point(a), d_.point(b), d_.point(c), p) < 0) exit = f;
     }
     if (exit == 4) return here;

@@ -29,6 +29,7 @@ void gather_ring(const Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& 
     here = delaunay::cell_of(d.cells[here].neighbors[exit]);
     exit = place_of(d, here, stays);
   } while (here != first);
+  std::ranges::sort(ring.vertices);
 }
 
 void VoronoiFace::make(const Delaunay& d, std::uint32_t a, std::uint32_t b, const EdgeRing& ring) {

@@ -9,7 +9,8 @@
 
 namespace ccdt::protection {
 
-/// The cells around a Delaunay edge, in order, and their vertices that are not on the edge, without the ghost vertex.
+/// The cells around a Delaunay edge, and in increasing order their vertices that are not on the edge, without the ghost
+/// vertex. What is computed from the vertices, and rounded, does not depend on the order of the cells in memory.
 struct EdgeRing {
   std::vector<std::uint32_t> cells, vertices;
 };

@@ -253,17 +253,21 @@ std::vector<Point3> random_points(const plc::Plc& plc, std::size_t count, std::m
   return result;
 }
 
+std::vector<InputPlc> inputs_with_protected_edges(std::mt19937& random) {
+  return {cube_with_turnstile(),
+          two_bars(),
+          gridded_plate(5, 0.01),
+          gridded_cube(4),
+          cube_within_cube(),
+          random_voxels(3, 2, random),
+          in_perspective(random_voxels(3, 3, random), 3),
+          roughened(models::make_solid("sphere", 0.5), 0.3, random)};
+}
+
 TEST(InteriorPoints, ThatRemainKeepAllProtectedEdges) {
   std::mt19937 random(8);
   std::size_t kept = 0, left_out = 0;
-  const std::vector<InputPlc> inputs = {cube_with_turnstile(),
-                                        two_bars(),
-                                        gridded_plate(5, 0.01),
-                                        gridded_cube(4),
-                                        cube_within_cube(),
-                                        random_voxels(3, 2, random),
-                                        in_perspective(random_voxels(3, 3, random), 3),
-                                        roughened(models::make_solid("sphere", 0.5), 0.3, random)};
+  const std::vector<InputPlc> inputs = inputs_with_protected_edges(random);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     SCOPED_TRACE("input " + std::to_string(i));
     for (const std::size_t count : {10, 100, 1000}) {
@@ -277,6 +281,32 @@ TEST(InteriorPoints, ThatRemainKeepAllProtectedEdges) {
   }
   EXPECT_GT(kept, 1000u);
   EXPECT_GT(left_out, 1000u);
+}
+
+/// Lets each vertex name another of its cells, as if cells had been made in another order.
+void name_other_cells(delaunay::Delaunay& d, std::mt19937& random) {
+  delaunay::CellStar star(d);
+  for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
+    const auto cells = star.around(v);
+    d.vertices[v].cell = cells[random() % cells.size()];
+  }
+}
+
+TEST(InteriorPoints, ThatRemainDoNotDependOnTheOrderOfCells) {
+  std::mt19937 random(9);
+  for (const InputPlc& input : inputs_with_protected_edges(random)) {
+    const Protected p(input, {});
+    for (const std::size_t count : {10, 30, 100, 300, 1000, 3000}) {
+      const std::vector<Point3> points = random_points(p.plc, count, random);
+      std::set<std::vector<std::uint32_t>> results;
+      for (int repetition = 0; repetition < 5; ++repetition) {
+        protection::ProtectedDelaunay surface = p.surface;
+        name_other_cells(surface.delaunay, random);
+        results.insert(protection::make_room(points, p.plc, Protection::shell, surface));
+      }
+      EXPECT_EQ(results.size(), 1u) << count << " points";
+    }
+  }
 }
 
 /// A segment with a vertex beside its middle, so that only large spheres through its ends do not contain the vertex.
