@@ -13,6 +13,8 @@ using delaunay::cell_of, delaunay::face_of, delaunay::ghost_vertex, delaunay::no
 
 namespace {
 
+constexpr std::size_t grain = 4096;  // of loops on several threads
+
 /// Eight bits per cell: the separating faces, set on both sides, and above them those that are open on this side.
 using FaceBits = std::vector<std::uint8_t>;
 
@@ -30,17 +32,18 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
                     const std::vector<std::uint32_t>& wall_codes) {
   FaceBits bits(d.cells.size(), 0);
   const auto mark = [&](std::uint32_t code, unsigned what) {
-    bits[cell_of(code)] |= static_cast<std::uint8_t>(what << face_of(code));
+    const auto bit = static_cast<std::uint8_t>(what << face_of(code));
+    std::atomic_ref(bits[cell_of(code)]).fetch_or(bit, std::memory_order_relaxed);
   };
-  for (const std::uint32_t code : wall_codes) {
-    if (code == no_neighbor) continue;
-    mark(code, 0x01);
-    mark(d.across(code), 0x01);
-  }
-  for (const front::FrontFace& face : open) {
-    mark(face.code, 0x11);
-    mark(d.across(face.code), 0x01);
-  }
+  parallel_for(wall_codes.size(), grain, [&](std::size_t i) {
+    if (wall_codes[i] == no_neighbor) return;
+    mark(wall_codes[i], 0x01);
+    mark(d.across(wall_codes[i]), 0x01);
+  });
+  parallel_for(open.size(), grain, [&](std::size_t i) {
+    mark(open[i].code, 0x11);
+    mark(d.across(open[i].code), 0x01);
+  });
   return bits;
 }
 
@@ -73,25 +76,29 @@ SharedUnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   return parts;
 }
 
+void note_least(std::atomic<std::uint32_t>& least, std::uint32_t i) {
+  std::uint32_t before = least.load(std::memory_order_relaxed);
+  while (i < before && !least.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
+  }
+}
+
 /// A face of the PLC whose side toward a labeled cell was not open: the front has filled that side, so the labeled
 /// part leaks into what the front has replaced.
 /// \return a cell where this happens; `no_neighbor` if there is none
 std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
                         const std::vector<RegionId>& region) {
-  for (const std::uint32_t code : wall_codes) {
-    if (code == no_neighbor) continue;
-    for (const std::uint32_t side : {code, d.across(code)}) {
-      const std::uint32_t cell = cell_of(side);
-      if (!region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u)) return cell;
-    }
-  }
-  return no_neighbor;
-}
-
-void note_least(std::atomic<std::uint32_t>& least, std::uint32_t i) {
-  std::uint32_t before = least.load(std::memory_order_relaxed);
-  while (i < before && !least.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
-  }
+  const auto leaks = [&](std::uint32_t side) {
+    const std::uint32_t cell = cell_of(side);
+    return !region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u);
+  };
+  std::atomic<std::uint32_t> leak = no_neighbor;
+  parallel_for(wall_codes.size(), grain, [&](std::size_t i) {
+    const std::uint32_t code = wall_codes[i];
+    if (code != no_neighbor && (leaks(code) || leaks(d.across(code)))) note_least(leak, static_cast<std::uint32_t>(i));
+  });
+  if (leak == no_neighbor) return no_neighbor;
+  const std::uint32_t code = wall_codes[leak];
+  return cell_of(leaks(code) ? code : d.across(code));
 }
 
 }  // namespace
@@ -108,7 +115,7 @@ CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const s
   }
   // A part gets the region of its first cell, which stays the same.
   std::atomic<std::uint32_t> stuck = no_neighbor;
-  parallel_for(d.cells.size(), 4096, [&](std::size_t i) {
+  parallel_for(d.cells.size(), grain, [&](std::size_t i) {
     const auto cell = static_cast<std::uint32_t>(i), first = part_of[cell];
     if (first != cell) region[cell] = region[first];
     if (!region[cell].is_none() && d.is_ghost(cell)) note_least(stuck, cell);
