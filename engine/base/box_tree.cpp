@@ -6,10 +6,12 @@ namespace ccdt {
 
 namespace {
 
+constexpr std::size_t grain = 4096;  ///< of loops on several threads
+
 std::vector<std::uint32_t> order_of(const std::vector<Box>& boxes) {
-  std::vector<Point3> centers(boxes.size());
   // Twice the centers; finite boxes of the grid do not overflow.
-  std::ranges::transform(boxes, centers.begin(), [](const Box& b) { return b.low + b.high; });
+  RawVector<Point3> centers(boxes.size());
+  parallel_for(boxes.size(), grain, [&](std::size_t i) { centers[i] = boxes[i].low + boxes[i].high; });
   return morton_order(centers);
 }
 
@@ -17,13 +19,19 @@ std::vector<std::uint32_t> order_of(const std::vector<Box>& boxes) {
 
 BoxTree::BoxTree(std::vector<Box> boxes) : items_(order_of(boxes)) {
   boxes_.resize(boxes.size());
-  std::ranges::transform(items_, boxes_.begin(), [&](std::uint32_t i) { return boxes[i]; });
+  parallel_for(boxes.size(), grain, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
   while (std::size_t{leaf_count_} * leaf_size < items_.size()) leaf_count_ *= 2;
-  nodes_.assign(std::size_t{leaf_count_} * 2, empty_box);
-  for (std::uint32_t leaf = leaf_count_; leaf < 2 * leaf_count_; ++leaf)
-    for (auto [i, end] = places_of(leaf); i < end; ++i) nodes_[leaf] = hull(nodes_[leaf], boxes_[i]);
-  for (std::uint32_t node = leaf_count_ - 1; node >= 1; --node)
-    nodes_[node] = hull(nodes_[2 * node], nodes_[2 * node + 1]);
+  nodes_.resize(std::size_t{leaf_count_} * 2);
+  parallel_for(leaf_count_, grain, [&](std::size_t i) {
+    const auto leaf = static_cast<std::uint32_t>(leaf_count_ + i);
+    Box& all = nodes_[leaf] = empty_box;
+    for (auto [place, end] = places_of(leaf); place < end; ++place) all = hull(all, boxes_[place]);
+  });
+  for (std::size_t level = leaf_count_ / 2; level >= 1; level /= 2)
+    parallel_for(level, grain, [&](std::size_t i) {
+      const std::size_t node = level + i;
+      nodes_[node] = hull(nodes_[2 * node], nodes_[2 * node + 1]);
+    });
 }
 
 }  // namespace ccdt

@@ -9,6 +9,7 @@
 #include "engine/base/box.h"
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 
 namespace ccdt {
 
@@ -132,9 +133,9 @@ class BoxTree {
   }
 
   std::vector<std::uint32_t> items_;  // in Morton order
-  std::vector<Box> boxes_;            // of these
-  std::vector<Box> nodes_;
-  std::uint32_t leaf_count_ = 1;  // a power of two
+  RawVector<Box> boxes_;              // of these
+  RawVector<Box> nodes_;              // from 1 on
+  std::uint32_t leaf_count_ = 1;      // a power of two
 };
 
 }  // namespace ccdt

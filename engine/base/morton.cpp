@@ -17,7 +17,7 @@ bool less(const KeyedIndex& a, const KeyedIndex& b) {
 
 }  // namespace
 
-std::vector<std::uint32_t> sorted_by_key(std::vector<KeyedIndex> items) {
+std::vector<std::uint32_t> sorted_by_key(RawVector<KeyedIndex> items) {
   const auto digits = [](const KeyedIndex& k, unsigned offset) { return k.key >> offset; };
   const auto sort_run = [&](auto first, auto last) {
     boost::sort::spreadsort::integer_sort(first, last, digits, less);
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> morton_order(std::span<const Point3> points) {
   const double extent = std::max({size.x, size.y, size.z, 1.0});
   constexpr int bits_per_axis = 21;
   const double scale = ((1 << bits_per_axis) - 1) / extent;
-  std::vector<KeyedIndex> keyed(points.size());
+  RawVector<KeyedIndex> keyed(points.size());
   parallel_for(points.size(), 4096, [&](std::size_t i) {
     keyed[i] = {morton_code_at(scale * (points[i] - box.low)), static_cast<std::uint32_t>(i)};
   });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/point.h"
+#include "engine/base/raw_vector.h"
 
 namespace ccdt {
 
@@ -51,7 +52,7 @@ struct KeyedIndex {
 };
 
 /// The indices sorted by key, equal keys by index.
-std::vector<std::uint32_t> sorted_by_key(std::vector<KeyedIndex> items);
+std::vector<std::uint32_t> sorted_by_key(RawVector<KeyedIndex> items);
 
 /// The indices of points in Morton order, in a grid of 2^21 cells per side around them; points of one cell keep their
 /// order.

@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace ccdt {
 
-/// Leaves new elements of a plain type as they are in memory, unless they are given a value.
+/// Leaves new elements of a plain type as they are in memory, unless they are given a value. The initial values of
+/// their members do not count.
 template <class T>
 struct RawAllocator : std::allocator<T> {
   template <class U>
@@ -17,10 +19,8 @@ struct RawAllocator : std::allocator<T> {
   };
   template <class U, class... Arguments>
   void construct(U* place, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) == 0)
-      ::new (static_cast<void*>(place)) U;
-    else
-      ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+    static_assert(std::is_trivially_copy_constructible_v<U> && std::is_trivially_destructible_v<U>);
+    if constexpr (sizeof...(Arguments) > 0) ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
   }
 };
 

@@ -14,10 +14,10 @@ namespace ccdt {
 ///
 /// \param sort_run  called with two iterators
 /// \param less      a strict order: no two items are alike, or it does not matter which one comes first
-template <class Item, class SortRun, class Less>
-void sort_in_runs(std::vector<Item>& items, const SortRun& sort_run, const Less& less) {
+template <class Items, class SortRun, class Less>
+void sort_in_runs(Items& items, const SortRun& sort_run, const Less& less) {
   constexpr std::size_t least_run = 20000;
-  using Iterator = typename std::vector<Item>::iterator;
+  using Iterator = typename Items::iterator;
   const std::size_t runs = std::bit_floor(std::clamp<std::size_t>(items.size() / least_run, 1, thread_count()));
   const auto place = [&](std::size_t run) {
     return items.begin() + static_cast<std::ptrdiff_t>(items.size() * run / runs);
@@ -44,8 +44,8 @@ void sort_in_runs(std::vector<Item>& items, const SortRun& sort_run, const Less&
 }
 
 /// The same by comparisons alone.
-template <class Item, class Less = std::less<>>
-void sort_in_runs(std::vector<Item>& items, const Less& less = {}) {
+template <class Items, class Less = std::less<>>
+void sort_in_runs(Items& items, const Less& less = {}) {
   sort_in_runs(
       items, [&](auto begin, auto end) { std::sort(begin, end, less); }, less);
 }

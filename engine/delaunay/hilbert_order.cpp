@@ -62,7 +62,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
   // A round has eight times the points of the one before; small sets need none.
   int rounds = 0;
   for (std::size_t n = points.size(); n > 2000 && rounds < 6; n /= 8) ++rounds;
-  std::vector<KeyedIndex> keyed(points.size());
+  RawVector<KeyedIndex> keyed(points.size());
   const auto round_of = [&](std::size_t i) {
     std::uint64_t round = static_cast<std::uint64_t>(rounds);
     for (std::uint64_t bits = random_bits(i); round > 0 && (bits & 7) == 0; bits >>= 3) --round;

@@ -51,9 +51,10 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
 /// would jump around.
 SharedUnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   SharedUnionFind parts(d.cells.size());
-  // Each thread joins the cells of one run; joins between runs come later.
+  // The cells of a run are joined by one thread; joins between runs come later.
   using Pair = std::array<std::uint32_t, 2>;
-  std::vector<std::vector<Pair>> waiting(thread_count());
+  constexpr std::size_t runs_of_thread = 8;
+  std::vector<std::vector<Pair>> waiting(thread_count() == 1 ? 1 : runs_of_thread * thread_count());
   parallel_for(waiting.size(), 1, [&](std::size_t run) {
     const auto begin = static_cast<std::uint32_t>(d.cells.size() * run / waiting.size());
     const auto end = static_cast<std::uint32_t>(d.cells.size() * (run + 1) / waiting.size());

@@ -103,9 +103,9 @@ double median(std::vector<Weighted> sizes) {
 
 }  // namespace
 
-SizeTree::SizeTree(const std::vector<Item>& items) {
+SizeTree::SizeTree(std::span<const Item> items) {
   if (items.empty()) return;
-  std::vector<Point3> centers(items.size());
+  RawVector<Point3> centers(items.size());
   parallel_for(items.size(), grain, [&](std::size_t i) { centers[i] = items[i].box.low + items[i].box.high; });
   const std::vector<std::uint32_t> order = morton_order(centers);
   items_.resize(items.size());
@@ -248,31 +248,45 @@ SizeField::SizeField(const DomainSurface& surface, double edge_length, double gr
 }
 
 void SizeField::sample(const DomainSurface& surface, double edge_length) {
-  std::vector<SizeTree::Item> samples;
-  samples.reserve(surface.triangles.size() + surface.vertices.size());
-  const auto add_sample = [&](const Point3& p, double size) { samples.push_back({{p, p}, size, 0}); };
+  const std::size_t triangles = surface.triangles.size();
+  RawVector<SizeTree::Item> samples(triangles);
+  const auto sample_at = [](const Point3& p, double size) { return SizeTree::Item{{p, p}, size, 0}; };
+  RawVector<std::array<double, 3>> lengths(triangles);
+  parallel_for(triangles, grain, [&](std::size_t t) {
+    const auto [a, b, c] = surface.corners(static_cast<std::uint32_t>(t));
+    lengths[t] = {length(b - a), length(c - b), length(a - c)};
+    const double mean = (lengths[t][0] + lengths[t][1] + lengths[t][2]) / 3;
+    samples[t] = sample_at((1.0 / 3) * (a + b + c), mean);
+  });
+  // The sums are rounded, so they are made in one order.
   std::vector<Mean> at_vertex(surface.vertices.size());
   Mean everywhere;
-  const auto add_edge = [&](VertexId a, VertexId b) {
-    const double length = std::sqrt(squared_length(surface.vertices[b] - surface.vertices[a]));
-    at_vertex[a].add(length);
-    at_vertex[b].add(length);
-    everywhere.add(length);
-    return length;
+  const auto add_edge = [&](VertexId a, VertexId b, double its_length) {
+    at_vertex[a].add(its_length);
+    at_vertex[b].add(its_length);
+    everywhere.add(its_length);
   };
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < triangles; ++t) {
     const auto& v = surface.triangles[t].vertices;
-    const double mean = (add_edge(v[0], v[1]) + add_edge(v[1], v[2]) + add_edge(v[2], v[0])) / 3;
-    const TrianglePoints corners = surface.corners(t);
-    add_sample((1.0 / 3) * (corners[0] + corners[1] + corners[2]), mean);
+    for (int i = 0; i < 3; ++i) add_edge(v[i], v[(i + 1) % 3], lengths[t][i]);
   }
-  for (const auto& s : surface.subsegments) add_edge(s[0], s[1]);
-  for (std::size_t v = 0; v < at_vertex.size(); ++v) {
-    if (at_vertex[v].count > 0) add_sample(surface.vertices[v], at_vertex[v].value());
-  }
+  for (const auto& [a, b] : surface.subsegments) add_edge(a, b, length(surface.vertices[b] - surface.vertices[a]));
   reference_ = edge_length > 0 || everywhere.count == 0 ? edge_length : everywhere.value();
   largest_ = edge_length > 0 || grading_ == 0 ? reference_ : HUGE_VAL;
-  if (grading_ > 0) samples_ = SizeTree(samples);
+  if (grading_ <= 0) return;
+  const auto is_used = [](const Mean& mean) { return mean.count > 0; };
+  parallel_pack(
+      at_vertex.size(), grain,
+      [&](std::size_t v, std::size_t end) {
+        return static_cast<std::size_t>(std::count_if(&at_vertex[v], at_vertex.data() + end, is_used));
+      },
+      [&](std::size_t size) { samples.resize(triangles + size); },
+      [&](std::size_t v, std::size_t end, std::size_t place) {
+        for (; v < end; ++v)
+          if (is_used(at_vertex[v]))
+            samples[triangles + place++] = sample_at(surface.vertices[v], at_vertex[v].value());
+      });
+  samples_ = SizeTree(samples);
 }
 
 void SizeField::sample(const BackgroundSizes& background, double edge_length) {

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/base/box.h"
 #include "engine/base/count_work.h"
+#include "engine/base/raw_vector.h"
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
 
@@ -25,7 +27,7 @@ class SizeTree {
   };
 
   SizeTree() = default;
-  explicit SizeTree(const std::vector<Item>& items);
+  explicit SizeTree(std::span<const Item> items);
 
   /// Is `holds(item)` true for any item? Tests only those whose `lower(box, size)` is below the bound, which `holds`
   /// may lower.
@@ -71,8 +73,8 @@ class SizeTree {
   static Group both(const Group& a, const Box& box, double size);
   Group surround(std::size_t begin, std::size_t end, std::size_t group);
 
-  std::vector<Item> items_;
-  std::vector<Group> groups_;
+  RawVector<Item> items_;
+  RawVector<Group> groups_;
   std::size_t first_leaf_ = 0;
 };
 

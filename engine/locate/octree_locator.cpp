@@ -10,13 +10,13 @@ namespace ccdt::locate {
 namespace {
 
 /// The Morton numbers of the centers of the boxes in a cube around all of them.
-std::vector<KeyedIndex> morton_numbers(std::span<const Box> boxes, unsigned bits) {
+RawVector<KeyedIndex> morton_numbers(std::span<const Box> boxes, unsigned bits) {
   Box all = box_of(boxes[0].center());
   for (const Box& box : boxes) all = hull(all, box_of(box.center()));
   const Point3 extent = all.high - all.low;
   const double steps = static_cast<double>(1u << bits);
   const double scale = (1 - 1e-9) * steps / std::max({extent.x, extent.y, extent.z, 1.0});
-  std::vector<KeyedIndex> numbers(boxes.size());
+  RawVector<KeyedIndex> numbers(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     numbers[i] = {morton_code_at(scale * (boxes[i].center() - all.low)), i};
   return numbers;
@@ -52,7 +52,7 @@ BoxOctree::BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size) {
   std::vector<std::uint64_t> keys;
   order_ = all_indices(boxes.size());
   if (boxes.size() > leaf_size) {
-    const std::vector<KeyedIndex> numbered = morton_numbers(boxes, deepest);
+    const RawVector<KeyedIndex> numbered = morton_numbers(boxes, deepest);
     order_ = sorted_by_key(numbered);
     keys.reserve(order_.size());
     for (const std::uint32_t i : order_) keys.push_back(numbered[i].key);

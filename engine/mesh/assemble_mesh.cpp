@@ -150,15 +150,32 @@ class FlatTetrahedronPeeler {
 /// \return the facet of each face
 std::vector<std::uint32_t> add_faces_and_edges(const plc::Plc& plc, const protection::SegmentChains& chains,
                                                const facets::FacetMesh& facets, TetMesh& mesh) {
-  std::vector<std::uint32_t> facet_of_face;
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+  const auto is_in_mesh = [&](std::size_t i) {
     const plc::Facet& facet = plc.facets[facets.facet[i]];
-    if (!plc.regions[facet.above].inside && !plc.regions[facet.below].inside) continue;
-    const auto& t = facets.triangles[i];
-    mesh.faces.push_back({t[0], t[1], t[2]});
-    mesh.face_markers.push_back(facet.marker);
-    facet_of_face.push_back(facets.facet[i]);
-  }
+    return plc.regions[facet.above].inside || plc.regions[facet.below].inside;
+  };
+  std::vector<std::uint32_t> facet_of_face;
+  parallel_pack(
+      facets.triangles.size(), chunk_length,
+      [&](std::size_t i, std::size_t end) {
+        std::size_t count = 0;
+        for (; i < end; ++i) count += is_in_mesh(i);
+        return count;
+      },
+      [&](std::size_t size) {
+        mesh.faces.resize(size);
+        mesh.face_markers.resize(size);
+        facet_of_face.resize(size);
+      },
+      [&](std::size_t i, std::size_t end, std::size_t face) {
+        for (; i < end; ++i) {
+          if (!is_in_mesh(i)) continue;
+          const auto& t = facets.triangles[i];
+          mesh.faces[face] = {t[0], t[1], t[2]};
+          mesh.face_markers[face] = plc.facets[facets.facet[i]].marker;
+          facet_of_face[face++] = facets.facet[i];
+        }
+      });
   for (std::size_t s = 0; s < chains.size(); ++s) {
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});

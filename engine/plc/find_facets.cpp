@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_runs.h"
 #include "engine/numbers/predicates.h"
@@ -68,10 +68,9 @@ class PatchFinder {
   }
 
   FacetPatches find() {
-    std::vector<std::uint32_t> order(triangles_.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = all_indices(triangles_.size());
     std::vector<double> squared_area(triangles_.size());
-    for (std::uint32_t t : order) squared_area[t] = squared_length(normals_[t]);
+    parallel_for(order.size(), grain, [&](std::size_t t) { squared_area[t] = squared_length(normals_[t]); });
     sort_in_runs(order, [&](std::uint32_t s, std::uint32_t t) {
       return squared_area[s] != squared_area[t] ? squared_area[s] > squared_area[t] : s < t;
     });
@@ -221,15 +220,16 @@ class PatchFinder {
       }
       patches.facet_of[t] = n;
     }
+    const IndexLists members =
+        group_indices(reference.size(), triangles_.size(), [&](std::size_t t) { return patches.facet_of[t]; });
     patches.exactly_flat.assign(reference.size(), 1);
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      const std::uint32_t seed = reference[patches.facet_of[t]];
-      if (seed == t) continue;
-      char& flat = patches.exactly_flat[patches.facet_of[t]];
-      if (!flat) continue;
-      const auto [a, b, c] = corner_points(seed);
-      for (const Point3& p : corner_points(t)) flat = flat && numbers::orient3d(a, b, c, p) == 0;
-    }
+    parallel_for(reference.size(), 16, [&](std::size_t facet) {
+      const auto [a, b, c] = corner_points(reference[facet]);
+      const auto is_in_plane = [&](const Point3& p) { return numbers::orient3d(a, b, c, p) == 0; };
+      patches.exactly_flat[facet] = std::ranges::all_of(members.of(facet), [&](std::uint32_t t) {
+        return t == reference[facet] || std::ranges::all_of(corner_points(t), is_in_plane);
+      });
+    });
     patches.is_inner_edge.assign(edges_.size(), 0);
     parallel_for(edges_.size(), grain, [&](std::size_t i) {
       const auto e = static_cast<std::uint32_t>(i);
