@@ -2,11 +2,10 @@
 
 #include <atomic>
 #include <cstdint>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 
 namespace ccdt {
 
@@ -18,7 +17,9 @@ namespace ccdt {
 /// must be atomic (Jayanti and Tarjan 2016).
 class SharedUnionFind {
  public:
-  explicit SharedUnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit SharedUnionFind(std::size_t n) : parent_(n) {
+    parallel_for(n, grain, [&](std::size_t i) { parent_[i] = static_cast<std::uint32_t>(i); });
+  }
 
   std::uint32_t find(std::uint32_t i) {
     for (std::uint32_t parent = load(i); parent != i; parent = load(i)) {
@@ -40,8 +41,8 @@ class SharedUnionFind {
   }
 
   /// Of each i. A parent is never greater than its child, so most are found in one step.
-  std::vector<std::uint32_t> take_representatives() && {
-    parallel_for(parent_.size(), 4096, [&](std::size_t i) {
+  RawVector<std::uint32_t> take_representatives() && {
+    parallel_for(parent_.size(), grain, [&](std::size_t i) {
       const auto member = static_cast<std::uint32_t>(i);
       at(member).store(find(member), std::memory_order_relaxed);
     });
@@ -63,7 +64,9 @@ class SharedUnionFind {
   std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
   std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
 
-  std::vector<std::uint32_t> parent_;
+  static constexpr std::size_t grain = 4096;  ///< of loops on several threads
+
+  RawVector<std::uint32_t> parent_;
 };
 
 }  // namespace ccdt

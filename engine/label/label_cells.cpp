@@ -1,6 +1,7 @@
 #include "engine/label/label_cells.h"
 
 #include <atomic>
+#include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -87,7 +88,7 @@ void note_least(std::atomic<std::uint32_t>& least, std::uint32_t i) {
 /// part leaks into what the front has replaced.
 /// \return a cell where this happens; `no_neighbor` if there is none
 std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
-                        const std::vector<RegionId>& region) {
+                        std::span<const RegionId> region) {
   const auto leaks = [&](std::uint32_t side) {
     const std::uint32_t cell = cell_of(side);
     return !region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u);
@@ -107,8 +108,9 @@ std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const
 CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
                        const std::vector<std::uint32_t>& wall_codes) {
   const FaceBits bits = mark_walls(d, open, wall_codes);
-  const std::vector<std::uint32_t> part_of = join_cells(d, bits).take_representatives();
-  std::vector<RegionId> region(d.cells.size());
+  const RawVector<std::uint32_t> part_of = join_cells(d, bits).take_representatives();
+  RawVector<RegionId> region(d.cells.size());
+  parallel_for(region.size(), grain, [&](std::size_t cell) { region[cell] = RegionId(); });
   for (const front::FrontFace& face : open) {
     RegionId& its = region[part_of[cell_of(face.code)]];
     if (!its.is_none() && its != face.region) return stuck_at(plc, d, cell_of(face.code));

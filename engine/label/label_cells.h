@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/index.h"
+#include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
 
@@ -13,7 +14,7 @@ namespace ccdt::label {
 
 /// Which cells belong to the domain.
 struct CellLabels {
-  std::vector<RegionId> regions;  ///< by cell; none for cells outside and for those that the front has replaced
+  RawVector<RegionId> regions;  ///< by cell; none for cells outside and for those that the front has replaced
   /// Parts of different regions are connected: front and tetrahedralization do not fit. There are no regions then.
   std::optional<MeshError> stuck = {};
 };

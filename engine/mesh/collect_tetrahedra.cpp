@@ -69,7 +69,7 @@ std::uint32_t least_vertex(const Tetrahedron& t) {
 /// The labeled cells and the tetrahedra of the front, by their sources.
 class Parts {
  public:
-  Parts(const plc::Plc& plc, const front::FrontResult& front, const std::vector<RegionId>& region_of_cell,
+  Parts(const plc::Plc& plc, const front::FrontResult& front, std::span<const RegionId> region_of_cell,
         const LargeVector<Cell>& cells)
       : plc_(plc), front_(front), region_of_cell_(region_of_cell), cells_(cells) {}
 
@@ -87,7 +87,7 @@ class Parts {
 
   const plc::Plc& plc_;
   const front::FrontResult& front_;
-  const std::vector<RegionId>& region_of_cell_;
+  std::span<const RegionId> region_of_cell_;
   const LargeVector<Cell>& cells_;
 };
 
@@ -122,7 +122,7 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
 }  // namespace
 
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                                 const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay) {
+                                 std::span<const RegionId> region_of_cell, const delaunay::Delaunay& delaunay) {
   const Parts parts(plc, front, region_of_cell, delaunay.cells);
   const std::size_t vertices = delaunay.vertices.size();
   Buckets buckets = group_by_least_vertex(parts, vertices);

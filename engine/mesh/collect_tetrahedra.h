@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
@@ -25,7 +25,7 @@ struct CollectedMesh {
 /// vertex. Tetrahedra that are close in space are mostly close in this order, because interior vertices are numbered
 /// along a space-filling curve.
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                                 const std::vector<RegionId>& region_of_cell, const delaunay::Delaunay& delaunay);
+                                 std::span<const RegionId> region_of_cell, const delaunay::Delaunay& delaunay);
 
 /// The tetrahedra of the mesh as cells, in the same order. Two that come from Delaunay cells with a common face are
 /// neighbors; the other neighbors are missing (`no_neighbor`).
