@@ -33,7 +33,7 @@ struct BackgroundSizes {
 };
 
 /// Lattice points nearer to the surface than this times the edge length of the lattice are dropped. See the table in
-/// place_lattice_points.cpp.
+/// clear_sites.cpp.
 inline constexpr double usual_clearance = 0.55;
 
 struct LatticeOptions {

@@ -9,6 +9,7 @@
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
+#include "engine/lattice/clear_sites.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesher.h"
 #include "engine/numbers/predicates.h"
