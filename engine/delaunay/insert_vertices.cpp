@@ -27,7 +27,9 @@ void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties 
   note_bytes(bytes_of(vertices, d.vertices, d.cells, d.free_cells) + insertion.bytes());
 }
 
-constexpr std::size_t cells_of_vertex = 7;  ///< about as many as there are, ghosts included
+/// About as many as there are, ghosts included.
+constexpr std::size_t cells_of_vertex = 7;
+constexpr std::size_t cells_of_surface_vertex = 9;  ///< if there are vertices only on surfaces
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
 
@@ -51,7 +53,8 @@ std::size_t most_new_cells(std::size_t vertices) {
 }
 
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {
-  reserve_cells(d, d.cells.size() + most_new_cells(vertices.size()));
+  reserve_cells(d,
+                std::max(d.cells.size() + most_new_cells(vertices.size()), cells_of_surface_vertex * vertices.size()));
   if (!are_several_worth_it(vertices.size())) {
     insert_in_order(d, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
     return;
