@@ -30,6 +30,11 @@ FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   return face_key(a, b, c);
 }
 
+template <class List>
+void release(List& list) {
+  List().swap(list);
+}
+
 bool is_new_wall(const std::vector<FacetFlip>& flips, const FaceKey& key) {
   return std::ranges::any_of(
       flips, [&](const FacetFlip& f) { return key == face_key(f.a, f.c, f.d) || key == face_key(f.b, f.c, f.d); });
@@ -59,8 +64,10 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
       generations_(cells_.size(), 0),
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
+  // Few vertices will be inserted: room for them costs less than twice the room when the first one comes.
+  points_.reserve(points_.size() + points_.size() / 64);
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    compute_qualities(goal_, points_, std::span(mesh.tetrahedra).subspan(begin, end - begin),
+    compute_qualities(goal_, points_, std::span(cells_).subspan(begin, end - begin),
                       std::span(qualities_).subspan(begin, end - begin));
   });
   const auto list_segments = [&] {
@@ -80,18 +87,16 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
 
 /// Gives each vertex the last of its cells.
 void CellComplex::find_last_cells() {
-  if (thread_count() == 1) {
-    for (std::uint32_t c = 0; c < cells_.size(); ++c)
-      for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = c;
-    return;
-  }
-  parallel_for(cells_.size(), grain, [&](std::size_t i) {
-    const auto c = static_cast<std::uint32_t>(i);
-    for (const std::uint32_t v : cells_[c].vertices) {
-      const std::atomic_ref last(cell_at_[v]);
-      std::uint32_t before = last.load(std::memory_order_relaxed);
-      while ((before == no_neighbor || before < c) &&
-             !last.compare_exchange_weak(before, c, std::memory_order_relaxed)) {
+  parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    // Backwards: for most vertices, the first cell of the range is the last word.
+    for (std::size_t i = end; i-- > begin;) {
+      const auto c = static_cast<std::uint32_t>(i);
+      for (const std::uint32_t v : cells_[c].vertices) {
+        const std::atomic_ref last(cell_at_[v]);
+        std::uint32_t before = last.load(std::memory_order_relaxed);
+        while ((before == no_neighbor || before < c) &&
+               !last.compare_exchange_weak(before, c, std::memory_order_relaxed)) {
+        }
       }
     }
   });
@@ -261,6 +266,8 @@ void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<co
 }
 
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
+  // The tetrahedra need memory, so what they do not need is freed first.
+  release(qualities_), release(generations_), release(walls_), release(changed_at_), release(facet_of_face_);
   std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
   points.reserve(points_.size());

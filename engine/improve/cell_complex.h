@@ -63,8 +63,8 @@ class CellMarks {
 /// vertices on its segments and facets; *interior* vertices may move anywhere or be removed.
 class CellComplex {
  public:
-  /// \param mesh            tetrahedra, regions, faces and edges; its coordinates are not used
-  /// \param cells           its tetrahedra; neighbors may be missing
+  /// \param mesh            regions, faces and edges; its tetrahedra and coordinates are not used
+  /// \param cells           the tetrahedra of the regions; neighbors may be missing
   /// \param points          its vertices in grid units
   /// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex

@@ -74,8 +74,8 @@ double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, c
   return shape < goal.inverse_r ? shape : 1 + least_sine(a, b, c, d);
 }
 
-void compute_qualities(const QualityGoal& goal, std::span<const Point3> points,
-                       std::span<const std::array<std::uint32_t, 4>> cells, std::span<double> qualities) {
+void compute_qualities(const QualityGoal& goal, std::span<const Point3> points, std::span<const delaunay::Cell> cells,
+                       std::span<double> qualities) {
   work_done.quality_evaluations += cells.size();
   const bool by_r = goal.objective == Objective::r;
   const double least_shape = by_r ? goal.inverse_r : -std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ void compute_qualities(const QualityGoal& goal, std::span<const Point3> points,
   for (std::size_t first = 0; first < cells.size(); first += lanes) {
     const std::size_t count = std::min(lanes, cells.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto& cell = cells[first + i];
+      const auto& cell = cells[first + i].vertices;
       const Point3& d = points[cell[3]];
       const Point3 u = points[cell[0]] - d, v = points[cell[1]] - d, w = points[cell[2]] - d;
       e.ux[i] = u.x, e.uy[i] = u.y, e.uz[i] = u.z;

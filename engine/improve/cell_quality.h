@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "engine/base/point.h"
+#include "engine/delaunay/delaunay.h"
 #include "engine/improve/options.h"
 
 namespace ccdt::improve {
@@ -38,9 +36,7 @@ double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, c
 double goal_quality(const QualityGoal& goal);
 
 /// The qualities of many cells, bit for bit those of `cell_quality`.
-///
-/// \param cells  vertices of each
 void compute_qualities(const QualityGoal& goal, std::span<const Point3> points,
-                       std::span<const std::array<std::uint32_t, 4>> cells, std::span<double> qualities);
+                       std::span<const delaunay::Cell> cells, std::span<double> qualities);
 
 }  // namespace ccdt::improve

@@ -271,6 +271,8 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 
 ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, std::vector<Point3>& points,
                            mesh::TetMesh& mesh, const Progress& progress) {
+  // The cells are the tetrahedra. In large meshes there is no memory for both.
+  decltype(mesh.tetrahedra)().swap(mesh.tetrahedra);
   std::vector<Freedom> freedom;
   const bool all_slide = options.boundary == BoundaryRule::slide;
   if (all_slide || input.first_sliding < input.first_interior) {
@@ -279,6 +281,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   }
   CellComplex complex(mesh, std::move(input.cells), std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
+  decltype(mesh.regions)().swap(mesh.regions);  // the complex has them
   const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
   note_bytes(complex.bytes());
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;

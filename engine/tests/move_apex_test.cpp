@@ -116,18 +116,18 @@ TEST(CellQuality, OfManyIsThatOfEach) {
   std::uniform_int_distribution<int> coordinate(-20, 20), vertex(0, 99);
   std::vector<Point3> points(100);
   for (Point3& p : points) p = {1.0 * coordinate(random), 1.0 * coordinate(random), 1.0 * coordinate(random)};
-  std::vector<std::array<std::uint32_t, 4>> cells;
+  std::vector<delaunay::Cell> cells;
   while (cells.size() < 1001) {
     std::array<std::uint32_t, 4> cell;
     for (std::uint32_t& v : cell) v = static_cast<std::uint32_t>(vertex(random));
     if (numbers::orient3d(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0)
-      cells.push_back(cell);
+      cells.push_back({cell, {}});
   }
   for (const improve::QualityGoal& goal : {usual, improve::QualityGoal{improve::Objective::dihedral, 0.5, 0.34}}) {
     std::vector<double> qualities(cells.size());
     improve::compute_qualities(goal, points, cells, qualities);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto& [a, b, c, d] = cells[i];
+      const auto& [a, b, c, d] = cells[i].vertices;
       EXPECT_EQ(qualities[i], improve::cell_quality(goal, points[a], points[b], points[c], points[d])) << "cell " << i;
     }
   }
