@@ -36,7 +36,7 @@ double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, c
 double goal_quality(const QualityGoal& goal);
 
 /// The qualities of many cells, bit for bit those of `cell_quality`.
-void compute_qualities(const QualityGoal& goal, std::span<const Point3> points,
-                       std::span<const delaunay::Cell> cells, std::span<double> qualities);
+void compute_qualities(const QualityGoal& goal, std::span<const Point3> points, std::span<const delaunay::Cell> cells,
+                       std::span<double> qualities);
 
 }  // namespace ccdt::improve

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/octree.h"
 #include "engine/lattice/clear_sites.h"
+#include "engine/lattice/octree.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/tests/lattice_shapes.h"
 
