@@ -79,17 +79,30 @@ class FlatTetrahedronPeeler {
       return t;
     };
     std::sort(flat.begin(), flat.end(), [&](std::size_t i, std::size_t j) { return corners(i) < corners(j); });
-    std::vector<bool> gone(mesh_.tetrahedra.size(), false);
+    std::vector<std::size_t> gone;
     for (bool changed = true; changed;) {
-      changed = false;
-      for (const std::size_t i : flat) {
-        if (gone[i] || !try_to_peel(mesh_.tetrahedra[i])) continue;
-        gone[i] = changed = true;
-      }
+      const std::size_t before = gone.size();
+      std::erase_if(flat, [&](std::size_t i) {
+        const bool peels = try_to_peel(mesh_.tetrahedra[i]);
+        if (peels) gone.push_back(i);
+        return peels;
+      });
+      changed = gone.size() > before;
     }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < gone.size(); ++i) {
-      if (gone[i]) continue;
+    if (!gone.empty()) remove(std::move(gone));
+  }
+
+ private:
+  /// Removes tetrahedra. The others keep their order.
+  void remove(std::vector<std::size_t> those) {
+    std::ranges::sort(those);
+    auto next = those.begin();
+    std::size_t kept = those.front();
+    for (std::size_t i = kept; i < mesh_.tetrahedra.size(); ++i) {
+      if (next != those.end() && *next == i) {
+        ++next;
+        continue;
+      }
       mesh_.tetrahedra[kept] = mesh_.tetrahedra[i];
       mesh_.regions[kept] = mesh_.regions[i];
       sources_[kept++] = sources_[i];
@@ -99,7 +112,6 @@ class FlatTetrahedronPeeler {
     sources_.resize(kept);
   }
 
- private:
   bool lies_within_facet(const std::array<std::uint32_t, 4>& t) const {
     const auto* const first = facets_of_.find(t[0]);
     return first != nullptr && std::ranges::any_of(*first, [&](FacetId f) {
@@ -176,6 +188,8 @@ std::vector<std::uint32_t> add_faces_and_edges(const plc::Plc& plc, const protec
           facet_of_face[face++] = facets.facet[i];
         }
       });
+  mesh.edges.reserve(chains.size());
+  mesh.edge_markers.reserve(chains.size());
   for (std::size_t s = 0; s < chains.size(); ++s) {
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});
