@@ -14,19 +14,32 @@ namespace ccdt::protection {
 namespace {
 
 constexpr std::uint32_t whole = whole_segment;
-/// Fewer edges are not worth the trouble of several threads.
-constexpr std::size_t least_for_threads = 5000;
+
+/// The pieces that are no edges, in the order of their segments. Most pieces are edges.
+std::vector<std::uint64_t> find_missing(const ProtectedDelaunay& state) {
+  return parallel_collect<std::uint64_t>(
+      state.chains.size(), 1024, [&](std::size_t s, std::size_t end, std::vector<std::uint64_t>& missing) {
+        for (; s < end; ++s) {
+          const std::vector<ChainVertex>& chain = state.chains[s];
+          for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < chain.size(); ++i)
+            if (!has_edge(state.delaunay, chain[i].vertex, chain[i + 1].vertex))
+              missing.push_back(edge_key(chain[i].vertex, chain[i + 1].vertex));
+        }
+      });
+}
 
 /// Splits pieces of segments until all that need protection are Delaunay edges. A stack holds those that may not be:
-/// all at first, then those of cells that a split destroyed. A stack needs fewer splits than a queue, because one place
-/// is finished before the next one.
+/// the missing ones at first, then those of cells that a split destroyed. A stack needs fewer splits than a queue,
+/// because one place is finished before the next one.
 class Protector {
  public:
-  Protector(const plc::Plc& plc, Protection strategy, ProtectedDelaunay& state)
-      : state_(state), splitter_(plc, strategy, state.delaunay, state.chains) {
+  Protector(const plc::Plc& plc, Protection strategy, std::vector<std::uint64_t> missing, ProtectedDelaunay& state)
+      : state_(state), splitter_(plc, strategy, state.delaunay, state.chains), stack_(std::move(missing)) {
     for (std::uint32_t s = 0; s < state.chains.size(); ++s)
-      for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i)
-        add({s, state.chains[s][i], state.chains[s][i + 1]});
+      for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i) {
+        const Subsegment piece = {s, state.chains[s][i], state.chains[s][i + 1]};
+        pieces_.set(edge_key(piece.from.vertex, piece.to.vertex), piece);
+      }
   }
 
   void split_those_that_can_be(std::span<const PieceEnds> pieces) {
@@ -37,7 +50,6 @@ class Protector {
   }
 
   void protect(const Progress& progress) {
-    if (thread_count() > 1 && stack_.size() > least_for_threads) drop_edges_that_exist();
     for (std::uint64_t done = 0; !stack_.empty(); ++done) {
       if ((done & 0xFFF) == 0) report(progress, "protect", done, done + stack_.size());
       const std::uint64_t edge = stack_.back();
@@ -49,18 +61,6 @@ class Protector {
   }
 
  private:
-  /// From the stack; most do. One that a split destroys later comes onto the stack again.
-  void drop_edges_that_exist() {
-    stack_ = parallel_collect<std::uint64_t>(
-        stack_.size(), 1024, [&](std::size_t i, std::size_t end, std::vector<std::uint64_t>& missing) {
-          for (; i < end; ++i) {
-            const Subsegment* piece = pieces_.find(stack_[i]);
-            if (piece != nullptr && !has_edge(state_.delaunay, piece->from.vertex, piece->to.vertex))
-              missing.push_back(stack_[i]);
-          }
-        });
-  }
-
   void add(const Subsegment& piece) {
     const std::uint64_t edge = edge_key(piece.from.vertex, piece.to.vertex);
     pieces_.set(edge, piece);
@@ -105,9 +105,13 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress, std::span<const PieceEnds> to_split) {
-  Protector protector(plc, strategy, start);
-  protector.split_those_that_can_be(to_split);
-  protector.protect(progress);
+  report(progress, "protect", 0, start.chains.size());
+  std::vector<std::uint64_t> missing = find_missing(start);
+  if (!missing.empty() || !to_split.empty()) {
+    Protector protector(plc, strategy, std::move(missing), start);
+    protector.split_those_that_can_be(to_split);
+    protector.protect(progress);
+  }
   note_bytes(bytes_of(start.delaunay.vertices, start.delaunay.cells, start.delaunay.free_cells));
   return start;
 }
