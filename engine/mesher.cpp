@@ -12,6 +12,7 @@
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/count_segments.h"
+#include "engine/front/find_delaunay_faces.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/lattice/place_lattice_points.h"
@@ -122,9 +123,9 @@ struct Tetrahedralization {
 void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
-    std::vector<std::uint32_t> found = front::find_delaunay_faces(facets, delaunay);
+    std::vector<std::uint32_t> found = front::find_delaunay_faces(facets.triangles, delaunay);
     if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
-      found = front::find_delaunay_faces(facets, delaunay);
+      found = front::find_delaunay_faces(facets.triangles, delaunay);
     return found;
   });
   t.counts.faces = facets.triangles.size();
@@ -161,14 +162,49 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const Mes
   t.mesh = std::move(collected.mesh);
 }
 
+/// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
+/// tetrahedralization that grows by one vertex at a time, so this one is made by insertion whatever the method is. With
+/// another method, it serves only protection.
+std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3> points, const MeshOptions& options,
+                                                          const Progress& progress, StageCosts& costs) {
+  const bool stays = options.delaunay != DelaunayMethod::wrap;
+  return measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
+                  [&]() -> std::optional<delaunay::Delaunay> {
+                    try {
+                      return delaunay::build_delaunay(points, progress);
+                    } catch (const MeshError&) {
+                      return {};
+                    }
+                  });
+}
+
+/// By triangle: is it no face of the tetrahedralization? Faces do not cross each other.
+std::vector<std::uint8_t> find_doubtful(const std::vector<plc::VertexTriple>& triangles,
+                                        const delaunay::Delaunay& delaunay) {
+  const std::vector<std::uint32_t> codes = front::find_delaunay_faces(triangles, delaunay);
+  std::vector<std::uint8_t> is_doubtful(codes.size());
+  for (std::size_t t = 0; t < codes.size(); ++t) is_doubtful[t] = codes[t] == delaunay::no_neighbor;
+  return is_doubtful;
+}
+
 /// All stages but improvement.
 ///
 /// \param least_size  of `RefineOptions`
 Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness, double least_size,
                                   const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
-  t.plc = measured(costs, mesh_stage::plc, [&] { return plc::build_plc(input, {flatness}, progress); });
-  std::vector<Point3> points = t.plc.vertices;
+  plc::UncheckedPlc gathered =
+      measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, {flatness}, progress); });
+  std::vector<Point3> points = gathered.plc.vertices;
+  // The vertices of a surface that will be refined have other ranks then.
+  std::optional<delaunay::Delaunay> delaunay;
+  if (!options.refine_surface) delaunay = tetrahedralize_vertices(points, options, progress, costs);
+  std::vector<std::uint8_t> is_doubtful;
+  if (delaunay)
+    is_doubtful =
+        measured(costs, mesh_stage::face_check, [&] { return find_doubtful(gathered.triangles.corners, *delaunay); });
+  t.plc = measured(costs, mesh_stage::plc,
+                   [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, {flatness}, progress); });
   if (options.refine_surface) {
     refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
       return refine::refine_plc(t.plc,
@@ -186,13 +222,10 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     points = t.plc.vertices;
     points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
   }
-  // Protection works on a tetrahedralization that grows by one vertex at a time, so this one is made by insertion
-  // whatever the method is. With another method, it serves only protection.
-  const bool stays = options.delaunay != DelaunayMethod::wrap;
-  delaunay::Delaunay delaunay = measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
-                                         [&] { return delaunay::build_delaunay(points, progress); });
+  if (!delaunay) delaunay = tetrahedralize_vertices(points, options, progress, costs);
+  if (!delaunay) delaunay::refuse_flat_points();
   protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
-    return protection::protect_edges(t.plc, protection::unprotected(t.plc, std::move(delaunay), std::move(t.chains)),
+    return protection::protect_edges(t.plc, protection::unprotected(t.plc, *std::move(delaunay), std::move(t.chains)),
                                      options.protection, progress);
   });
   const auto count_steiner_vertices = [&] {
@@ -222,12 +255,13 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     count_steiner_vertices();
     triangulate_facets();
   }
-  delaunay = measured(costs, mesh_stage::delaunay,
-                      [&] { return add_points(lattice, std::move(surface.delaunay), options, progress, t.counts); });
-  t.counts.interior_vertices = delaunay.vertices.size() - t.first_interior;
+  delaunay::Delaunay all = measured(costs, mesh_stage::delaunay, [&] {
+    return add_points(lattice, std::move(surface.delaunay), options, progress, t.counts);
+  });
+  t.counts.interior_vertices = all.vertices.size() - t.first_interior;
 
-  constrain(delaunay, std::move(facets), options, progress, costs, t);
-  t.points = points_of(delaunay);
+  constrain(all, std::move(facets), options, progress, costs, t);
+  t.points = points_of(all);
   return t;
 }
 

@@ -12,7 +12,7 @@
 #include <array>
 
 #include "bench/benchmarks/benchmark_main.h"
-#include "engine/front/advance_front.h"
+#include "engine/front/find_delaunay_faces.h"
 
 namespace ccdt::benchmarks {
 namespace {
@@ -35,7 +35,7 @@ std::vector<Triple> all_faces(const delaunay::Delaunay& delaunay) {
 }
 
 std::string find_fault(const Stages& s) {
-  const std::vector<std::uint32_t> codes = front::find_delaunay_faces(s.facets, s.delaunay);
+  const std::vector<std::uint32_t> codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
   const std::vector<Triple> faces = all_faces(s.delaunay);
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const auto& [a, b, c] = s.facets.triangles[i];
@@ -46,7 +46,7 @@ std::string find_fault(const Stages& s) {
 }
 
 void measure(benchmark::State& state, const Stages& s) {
-  time_runs(state, [&] { return front::find_delaunay_faces(s.facets, s.delaunay); });
+  time_runs(state, [&] { return front::find_delaunay_faces(s.facets.triangles, s.delaunay); });
   set_counters(state, s.delaunay.vertices.size(), finite_cells(s.delaunay).size());
   set_count(state, "faces", s.codes.size());
   set_count(state, "undelaunay", static_cast<std::size_t>(std::ranges::count(s.codes, delaunay::no_neighbor)));

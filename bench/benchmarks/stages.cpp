@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/front/advance_front.h"
+#include "engine/front/find_delaunay_faces.h"
 #include "engine/io/plc_files.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
@@ -81,9 +82,9 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   s.facets = facets::triangulate_facets(s.plc, s.chains, surface.delaunay);  // edges may have been split
   s.delaunay = std::move(surface.delaunay);
   insert_points(s.delaunay, remaining);
-  s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
+  s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
   if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
-    s.codes = front::find_delaunay_faces(s.facets, s.delaunay);
+    s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
   s.front = front::advance_front({s.plc, s.facets, s.codes, s.delaunay});
   if (s.front.stuck) return s;
   const label::CellLabels labels = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);

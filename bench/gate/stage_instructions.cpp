@@ -17,7 +17,8 @@ struct StageFunction {
   std::string_view function, stage;
 };
 
-constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::build_plc", "plc"},
+constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::gather_plc", "plc"},
+                                                               {"ccdt::plc::check_plc", "plc"},
                                                                {"ccdt::refine::refine_plc", "refine"},
                                                                {"ccdt::protection::unprotected", "protect"},
                                                                {"ccdt::protection::protect_edges", "protect"},

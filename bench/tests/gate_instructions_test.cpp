@@ -37,7 +37,7 @@ calls=1 0
 
 fn=(3)
 0 100
-cfn=(4) ccdt::plc::build_plc(ccdt::plc::InputPlc const&)
+cfn=(4) ccdt::plc::check_plc(ccdt::plc::InputPlc const&)
 calls=1 0
 0 400
 

@@ -31,40 +31,74 @@ class BoxTree {
   /// Calls visit(i, j) once for every pair of different items whose boxes meet.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
-    if (!items_.empty()) descend_self(1, visit);
+    if (!items_.empty()) descend_self(1, AllPairs(), visit);
   }
 
-  /// Calls collect(found, i, j) for these pairs, on several threads, to add to a list.
+  /// Calls collect(found, i, j), on several threads, for the pairs of which at least one item is wanted, to add to a
+  /// list.
   ///
+  /// \param is_wanted  by item; empty: all are
   /// \return  the lists, one after the other as `for_each_pair` comes to their pairs
   template <class Item, class Collect>
-  std::vector<Item> collect_from_pairs(const Collect& collect) const {
+  std::vector<Item> collect_from_pairs(std::span<const std::uint8_t> is_wanted, const Collect& collect) const {
+    return is_wanted.empty() ? collect_from<Item>(AllPairs(), collect)
+                             : collect_from<Item>(WantedPairs(*this, is_wanted), collect);
+  }
+
+ private:
+  struct AllPairs {
+    bool has_any(std::uint32_t, std::uint32_t) const { return true; }
+    bool has(std::size_t, std::size_t) const { return true; }
+  };
+
+  /// The pairs of which at least one item is wanted.
+  class WantedPairs {
+   public:
+    WantedPairs(const BoxTree& tree, std::span<const std::uint8_t> is_wanted)
+        : places_(tree.items_.size()), nodes_(tree.nodes_.size(), false) {
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        places_[i] = is_wanted[tree.items_[i]];
+        nodes_[tree.leaf_count_ + i / leaf_size] |= places_[i];
+      }
+      for (std::size_t node = tree.leaf_count_; node-- > 1;) nodes_[node] = nodes_[2 * node] | nodes_[2 * node + 1];
+    }
+    /// Are there any between two nodes, or within one?
+    bool has_any(std::uint32_t a, std::uint32_t b) const { return (nodes_[a] | nodes_[b]) != 0; }
+    bool has(std::size_t i, std::size_t j) const { return (places_[i] | places_[j]) != 0; }
+
+   private:
+    std::vector<std::uint8_t> places_, nodes_;  ///< have a wanted item
+  };
+
+  template <class Item, class Pairs, class Collect>
+  std::vector<Item> collect_from(const Pairs& pairs, const Collect& collect) const {
     std::vector<Search> searches;
-    if (!items_.empty()) plan_searches(1, searches);
+    if (!items_.empty()) plan_searches(1, pairs, searches);
     return parallel_collect<Item>(searches.size(), 1,
                                   [&](std::size_t begin, std::size_t end, std::vector<Item>& found) {
                                     const auto visit = [&](std::uint32_t i, std::uint32_t j) { collect(found, i, j); };
                                     for (const auto& [a, b] : std::span(searches).subspan(begin, end - begin))
                                       if (a == b)
-                                        descend_self(a, visit);
+                                        descend_self(a, pairs, visit);
                                       else if (nodes_[a].meets(nodes_[b]))
-                                        descend_both(a, b, visit);
+                                        descend_both(a, b, pairs, visit);
                                   });
   }
 
- private:
   /// For the pairs within one node or between two.
   using Search = std::array<std::uint32_t, 2>;
 
-  void plan_searches(std::uint32_t node, std::vector<Search>& searches) const {
+  template <class Pairs>
+  void plan_searches(std::uint32_t node, const Pairs& pairs, std::vector<Search>& searches) const {
+    if (!pairs.has_any(node, node)) return;
     constexpr std::uint32_t first_alone = 128;
     if (is_leaf(node) || node >= first_alone || thread_count() == 1) {
       searches.push_back({node, node});
       return;
     }
     ++work_done.box_tree_nodes;
-    plan_searches(2 * node, searches);
-    plan_searches(2 * node + 1, searches);
+    plan_searches(2 * node, pairs, searches);
+    plan_searches(2 * node + 1, pairs, searches);
     searches.push_back({2 * node, 2 * node + 1});
   }
 
@@ -93,42 +127,43 @@ class BoxTree {
       }
   }
 
-  template <class Visit>
-  void descend_self(std::uint32_t node, const Visit& visit) const {
+  template <class Pairs, class Visit>
+  void descend_self(std::uint32_t node, const Pairs& pairs, const Visit& visit) const {
+    if (!pairs.has_any(node, node)) return;
     ++work_done.box_tree_nodes;
     if (!is_leaf(node)) {
-      descend_self(2 * node, visit);
-      descend_self(2 * node + 1, visit);
-      if (nodes_[2 * node].meets(nodes_[2 * node + 1])) descend_both(2 * node, 2 * node + 1, visit);
+      descend_self(2 * node, pairs, visit);
+      descend_self(2 * node + 1, pairs, visit);
+      if (nodes_[2 * node].meets(nodes_[2 * node + 1])) descend_both(2 * node, 2 * node + 1, pairs, visit);
       return;
     }
     const auto [begin, end] = places_of(node);
     for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = i + 1; j < end; ++j) visit_if_meeting(i, j, visit);
+      for (std::size_t j = i + 1; j < end; ++j) visit_if_meeting(i, j, pairs, visit);
   }
 
-  template <class Visit>
-  void visit_if_meeting(std::size_t i, std::size_t j, const Visit& visit) const {
-    if (!boxes_[i].meets(boxes_[j])) return;
+  template <class Pairs, class Visit>
+  void visit_if_meeting(std::size_t i, std::size_t j, const Pairs& pairs, const Visit& visit) const {
+    if (!pairs.has(i, j) || !boxes_[i].meets(boxes_[j])) return;
     ++work_done.box_pairs;
     visit(items_[i], items_[j]);
   }
 
   /// The two meet.
-  template <class Visit>
-  void descend_both(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
+  template <class Pairs, class Visit>
+  void descend_both(std::uint32_t a, std::uint32_t b, const Pairs& pairs, const Visit& visit) const {
     ++work_done.box_tree_nodes;
     if (!is_leaf(a)) {  // both are on the same level
       for (const std::uint32_t i : {2 * a, 2 * a + 1})
         for (const std::uint32_t j : {2 * b, 2 * b + 1})
-          if (nodes_[i].meets(nodes_[j])) descend_both(i, j, visit);
+          if (pairs.has_any(i, j) && nodes_[i].meets(nodes_[j])) descend_both(i, j, pairs, visit);
       return;
     }
     const auto [begin_a, end_a] = places_of(a);
     const auto [begin_b, end_b] = places_of(b);
     for (std::size_t i = begin_a; i < end_a; ++i) {
       if (!boxes_[i].meets(nodes_[b])) continue;
-      for (std::size_t j = begin_b; j < end_b; ++j) visit_if_meeting(i, j, visit);
+      for (std::size_t j = begin_b; j < end_b; ++j) visit_if_meeting(i, j, pairs, visit);
     }
   }
 

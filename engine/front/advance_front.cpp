@@ -7,8 +7,6 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index_lists.h"
-#include "engine/base/parallel.h"
-#include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
 #include "engine/front/find_swallowed.h"
@@ -429,36 +427,6 @@ FrontResult standing_front(const FrontInput& in) {
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
-  std::vector<std::uint32_t> codes(facets.triangles.size(), no_neighbor);
-  std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
-  for (const auto& t : facets.triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
-  const FaceMap faces(facets.triangles, vertices);
-  // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
-  parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
-    const auto c = static_cast<std::uint32_t>(i);
-    const delaunay::Cell& cell = delaunay.cells[c];
-    const auto& v = cell.vertices;
-    const unsigned inner = (v[0] >= vertices) + (v[1] >= vertices) + (v[2] >= vertices) + (v[3] >= vertices);
-    if (inner > 1 || delaunay.is_dead(c)) return;
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      if (inner == 1 && v[f] < vertices) continue;
-      if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
-      const auto [p, q, r] = delaunay::corners_of_face(v, f);
-      const std::uint32_t face = faces.find(p, q, r);
-      ++work_done.faces_tested;
-      if (face == FaceMap::none) continue;
-      // The cell is above the face if it sees the corners in their order.
-      const auto& t = facets.triangles[face];
-      const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
-      codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
-    }
-  });
-  work_done.cells_visited += delaunay.cells.size();
-  note_bytes(bytes_of(codes, facets.triangles));
-  return codes;
-}
 
 FrontResult advance_front(const FrontInput& in, const FrontOptions& options, const Progress& progress) {
   const auto& [plc, facets, codes, delaunay] = in;

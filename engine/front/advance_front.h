@@ -16,10 +16,6 @@ namespace ccdt::front {
 
 using delaunay::cell_of, delaunay::face_of, delaunay::ghost_vertex, delaunay::no_neighbor;
 
-/// The face protection check (paper, section 5.2): for every face of the PLC its code in the cell above it, if it is a
-/// face of the Delaunay tetrahedralization; `no_neighbor` if it is undelaunay.
-std::vector<std::uint32_t> find_delaunay_faces(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay);
-
 /// The state of one face of the front.
 struct FrontFace {
   RegionId region;                   ///< the part of the domain above it

@@ -1,11 +1,9 @@
 #include "engine/plc/build_plc.h"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,319 +11,18 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/base/union_find.h"
-#include "engine/plc/edge_table.h"
-#include "engine/plc/find_facets.h"
+#include "engine/plc/close_triangles.h"
 #include "engine/plc/find_overlaps.h"
+#include "engine/plc/find_regions.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/input_faults.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
 
 namespace {
 
-/// The input as conforming triangles and segments, with derived data.
-struct PlcParts {
-  TriangleSet triangles;
-  SegmentSet segments;
-  EdgeTable edges;  ///< with the triangles sorted around each edge (`sort_around_edges`)
-  SegmentMatch match;
-  FacetPatches patches;
-};
-
-/// The regions into which the triangles divide space.
-struct RegionMap {
-  /// Of each side of each triangle: entry 2t is the side that the normal points to, 2t+1 the other.
-  std::vector<RegionId> of_side;
-  std::vector<Region> regions;  ///< number 0 reaches infinity; the others follow in the order of their first side
-  std::vector<RegionId>
-      around;  ///< for each region except 0, the region that contains the connected facets enclosing it
-  std::vector<RegionId> of_loose;  ///< of each of `PlcParts::match.loose`: where the middle of the segment is
-
-  RegionId of(std::uint32_t triangle, bool above) const { return of_side[2 * triangle + (above ? 0 : 1)]; }
-};
-
-// ---- Regions --------------------------------------------------------------------------------------------------------
-
-using VeryWide = boost::multiprecision::int256_t;
-
-IntegerPoint six_times(const Point3& p) {
-  const IntegerPoint q = to_integers(p);
-  return {6 * q[0], 6 * q[1], 6 * q[2]};
-}
-
-IntegerPoint sixfold_middle(const Point3& a, const Point3& b) {
-  const IntegerPoint p = to_integers(a), q = to_integers(b);
-  return {3 * (p[0] + q[0]), 3 * (p[1] + q[1]), 3 * (p[2] + q[2])};
-}
-
-IntegerPoint sixfold_centroid(const std::array<Point3, 3>& t) {
-  const IntegerPoint p = to_integers(t[0]), q = to_integers(t[1]), r = to_integers(t[2]);
-  return {2 * (p[0] + q[0] + r[0]), 2 * (p[1] + q[1] + r[1]), 2 * (p[2] + q[2] + r[2])};
-}
-
-// On which side of the line pq, seen from above, is the point x after its infinitesimal move?
-int side_of_moved(const IntegerPoint& p, const IntegerPoint& q, const IntegerPoint& x) {
-  const std::int64_t ux = q[0] - p[0], uy = q[1] - p[1];
-  const int sign = numbers::sign_of(Wide(ux) * (x[1] - p[1]) - Wide(uy) * (x[0] - p[0]));
-  if (sign != 0) return sign;
-  if (uy != 0) return uy > 0 ? -1 : 1;
-  return (ux > 0) - (ux < 0);
-}
-
-// A triangle over the start of the ray, with its height there as a fraction.
-struct Crossing {
-  std::uint32_t triangle;
-  WideVector normal;  // turned upwards
-  bool turned;
-  VeryWide height;  // sixfold, times normal[2]
-};
-
-int compare_products(const VeryWide& a, const VeryWide& b, const VeryWide& c, const VeryWide& d) {
-  const VeryWide left = a * b, right = c * d;
-  return left < right ? -1 : left > right ? 1 : 0;
-}
-
-// Lower at the start of the ray or, where both are equal, after the move aside.
-bool is_lower(const Crossing& a, const Crossing& b) {
-  const VeryWide az = a.normal[2], bz = b.normal[2];
-  int sign = compare_products(a.height, bz, b.height, az);
-  for (int k = 0; k < 2 && sign == 0; ++k)  // the slopes in x and y are -normal[k] / normal[2]
-    sign = -compare_products(a.normal[k], bz, b.normal[k], az);
-  return sign < 0;
-}
-
-Box box_above(const IntegerPoint& sixfold, bool upwards) {
-  const double scale = numbers::DyadicGrid::quantum / 6,
-               slack = numbers::DyadicGrid::quantum;  // more than the rounding of this box
-  const Point3 p = {scale * static_cast<double>(sixfold[0]), scale * static_cast<double>(sixfold[1]),
-                    scale * static_cast<double>(sixfold[2])};
-  const Point3 margin = {slack, slack, slack};
-  Box box = {p - margin, p + margin};
-  if (upwards) box.high.z = std::numeric_limits<double>::infinity();
-  return box;
-}
-
-// The height of q above the plane through a, times the length of its normal.
-Wide height_over(const IntegerPoint& a, const WideVector& normal, const IntegerPoint& q) {
-  return normal[0] * (q[0] - a[0]) + normal[1] * (q[1] - a[1]) + normal[2] * (q[2] - a[2]);
-}
-
-// A triangle that a ray passes, and the side that it meets first.
-struct RayHit {
-  std::uint32_t triangle;
-  bool enters_above;  // the ray comes from the side that the triangle's normal points to
-};
-
-// Shoots rays straight up (+z) through a set of triangles that do not cross each other, exactly. A ray is moved aside
-// by an infinitesimal step in x and an infinitely smaller one in y, so that it passes no edge, no vertex and no upright
-// triangle. It starts from a point that is given as six times its quanta: a mean of up to three vertices.
-class VerticalRays {
- public:
-  // \param tree  over the boxes of the triangles; all three must outlive this
-  VerticalRays(std::span<const Point3> vertices, const TriangleSet& triangles, const BoxTree& tree)
-      : vertices_(vertices), triangles_(triangles), tree_(tree) {}
-
-  // All triangles above the point from the lowest to the highest, except `own`.
-  std::vector<RayHit> shoot(const IntegerPoint& q, std::optional<std::uint32_t> own = std::nullopt) const {
-    std::vector<Crossing> crossings;
-    tree_.for_each_meeting(box_above(q, true), [&](std::uint32_t t) {
-      if (own && *own == t) return;
-      const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
-      const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
-      const int side = side_of_moved(a, b, q);
-      if (side_of_moved(b, c, q) != side || side_of_moved(c, a, q) != side) return;
-      WideVector n = exact_normal(points);
-      const bool turned = n[2] < 0;
-      if (turned) n = {-n[0], -n[1], -n[2]};
-      if (height_over(a, n, q) > 0) return;  // the caller excludes zero: then the start is on the triangle
-      const Wide height = n[2] * a[2] - n[0] * (q[0] - a[0]) - n[1] * (q[1] - a[1]);
-      crossings.push_back({t, n, turned, VeryWide(height)});
-    });
-    std::sort(crossings.begin(), crossings.end(), is_lower);
-    std::vector<RayHit> hits;
-    for (const Crossing& c : crossings) hits.push_back({c.triangle, c.turned});
-    return hits;
-  }
-
-  // Is the start of a ray, once moved aside (or, where the triangle is not upright, raised), above this triangle that
-  // holds it?
-  bool leaves_above(std::uint32_t triangle) const {
-    const WideVector n = exact_normal(points_of(vertices_, triangles_.corners[triangle]));
-    if (n[2] != 0) return n[2] > 0;
-    return n[0] != 0 ? n[0] > 0 : n[1] > 0;
-  }
-
-  // A triangle that the point is on.
-  std::optional<std::uint32_t> triangle_at(const IntegerPoint& q) const {
-    std::optional<std::uint32_t> found;
-    tree_.for_each_meeting(box_above(q, false), [&](std::uint32_t t) {
-      const std::array<Point3, 3> points = points_of(vertices_, triangles_.corners[t]);
-      const IntegerPoint a = six_times(points[0]), b = six_times(points[1]), c = six_times(points[2]);
-      if (height_over(a, exact_normal(points), q) != 0) return;
-      const int axis = dominant_axis(points);
-      const int u = orient_along(axis, a, b, q), v = orient_along(axis, b, c, q), w = orient_along(axis, c, a, q);
-      if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) found = found ? std::min(*found, t) : t;
-    });
-    return found;
-  }
-
- private:
-  std::span<const Point3> vertices_;
-  const TriangleSet& triangles_;
-  const BoxTree& tree_;
-};
-
-std::uint32_t side(std::uint32_t triangle, bool above) {
-  return 2 * triangle + (above ? 0 : 1);
-}
-
-// Counterclockwise about an edge from its smaller end to its greater, the sector that follows a triangle is on its
-// upper side if the triangle runs along the edge that way; the sector before it is on the other.
-void join_through_sectors(const TriangleSet& triangles, const EdgeTable& edges, const FacetPatches& facets,
-                          UnionFind& sides) {
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    const auto around = edges.around(e);
-    if (facets.is_inner_edge[e]) {  // oriented alike; a tiny fold between them does not matter
-      sides.join(side(around[0], true), side(around[1], true));
-      sides.join(side(around[0], false), side(around[1], false));
-      continue;
-    }
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
-      const auto [a, b] = edges.ends[e];
-      sides.join(side(s, runs_along(triangles.corners[s], a, b)), side(t, !runs_along(triangles.corners[t], a, b)));
-    }
-  }
-}
-
-UnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
-  UnionFind components(triangles.size());
-  for (std::uint32_t e = 0; e < edges.size(); ++e)
-    for (const std::uint32_t t : edges.around(e)) components.join(edges.around(e)[0], t);
-  return components;
-}
-
-// One ray per component suffices: the sides of one component that see the same connected part of space are joined
-// already. So on the way from a component up to whatever encloses it, every crossed component joins its outermost side.
-RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
-                       const FacetPatches& facets, const VerticalRays& rays) {
-  const std::uint32_t infinity = 2 * triangles.size();
-  UnionFind sides(infinity + 1), components = components_of(triangles, edges);
-  join_through_sectors(triangles, edges, facets, sides);
-
-  std::vector<std::uint32_t> outer_side(triangles.size());  // of the first triangle of each component
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (components.find(t) != t) continue;
-    std::uint32_t left = side(t, rays.leaves_above(t));
-    outer_side[t] = left;
-    for (const RayHit& hit : rays.shoot(sixfold_centroid(points_of(vertices, triangles.corners[t])), t)) {
-      sides.join(left, side(hit.triangle, hit.enters_above));
-      left = side(hit.triangle, !hit.enters_above);
-      if (components.find(hit.triangle) == t) outer_side[t] = left;
-    }
-    sides.join(left, infinity);
-  }
-
-  RegionMap map;
-  std::vector<RegionId> region_of_set(infinity + 1);
-  region_of_set[sides.find(infinity)] = RegionId(0u);
-  map.regions.resize(1);
-  map.of_side.resize(infinity);
-  for (std::uint32_t s = 0; s < infinity; ++s) {
-    RegionId& region = region_of_set[sides.find(s)];
-    if (region.is_none()) {
-      region = RegionId(map.regions.size());
-      map.regions.emplace_back();
-    }
-    map.of_side[s] = region;
-  }
-  map.around.resize(map.regions.size());
-  for (std::uint32_t s = 0; s < infinity; ++s) {
-    const RegionId around = map.of_side[outer_side[components.find(s / 2)]];
-    if (map.of_side[s] != around) map.around[map.of_side[s]] = around;
-  }
-  return map;
-}
-
-// The region of a point that is on no triangle.
-RegionId region_at(const RegionMap& map, const VerticalRays& rays, const IntegerPoint& sixfold) {
-  const std::vector<RayHit> hits = rays.shoot(sixfold);
-  return hits.empty() ? RegionId(0u) : map.of(hits.front().triangle, hits.front().enters_above);
-}
-
-RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
-                        const Point3& seed, const std::string& name) {
-  const std::string remedy = "move the seed into the part of space that it is for, or remove it";
-  const std::string outside = name + " is outside everything that the facets enclose";
-  // Seeds beyond the box of the vertices may not fit the grid.
-  if (!contains(bounding_box(plc.world), box_of(seed))) throw_input_error(plc, outside, remedy, {seed});
-  const IntegerPoint start = six_times(plc.grid.snap(seed));
-  if (const auto t = rays.triangle_at(start))
-    throw_input_error(plc, name + " is on a facet", remedy, {seed}, {triangles.numbers[*t]});
-  const RegionId region = region_at(map, rays, start);
-  if (region == 0u) throw_input_error(plc, outside, remedy, {seed});
-  return region;
-}
-
-bool has_free_edge(const EdgeTable& edges) {
-  for (std::uint32_t e = 0; e < edges.size(); ++e)
-    if (edges.around(e).size() == 1) return true;
-  return false;
-}
-
-// The regions behind an odd number of connected surfaces, seen from infinity, are inside.
-void mark_by_nesting(RegionMap& map) {
-  for (std::uint32_t c = 1; c < map.regions.size(); ++c)
-    for (RegionId outer(c); outer != 0u; outer = map.around[outer]) map.regions[c].inside = !map.regions[c].inside;
-}
-
-// \throw InputError  see `find_regions`
-void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& triangles, const EdgeTable& edges,
-                 const VerticalRays& rays, RegionMap& map) {
-  const bool is_surface = input.inside == InputPlc::Inside::even_odd;
-  const bool encloses = map.regions.size() > 1;
-  if ((is_surface || !encloses) && has_free_edge(edges)) throw_open_surface(plc, edges);
-  if (!encloses) throw_input_error(plc, "the facets enclose nothing", "add the facets that close the surface");
-
-  if (is_surface)
-    mark_by_nesting(map);
-  else
-    for (std::uint32_t c = 1; c < map.regions.size(); ++c) map.regions[c].inside = true;
-  for (std::size_t i = 0; i < input.holes.size(); ++i) {
-    const std::string name = "hole seed " + std::to_string(i) + " (counted from 0)";
-    map.regions[region_of_seed(plc, triangles, rays, map, input.holes[i], name)].inside = false;
-  }
-  for (std::size_t i = 0; i < input.regions.size(); ++i) {
-    const std::string name = "region seed " + std::to_string(i) + " (counted from 0)";
-    map.regions[region_of_seed(plc, triangles, rays, map, input.regions[i].seed, name)].attribute =
-        input.regions[i].attribute;
-  }
-  if (std::none_of(map.regions.begin(), map.regions.end(), [](const Region& c) { return c.inside; }))
-    throw_input_error(plc, "the hole seeds leave nothing to mesh", "remove the hole seed of the part to be meshed");
-}
-
-/// Finds the regions: joins the sides of triangles that see each other through the sectors around each edge, then, as
-/// facets that are connected by edges may be nested in others, through rays from one component to the next. Marks what
-/// is inside, as the input's kind says, and gives the regions the attributes of their seeds.
-///
-/// \param tree  over the boxes of the triangles
-/// \throw InputError  a seed of a hole or region is outside or on a facet; or nothing is enclosed, or nothing is left
-///                    by the holes
-RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, const BoxTree& tree) {
-  const VerticalRays rays(plc.vertices, parts.triangles, tree);
-  RegionMap map = divide_space(parts.triangles, plc.vertices, parts.edges, parts.patches, rays);
-  mark_inside(input, plc, parts.triangles, parts.edges, rays, map);
-  for (const std::uint32_t s : parts.match.loose) {
-    const auto [a, b] = parts.segments.ends[s];
-    map.of_loose.push_back(region_at(map, rays, sixfold_middle(plc.vertices[a], plc.vertices[b])));
-  }
-  return map;
-}
-
-// ---- The PLC --------------------------------------------------------------------------------------------------------
-
+constexpr std::string_view stage = "plc";
+constexpr std::uint64_t steps = 5;
 constexpr std::size_t most_overlaps = 1000;
 
 void check_facets_exist(const InputPlc& input) {
@@ -336,6 +33,28 @@ void check_facets_exist(const InputPlc& input) {
 void check_overlaps(const Plc& plc, const PlcParts& parts, const std::vector<Overlap>& overlaps) {
   if (!overlaps.empty())
     throw_overlaps(plc, parts.triangles, parts.segments, overlaps, overlaps.size() == most_overlaps);
+}
+
+// The triangles in space, and the pairs of them that may cross.
+struct TriangleSearch {
+  std::vector<Box> boxes;       // empty if there is a tree over them
+  std::optional<BoxTree> tree;  // none: it was not worth its price
+  std::vector<TrianglePair> close;
+};
+
+// Splits triangles at the vertices that are on them.
+TriangleSearch make_conforming(std::span<const Point3> vertices, std::span<const std::uint8_t> is_doubtful,
+                               TriangleSet& triangles) {
+  TriangleSearch search{boxes_of(vertices, triangles), {}, {}};
+  auto& [boxes, tree, close] = search;
+  if (!is_doubtful.empty() && std::ranges::find(is_doubtful, 1) == is_doubtful.end()) return search;
+  tree.emplace(std::move(boxes));
+  close = find_close_triangles(vertices, triangles, *tree, is_doubtful);
+  if (split_triangles_at_vertices(vertices, close, *tree, triangles)) {
+    tree.emplace(boxes_of(vertices, triangles));
+    close = find_close_triangles(vertices, triangles, *tree);
+  }
+  return search;
 }
 
 // Is a sector of the domain of 180 degrees or more around the edge?
@@ -395,55 +114,63 @@ std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatch
 
 }  // namespace
 
-Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& progress) {
-  constexpr std::uint64_t steps = 5;
-  report(progress, "plc", 0, steps);
+UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const Progress& progress) {
+  report(progress, stage, 0, steps);
   check_facets_exist(input);
-  Plc plc;
+  UncheckedPlc gathered;
+  auto& [plc, triangles, segments] = gathered;
   plc.name = input.name;
   snap_vertices(input, plc);
-  PlcParts parts;
-  auto& [triangles, segments, edges, match, patches] = parts;
   triangles = gather_triangles(input, plc);
   segments = gather_segments(input, plc);
-  const double tolerance = tolerance_of(plc, options.flatness);
   // A smaller tolerance gives smaller facets; it does not make polygons invalid.
-  triangulate_polygons(input, plc, std::max(tolerance, tolerance_of(plc, PlcOptions{}.flatness)), triangles, segments);
+  const double tolerance = tolerance_of(plc, std::max(options.flatness, PlcOptions{}.flatness));
+  triangulate_polygons(input, plc, tolerance, triangles, segments);
   if (drop_triangles_without_area(plc.vertices, triangles) > 0 && triangles.size() == 0)
     throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
   check_duplicate_triangles(plc, triangles);
+  report(progress, stage, 1, steps);
+  return gathered;
+}
 
-  report(progress, "plc", 1, steps);
-  BoxTree tree(boxes_of(plc.vertices, triangles));
-  std::vector<TrianglePair> close = find_close_triangles(plc.vertices, triangles, tree);
-  if (split_triangles_at_vertices(plc.vertices, close, tree, triangles)) {
-    tree = BoxTree(boxes_of(plc.vertices, triangles));
-    close = find_close_triangles(plc.vertices, triangles, tree);
-  }
+Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std::uint8_t> is_doubtful,
+              const PlcOptions& options, const Progress& progress) {
+  Plc plc = std::move(gathered.plc);
+  PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
+  auto& [triangles, segments, edges, match, patches] = parts;
+  const double tolerance = tolerance_of(plc, options.flatness);
+  auto [boxes, tree, close] = make_conforming(plc.vertices, is_doubtful, triangles);
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
 
-  report(progress, "plc", 2, steps);
+  report(progress, stage, 2, steps);
   patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
 
-  report(progress, "plc", 3, steps);
+  report(progress, stage, 3, steps);
   const auto covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges, 1);
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
-  check_overlaps(plc, parts,
-                 find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_overlaps));
+  if (!match.loose.empty()) {
+    if (!tree) tree.emplace(std::move(boxes));
+    check_overlaps(plc, parts,
+                   find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, most_overlaps));
+  }
 
-  report(progress, "plc", 4, steps);
-  RegionMap map = find_regions(input, plc, parts, tree);
+  report(progress, stage, 4, steps);
+  RegionMap map = find_regions(input, plc, parts, std::move(boxes), tree);
   note_bytes(bytes_of(plc.world, plc.vertices, triangles.corners, triangles.markers, triangles.numbers, segments.ends,
                       edges.ends, patches.facet_of, map.of_side) +
-             tree.bytes());
+             (tree ? tree->bytes() : triangles.size() * sizeof(Box)));
   plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
   plc.regions = std::move(map.regions);
-  report(progress, "plc", steps, steps);
+  report(progress, stage, steps, steps);
   return plc;
+}
+
+Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& progress) {
+  return check_plc(input, gather_plc(input, options, progress), {}, options, progress);
 }
 
 }  // namespace ccdt::plc

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "engine/base/progress.h"
+#include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
@@ -11,12 +15,32 @@ struct PlcOptions {
                            ///< fraction of the box
 };
 
-/// Puts the input on the dyadic grid, merges equal vertices, finds facets, segments and regions, and checks that they
-/// form a piecewise linear complex. Facets without area on the grid bound nothing and are left out; their vertices
-/// stay.
+/// The input on the grid, as triangles and segments that may still cross each other.
+struct UncheckedPlc {
+  Plc plc;                ///< without segments, facets and regions
+  TriangleSet triangles;  ///< with an area, pairwise different
+  SegmentSet segments;
+};
+
+/// Puts the input on the dyadic grid and merges equal vertices. Facets without area on the grid bound nothing and are
+/// left out; their vertices stay.
 ///
-/// \throw InputError  non-finite coordinates, duplicate facets, facets that cross or cover each other, an
-///                    open surface, no facets, seeds outside; with the place in the units of the input and a remedy
+/// \throw InputError  non-finite coordinates, duplicate facets, no facets, a polygon that is none; with the place in
+/// the
+///                    units of the input and a remedy
+UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
+
+/// Finds facets, segments and regions, and checks that they form a piecewise linear complex.
+///
+/// \param gathered     from the input with the same options
+/// \param is_doubtful  by triangle. The others are known to be faces of one simplicial complex that has all vertices,
+///                     such as their Delaunay tetrahedralization: they have nothing in common but corners and edges,
+///                     and no vertex is on one. So they are not tested with each other. Empty: all are doubtful.
+/// \throw InputError  facets that cross or cover each other, an open surface, seeds outside; as `gather_plc`
+Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std::uint8_t> is_doubtful = {},
+              const PlcOptions& options = {}, const Progress& progress = {});
+
+/// Both.
 Plc build_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::plc

@@ -55,10 +55,12 @@ std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& t
 }
 
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                               const BoxTree& tree) {
-  return tree.collect_from_pairs<TrianglePair>([&](std::vector<TrianglePair>& close, std::uint32_t i, std::uint32_t j) {
-    if (!are_apart(vertices, {triangles.corners[i], triangles.corners[j]})) close.push_back({i, j});
-  });
+                                               const BoxTree& tree, std::span<const std::uint8_t> is_doubtful) {
+  return tree.collect_from_pairs<TrianglePair>(is_doubtful,
+                                               [&](std::vector<TrianglePair>& close, std::uint32_t i, std::uint32_t j) {
+                                                 if (!are_apart(vertices, {triangles.corners[i], triangles.corners[j]}))
+                                                   close.push_back({i, j});
+                                               });
 }
 
 }  // namespace ccdt::plc

@@ -20,9 +20,10 @@ struct TrianglePair {
 /// All pairs of triangles that may have more in common than corners and edges of both. Most of those whose boxes meet
 /// are neighbors, and floating point shows that one of the two is on one side of the other's plane: these are left out.
 ///
-/// \param triangles  with an area
-/// \param tree       over `boxes_of(vertices, triangles)`
+/// \param triangles    with an area
+/// \param tree         over `boxes_of(vertices, triangles)`
+/// \param is_doubtful  by triangle: pairs of two others are left out as well; empty: all are
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                               const BoxTree& tree);
+                                               const BoxTree& tree, std::span<const std::uint8_t> is_doubtful = {});
 
 }  // namespace ccdt::plc

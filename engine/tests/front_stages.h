@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/front/advance_front.h"
+#include "engine/front/find_delaunay_faces.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
 
@@ -36,7 +37,7 @@ struct Stages {
     delaunay = std::move(surface.delaunay);
     chains = std::move(surface.chains);
     facets = facets::triangulate_facets(plc, chains, delaunay);
-    codes = front::find_delaunay_faces(facets, delaunay);
+    codes = front::find_delaunay_faces(facets.triangles, delaunay);
   }
 
   std::size_t undelaunay() const { return std::count(codes.begin(), codes.end(), delaunay::no_neighbor); }

@@ -9,6 +9,7 @@
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
+#include "engine/front/find_delaunay_faces.h"
 #include "engine/lattice/clear_sites.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesher.h"
@@ -116,7 +117,7 @@ struct Protected {
   }
   front::FrontResult advance() const {
     const facets::FacetMesh facets = facets::triangulate_facets(plc, surface.chains, delaunay);
-    return front::advance_front({plc, facets, front::find_delaunay_faces(facets, delaunay), delaunay});
+    return front::advance_front({plc, facets, front::find_delaunay_faces(facets.triangles, delaunay), delaunay});
   }
 };
 

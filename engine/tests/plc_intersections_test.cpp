@@ -185,6 +185,14 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
 
+    std::vector<std::uint8_t> is_wanted(count);
+    for (std::uint8_t& wanted : is_wanted) wanted = random() % 4 == 0;
+    std::erase_if(expected, [&](const auto& pair) { return !is_wanted[pair.first] && !is_wanted[pair.second]; });
+    auto wanted = tree.collect_from_pairs<std::pair<std::uint32_t, std::uint32_t>>(
+        is_wanted, [](auto& pairs, std::uint32_t i, std::uint32_t j) { pairs.push_back(std::minmax(i, j)); });
+    std::sort(wanted.begin(), wanted.end());
+    EXPECT_EQ(wanted, expected);
+
     const Box query = hull(box_of(random_point(random, 12)), box_of(random_point(random, 12)));
     std::vector<std::uint32_t> met, should_meet;
     tree.for_each_meeting(query, [&](std::uint32_t i) { met.push_back(i); });

@@ -1,0 +1,79 @@
+#include "engine/front/find_delaunay_faces.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "engine/base/count_work.h"
+#include "engine/base/parallel.h"
+#include "engine/base/simplex_map.h"
+
+namespace ccdt::front {
+namespace {
+
+using delaunay::no_neighbor;
+
+/// Says of most triangles that are not in a set that they are not; quickly, because it has few bits for each triangle,
+/// and the order of the corners does not matter.
+class FaceSieve {
+ public:
+  explicit FaceSieve(std::span<const std::array<VertexId, 3>> triangles)
+      : bits_(std::bit_ceil(triangles.size() / 4 + 1)), shift_(58 - std::countr_zero(bits_.size())) {
+    for (const auto& [a, b, c] : triangles) {
+      const std::uint64_t place = place_of(a, b, c);
+      bits_[place / 64] |= std::uint64_t{1} << place % 64;
+    }
+  }
+
+  bool may_have(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const std::uint64_t place = place_of(a, b, c);
+    return (bits_[place / 64] >> place % 64 & 1) != 0;
+  }
+
+ private:
+  std::uint64_t place_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const auto odd = [](std::uint32_t v) { return 2 * std::uint64_t{v} + 1; };
+    return odd(a) * odd(b) * odd(c) * 0x9E3779B97F4A7C15u >> shift_;
+  }
+
+  std::vector<std::uint64_t> bits_;  ///< a power of two of words, about 16 bits for each triangle
+  int shift_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
+                                               const delaunay::Delaunay& delaunay) {
+  std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
+  std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
+  for (const auto& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  const FaceMap faces(triangles, vertices);
+  const FaceSieve sieve(triangles);
+  // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
+  parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
+    const auto c = static_cast<std::uint32_t>(i);
+    const delaunay::Cell& cell = delaunay.cells[c];
+    const auto& v = cell.vertices;
+    const unsigned inner = (v[0] >= vertices) + (v[1] >= vertices) + (v[2] >= vertices) + (v[3] >= vertices);
+    if (inner > 1 || delaunay.is_dead(c)) return;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (inner == 1 && v[f] < vertices) continue;
+      if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
+      const auto [p, q, r] = delaunay::corners_of_face(v, f);
+      ++work_done.faces_tested;
+      if (!sieve.may_have(p, q, r)) continue;
+      const std::uint32_t face = faces.find(p, q, r);
+      if (face == FaceMap::none) continue;
+      // The cell is above the face if it sees the corners in their order.
+      const auto& t = triangles[face];
+      const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
+      codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
+    }
+  });
+  work_done.cells_visited += delaunay.cells.size();
+  note_bytes(bytes_of(codes, triangles));
+  return codes;
+}
+
+}  // namespace ccdt::front

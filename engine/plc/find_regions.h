@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/base/box_tree.h"
+#include "engine/plc/edge_table.h"
+#include "engine/plc/find_facets.h"
+#include "engine/plc/input.h"
+#include "engine/plc/plc.h"
+
+namespace ccdt::plc {
+
+/// The input as conforming triangles and segments, with derived data.
+struct PlcParts {
+  TriangleSet triangles;
+  SegmentSet segments;
+  EdgeTable edges;  ///< with the triangles sorted around each edge (`sort_around_edges`)
+  SegmentMatch match;
+  FacetPatches patches;
+};
+
+/// The regions into which the triangles divide space.
+struct RegionMap {
+  /// Of each side of each triangle: entry 2t is the side that the normal points to, 2t+1 the other.
+  std::vector<RegionId> of_side;
+  std::vector<Region> regions;  ///< number 0 reaches infinity; the others follow in the order of their first side
+  /// For each region except 0, the region that contains the connected facets enclosing it.
+  std::vector<RegionId> around;
+  std::vector<RegionId> of_loose;  ///< of each of `PlcParts::match.loose`: where the middle of the segment is
+
+  RegionId of(std::uint32_t triangle, bool above) const { return of_side[2 * triangle + (above ? 0 : 1)]; }
+};
+
+/// Finds the regions: joins the sides of triangles that see each other through the sectors around each edge, then, as
+/// facets that are connected by edges may be nested in others, through rays from one component to the next. Marks what
+/// is inside, as the input's kind says, and gives the regions the attributes of their seeds.
+///
+/// \param boxes  of the triangles; may be empty if there is a tree
+/// \param tree   over the boxes; made if it is missing and would be used often
+/// \throw InputError  a seed of a hole or region is outside or on a facet; or nothing is enclosed, or nothing is left
+///                    by the holes
+RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::vector<Box> boxes,
+                       std::optional<BoxTree>& tree);
+
+}  // namespace ccdt::plc

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/base/simplex_map.h"
+#include "engine/delaunay/delaunay.h"
+#include "engine/front/find_delaunay_faces.h"
+#include "engine/numbers/grid.h"
+#include "engine/plc/build_plc.h"
+
+// Triangles that are faces of the Delaunay tetrahedralization of all vertices are not tested with each other. The
+// verdict on the input must be the same.
+
+namespace ccdt {
+namespace {
+
+/// Some of the points of a small grid, which are often in one plane or on one line.
+std::vector<Point3> random_vertices(std::mt19937& random, std::size_t count) {
+  std::vector<Point3> points;
+  while (points.size() < count) {
+    const Point3 p{double(random() % 4), double(random() % 4), double(random() % 4)};
+    if (std::ranges::find(points, p) == points.end()) points.push_back(p);
+  }
+  return points;
+}
+
+/// A closed surface of Delaunay faces, around about half of the cells, and a few random triangles, or none.
+plc::InputPlc random_input(std::mt19937& random) {
+  plc::InputPlc input;
+  input.inside = plc::InputPlc::Inside::seeds;
+  input.vertices = random_vertices(random, 12);
+  std::vector<Point3> snapped = input.vertices;
+  const numbers::DyadicGrid grid = numbers::make_grid(snapped);
+  for (Point3& p : snapped) p = grid.snap(p);
+  const delaunay::Delaunay d = delaunay::build_delaunay(snapped);
+  std::map<FaceKey, int> sides;
+  for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
+    if (!d.is_finite(c) || random() % 2 == 0) continue;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const auto [u, v, w] = delaunay::corners_of_face(d.cells[c].vertices, f);
+      ++sides[face_key(u, v, w)];
+    }
+  }
+  for (const auto& [face, count] : sides)
+    if (count == 1) input.triangles.push_back(face);
+  for (std::uint32_t more = random() % 3; more > 0; --more) {
+    std::array<std::uint32_t, 3> t{};
+    for (std::uint32_t& v : t) v = static_cast<std::uint32_t>(random() % input.vertices.size());
+    input.triangles.push_back(t);
+  }
+  return input;
+}
+
+struct Verdict {
+  std::optional<plc::Plc> plc;
+  std::vector<long long> wrong_facets;
+};
+
+Verdict verdict_on(const plc::InputPlc& input, bool with_proof, std::size_t& proved) {
+  try {
+    plc::UncheckedPlc gathered = plc::gather_plc(input);
+    std::vector<std::uint8_t> is_doubtful;
+    if (with_proof) {
+      const auto codes =
+          front::find_delaunay_faces(gathered.triangles.corners, delaunay::build_delaunay(gathered.plc.vertices));
+      for (const std::uint32_t code : codes) is_doubtful.push_back(code == delaunay::no_neighbor);
+      proved += static_cast<std::size_t>(std::ranges::count(is_doubtful, 0));
+    }
+    return {plc::check_plc(input, std::move(gathered), is_doubtful), {}};
+  } catch (const InputError& error) {
+    return {{}, error.place().facets};
+  }
+}
+
+void expect_same(const plc::Plc& a, const plc::Plc& b) {
+  ASSERT_EQ(a.facets.size(), b.facets.size());
+  for (std::size_t f = 0; f < a.facets.size(); ++f) EXPECT_EQ(a.facets[f].triangles, b.facets[f].triangles);
+  ASSERT_EQ(a.segments.size(), b.segments.size());
+  for (std::size_t s = 0; s < a.segments.size(); ++s) EXPECT_EQ(a.segments[s].ends, b.segments[s].ends);
+}
+
+TEST(PlcDoubtfulTriangles, AreAllThatNeedsATest) {
+  std::mt19937 random(5);
+  std::size_t valid = 0, wrong = 0, proved = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const plc::InputPlc input = random_input(random);
+    const Verdict all = verdict_on(input, false, proved), some = verdict_on(input, true, proved);
+    ASSERT_EQ(all.plc.has_value(), some.plc.has_value()) << "input " << i;
+    EXPECT_EQ(all.wrong_facets, some.wrong_facets) << "input " << i;
+    if (all.plc) expect_same(*all.plc, *some.plc);
+    ++(all.plc ? valid : wrong);
+  }
+  // All three kinds of inputs are there.
+  EXPECT_GT(valid, 200u);
+  EXPECT_GT(wrong, 200u);
+  EXPECT_GT(proved, 10000u);
+}
+
+}  // namespace
+}  // namespace ccdt
