@@ -45,7 +45,7 @@ bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
 /// Removes the tetrahedra of almost no volume that lie within a boundary facet, with all four vertices on it and two
 /// faces on the boundary; their other two faces become faces of the facet. Only facets that are flat within the
 /// tolerance, but not exactly, have such tetrahedra. A tetrahedron stays if its removal would remove a vertex or a
-/// segment from its facet.
+/// segment from its facet, or put the facet onto another one.
 class FlatTetrahedronPeeler {
  public:
   FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
@@ -72,6 +72,9 @@ class FlatTetrahedronPeeler {
           for (; i < end; ++i)
             if (lies_within_facet(mesh_.tetrahedra[i])) found.push_back(i);
         });
+    if (flat.empty()) return;
+    for (std::size_t i = 0; i < facets_.triangles.size(); ++i)
+      if (!is_bent_boundary(plc_, plc_.facets[facets_.facet[i]])) other_faces_.insert(key_of(facets_.triangles[i]));
     // In an order that does not depend on how the tetrahedra were found.
     const auto corners = [&](std::size_t i) {
       std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
@@ -128,10 +131,11 @@ class FlatTetrahedronPeeler {
     int outers = 0, inners = 0;
     for (std::uint32_t f = 0; f < 4; ++f) {
       const auto [a, b, c] = delaunay::corners_of_face(t, f);
-      const std::size_t* const found = triangle_of_.find(face_key(a, b, c));
+      const FaceKey key = face_key(a, b, c);
+      const std::size_t* const found = triangle_of_.find(key);
       if (found != nullptr && outers < 2)
         triangles[outers++] = *found;
-      else if (found == nullptr && inners < 2)
+      else if (found == nullptr && inners < 2 && !other_faces_.contains(key))
         inner[inners++] = f;
     }
     if (outers != 2 || inners != 2 || facets_.facet[triangles[0]] != facets_.facet[triangles[1]]) return false;
@@ -155,6 +159,7 @@ class FlatTetrahedronPeeler {
   TetMesh& mesh_;
   RawVector<std::uint32_t>& sources_;
   HashTable<FaceKey, std::size_t> triangle_of_;               // of those facets
+  HashSet<FaceKey> other_faces_;                              // of all other facets
   HashTable<std::uint32_t, std::vector<FacetId>> facets_of_;  // by vertex, each once
   HashSet<std::uint64_t> segment_edges_;
 };

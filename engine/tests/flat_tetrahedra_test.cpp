@@ -1,0 +1,33 @@
+#include <gtest/gtest.h>
+
+#include "engine/tests/mesh_checks.h"
+
+// Tetrahedra of almost no volume, with all vertices on a facet that is flat only within the tolerance.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+/// A tetrahedron over the narrow triangle 0 1 2, whose face there has another vertex, 4, beside the middle of the short
+/// edge 0 1 and above the plane, by so little that the two triangles at it are one facet. A third triangle, a facet of
+/// its own, closes the gap to the edge.
+InputPlc tetrahedron_with_a_closed_gap() {
+  InputPlc plc;
+  plc.vertices = {{0, 0, 0}, {1e-4, 0, 0}, {5e-5, 4, 0}, {5e-5, 1, -4}, {5e-5, 0, 1e-8}};
+  plc.triangles = {{2, 0, 4}, {2, 4, 1}, {0, 1, 4}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  plc.triangle_markers = {1, 1, 2, 3, 4, 5};
+  return plc;
+}
+
+TEST(FlatTetrahedra, WithAFaceOnAnotherFacetAreNotRemoved) {
+  const InputPlc input = tetrahedron_with_a_closed_gap();
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  const MeshResult result = mesh_plc(input, options);
+  EXPECT_EQ(result.mesh.tetrahedra.size(), 2u);
+  expect_verified(input, result.mesh);
+}
+
+}  // namespace
+}  // namespace ccdt
