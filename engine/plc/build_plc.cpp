@@ -152,7 +152,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
   if (!match.loose.empty()) {
-    if (!tree) tree.emplace(std::move(boxes));
+    if (!tree) tree.emplace(std::exchange(boxes, {}));
     check_overlaps(plc, parts,
                    find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, most_overlaps));
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "engine/base/union_find.h"
 #include "engine/plc/input_faults.h"
@@ -290,7 +291,7 @@ RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& pa
   constexpr std::size_t few_rays = 8;
   std::size_t searches = 2 * (input.holes.size() + input.regions.size()) + parts.match.loose.size();
   for (std::uint32_t t = 0; t < parts.triangles.size(); ++t) searches += components.find(t) == t;
-  if (!tree && searches > few_rays) tree.emplace(std::move(boxes));
+  if (!tree && searches > few_rays) tree.emplace(std::exchange(boxes, {}));
   const VerticalRays rays(plc.vertices, parts.triangles, boxes, tree);
   RegionMap map = divide_space(parts.triangles, plc.vertices, parts.edges, parts.patches, components, rays);
   mark_inside(input, plc, parts.triangles, parts.edges, rays, map);
