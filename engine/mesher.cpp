@@ -187,24 +187,39 @@ std::vector<std::uint8_t> find_doubtful(const std::vector<plc::VertexTriple>& tr
   return is_doubtful;
 }
 
+/// An input on the grid, and the Delaunay tetrahedralization of its vertices if that was needed to check it.
+struct CheckedInput {
+  plc::Plc plc;
+  std::optional<delaunay::Delaunay> delaunay;
+};
+
+CheckedInput check_input(const InputPlc& input, const MeshOptions& options, double flatness, const Progress& progress,
+                         StageCosts& costs) {
+  plc::UncheckedPlc gathered =
+      measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, {flatness}, progress); });
+  CheckedInput checked;
+  std::vector<std::uint8_t> is_doubtful;
+  // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
+  if (!options.refine_surface)
+    checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, options, progress, costs);
+  if (checked.delaunay)
+    is_doubtful = measured(costs, mesh_stage::face_check,
+                           [&] { return find_doubtful(gathered.triangles.corners, *checked.delaunay); });
+  checked.plc = measured(costs, mesh_stage::plc,
+                         [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, {flatness}, progress); });
+  return checked;
+}
+
 /// All stages but improvement.
 ///
 /// \param least_size  of `RefineOptions`
 Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness, double least_size,
                                   const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
-  plc::UncheckedPlc gathered =
-      measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, {flatness}, progress); });
-  std::vector<Point3> points = gathered.plc.vertices;
-  // The vertices of a surface that will be refined have other ranks then.
-  std::optional<delaunay::Delaunay> delaunay;
-  if (!options.refine_surface) delaunay = tetrahedralize_vertices(points, options, progress, costs);
-  std::vector<std::uint8_t> is_doubtful;
-  if (delaunay)
-    is_doubtful =
-        measured(costs, mesh_stage::face_check, [&] { return find_doubtful(gathered.triangles.corners, *delaunay); });
-  t.plc = measured(costs, mesh_stage::plc,
-                   [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, {flatness}, progress); });
+  CheckedInput checked = check_input(input, options, flatness, progress, costs);
+  t.plc = std::move(checked.plc);
+  std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
+  std::vector<Point3> points = t.plc.vertices;
   if (options.refine_surface) {
     refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
       return refine::refine_plc(t.plc,

@@ -14,11 +14,11 @@ namespace {
 
 using delaunay::no_neighbor;
 
-/// Says of most triangles that are not in a set that they are not; quickly, because it has few bits for each triangle,
-/// and the order of the corners does not matter.
-class FaceSieve {
+/// A filter in front of a set of triangles (Bloom 1970), which rejects most of those that are not in the set. It is
+/// fast because it is small, and because the order of the corners does not matter.
+class FaceFilter {
  public:
-  explicit FaceSieve(std::span<const std::array<VertexId, 3>> triangles)
+  explicit FaceFilter(std::span<const std::array<VertexId, 3>> triangles)
       : bits_(std::bit_ceil(triangles.size() / 4 + 1)), shift_(58 - std::countr_zero(bits_.size())) {
     for (const auto& [a, b, c] : triangles) {
       const std::uint64_t place = place_of(a, b, c);
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
   for (const auto& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   const FaceMap faces(triangles, vertices);
-  const FaceSieve sieve(triangles);
+  const FaceFilter filter(triangles);
   // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
   parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
       if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
       const auto [p, q, r] = delaunay::corners_of_face(v, f);
       ++work_done.faces_tested;
-      if (!sieve.may_have(p, q, r)) continue;
+      if (!filter.may_have(p, q, r)) continue;
       const std::uint32_t face = faces.find(p, q, r);
       if (face == FaceMap::none) continue;
       // The cell is above the face if it sees the corners in their order.

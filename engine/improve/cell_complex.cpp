@@ -64,7 +64,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
       generations_(cells_.size(), 0),
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
-  // Few vertices will be inserted: room for them costs less than twice the room when the first one comes.
+  // Few vertices will be inserted. Without room for them, the first one would double the list.
   points_.reserve(points_.size() + points_.size() / 64);
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
     compute_qualities(goal_, points_, std::span(cells_).subspan(begin, end - begin),
@@ -88,7 +88,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
 /// Gives each vertex the last of its cells.
 void CellComplex::find_last_cells() {
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    // Backwards: for most vertices, the first cell of the range is the last word.
+    // Backwards, so that most vertices get their last cell at once.
     for (std::size_t i = end; i-- > begin;) {
       const auto c = static_cast<std::uint32_t>(i);
       for (const std::uint32_t v : cells_[c].vertices) {
@@ -266,7 +266,7 @@ void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<co
 }
 
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
-  // The tetrahedra need memory, so what they do not need is freed first.
+  // The tetrahedra get the memory of what is no longer needed.
   release(qualities_), release(generations_), release(walls_), release(changed_at_), release(facet_of_face_);
   std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
