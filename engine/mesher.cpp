@@ -116,6 +116,16 @@ struct Tetrahedralization {
   std::optional<MeshError> stuck;
 };
 
+std::size_t first_steiner_vertex(const Tetrahedralization& t) {
+  return t.plc.vertices.size() + t.counts.refined_on_segments;
+}
+
+/// Does anything remain to be done to the constrained Delaunay tetrahedralization?
+bool improves(const MeshOptions& options, const Tetrahedralization& t) {
+  const bool removes = options.improve.steiner == SteinerRule::remove && first_steiner_vertex(t) < t.first_interior;
+  return removes || improvement_of(options) != Improvement::none;
+}
+
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
 /// enclose.
 ///
@@ -156,7 +166,7 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const Mes
   if (t.stuck) return;
   t.facet_of_face = measured(costs, mesh_stage::finish,
                              [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), collected); });
-  if (improvement_of(options) != Improvement::none)
+  if (improves(options, t))
     t.cells = measured(costs, mesh_stage::improve,
                        [&] { return mesh::join_tetrahedra(collected, std::move(delaunay.cells)); });
   t.mesh = std::move(collected.mesh);
@@ -318,13 +328,15 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
-  if (improve.improvement != Improvement::none) {
-    improve::ImproveInput mesh{t.plc, t.chains, std::move(t.cells), std::move(t.facet_of_face), t.first_interior};
+  if (improves(options, t)) {
+    improve::ImproveInput mesh{t.plc,           t.chains, std::move(t.cells), std::move(t.facet_of_face), first_steiner_vertex(t),
+                               t.first_interior};
     mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
     t.counts.improve = measured(costs, mesh_stage::improve, [&] {
       return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress);
     });
-    t.counts.interior_vertices = t.points.size() - t.first_interior;
+    t.counts.steiner_vertices -= t.counts.improve.removed_steiner_vertices;
+    t.counts.interior_vertices = t.points.size() - t.first_interior + t.counts.improve.removed_steiner_vertices;
   }
   t.mesh.vertices =
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });

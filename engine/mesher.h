@@ -27,6 +27,7 @@ using improve::Improvement;
 using improve::ImproveOptions;
 using improve::ImproveStop;
 using improve::Objective;
+using improve::SteinerRule;
 using lattice::BackgroundSizes;
 using lattice::Lattice;
 using locate::LocatorKind;

@@ -35,9 +35,12 @@ void release(List& list) {
   List().swap(list);
 }
 
-bool is_new_wall(const std::vector<FacetFlip>& flips, const FaceKey& key) {
-  return std::ranges::any_of(
-      flips, [&](const FacetFlip& f) { return key == face_key(f.a, f.c, f.d) || key == face_key(f.b, f.c, f.d); });
+FaceKey key_of(const std::array<std::uint32_t, 3>& corners) {
+  return face_key(corners[0], corners[1], corners[2]);
+}
+
+bool is_new_wall(const std::vector<FaceChange>& faces, const FaceKey& key) {
+  return std::ranges::any_of(faces, [&](const FaceChange& face) { return key == key_of(face.corners); });
 }
 
 }  // namespace
@@ -45,8 +48,9 @@ bool is_new_wall(const std::vector<FacetFlip>& flips, const FaceKey& key) {
 void Change::clear() {
   old_cells.clear();
   new_cells.clear();
-  flips.clear();
+  faces.clear();
   new_vertex.reset();
+  merge.reset();
 }
 
 CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<Point3> points,
@@ -57,6 +61,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
       first_interior_(first_interior),
       cell_at_(points_.size(), no_neighbor),
       changed_at_(points_.size(), 0),
+      merged_(first_interior, false),
       cells_(std::move(cells)),
       walls_(cells_.size(), 0),
       regions_(mesh.regions),
@@ -76,8 +81,7 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
   };
   const auto list_faces = [&] {
     face_table_.reserve(faces_.size());
-    for (std::uint32_t f = 0; f < faces_.size(); ++f)
-      face_table_.insert(face_key(faces_[f][0], faces_[f][1], faces_[f][2]), f);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) face_table_.insert(key_of(faces_[f]), f);
   };
   parallel_for(2, 1, [&](std::size_t i) { i == 0 ? list_segments() : list_faces(); });
   join_open_faces();
@@ -196,9 +200,9 @@ std::uint32_t CellComplex::take_place() {
 }
 
 /// Joins a face of a new cell to the one that waits for it, or lets it wait.
-void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flips) {
+void CellComplex::connect(std::uint32_t code, const std::vector<FaceChange>& faces) {
   const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
-  const bool becomes_wall = !flips.empty() && is_new_wall(flips, key);
+  const bool becomes_wall = !faces.empty() && is_new_wall(faces, key);
   for (OpenFace& face : open_) {
     if (face.key != key) continue;
     cells_[cell_of(code)].neighbors[face_of(code)] = face.code;
@@ -213,18 +217,19 @@ void CellComplex::connect(std::uint32_t code, const std::vector<FacetFlip>& flip
   open_.push_back({key, code, becomes_wall});
 }
 
-void CellComplex::flip_walls(const FacetFlip& flip) {
-  const auto exchange = [&](std::uint32_t kept, std::uint32_t apex, std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t* const place = face_table_.find(face_key(kept, from, apex));
-    const std::uint32_t f = *place;
-    face_table_.erase(place);
-    std::ranges::replace(faces_[f], from, to);
-    return f;
-  };
-  const std::uint32_t first = exchange(flip.a, flip.c, flip.b, flip.d);
-  const std::uint32_t second = exchange(flip.b, flip.d, flip.a, flip.c);
-  face_table_.insert(face_key(flip.a, flip.c, flip.d), first);
-  face_table_.insert(face_key(flip.b, flip.c, flip.d), second);
+void CellComplex::change_faces(const std::vector<FaceChange>& changes) {
+  for (const FaceChange& change : changes) face_table_.erase(face_table_.find(key_of(faces_[change.face])));
+  for (const FaceChange& change : changes) {
+    faces_[change.face] = change.corners;
+    if (change.corners != no_corners) face_table_.insert(key_of(change.corners), change.face);
+  }
+}
+
+void CellComplex::merge_segment(const SegmentMerge& merge) {
+  const auto [a, b] = merge.neighbors;
+  for (const std::uint32_t end : merge.neighbors) segments_.erase(segments_.find(edge_key(merge.vertex, end)));
+  segments_.insert(edge_key(a, b));
+  merged_[merge.vertex] = true;
 }
 
 void CellComplex::apply(const Change& change, std::vector<std::uint32_t>& made) {
@@ -245,12 +250,13 @@ void CellComplex::apply(const Change& change, std::vector<std::uint32_t>& made) 
     walls_[c] = 0;
     regions_[c] = cell.region;
     qualities_[c] = cell.quality;
-    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.flips);
+    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.faces);
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
   }
-  // A flip on a boundary facet leaves faces open: its two old triangles, which are gone, and the two new ones, which
-  // are walls already.
-  for (const FacetFlip& flip : change.flips) flip_walls(flip);
+  // A change on a boundary facet leaves faces open: its old triangles, which are gone, and the new ones, which are
+  // walls already.
+  change_faces(change.faces);
+  if (change.merge) merge_segment(*change.merge);
   ++change_count_;
   for (const NewCell& cell : change.new_cells)
     for (const std::uint32_t v : cell.vertices) changed_at_[v] = change_count_;
@@ -273,7 +279,7 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   points.reserve(points_.size());
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
     number[v] = static_cast<std::uint32_t>(points.size());
-    if (!is_interior(v) || cell_at_[v] != no_neighbor) points.push_back(points_[v]);
+    if (!is_removed(v)) points.push_back(points_[v]);
   }
   parallel_pack(
       cells_.size(), grain,
@@ -294,7 +300,16 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
           mesh.regions[place++] = regions_[c];
         }
       });
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f] == no_corners) continue;
+    mesh.face_markers[kept] = mesh.face_markers[f];
+    faces_[kept++] = {number[faces_[f][0]], number[faces_[f][1]], number[faces_[f][2]]};
+  }
+  faces_.resize(kept);
+  mesh.face_markers.resize(kept);
   mesh.faces = std::move(faces_);
+  for (auto& [a, b] : mesh.edges) a = number[a], b = number[b];
   return points;
 }
 

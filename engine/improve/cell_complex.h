@@ -25,17 +25,26 @@ struct NewCell {
   double quality;
 };
 
-/// The diagonal ab of two triangles on a facet is replaced by the other one, cd.
-struct FacetFlip {
-  std::uint32_t a, b, c, d;
+/// A face on a facet gets other corners, or is no longer needed.
+struct FaceChange {
+  std::uint32_t face;                    ///< its number
+  std::array<std::uint32_t, 3> corners;  ///< the new ones, in the orientation of the facet; none: `no_corners`
+};
+inline constexpr std::array<std::uint32_t, 3> no_corners = {ghost_vertex, ghost_vertex, ghost_vertex};
+
+/// A vertex inside a segment is removed: its edges to both neighbors on the segment become one.
+struct SegmentMerge {
+  std::uint32_t vertex;
+  std::array<std::uint32_t, 2> neighbors;
 };
 
 /// A plan: cells to remove, and cells that fill the same space instead.
 struct Change {
   std::vector<std::uint32_t> old_cells;
   std::vector<NewCell> new_cells;
-  std::vector<FacetFlip> flips;      ///< one at most
-  std::optional<Point3> new_vertex;  ///< its id is the number of vertices before the change
+  std::vector<FaceChange> faces;        ///< on facets; together they cover the same parts of the same facets
+  std::optional<Point3> new_vertex;     ///< its id is the number of vertices before the change
+  std::optional<SegmentMerge> merge;
 
   void clear();
 };
@@ -77,6 +86,10 @@ class CellComplex {
   std::size_t vertex_count() const { return points_.size(); }
   const Point3& point(std::uint32_t v) const { return points_[v]; }
   bool is_interior(std::uint32_t v) const { return v >= first_interior_; }
+  bool is_removed(std::uint32_t v) const {
+    // One of the PLC that is outside of the domain never had a cell.
+    return is_interior(v) ? cell_at_[v] == no_neighbor : merged_[v];
+  }
   /// A cell with the vertex; `no_neighbor` if the vertex was removed.
   std::uint32_t cell_at(std::uint32_t v) const { return cell_at_[v]; }
   /// The number of the last change around the vertex.
@@ -135,7 +148,8 @@ class CellComplex {
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
-  /// Writes the result back to the mesh: tetrahedra, regions and faces. Removed interior vertices leave no gaps.
+  /// Writes the result back to the mesh: tetrahedra, regions, faces and their markers. The edges on segments get the
+  /// new numbers of their vertices. What was removed leaves no gaps.
   /// \return the vertices of the mesh, in grid units
   std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
@@ -154,8 +168,9 @@ class CellComplex {
   void free_cells(const std::vector<std::uint32_t>& cells);
   std::uint32_t take_place();
   void set_wall(std::uint32_t code);
-  void connect(std::uint32_t code, const std::vector<FacetFlip>& flips);
-  void flip_walls(const FacetFlip& flip);
+  void connect(std::uint32_t code, const std::vector<FaceChange>& faces);
+  void change_faces(const std::vector<FaceChange>& changes);
+  void merge_segment(const SegmentMerge& merge);
 
   QualityGoal goal_;
   std::uint64_t change_count_ = 0;
@@ -165,6 +180,7 @@ class CellComplex {
   std::uint32_t first_interior_ = 0;
   std::vector<std::uint32_t> cell_at_;
   std::vector<std::uint64_t> changed_at_;
+  std::vector<bool> merged_;  // below the first interior one: removed from its segment
 
   // By cell.
   LargeVector<Cell> cells_;

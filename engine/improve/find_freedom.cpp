@@ -7,6 +7,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
+#include "engine/plc/boundary_sides.h"
 #include "engine/plc/plane_steps.h"
 
 namespace ccdt::improve {
@@ -35,7 +36,6 @@ class FreedomFinder {
         chains_(chains),
         around_(plc.vertices.size()),
         may_slide_along_(plc.segments.size(), true),
-        boundary_sides_(plc.segments.size(), 0),
         steps_(plc.facets.size()) {
     look_at_segments();
     look_at_facets();
@@ -78,22 +78,17 @@ class FreedomFinder {
       const plc::Facet& facet = plc_.facets[f];
       for (std::uint32_t t = 0; t < facet.triangles.size(); ++t)
         for (const VertexId v : facet.triangles[t]) look_at(f, t, v);
-      look_at_edges(facet);
+      if (!facet.exactly_flat) forbid_edges(facet);
     }
+    const std::vector<std::uint32_t> boundary_sides = plc::count_boundary_sides(plc_);
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s)
-      if (boundary_sides_[s] > 2) may_slide_along_[s] = false;
+      if (boundary_sides[s] > 2) may_slide_along_[s] = false;
   }
 
-  void look_at_edges(const plc::Facet& facet) {
-    const bool is_boundary = plc_.regions[facet.above].inside != plc_.regions[facet.below].inside;
-    for (const auto& triangle : facet.triangles) {
-      for (int i = 0; i < 3; ++i) {
-        const auto* const segment = segment_of_edge_.find(edge_key(triangle[i], triangle[(i + 1) % 3]));
-        if (segment == nullptr) continue;
-        if (!facet.exactly_flat) may_slide_along_[*segment] = false;
-        if (is_boundary) ++boundary_sides_[*segment];
-      }
-    }
+  void forbid_edges(const plc::Facet& facet) {
+    for (const auto& [a, b, c] : facet.triangles)
+      for (const std::uint64_t edge : {edge_key(a, b), edge_key(b, c), edge_key(c, a)})
+        if (const std::uint32_t* const segment = segment_of_edge_.find(edge)) may_slide_along_[*segment] = false;
   }
 
   void look_at(std::uint32_t facet, std::uint32_t triangle, std::uint32_t v) {
@@ -138,7 +133,6 @@ class FreedomFinder {
   // Are all facets at the segment exactly flat, and are the cells around it connected? Where the domain touches itself
   // along the segment, they are not, and a star would have only some of them.
   std::vector<char> may_slide_along_;
-  std::vector<std::uint32_t> boundary_sides_;  // of each segment: facets with the domain on one side only
   HashTable<std::uint64_t, std::uint32_t> segment_of_edge_;
   mutable std::vector<std::optional<plc::PlaneSteps>> steps_;  // by facet, computed when needed
 };

@@ -14,6 +14,8 @@
 #include "engine/base/sort_in_runs.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/find_step.h"
+#include "engine/improve/remove_steiner_vertices.h"
+#include "engine/mesh/assemble_mesh.h"
 
 namespace ccdt::improve {
 namespace {
@@ -206,7 +208,7 @@ class Improver {
   void make_step(BadCell& bad, Step& step, Effort effort) {
     if (step.kind == Step::Kind::change) {
       ++(counts_.*step.count);
-      counts_.facet_flips += step.change.flips.size();
+      counts_.facet_flips += !step.change.faces.empty();
       apply(step.change);
       return;
     }
@@ -273,16 +275,23 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
                            mesh::TetMesh& mesh, const Progress& progress) {
   // The cells are the tetrahedra. In large meshes there is no memory for both.
   decltype(mesh.tetrahedra)().swap(mesh.tetrahedra);
-  std::vector<Freedom> freedom;
-  const bool all_slide = options.boundary == BoundaryRule::slide;
-  if (all_slide || input.first_sliding < input.first_interior) {
-    freedom = find_freedom(input.plc, input.chains, points.size());
-    for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
-  }
   CellComplex complex(mesh, std::move(input.cells), std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   decltype(mesh.regions)().swap(mesh.regions);  // the complex has them
-  const ImproveCounts counts = improve_cells(complex, freedom, options, progress);
+  ImproveCounts counts;
+  std::uint64_t removed = 0;
+  if (options.steiner == SteinerRule::remove && input.first_steiner < input.first_interior) {
+    removed = remove_steiner_vertices(input.plc, static_cast<std::uint32_t>(input.first_steiner), complex, input.chains, progress);
+    mesh::list_edges(input.plc, input.chains, mesh);
+  }
+  std::vector<Freedom> freedom;
+  const bool all_slide = options.boundary == BoundaryRule::slide;
+  if (all_slide || input.first_sliding < input.first_interior) {
+    freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
+    for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
+  }
+  counts = improve_cells(complex, freedom, options, progress);
+  counts.removed_steiner_vertices = removed;
   note_bytes(complex.bytes());
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;
   points = std::move(complex).take_mesh(mesh);

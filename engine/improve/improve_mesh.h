@@ -26,9 +26,10 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 /// The data of a mesh that `improve_mesh` needs.
 struct ImproveInput {
   const plc::Plc& plc;
-  const protection::SegmentChains& chains;
+  protection::SegmentChains& chains;         ///< lose the Steiner vertices that are removed
   LargeVector<Cell> cells;                   ///< the mesh's tetrahedra; neighbors may be missing
   std::vector<std::uint32_t> facet_of_face;  ///< of each of the mesh's faces
+  std::size_t first_steiner;                 ///< the least Steiner vertex
   std::size_t first_interior;                ///< the least interior vertex
   /// The least vertex that was put inside a segment or a facet and may slide there whatever the options say.
   std::size_t first_sliding = std::numeric_limits<std::size_t>::max();

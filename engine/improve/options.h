@@ -47,10 +47,23 @@ constexpr auto names_of(BoundaryRule) {
        {BoundaryRule::slide, "slide", "vertices inside facets and segments may move along them"}});
 }
 
+/// What happens to the Steiner vertices on segments.
+enum class SteinerRule {
+  remove,  ///< those that the mesh can do without are removed; it is then no longer constrained Delaunay around them
+  keep     ///< all stay
+};
+
+constexpr auto names_of(SteinerRule) {
+  return std::to_array<NamedValue<SteinerRule>>(
+      {{SteinerRule::remove, "remove", "remove those that the mesh can do without"},
+       {SteinerRule::keep, "keep", "keep all: the mesh stays constrained Delaunay"}});
+}
+
 struct ImproveOptions {
   std::optional<Improvement> improvement = {};  ///< unset: all, or none if the lattice is none
   Objective objective = Objective::r;
   BoundaryRule boundary = BoundaryRule::keep;
+  SteinerRule steiner = SteinerRule::remove;
   double target_dihedral = 20;  ///< target: all dihedral angles are between this and 180 minus this, in degrees
   double target_r = 2;          ///< target for every tetrahedron; only for `Objective::r`
   double time = 0;              ///< stop improvement after this many seconds; 0: no limit

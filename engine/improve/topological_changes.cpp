@@ -151,9 +151,11 @@ bool add_ring(const CellComplex& x, const Ring& ring, double least, Change& chan
   return true;
 }
 
-std::uint32_t facet_at(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const auto face = x.find_face(a, b, c);
-  return face ? x.facet_of_face()[*face] : no_neighbor;
+/// The face with another corner.
+FaceChange with_corner(const CellComplex& x, std::uint32_t face, std::uint32_t from, std::uint32_t to) {
+  FaceChange change{face, x.faces()[face]};
+  std::ranges::replace(change.corners, from, to);
+  return change;
 }
 
 /// Finds the ring on the other side of the facet where this ring ends, from its last wall to its first.
@@ -170,12 +172,12 @@ bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
 /// Plans to flip an edge on a facet: the cells on both sides change, and the facet gets the other diagonal.
 bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& change) {
   const std::uint32_t a = ring.a, b = ring.b, first = ring.vertices[0], last = ring.vertices[ring.size];
-  const std::uint32_t facet = facet_at(x, a, b, first);
-  if (facet == no_neighbor || facet != facet_at(x, a, b, last)) return false;
+  const auto face = x.find_face(a, b, first), next = x.find_face(a, b, last);
+  if (!face || !next || x.facet_of_face()[*face] != x.facet_of_face()[*next]) return false;
   Ring other(a, b);
   if (!find_other_side(x, ring, other) || !add_ring(x, ring, least, change)) return false;
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
-  change.flips.push_back({a, b, first, last});
+  change.faces = {with_corner(x, *face, b, last), with_corner(x, *next, a, first)};
   return true;
 }
 

@@ -193,14 +193,7 @@ std::vector<std::uint32_t> add_faces_and_edges(const plc::Plc& plc, const protec
           facet_of_face[face++] = facets.facet[i];
         }
       });
-  mesh.edges.reserve(chains.size());
-  mesh.edge_markers.reserve(chains.size());
-  for (std::size_t s = 0; s < chains.size(); ++s) {
-    for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
-      mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});
-      mesh.edge_markers.push_back(plc.segments[s].marker);
-    }
-  }
+  list_edges(plc, chains, mesh);
   return facet_of_face;
 }
 
@@ -212,6 +205,19 @@ bool is_outside_sphere(const delaunay::Delaunay& d, const std::array<std::uint32
 }
 
 }  // namespace
+
+void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, TetMesh& mesh) {
+  mesh.edges.clear();
+  mesh.edge_markers.clear();
+  mesh.edges.reserve(chains.size());
+  mesh.edge_markers.reserve(chains.size());
+  for (std::size_t s = 0; s < chains.size(); ++s) {
+    for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
+      mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});
+      mesh.edge_markers.push_back(plc.segments[s].marker);
+    }
+  }
+}
 
 std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
                                      const front::FrontResult& front) {

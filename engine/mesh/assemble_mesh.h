@@ -35,6 +35,9 @@ std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMes
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
                                        facets::FacetMesh facets, CollectedMesh& collected);
 
+/// Gives a mesh the edges of the segments, with their markers.
+void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, TetMesh& mesh);
+
 /// The vertices of a mesh in the units of the input. Input vertices get back their original coordinates wherever every
 /// tetrahedron around them stays positively oriented in the written coordinates, tested exactly. Elsewhere they keep
 /// their grid positions, or those to which improvement moved them.

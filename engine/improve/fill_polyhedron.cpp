@@ -1,0 +1,231 @@
+#include "engine/improve/fill_polyhedron.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "engine/numbers/predicates.h"
+
+namespace ccdt::improve {
+namespace {
+
+/// Nearly all searches that succeed need hardly more steps than there are tetrahedra.
+constexpr int most_steps = 200;
+
+constexpr std::size_t number_of_pair(std::size_t a, std::size_t b) {
+  return b * (b - 1) / 2 + a;
+}
+/// The triangles with a < b < c, counted.
+constexpr std::size_t number_of_triangle(std::size_t a, std::size_t b, std::size_t c) {
+  return c * (c - 1) * (c - 2) / 6 + number_of_pair(a, b);
+}
+
+constexpr std::uint32_t bit(std::uint8_t v) {
+  return std::uint32_t{1} << v;
+}
+
+/// Calls visit(v) for the vertices of a set.
+template <class Visit>
+void for_each(std::uint32_t set, const Visit& visit) {
+  for (; set != 0; set &= set - 1) visit(static_cast<std::uint8_t>(std::countr_zero(set)));
+}
+
+template <class Triangle>
+std::uint32_t corner_set(const Triangle& t) {
+  return bit(t[0]) | bit(t[1]) | bit(t[2]);
+}
+
+template <class Triangle>
+bool are_same(const Triangle& s, const Triangle& t) {
+  for (int i = 0; i < 3; ++i)
+    if (s[0] == t[i]) return s[1] == t[(i + 1) % 3] && s[2] == t[(i + 2) % 3];
+  return false;
+}
+
+/// The sides of a tetrahedron on a base, except the base, as the outside sees them.
+template <class Triangle>
+std::array<Triangle, 3> sides_on(const Triangle& base, std::uint8_t apex) {
+  const auto& [a, b, c] = base;
+  return {Triangle{a, b, apex}, Triangle{b, c, apex}, Triangle{c, a, apex}};
+}
+
+}  // namespace
+
+bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region,
+                            std::vector<NewCell>& cells) {
+  if (!load(hull)) return false;
+  steps_left_ = most_steps;
+  if (!search()) return false;
+  for (const auto& [a, b, c, d] : tetrahedra_) {
+    const std::array vertices = {vertices_[a], vertices_[b], vertices_[c], vertices_[d]};
+    cells.push_back({vertices, region, x_.quality_of(vertices)});
+  }
+  return true;
+}
+
+bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hull) {
+  vertices_.clear();
+  for (const auto& face : hull) vertices_.insert(vertices_.end(), face.begin(), face.end());
+  std::ranges::sort(vertices_);
+  vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
+  if (vertices_.size() > most_vertices) return false;
+  points_.clear();
+  for (const std::uint32_t v : vertices_) points_.push_back(x_.point(v));
+  hull_.clear();
+  const auto corner = [&](std::uint32_t v) {
+    return static_cast<Corner>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
+  };
+  for (const auto& [a, b, c] : hull) hull_.push_back({corner(a), corner(b), corner(c)});
+  find_sides();
+  find_free_edges();
+  tetrahedra_.clear();
+  front_.clear();
+  edges_.fill(0);
+  for (const Triangle& t : hull_) add_front(t);
+  return true;
+}
+
+void PolyhedronFiller::find_sides() {
+  const auto n = static_cast<Corner>(vertices_.size());
+  sides_.assign(number_of_triangle(0, 1, n), {});
+  const auto note = [&](Corner a, Corner b, Corner c, Corner d, int side) {
+    Sides& sides = sides_[number_of_triangle(a, b, c)];
+    if (side > 0) sides.above |= bit(d);
+    if (side < 0) sides.below |= bit(d);
+  };
+  for (Corner d = 3; d < n; ++d) {
+    for (Corner c = 2; c < d; ++c) {
+      for (Corner b = 1; b < c; ++b) {
+        for (Corner a = 0; a < b; ++a) {
+          const int side = numbers::orient3d(points_[a], points_[b], points_[c], points_[d]);
+          note(a, b, c, d, side);
+          note(a, b, d, c, -side);
+          note(a, c, d, b, side);
+          note(b, c, d, a, -side);
+        }
+      }
+    }
+  }
+}
+
+void PolyhedronFiller::find_free_edges() {
+  const auto n = static_cast<Corner>(vertices_.size());
+  const auto all = static_cast<CornerSet>((std::uint64_t{1} << n) - 1);
+  for (Corner v = 0; v < n; ++v) free_edges_[v] = all & ~bit(v);
+  for (const Triangle& t : hull_) {
+    const auto [above, below] = sides(t[0], t[1], t[2]);
+    for_each(above, [&](Corner p) {
+      for_each(below & free_edges_[p], [&](Corner q) {
+        if (!is_around(t, p, q)) return;
+        free_edges_[p] &= ~bit(q);
+        free_edges_[q] &= ~bit(p);
+      });
+    });
+  }
+}
+
+PolyhedronFiller::Sides PolyhedronFiller::sides(Corner a, Corner b, Corner c) const {
+  bool is_odd = false;
+  const auto order = [&](Corner& first, Corner& second) {
+    if (first < second) return;
+    std::swap(first, second);
+    is_odd = !is_odd;
+  };
+  order(a, b), order(b, c), order(a, b);
+  const Sides& found = sides_[number_of_triangle(a, b, c)];
+  return is_odd ? Sides{found.below, found.above} : found;
+}
+
+/// Does the edge pq, whose ends are on different sides of the triangle, pass through its inside?
+bool PolyhedronFiller::is_around(const Triangle& t, Corner p, Corner q) const {
+  // It does if s and u are on different sides of pqr, and r and u on different sides of pqs.
+  const auto& [r, s, u] = t;
+  const auto divides = [&](Corner v, CornerSet others) {
+    const auto [above, below] = sides(p, q, v);
+    return (above & others) != 0 && (below & others) != 0;
+  };
+  return divides(r, bit(s) | bit(u)) && divides(s, bit(r) | bit(u));
+}
+
+void PolyhedronFiller::add_front(const Triangle& t) {
+  const auto& [a, b, c] = t;
+  const Sides both = sides(a, b, c);
+  front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c]});
+  edges_[a] |= bit(b) | bit(c);
+  edges_[b] |= bit(a) | bit(c);
+  edges_[c] |= bit(a) | bit(b);
+}
+
+bool PolyhedronFiller::search() {
+  if (front_.empty()) return true;
+  if (--steps_left_ < 0) return false;
+  CornerSet on_front = 0;
+  for (const FrontFace& face : front_) on_front |= corner_set(face.corners);
+  const auto count = [&](const FrontFace& face) { return std::popcount(face.apexes & on_front); };
+  const auto [base, _, apexes] = *std::ranges::min_element(front_, {}, count);
+  std::vector<std::pair<double, Corner>> trials;
+  for_each(apexes & on_front, [&, &base = base](Corner apex) {
+    const double quality =
+        cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
+    trials.emplace_back(-quality, apex);
+  });
+  std::ranges::sort(trials);
+  const std::vector<FrontFace> front = front_;
+  const EdgeSets edges = edges_;
+  const std::size_t size = tetrahedra_.size();
+  for (const auto& [quality, apex] : trials) {
+    if (is_blocked(base, apex)) continue;
+    if (put(base, apex) && search()) return true;
+    front_ = front;
+    edges_ = edges;
+    tetrahedra_.resize(size);
+  }
+  return false;
+}
+
+/// Does the tetrahedron contain a vertex, or cross edges or the front?
+bool PolyhedronFiller::is_blocked(const Triangle& base, Corner apex) const {
+  CornerSet within = sides(base[0], base[1], base[2]).above;
+  for (const Triangle& side : sides_on(base, apex)) {
+    within &= sides(side[0], side[1], side[2]).below;
+    if (is_pierced(side)) return true;
+  }
+  if (within != 0) return true;
+  return std::ranges::any_of(front_, [&](const FrontFace& face) {
+    const auto& [above, below] = face.sides;
+    const CornerSet other = (above & bit(apex)) != 0 ? below : (below & bit(apex)) != 0 ? above : 0;
+    return std::ranges::any_of(
+        base, [&](Corner end) { return (other & bit(end)) != 0 && is_around(face.corners, end, apex); });
+  });
+}
+
+bool PolyhedronFiller::is_pierced(const Triangle& t) const {
+  const auto [above, below] = sides(t[0], t[1], t[2]);
+  bool found = false;
+  for_each(above, [&, &below = below](Corner p) {
+    for_each(found ? 0 : edges_[p] & below, [&](Corner q) { found = found || is_around(t, p, q); });
+  });
+  return found;
+}
+
+/// Puts a tetrahedron onto a face of the front. \return false: one of its sides cannot be there
+bool PolyhedronFiller::put(const Triangle& base, Corner apex) {
+  const auto find = [&](const Triangle& t) {
+    return std::ranges::find_if(front_, [&](const FrontFace& face) { return are_same(face.corners, t); });
+  };
+  front_.erase(find(base));
+  for (const Triangle& side : sides_on(base, apex)) {
+    const auto& [a, b, c] = side;
+    if (find(side) != front_.end()) return false;
+    const auto twin = find({b, a, c});
+    if (twin == front_.end()) {
+      add_front(side);
+    } else {
+      front_.erase(twin);
+    }
+  }
+  tetrahedra_.push_back({base[0], base[1], base[2], apex});
+  return true;
+}
+
+}  // namespace ccdt::improve

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/point.h"
+#include "engine/improve/cell_complex.h"
+
+namespace ccdt::improve {
+
+/// Searches for tetrahedra that fill a polyhedron without new vertices. At each step, one is put onto the face of the
+/// front with the fewest possible apexes (after Liu, Sun, Wang 2006, "Small polyhedron reconnection"; Marot, Verhetsel,
+/// Remacle 2020, "Reviving the search for optimal tetrahedralizations").
+///
+/// What is found is right by construction: all tetrahedra are exactly positive, and each of their faces is shared by
+/// two of them or is one of the polyhedron. The tests for crossings only cut the search short.
+class PolyhedronFiller {
+ public:
+  explicit PolyhedronFiller(const CellComplex& complex) : x_(complex) {}
+
+  /// A polyhedron with more vertices is not tried.
+  static constexpr std::size_t most_vertices = 32;
+
+  /// \param hull   corners of its faces, the inside above
+  /// \param cells  get the tetrahedra
+  /// \return       were they found? The search gives up after a number of steps.
+  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, std::vector<NewCell>& cells);
+
+ private:
+  using Corner = std::uint8_t;      // a vertex of the polyhedron
+  using CornerSet = std::uint32_t;  // by bit
+  using Triangle = std::array<Corner, 3>;
+
+  /// The vertices strictly on the two sides of a triangle.
+  struct Sides {
+    CornerSet above = 0, below = 0;
+  };
+  /// A face between what is filled and what is not; the latter is above.
+  struct FrontFace {
+    Triangle corners;
+    Sides sides;
+    CornerSet apexes;  ///< possible ones if nothing were filled yet
+  };
+  /// By vertex: the other ends of edges.
+  using EdgeSets = std::array<CornerSet, most_vertices>;
+
+  bool load(const std::vector<std::array<std::uint32_t, 3>>& hull);
+  void find_sides();
+  void find_free_edges();
+  Sides sides(Corner a, Corner b, Corner c) const;
+  bool is_around(const Triangle& t, Corner p, Corner q) const;
+  void add_front(const Triangle& corners);
+  bool search();
+  bool is_blocked(const Triangle& base, Corner apex) const;
+  bool is_pierced(const Triangle& t) const;
+  bool put(const Triangle& base, Corner apex);
+
+  const CellComplex& x_;
+  std::vector<std::uint32_t> vertices_;
+  std::vector<Point3> points_;
+  std::vector<Triangle> hull_;
+  std::vector<Sides> sides_;  // by triangle
+  EdgeSets free_edges_{};     // those that do not cross the hull
+  std::vector<FrontFace> front_;
+  EdgeSets edges_{};  // of the hull and the tetrahedra
+  std::vector<std::array<Corner, 4>> tetrahedra_;
+  int steps_left_ = 0;
+};
+
+}  // namespace ccdt::improve

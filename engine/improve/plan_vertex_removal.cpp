@@ -1,0 +1,198 @@
+#include "engine/improve/plan_vertex_removal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/improve/smoothing.h"
+#include "engine/improve/topological_changes.h"
+#include "engine/numbers/predicates.h"
+
+namespace ccdt::improve {
+
+bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2>& neighbors, RemovalEffort effort,
+                         Change& change) {
+  vertex_ = vertex;
+  neighbors_ = neighbors;
+  gather_cells(x_, vertex, marks_, star_);
+  if (!find_pages()) return false;
+  if (effort == RemovalEffort::fill) return plan_fill(change);
+  bool is_planned = plan_collapse(0, change);
+  if (plan_collapse(1, other_) &&
+      (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells))) {
+    std::swap(change, other_);
+    is_planned = true;
+  }
+  return is_planned;
+}
+
+namespace {
+
+Point3 axis_near(const Point3& normal) {
+  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+  if (x >= y && x >= z) return {std::copysign(1, normal.x), 0, 0};
+  if (y >= z) return {0, std::copysign(1, normal.y), 0};
+  return {0, 0, std::copysign(1, normal.z)};
+}
+
+}  // namespace
+
+bool VertexRemoval::find_pages() {
+  faces_.clear();
+  for (const std::uint32_t c : star_) {
+    const auto& v = x_.cell(c).vertices;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (v[f] == vertex_ || !x_.is_wall(face_code(c, f))) continue;
+      const auto corners = corners_of_face(v, f);
+      const auto face = x_.find_face(corners[0], corners[1], corners[2]);
+      if (!face) return false;
+      const auto& oriented = x_.faces()[*face];
+      const auto place = std::ranges::find(oriented, vertex_) - oriented.begin();
+      const FaceAtVertex found{*face, oriented[(place + 1) % 3], oriented[(place + 2) % 3]};
+      if (std::ranges::find(faces_, found.face, &FaceAtVertex::face) == faces_.end()) faces_.push_back(found);
+    }
+  }
+  pages_.clear();
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (std::ranges::find(neighbors_, faces_[i].from) == neighbors_.end()) continue;
+    if (!follow_page(i, pages_.emplace_back())) return false;
+    used += pages_.back().faces.size();
+  }
+  return used == faces_.size();
+}
+
+bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
+  page.polygon = {faces_[first].from};
+  const Point3& o = x_.point(vertex_);
+  page.up = axis_near(cross(x_.point(faces_[first].from) - o, x_.point(faces_[first].to) - o));
+  for (const FaceAtVertex* face = &faces_[first];;) {
+    page.faces.push_back(face->face);
+    page.polygon.push_back(face->to);
+    if (std::ranges::find(neighbors_, face->to) != neighbors_.end()) return page.polygon.size() > 2;
+    const auto next = std::ranges::find(faces_, face->to, &FaceAtVertex::from);
+    if (next == faces_.end() || page.faces.size() >= faces_.size()) return false;
+    face = &*next;
+  }
+}
+
+/// Triangulates the polygon of a page by a fan. \return are all its triangles new, and upright?
+bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
+  page.triangles.clear();
+  const std::size_t n = page.polygon.size();
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Triangle& t =
+        page.triangles.emplace_back(Triangle{page.polygon[from], page.polygon[(from + i) % n], page.polygon[(from + i + 1) % n]});
+    const Point3& a = x_.point(t[0]);
+    if (numbers::orient3d(a, x_.point(t[1]), x_.point(t[2]), a + page.up) <= 0) return false;
+    if (x_.find_face(t[0], t[1], t[2]) || is_in_star(t)) return false;
+  }
+  return true;
+}
+
+/// Is the triangle a face of a cell of the star? Around facets that are flat only within the tolerance there are cells
+/// with all corners on one page.
+bool VertexRemoval::is_in_star(const Triangle& t) const {
+  return std::ranges::any_of(star_, [&](std::uint32_t c) {
+    const auto& v = x_.cell(c).vertices;
+    return std::ranges::all_of(t, [&](std::uint32_t corner) { return std::ranges::find(v, corner) != v.end(); });
+  });
+}
+
+void VertexRemoval::finish(Change& change) const {
+  for (const Page& page : pages_) {
+    for (std::size_t i = 0; i < page.triangles.size(); ++i)
+      change.faces.push_back({page.faces[i], page.triangles[i]});
+    change.faces.push_back({page.faces.back(), no_corners});
+  }
+  change.old_cells = star_;
+  change.merge = SegmentMerge{vertex_, neighbors_};
+}
+
+bool VertexRemoval::plan_collapse(std::size_t end, Change& change) {
+  change.clear();
+  const std::uint32_t to = neighbors_[end];
+  for (const std::uint32_t c : star_) {
+    auto vertices = x_.cell(c).vertices;
+    if (std::ranges::find(vertices, to) != vertices.end()) continue;
+    std::ranges::replace(vertices, vertex_, to);
+    const auto& [a, b, d, e] = vertices;
+    if (numbers::orient3d(x_.point(a), x_.point(b), x_.point(d), x_.point(e)) <= 0) return false;
+    change.new_cells.push_back({vertices, x_.region(c), x_.quality_of(vertices)});
+  }
+  for (Page& page : pages_)
+    if (!find_fan(page, page.polygon.front() == to ? 0 : page.polygon.size() - 1)) return false;
+  finish(change);
+  return true;
+}
+
+void VertexRemoval::find_sectors() {
+  sectors_.clear();
+  marks_.clear(x_.cell_count());
+  std::vector<std::uint32_t> cells;
+  for (const std::uint32_t first : star_) {
+    if (marks_.is_marked(first)) continue;
+    Sector& sector = sectors_.emplace_back(Sector{x_.region(first), {}, {}});
+    marks_.mark(first);
+    cells.assign(1, first);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      add_to_sector(cells[i], sector);
+      const Cell& cell = x_.cell(cells[i]);
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const std::uint32_t next = cell.neighbors[f];
+        if (cell.vertices[f] == vertex_ || x_.is_wall(face_code(cells[i], f)) || marks_.is_marked(cell_of(next)))
+          continue;
+        marks_.mark(cell_of(next));
+        cells.push_back(cell_of(next));
+      }
+    }
+  }
+}
+
+void VertexRemoval::add_to_sector(std::uint32_t c, Sector& sector) const {
+  const auto& v = x_.cell(c).vertices;
+  for (std::uint32_t f = 0; f < 4; ++f) {
+    const auto corners = corners_of_face(v, f);
+    if (v[f] == vertex_) {
+      sector.hull.push_back(corners);
+      continue;
+    }
+    if (!x_.is_wall(face_code(c, f))) continue;
+    const std::uint32_t face = *x_.find_face(corners[0], corners[1], corners[2]);
+    const auto page = std::ranges::find_if(
+        pages_, [&](const Page& p) { return std::ranges::find(p.faces, face) != p.faces.end(); });
+    const auto& oriented = x_.faces()[face];
+    const auto place = std::ranges::find(oriented, corners[0]) - oriented.begin();
+    const Sector::Side side{static_cast<std::uint32_t>(page - pages_.begin()),
+                            oriented[(place + 1) % 3] == corners[1]};
+    if (std::ranges::find(sector.pages, side) == sector.pages.end()) sector.pages.push_back(side);
+  }
+}
+
+bool VertexRemoval::plan_fill(Change& change) {
+  if (pages_.empty()) return false;  // the edge must be in the mesh, which the filler does not know
+  find_sectors();
+  return fill_sectors(0, change);
+}
+
+/// Tries all fans of this page and of those after it.
+bool VertexRemoval::fill_sectors(std::size_t page, Change& change) {
+  if (page < pages_.size()) {
+    const std::size_t n = pages_[page].polygon.size(), fans = n <= 4 ? n - 2 : std::min<std::size_t>(n, 5);
+    for (std::size_t from = 0; from < fans; ++from)
+      if (find_fan(pages_[page], from) && fill_sectors(page + 1, change)) return true;
+    return false;
+  }
+  change.clear();
+  for (const Sector& sector : sectors_) {
+    hull_ = sector.hull;
+    for (const auto& [p, is_above] : sector.pages)
+      for (const auto& [a, b, c] : pages_[p].triangles)
+        hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
+    if (!filler_.fill(hull_, sector.region, change.new_cells)) return false;
+  }
+  finish(change);
+  return true;
+}
+
+}  // namespace ccdt::improve
