@@ -248,6 +248,7 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
                     {"target_r", options.improve.target_r},
                     {"target_dihedral", options.improve.target_dihedral},
                     {"boundary", std::string(name_of(options.improve.boundary))},
+                    {"steiner", std::string(name_of(options.improve.steiner))},
                     {"improve_time", options.improve.time},
                     {"surface", "keep"},
                     {"edge_length", options.edge_length},

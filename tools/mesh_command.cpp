@@ -314,6 +314,7 @@ void add_improvement(CLI::App& verb, ImproveOptions& options) {
              "how the worst tetrahedra are improved; default with --lattice none: none");
   add_choice(verb, "--objective", options.objective, "quality measure to improve");
   add_choice(verb, "--boundary", options.boundary, "whether improvement may move boundary vertices");
+  add_choice(verb, "--steiner", options.steiner, "what happens to the vertices that split segments");
   verb.add_option("--target-dihedral", options.target_dihedral,
                   "improve until all dihedral angles are between this and 180 minus this, in degrees")
       ->check(number_between(0, 60))

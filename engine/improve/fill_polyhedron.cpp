@@ -63,37 +63,48 @@ bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hul
   return true;
 }
 
-bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hull) {
+void PolyhedronFiller::clear() {
   vertices_.clear();
-  for (const auto& face : hull) vertices_.insert(vertices_.end(), face.begin(), face.end());
-  std::ranges::sort(vertices_);
-  vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
-  if (vertices_.size() > most_vertices) return false;
   points_.clear();
-  for (const std::uint32_t v : vertices_) points_.push_back(x_.point(v));
+  sides_.clear();
+}
+
+bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hull) {
+  blocked_face_ = hull.size();
+  const std::size_t known = vertices_.size();
   hull_.clear();
-  const auto corner = [&](std::uint32_t v) {
-    return static_cast<Corner>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
-  };
-  for (const auto& [a, b, c] : hull) hull_.push_back({corner(a), corner(b), corner(c)});
-  find_sides();
+  for (const auto& [a, b, c] : hull) hull_.push_back({corner_of(a), corner_of(b), corner_of(c)});
+  if (vertices_.size() > most_vertices) return false;
+  find_sides(known);
   find_free_edges();
   tetrahedra_.clear();
   front_.clear();
   edges_.fill(0);
-  for (const Triangle& t : hull_) add_front(t);
+  for (std::size_t i = 0; i < hull_.size(); ++i) add_front(hull_[i], i);
+  blocked_face_ = hull_.size();
   return true;
 }
 
-void PolyhedronFiller::find_sides() {
+PolyhedronFiller::Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
+  const auto found = std::ranges::find(vertices_, vertex);
+  const auto corner = static_cast<Corner>(found - vertices_.begin());
+  if (found == vertices_.end()) {
+    vertices_.push_back(vertex);
+    points_.push_back(x_.point(vertex));
+  }
+  return corner;
+}
+
+/// Finds the sides of all triangles, where those of the first `known` vertices are known.
+void PolyhedronFiller::find_sides(std::size_t known) {
   const auto n = static_cast<Corner>(vertices_.size());
-  sides_.assign(number_of_triangle(0, 1, n), {});
+  sides_.resize(number_of_triangle(0, 1, n));
   const auto note = [&](Corner a, Corner b, Corner c, Corner d, int side) {
     Sides& sides = sides_[number_of_triangle(a, b, c)];
     if (side > 0) sides.above |= bit(d);
     if (side < 0) sides.below |= bit(d);
   };
-  for (Corner d = 3; d < n; ++d) {
+  for (auto d = static_cast<Corner>(known); d < n; ++d) {
     for (Corner c = 2; c < d; ++c) {
       for (Corner b = 1; b < c; ++b) {
         for (Corner a = 0; a < b; ++a) {
@@ -147,10 +158,10 @@ bool PolyhedronFiller::is_around(const Triangle& t, Corner p, Corner q) const {
   return divides(r, bit(s) | bit(u)) && divides(s, bit(r) | bit(u));
 }
 
-void PolyhedronFiller::add_front(const Triangle& t) {
+void PolyhedronFiller::add_front(const Triangle& t, std::size_t face_number) {
   const auto& [a, b, c] = t;
   const Sides both = sides(a, b, c);
-  front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c]});
+  front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c], face_number});
   edges_[a] |= bit(b) | bit(c);
   edges_[b] |= bit(a) | bit(c);
   edges_[c] |= bit(a) | bit(b);
@@ -162,7 +173,7 @@ bool PolyhedronFiller::search() {
   CornerSet on_front = 0;
   for (const FrontFace& face : front_) on_front |= corner_set(face.corners);
   const auto count = [&](const FrontFace& face) { return std::popcount(face.apexes & on_front); };
-  const auto [base, _, apexes] = *std::ranges::min_element(front_, {}, count);
+  const auto [base, both, apexes, number] = *std::ranges::min_element(front_, {}, count);
   std::vector<std::pair<double, Corner>> trials;
   for_each(apexes & on_front, [&, &base = base](Corner apex) {
     const double quality =
@@ -180,6 +191,7 @@ bool PolyhedronFiller::search() {
     edges_ = edges;
     tetrahedra_.resize(size);
   }
+  if (blocked_face_ == hull_.size()) blocked_face_ = number;
   return false;
 }
 
@@ -216,13 +228,13 @@ bool PolyhedronFiller::put(const Triangle& base, Corner apex) {
   front_.erase(find(base));
   for (const Triangle& side : sides_on(base, apex)) {
     const auto& [a, b, c] = side;
-    if (find(side) != front_.end()) return false;
     const auto twin = find({b, a, c});
-    if (twin == front_.end()) {
-      add_front(side);
-    } else {
+    if (twin != front_.end()) {
       front_.erase(twin);
+      continue;
     }
+    if (find(side) != front_.end()) return false;
+    add_front(side, hull_.size());
   }
   tetrahedra_.push_back({base[0], base[1], base[2], apex});
   return true;

@@ -23,10 +23,16 @@ class PolyhedronFiller {
   /// A polyhedron with more vertices is not tried.
   static constexpr std::size_t most_vertices = 32;
 
+  /// Forgets the vertices of the last polyhedron.
+  void clear();
+  /// Fills a polyhedron, which has all vertices of those since the last `clear`: what is known of them is used again.
   /// \param hull   corners of its faces, the inside above
   /// \param cells  get the tetrahedra
   /// \return       were they found? The search gives up after a number of steps.
   bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, std::vector<NewCell>& cells);
+
+  /// A face of the last hull that stopped the search because no vertex could be its apex.
+  std::size_t blocked_face() const { return blocked_face_; }
 
  private:
   using Corner = std::uint8_t;      // a vertex of the polyhedron
@@ -41,17 +47,19 @@ class PolyhedronFiller {
   struct FrontFace {
     Triangle corners;
     Sides sides;
-    CornerSet apexes;  ///< possible ones if nothing were filled yet
+    CornerSet apexes;         ///< possible ones if nothing were filled yet
+    std::size_t face_number;  ///< of the hull; or more
   };
   /// By vertex: the other ends of edges.
   using EdgeSets = std::array<CornerSet, most_vertices>;
 
   bool load(const std::vector<std::array<std::uint32_t, 3>>& hull);
-  void find_sides();
+  Corner corner_of(std::uint32_t vertex);
+  void find_sides(std::size_t known);
   void find_free_edges();
   Sides sides(Corner a, Corner b, Corner c) const;
   bool is_around(const Triangle& t, Corner p, Corner q) const;
-  void add_front(const Triangle& corners);
+  void add_front(const Triangle& corners, std::size_t face_number);
   bool search();
   bool is_blocked(const Triangle& base, Corner apex) const;
   bool is_pierced(const Triangle& t) const;
@@ -67,6 +75,7 @@ class PolyhedronFiller {
   EdgeSets edges_{};  // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
   int steps_left_ = 0;
+  std::size_t blocked_face_ = 0;
 };
 
 }  // namespace ccdt::improve

@@ -9,6 +9,11 @@
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
+namespace {
+
+constexpr int most_growth = 30;  ///< cells by which a sector may grow
+
+}  // namespace
 
 bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2>& neighbors, RemovalEffort effort,
                          Change& change) {
@@ -16,7 +21,8 @@ bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2
   neighbors_ = neighbors;
   gather_cells(x_, vertex, marks_, star_);
   if (!find_pages()) return false;
-  if (effort == RemovalEffort::fill) return plan_fill(change);
+  if (effort == RemovalEffort::fill) return plan_fill(0, change);
+  if (effort == RemovalEffort::grow) return plan_fill(most_growth, change);
   bool is_planned = plan_collapse(0, change);
   if (plan_collapse(1, other_) &&
       (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells))) {
@@ -129,70 +135,131 @@ bool VertexRemoval::plan_collapse(std::size_t end, Change& change) {
 void VertexRemoval::find_sectors() {
   sectors_.clear();
   marks_.clear(x_.cell_count());
-  std::vector<std::uint32_t> cells;
   for (const std::uint32_t first : star_) {
     if (marks_.is_marked(first)) continue;
-    Sector& sector = sectors_.emplace_back(Sector{x_.region(first), {}, {}});
+    Sector& sector = sectors_.emplace_back(Sector{x_.region(first), {first}, {}, {}});
     marks_.mark(first);
-    cells.assign(1, first);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      add_to_sector(cells[i], sector);
-      const Cell& cell = x_.cell(cells[i]);
+    for (std::size_t i = 0; i < sector.cells.size(); ++i) {
+      const std::uint32_t c = sector.cells[i];
+      sector.hull.push_back(face_code(c, x_.place(c, vertex_)));
+      add_pages(c, sector);
+      const Cell& cell = x_.cell(c);
       for (std::uint32_t f = 0; f < 4; ++f) {
         const std::uint32_t next = cell.neighbors[f];
-        if (cell.vertices[f] == vertex_ || x_.is_wall(face_code(cells[i], f)) || marks_.is_marked(cell_of(next)))
-          continue;
+        if (cell.vertices[f] == vertex_ || x_.is_wall(face_code(c, f)) || marks_.is_marked(cell_of(next))) continue;
         marks_.mark(cell_of(next));
-        cells.push_back(cell_of(next));
+        sector.cells.push_back(cell_of(next));
       }
     }
   }
 }
 
-void VertexRemoval::add_to_sector(std::uint32_t c, Sector& sector) const {
+/// Adds the pages of a cell's walls around the vertex.
+void VertexRemoval::add_pages(std::uint32_t c, Sector& sector) const {
   const auto& v = x_.cell(c).vertices;
   for (std::uint32_t f = 0; f < 4; ++f) {
+    if (v[f] == vertex_ || !x_.is_wall(face_code(c, f))) continue;
     const auto corners = corners_of_face(v, f);
-    if (v[f] == vertex_) {
-      sector.hull.push_back(corners);
-      continue;
-    }
-    if (!x_.is_wall(face_code(c, f))) continue;
     const std::uint32_t face = *x_.find_face(corners[0], corners[1], corners[2]);
     const auto page = std::ranges::find_if(
         pages_, [&](const Page& p) { return std::ranges::find(p.faces, face) != p.faces.end(); });
     const auto& oriented = x_.faces()[face];
     const auto place = std::ranges::find(oriented, corners[0]) - oriented.begin();
-    const Sector::Side side{static_cast<std::uint32_t>(page - pages_.begin()),
-                            oriented[(place + 1) % 3] == corners[1]};
+    const Sector::Side side{static_cast<std::uint32_t>(page - pages_.begin()), oriented[(place + 1) % 3] == corners[1]};
     if (std::ranges::find(sector.pages, side) == sector.pages.end()) sector.pages.push_back(side);
   }
 }
 
-bool VertexRemoval::plan_fill(Change& change) {
+bool VertexRemoval::plan_fill(int growth, Change& change) {
   if (pages_.empty()) return false;  // the edge must be in the mesh, which the filler does not know
   find_sectors();
-  return fill_sectors(0, change);
+  return fill_sectors(0, growth, change);
 }
 
 /// Tries all fans of this page and of those after it.
-bool VertexRemoval::fill_sectors(std::size_t page, Change& change) {
+bool VertexRemoval::fill_sectors(std::size_t page, int growth, Change& change) {
   if (page < pages_.size()) {
     const std::size_t n = pages_[page].polygon.size(), fans = n <= 4 ? n - 2 : std::min<std::size_t>(n, 5);
     for (std::size_t from = 0; from < fans; ++from)
-      if (find_fan(pages_[page], from) && fill_sectors(page + 1, change)) return true;
+      if (find_fan(pages_[page], from) && fill_sectors(page + 1, growth, change)) return true;
     return false;
   }
   change.clear();
-  for (const Sector& sector : sectors_) {
-    hull_ = sector.hull;
+  finish(change);
+  return std::ranges::all_of(sectors_, [&](const Sector& sector) { return fill_sector(sector, growth, change); });
+}
+
+bool VertexRemoval::fill_sector(Sector sector, int growth, Change& change) {
+  const std::size_t size = sector.cells.size();
+  filler_.clear();
+  while (true) {
+    hull_.clear();
+    for (const std::uint32_t code : sector.hull)
+      hull_.push_back(corners_of_face(x_.cell(cell_of(code)).vertices, face_of(code)));
     for (const auto& [p, is_above] : sector.pages)
       for (const auto& [a, b, c] : pages_[p].triangles)
         hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
-    if (!filler_.fill(hull_, sector.region, change.new_cells)) return false;
+    if (filler_.fill(hull_, sector.region, change.new_cells)) {
+      change.old_cells.insert(change.old_cells.end(), sector.cells.begin() + static_cast<std::ptrdiff_t>(size),
+                              sector.cells.end());
+      return true;
+    }
+    if (growth-- == 0 || !grow(filler_.blocked_face(), sector)) return false;
   }
-  finish(change);
+}
+
+/// Adds a cell to a sector: the one behind a face of the hull; if there is none, one behind a face that shares corners
+/// with it.
+bool VertexRemoval::grow(std::size_t blocked, Sector& sector) const {
+  if (blocked >= hull_.size()) return false;
+  if (blocked < sector.hull.size() && can_grow(sector.hull[blocked])) return add_cell_behind(blocked, sector);
+  for (const std::ptrdiff_t shared : {2, 1}) {
+    for (std::size_t i = 0; i < sector.hull.size(); ++i) {
+      const Triangle& t = hull_[i];
+      const auto is_shared = [&](std::uint32_t v) { return std::ranges::find(hull_[blocked], v) != hull_[blocked].end(); };
+      if (i != blocked && std::ranges::count_if(t, is_shared) == shared && can_grow(sector.hull[i]))
+        return add_cell_behind(i, sector);
+    }
+  }
+  return false;
+}
+
+bool VertexRemoval::can_grow(std::uint32_t code) const {
+  return !x_.is_wall(code) && x_.place(cell_of(x_.across(code)), vertex_) == 3 &&
+         x_.cell(cell_of(x_.across(code))).vertices[3] != vertex_;
+}
+
+/// \return false: vertices or segments would not be on the hull
+bool VertexRemoval::add_cell_behind(std::size_t face, Sector& sector) const {
+  const std::uint32_t code = sector.hull[face], behind = x_.across(code);
+  const std::uint32_t next = cell_of(behind);
+  const auto& v = x_.cell(next).vertices;
+  sector.hull.erase(sector.hull.begin() + static_cast<std::ptrdiff_t>(face));
+  sector.cells.push_back(next);
+  for (std::uint32_t f = 0; f < 4; ++f) {
+    const std::uint32_t mine = face_code(next, f), others = x_.cell(next).neighbors[f];
+    if (mine == behind) continue;
+    const auto twin = x_.is_wall(mine) ? sector.hull.end() : std::ranges::find(sector.hull, others);
+    if (twin == sector.hull.end()) {
+      sector.hull.push_back(mine);
+    } else {
+      sector.hull.erase(twin);
+    }
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    if (!is_on_hull(sector, v[i], v[i])) return false;
+    for (std::uint32_t j = i + 1; j < 4; ++j)
+      if (x_.is_segment(v[i], v[j]) && !is_on_hull(sector, v[i], v[j])) return false;
+  }
   return true;
+}
+
+bool VertexRemoval::is_on_hull(const Sector& sector, std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::any_of(sector.hull, [&](std::uint32_t code) {
+    const auto corners = corners_of_face(x_.cell(cell_of(code)).vertices, face_of(code));
+    const auto has = [&](std::uint32_t v) { return std::ranges::find(corners, v) != corners.end(); };
+    return has(a) && has(b);
+  });
 }
 
 }  // namespace ccdt::improve

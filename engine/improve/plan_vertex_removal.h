@@ -11,7 +11,8 @@ namespace ccdt::improve {
 
 enum class RemovalEffort {
   collapse,  ///< onto a neighbor on the segment
-  fill       ///< search for any tetrahedra
+  fill,      ///< search for any tetrahedra
+  grow       ///< and replace more cells than those around the vertex
 };
 
 /// Plans to remove vertices that split segments.
@@ -47,7 +48,8 @@ class VertexRemoval {
   /// The space around the vertex between two pages.
   struct Sector {
     int region;
-    std::vector<Triangle> hull;  ///< the inside above
+    std::vector<std::uint32_t> cells;
+    std::vector<std::uint32_t> hull;  ///< the codes of its faces, as its cells call them
     struct Side {
       std::uint32_t page;
       bool is_above;  ///< the page
@@ -59,12 +61,17 @@ class VertexRemoval {
   bool find_pages();
   bool follow_page(std::size_t first, Page& page) const;
   void find_sectors();
-  void add_to_sector(std::uint32_t cell, Sector& sector) const;
+  void add_pages(std::uint32_t cell, Sector& sector) const;
   bool find_fan(Page& page, std::size_t from) const;
   bool is_in_star(const Triangle& triangle) const;
   bool plan_collapse(std::size_t end, Change& change);
-  bool plan_fill(Change& change);
-  bool fill_sectors(std::size_t page, Change& change);
+  bool plan_fill(int growth, Change& change);
+  bool fill_sectors(std::size_t page, int growth, Change& change);
+  bool fill_sector(Sector sector, int growth, Change& change);
+  bool grow(std::size_t face, Sector& sector) const;
+  bool can_grow(std::uint32_t code) const;
+  bool add_cell_behind(std::size_t face, Sector& sector) const;
+  bool is_on_hull(const Sector& sector, std::uint32_t a, std::uint32_t b) const;
   void finish(Change& change) const;
 
   const CellComplex& x_;

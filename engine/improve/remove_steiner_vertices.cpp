@@ -15,7 +15,7 @@ namespace {
 struct Candidate {
   std::uint32_t vertex;
   std::array<std::uint32_t, 2> neighbors;
-  std::array<std::uint64_t, 2> tried_at{};  ///< by effort: the number of the last change when it could not be removed
+  std::array<std::uint64_t, 3> tried_at{};  ///< by effort: the number of the last change when it could not be removed
 };
 
 class SteinerRemover {
@@ -45,8 +45,13 @@ class SteinerRemover {
           for (int e = 0; e <= static_cast<int>(effort); ++e) c.tried_at[e] = x_.change_count() + 1;
         }
       }
-      if (removed == before && effort == RemovalEffort::fill) return removed;
-      effort = removed == before ? RemovalEffort::fill : RemovalEffort::collapse;
+      if (removed != before) {
+        effort = RemovalEffort::collapse;
+      } else if (effort == RemovalEffort::grow) {
+        return removed;
+      } else {
+        effort = static_cast<RemovalEffort>(static_cast<int>(effort) + 1);
+      }
     }
   }
 
