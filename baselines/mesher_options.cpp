@@ -94,6 +94,7 @@ const NamedOptions& usual_options() {
                         {"sharp-angle", digits(surface::RemeshOptions().sharp_angle)},
                         {"sizes", ""},
                         {"sphere-factor", digits(o.sphere_factor)},
+                        {"steiner", text_of(o.improve.steiner)},
                         {"surface", "keep"},
                         {"target-dihedral", digits(o.improve.target_dihedral)},
                         {"target-r", digits(o.improve.target_r)},

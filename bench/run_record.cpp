@@ -36,7 +36,9 @@ inline constexpr auto fields<ImproveCounts> = std::tuple(
     field("removed_edges", &ImproveCounts::removed_edges), field("facet_flips", &ImproveCounts::facet_flips),
     field("removed_faces", &ImproveCounts::removed_faces), field("moved_vertices", &ImproveCounts::moved_vertices),
     field("inserted_vertices", &ImproveCounts::inserted_vertices),
-    field("collapsed_edges", &ImproveCounts::collapsed_edges), field("stop", &ImproveCounts::stop));
+    field("collapsed_edges", &ImproveCounts::collapsed_edges),
+    optional_field("removed_steiner_vertices", &ImproveCounts::removed_steiner_vertices),
+    field("stop", &ImproveCounts::stop));
 
 template <>
 inline constexpr auto fields<SegmentCounts> = std::tuple(field("all", &SegmentCounts::all),
@@ -44,6 +46,7 @@ inline constexpr auto fields<SegmentCounts> = std::tuple(field("all", &SegmentCo
                                                          field("delaunay", &SegmentCounts::delaunay),
                                                          field("split", &SegmentCounts::split),
                                                          field("pieces", &SegmentCounts::pieces),
+                                                         optional_field("restored", &SegmentCounts::restored),
                                                          field("front", &SegmentCounts::front));
 
 template <>

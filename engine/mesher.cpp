@@ -188,15 +188,6 @@ std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3
                   });
 }
 
-/// By triangle: is it no face of the tetrahedralization? Faces do not cross each other.
-std::vector<std::uint8_t> find_doubtful(const std::vector<plc::VertexTriple>& triangles,
-                                        const delaunay::Delaunay& delaunay) {
-  const std::vector<std::uint32_t> codes = front::find_delaunay_faces(triangles, delaunay);
-  std::vector<std::uint8_t> is_doubtful(codes.size());
-  for (std::size_t t = 0; t < codes.size(); ++t) is_doubtful[t] = codes[t] == delaunay::no_neighbor;
-  return is_doubtful;
-}
-
 /// An input on the grid, and the Delaunay tetrahedralization of its vertices if that was needed to check it.
 struct CheckedInput {
   plc::Plc plc;
@@ -208,13 +199,14 @@ CheckedInput check_input(const InputPlc& input, const MeshOptions& options, doub
   plc::UncheckedPlc gathered =
       measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, {flatness}, progress); });
   CheckedInput checked;
-  std::vector<std::uint8_t> is_doubtful;
+  std::vector<std::uint8_t> is_doubtful;  // faces of a tetrahedralization do not cross each other
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
   if (!options.refine_surface)
     checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, options, progress, costs);
   if (checked.delaunay)
-    is_doubtful = measured(costs, mesh_stage::face_check,
-                           [&] { return find_doubtful(gathered.triangles.corners, *checked.delaunay); });
+    is_doubtful = measured(costs, mesh_stage::plc, [&] {
+      return front::find_undelaunay_triangles(gathered.triangles.corners, *checked.delaunay);
+    });
   checked.plc = measured(costs, mesh_stage::plc,
                          [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, {flatness}, progress); });
   return checked;
@@ -329,14 +321,20 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
   if (improves(options, t)) {
-    improve::ImproveInput mesh{t.plc,           t.chains, std::move(t.cells), std::move(t.facet_of_face), first_steiner_vertex(t),
-                               t.first_interior};
+    improve::ImproveInput mesh{
+        t.plc, t.chains, std::move(t.cells), std::move(t.facet_of_face), first_steiner_vertex(t), t.first_interior};
+    const std::size_t faces_before = t.mesh.faces.size();
     mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
     t.counts.improve = measured(costs, mesh_stage::improve, [&] {
       return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress);
     });
-    t.counts.steiner_vertices -= t.counts.improve.removed_steiner_vertices;
-    t.counts.interior_vertices = t.points.size() - t.first_interior + t.counts.improve.removed_steiner_vertices;
+    const std::uint64_t removed = t.counts.improve.removed_steiner_vertices;
+    t.counts.steiner_vertices -= removed;
+    t.counts.faces -= faces_before - t.mesh.faces.size();
+    t.counts.interior_vertices = t.points.size() - (t.first_interior - removed);
+    t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
+    const auto still_split = static_cast<std::uint64_t>(std::ranges::count_if(t.chains, protection::is_split));
+    t.counts.segments->restored = t.counts.segments->split - still_split;
   }
   t.mesh.vertices =
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });

@@ -59,12 +59,15 @@ const Unimproved& unimproved(const Stages& s) {
 improve::ImproveOptions options_of(improve::Improvement improvement) {
   improve::ImproveOptions options;
   options.improvement = improvement;
+  options.steiner = improve::SteinerRule::keep;
   return options;
 }
 
 improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement, Unimproved& u) {
-  return improve::improve_mesh({s.plc, s.chains, std::move(u.cells), std::move(u.facet_of_face), s.first_interior},
-                               options_of(improvement), u.points, u.mesh);
+  protection::SegmentChains chains = s.chains;
+  return improve::improve_mesh(
+      {s.plc, chains, std::move(u.cells), std::move(u.facet_of_face), s.plc.vertices.size(), s.first_interior},
+      options_of(improvement), u.points, u.mesh);
 }
 
 /// The quality of the worst cell; not positive if a cell is not.

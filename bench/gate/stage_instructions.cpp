@@ -18,6 +18,7 @@ struct StageFunction {
 };
 
 constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::gather_plc", "plc"},
+                                                               {"ccdt::front::find_undelaunay_triangles", "plc"},
                                                                {"ccdt::plc::check_plc", "plc"},
                                                                {"ccdt::refine::refine_plc", "refine"},
                                                                {"ccdt::protection::unprotected", "protect"},

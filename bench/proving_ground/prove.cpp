@@ -27,7 +27,7 @@ std::string name(const MeshOptions& o) {
   return "lattice " + std::string(name_of(o.lattice)) + ", protection " + std::string(name_of(o.protection)) +
          ", locator " + std::string(name_of(o.locator)) + ", delaunay " + std::string(name_of(o.delaunay)) +
          (o.face_protection ? "" : ", without face protection") + (o.refine_surface ? ", refined" : "") + ", improve " +
-         std::string(name_of(improvement_of(o)));
+         std::string(name_of(improvement_of(o))) + ", Steiner vertices: " + std::string(name_of(o.improve.steiner));
 }
 
 /// The tetrahedra as sorted lists of sorted vertices.
@@ -88,13 +88,17 @@ class Prover {
     options.delaunay = DelaunayMethod::insert, options.least_core = 0;
     options.thin_tetrahedra = 2000;  // thin plates must not decide how long everything takes
     options.improve.improvement = Improvement::none;
+    options.improve.steiner = SteinerRule::keep;
     compare(options, mesh(options, options_.seconds).mesh);
+    options.improve.steiner = SteinerRule::remove;
+    verify(mesh(options, options_.seconds).mesh);
+    options.improve.steiner = SteinerRule::keep;
     for (const Lattice lattice : options_.lattices) {
       options.lattice = lattice;
       compare(options, mesh(options, options_.seconds).mesh);
-      options.improve.improvement = Improvement::all;
+      options.improve.improvement = Improvement::all, options.improve.steiner = SteinerRule::remove;
       verify(mesh(options, options_.seconds).mesh);
-      options.improve.improvement = Improvement::none;
+      options.improve.improvement = Improvement::none, options.improve.steiner = SteinerRule::keep;
     }
     options.lattice = Lattice::none;
     if (options_.refined) {

@@ -375,6 +375,7 @@ EngineAnswer ask_engine(const SmallPlc& plc) {
   options.lattice = Lattice::none;
   options.threads = 1;  // for ten vertices
   options.improve.improvement = Improvement::none;
+  options.improve.steiner = SteinerRule::keep;
   try {
     const MeshResult result = mesh_plc(as_input(plc), options);
     EngineAnswer answer{.has_steiner_vertices = result.counts.steiner_vertices > 0};

@@ -21,6 +21,7 @@ MeshResult protect(const InputPlc& input, Protection protection) {
   options.protection = protection;
   options.lattice = Lattice::none;
   options.improve.improvement = Improvement::none;
+  options.improve.steiner = SteinerRule::keep;
   return mesh_plc(input, options);
 }
 

@@ -35,7 +35,7 @@ SegmentCounts count_segments(const plc::Plc& plc, const protection::SegmentChain
   for (std::size_t s = 0; s < plc.segments.size(); ++s) {
     const auto& chain = chains[s];
     counts.grazeable += plc.segments[s].grazeable;
-    if (std::ranges::any_of(chain, [](const protection::ChainVertex& v) { return v.level > 0; })) {
+    if (protection::is_split(chain)) {
       ++counts.split;
       counts.pieces += chain.size() - 1;
       continue;

@@ -71,9 +71,17 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
       codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
     }
   });
-  work_done.cells_visited += delaunay.cells.size();
+  work_done.cells_visited += delaunay.cells.size() - delaunay.free_cells.size();
   note_bytes(bytes_of(codes, triangles));
   return codes;
+}
+
+std::vector<std::uint8_t> find_undelaunay_triangles(const std::vector<std::array<VertexId, 3>>& triangles,
+                                                    const delaunay::Delaunay& delaunay) {
+  const std::vector<std::uint32_t> codes = find_delaunay_faces(triangles, delaunay);
+  std::vector<std::uint8_t> is_undelaunay(codes.size());
+  for (std::size_t t = 0; t < codes.size(); ++t) is_undelaunay[t] = codes[t] == delaunay::no_neighbor;
+  return is_undelaunay;
 }
 
 }  // namespace ccdt::front

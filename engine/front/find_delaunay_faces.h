@@ -16,4 +16,8 @@ namespace ccdt::front {
 std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
                                                const delaunay::Delaunay& delaunay);
 
+/// By triangle: is it no face of the tetrahedralization?
+std::vector<std::uint8_t> find_undelaunay_triangles(const std::vector<std::array<VertexId, 3>>& triangles,
+                                                    const delaunay::Delaunay& delaunay);
+
 }  // namespace ccdt::front

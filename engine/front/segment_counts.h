@@ -12,6 +12,7 @@ struct SegmentCounts {
   std::uint64_t delaunay = 0;   ///< Delaunay edges without a split
   std::uint64_t split = 0;      ///< split by protection
   std::uint64_t pieces = 0;     ///< the Delaunay edges of split segments
+  std::uint64_t restored = 0;   ///< split, but one edge again because the vertices on it were removed
   std::uint64_t front = 0;  ///< not Delaunay edges but not split, because they are not grazeable: the front makes them
 };
 

@@ -42,8 +42,8 @@ struct SegmentMerge {
 struct Change {
   std::vector<std::uint32_t> old_cells;
   std::vector<NewCell> new_cells;
-  std::vector<FaceChange> faces;        ///< on facets; together they cover the same parts of the same facets
-  std::optional<Point3> new_vertex;     ///< its id is the number of vertices before the change
+  std::vector<FaceChange> faces;     ///< on facets; together they cover the same parts of the same facets
+  std::optional<Point3> new_vertex;  ///< its id is the number of vertices before the change
   std::optional<SegmentMerge> merge;
 
   void clear();

@@ -176,8 +176,7 @@ bool PolyhedronFiller::search() {
   const auto [base, both, apexes, number] = *std::ranges::min_element(front_, {}, count);
   std::vector<std::pair<double, Corner>> trials;
   for_each(apexes & on_front, [&, &base = base](Corner apex) {
-    const double quality =
-        cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
+    const double quality = cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
     trials.emplace_back(-quality, apex);
   });
   std::ranges::sort(trials);

@@ -278,10 +278,10 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   CellComplex complex(mesh, std::move(input.cells), std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   decltype(mesh.regions)().swap(mesh.regions);  // the complex has them
-  ImproveCounts counts;
   std::uint64_t removed = 0;
-  if (options.steiner == SteinerRule::remove && input.first_steiner < input.first_interior) {
-    removed = remove_steiner_vertices(input.plc, static_cast<std::uint32_t>(input.first_steiner), complex, input.chains, progress);
+  if (options.steiner == SteinerRule::remove) {
+    const auto first_steiner = static_cast<std::uint32_t>(input.first_steiner);
+    removed = remove_steiner_vertices(input.plc, first_steiner, complex, input.chains, progress);
     mesh::list_edges(input.plc, input.chains, mesh);
   }
   std::vector<Freedom> freedom;
@@ -290,7 +290,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
     freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
-  counts = improve_cells(complex, freedom, options, progress);
+  ImproveCounts counts = improve_cells(complex, freedom, options, progress);
   counts.removed_steiner_vertices = removed;
   note_bytes(complex.bytes());
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;

@@ -63,10 +63,10 @@ struct ImproveOptions {
   std::optional<Improvement> improvement = {};  ///< unset: all, or none if the lattice is none
   Objective objective = Objective::r;
   BoundaryRule boundary = BoundaryRule::keep;
-  SteinerRule steiner = SteinerRule::remove;
   double target_dihedral = 20;  ///< target: all dihedral angles are between this and 180 minus this, in degrees
   double target_r = 2;          ///< target for every tetrahedron; only for `Objective::r`
   double time = 0;              ///< stop improvement after this many seconds; 0: no limit
+  SteinerRule steiner = SteinerRule::remove;
 };
 
 }  // namespace ccdt::improve

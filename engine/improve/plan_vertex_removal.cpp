@@ -11,7 +11,21 @@
 namespace ccdt::improve {
 namespace {
 
-constexpr int most_growth = 30;  ///< cells by which a sector may grow
+constexpr int most_growth = 30;       ///< cells by which a sector may grow
+constexpr std::size_t most_fans = 5;  ///< of a page that are tried
+
+template <class List>
+bool has(const List& list, std::uint32_t value) {
+  return std::ranges::find(list, value) != list.end();
+}
+
+/// The axis closest to a direction.
+Point3 axis_near(const Point3& direction) {
+  const double x = std::fabs(direction.x), y = std::fabs(direction.y), z = std::fabs(direction.z);
+  if (x >= y && x >= z) return {std::copysign(1, direction.x), 0, 0};
+  if (y >= z) return {0, std::copysign(1, direction.y), 0};
+  return {0, 0, std::copysign(1, direction.z)};
+}
 
 }  // namespace
 
@@ -21,28 +35,18 @@ bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2
   neighbors_ = neighbors;
   gather_cells(x_, vertex, marks_, star_);
   if (!find_pages()) return false;
-  if (effort == RemovalEffort::fill) return plan_fill(0, change);
-  if (effort == RemovalEffort::grow) return plan_fill(most_growth, change);
-  bool is_planned = plan_collapse(0, change);
-  if (plan_collapse(1, other_) &&
-      (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells))) {
-    std::swap(change, other_);
-    is_planned = true;
-  }
-  return is_planned;
+  if (effort != RemovalEffort::collapse) return plan_fill(effort == RemovalEffort::fill ? 0 : most_growth, change);
+  const bool is_planned = plan_collapse(0, change);
+  if (!plan_collapse(1, other_)) return is_planned;
+  if (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells)) std::swap(change, other_);
+  return true;
 }
 
-namespace {
-
-Point3 axis_near(const Point3& normal) {
-  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
-  if (x >= y && x >= z) return {std::copysign(1, normal.x), 0, 0};
-  if (y >= z) return {0, std::copysign(1, normal.y), 0};
-  return {0, 0, std::copysign(1, normal.z)};
+VertexRemoval::Triangle VertexRemoval::corners_of(std::uint32_t code) const {
+  return corners_of_face(x_.cell(cell_of(code)).vertices, face_of(code));
 }
 
-}  // namespace
-
+/// Finds the faces around the vertex on each facet. \return false: they are no pages of a book along the segment
 bool VertexRemoval::find_pages() {
   faces_.clear();
   for (const std::uint32_t c : star_) {
@@ -61,13 +65,14 @@ bool VertexRemoval::find_pages() {
   pages_.clear();
   std::size_t used = 0;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (std::ranges::find(neighbors_, faces_[i].from) == neighbors_.end()) continue;
+    if (!has(neighbors_, faces_[i].from)) continue;
     if (!follow_page(i, pages_.emplace_back())) return false;
     used += pages_.back().faces.size();
   }
   return used == faces_.size();
 }
 
+/// Follows the faces of one facet around the vertex, from one neighbor to the other.
 bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
   page.polygon = {faces_[first].from};
   const Point3& o = x_.point(vertex_);
@@ -75,7 +80,7 @@ bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
   for (const FaceAtVertex* face = &faces_[first];;) {
     page.faces.push_back(face->face);
     page.polygon.push_back(face->to);
-    if (std::ranges::find(neighbors_, face->to) != neighbors_.end()) return page.polygon.size() > 2;
+    if (has(neighbors_, face->to)) return page.polygon.size() > 2;
     const auto next = std::ranges::find(faces_, face->to, &FaceAtVertex::from);
     if (next == faces_.end() || page.faces.size() >= faces_.size()) return false;
     face = &*next;
@@ -85,10 +90,11 @@ bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
 /// Triangulates the polygon of a page by a fan. \return are all its triangles new, and upright?
 bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
   page.triangles.clear();
-  const std::size_t n = page.polygon.size();
+  const auto& polygon = page.polygon;
+  const std::size_t n = polygon.size();
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    const Triangle& t =
-        page.triangles.emplace_back(Triangle{page.polygon[from], page.polygon[(from + i) % n], page.polygon[(from + i + 1) % n]});
+    const Triangle t = {polygon[from], polygon[(from + i) % n], polygon[(from + i + 1) % n]};
+    page.triangles.push_back(t);
     const Point3& a = x_.point(t[0]);
     if (numbers::orient3d(a, x_.point(t[1]), x_.point(t[2]), a + page.up) <= 0) return false;
     if (x_.find_face(t[0], t[1], t[2]) || is_in_star(t)) return false;
@@ -101,26 +107,27 @@ bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
 bool VertexRemoval::is_in_star(const Triangle& t) const {
   return std::ranges::any_of(star_, [&](std::uint32_t c) {
     const auto& v = x_.cell(c).vertices;
-    return std::ranges::all_of(t, [&](std::uint32_t corner) { return std::ranges::find(v, corner) != v.end(); });
+    return std::ranges::all_of(t, [&](std::uint32_t corner) { return has(v, corner); });
   });
 }
 
-void VertexRemoval::finish(Change& change) const {
+/// Plans all but the new cells.
+void VertexRemoval::replace_star(Change& change) const {
   for (const Page& page : pages_) {
-    for (std::size_t i = 0; i < page.triangles.size(); ++i)
-      change.faces.push_back({page.faces[i], page.triangles[i]});
+    for (std::size_t i = 0; i < page.triangles.size(); ++i) change.faces.push_back({page.faces[i], page.triangles[i]});
     change.faces.push_back({page.faces.back(), no_corners});
   }
   change.old_cells = star_;
   change.merge = SegmentMerge{vertex_, neighbors_};
 }
 
+/// Plans to move the vertex onto one of its neighbors.
 bool VertexRemoval::plan_collapse(std::size_t end, Change& change) {
   change.clear();
   const std::uint32_t to = neighbors_[end];
   for (const std::uint32_t c : star_) {
     auto vertices = x_.cell(c).vertices;
-    if (std::ranges::find(vertices, to) != vertices.end()) continue;
+    if (has(vertices, to)) continue;
     std::ranges::replace(vertices, vertex_, to);
     const auto& [a, b, d, e] = vertices;
     if (numbers::orient3d(x_.point(a), x_.point(b), x_.point(d), x_.point(e)) <= 0) return false;
@@ -128,10 +135,11 @@ bool VertexRemoval::plan_collapse(std::size_t end, Change& change) {
   }
   for (Page& page : pages_)
     if (!find_fan(page, page.polygon.front() == to ? 0 : page.polygon.size() - 1)) return false;
-  finish(change);
+  replace_star(change);
   return true;
 }
 
+/// Divides the star by the pages.
 void VertexRemoval::find_sectors() {
   sectors_.clear();
   marks_.clear(x_.cell_count());
@@ -154,15 +162,14 @@ void VertexRemoval::find_sectors() {
   }
 }
 
-/// Adds the pages of a cell's walls around the vertex.
+/// Adds the pages that the walls of a cell of the star are on.
 void VertexRemoval::add_pages(std::uint32_t c, Sector& sector) const {
   const auto& v = x_.cell(c).vertices;
   for (std::uint32_t f = 0; f < 4; ++f) {
     if (v[f] == vertex_ || !x_.is_wall(face_code(c, f))) continue;
     const auto corners = corners_of_face(v, f);
     const std::uint32_t face = *x_.find_face(corners[0], corners[1], corners[2]);
-    const auto page = std::ranges::find_if(
-        pages_, [&](const Page& p) { return std::ranges::find(p.faces, face) != p.faces.end(); });
+    const auto page = std::ranges::find_if(pages_, [&](const Page& p) { return has(p.faces, face); });
     const auto& oriented = x_.faces()[face];
     const auto place = std::ranges::find(oriented, corners[0]) - oriented.begin();
     const Sector::Side side{static_cast<std::uint32_t>(page - pages_.begin()), oriented[(place + 1) % 3] == corners[1]};
@@ -179,60 +186,55 @@ bool VertexRemoval::plan_fill(int growth, Change& change) {
 /// Tries all fans of this page and of those after it.
 bool VertexRemoval::fill_sectors(std::size_t page, int growth, Change& change) {
   if (page < pages_.size()) {
-    const std::size_t n = pages_[page].polygon.size(), fans = n <= 4 ? n - 2 : std::min<std::size_t>(n, 5);
+    // The fans from opposite corners of a quadrilateral are the same.
+    const std::size_t n = pages_[page].polygon.size(), fans = n <= 4 ? n - 2 : std::min(n, most_fans);
     for (std::size_t from = 0; from < fans; ++from)
       if (find_fan(pages_[page], from) && fill_sectors(page + 1, growth, change)) return true;
     return false;
   }
   change.clear();
-  finish(change);
+  replace_star(change);
   return std::ranges::all_of(sectors_, [&](const Sector& sector) { return fill_sector(sector, growth, change); });
 }
 
+/// Fills a sector without the vertex. Where that is not possible, the sector grows.
 bool VertexRemoval::fill_sector(Sector sector, int growth, Change& change) {
-  const std::size_t size = sector.cells.size();
+  const auto size = static_cast<std::ptrdiff_t>(sector.cells.size());
   filler_.clear();
   while (true) {
     hull_.clear();
-    for (const std::uint32_t code : sector.hull)
-      hull_.push_back(corners_of_face(x_.cell(cell_of(code)).vertices, face_of(code)));
+    for (const std::uint32_t code : sector.hull) hull_.push_back(corners_of(code));
     for (const auto& [p, is_above] : sector.pages)
       for (const auto& [a, b, c] : pages_[p].triangles)
         hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
     if (filler_.fill(hull_, sector.region, change.new_cells)) {
-      change.old_cells.insert(change.old_cells.end(), sector.cells.begin() + static_cast<std::ptrdiff_t>(size),
-                              sector.cells.end());
+      change.old_cells.insert(change.old_cells.end(), sector.cells.begin() + size, sector.cells.end());
       return true;
     }
-    if (growth-- == 0 || !grow(filler_.blocked_face(), sector)) return false;
+    const std::size_t blocked = filler_.blocked_face();
+    if (growth-- == 0 || blocked == hull_.size() || !grow(blocked, change, sector)) return false;
   }
 }
 
-/// Adds a cell to a sector: the one behind a face of the hull; if there is none, one behind a face that shares corners
-/// with it.
-bool VertexRemoval::grow(std::size_t blocked, Sector& sector) const {
-  if (blocked >= hull_.size()) return false;
-  if (blocked < sector.hull.size() && can_grow(sector.hull[blocked])) return add_cell_behind(blocked, sector);
-  for (const std::ptrdiff_t shared : {2, 1}) {
-    for (std::size_t i = 0; i < sector.hull.size(); ++i) {
-      const Triangle& t = hull_[i];
-      const auto is_shared = [&](std::uint32_t v) { return std::ranges::find(hull_[blocked], v) != hull_[blocked].end(); };
-      if (i != blocked && std::ranges::count_if(t, is_shared) == shared && can_grow(sector.hull[i]))
-        return add_cell_behind(i, sector);
-    }
-  }
+/// Adds a cell to a sector: the one behind a face of the hull, or behind one that shares corners with it.
+bool VertexRemoval::grow(std::size_t blocked, const Change& change, Sector& sector) const {
+  const auto shared_corners = [&](std::size_t face) {
+    return std::ranges::count_if(hull_[face], [&](std::uint32_t v) { return has(hull_[blocked], v); });
+  };
+  for (std::ptrdiff_t shared = 3; shared > 0; --shared)
+    for (std::size_t i = 0; i < sector.hull.size(); ++i)
+      if (shared_corners(i) == shared && can_pass(sector.hull[i], change)) return add_cell_behind(i, sector);
   return false;
 }
 
-bool VertexRemoval::can_grow(std::uint32_t code) const {
-  return !x_.is_wall(code) && x_.place(cell_of(x_.across(code)), vertex_) == 3 &&
-         x_.cell(cell_of(x_.across(code))).vertices[3] != vertex_;
+/// Is there a cell behind a face of the hull that is neither across a wall nor replaced already?
+bool VertexRemoval::can_pass(std::uint32_t code, const Change& change) const {
+  return !x_.is_wall(code) && !has(change.old_cells, cell_of(x_.across(code)));
 }
 
 /// \return false: vertices or segments would not be on the hull
 bool VertexRemoval::add_cell_behind(std::size_t face, Sector& sector) const {
-  const std::uint32_t code = sector.hull[face], behind = x_.across(code);
-  const std::uint32_t next = cell_of(behind);
+  const std::uint32_t behind = x_.across(sector.hull[face]), next = cell_of(behind);
   const auto& v = x_.cell(next).vertices;
   sector.hull.erase(sector.hull.begin() + static_cast<std::ptrdiff_t>(face));
   sector.cells.push_back(next);
@@ -256,9 +258,8 @@ bool VertexRemoval::add_cell_behind(std::size_t face, Sector& sector) const {
 
 bool VertexRemoval::is_on_hull(const Sector& sector, std::uint32_t a, std::uint32_t b) const {
   return std::ranges::any_of(sector.hull, [&](std::uint32_t code) {
-    const auto corners = corners_of_face(x_.cell(cell_of(code)).vertices, face_of(code));
-    const auto has = [&](std::uint32_t v) { return std::ranges::find(corners, v) != corners.end(); };
-    return has(a) && has(b);
+    const Triangle corners = corners_of(code);
+    return has(corners, a) && has(corners, b);
   });
 }
 

@@ -9,21 +9,26 @@
 
 namespace ccdt::improve {
 
+/// How to remove a vertex, in the order of the effort.
 enum class RemovalEffort {
-  collapse,  ///< onto a neighbor on the segment
-  fill,      ///< search for any tetrahedra
-  grow       ///< and replace more cells than those around the vertex
+  collapse,  ///< move it onto a neighbor on the segment
+  fill,      ///< search for other tetrahedra in place of those around it
+  grow       ///< and in place of more tetrahedra
 };
 
 /// Plans to remove vertices that split segments.
+///
+/// The facets at a segment are like the pages of a book: they divide the star of a vertex on the segment into sectors.
+/// Without the vertex, the faces around it on each page are replaced by a triangulation of their polygon. Then each
+/// sector is a polyhedron to be filled.
 class VertexRemoval {
  public:
   explicit VertexRemoval(const CellComplex& complex) : x_(complex), filler_(complex) {}
 
-  /// Plans to remove a vertex inside a segment, with `neighbors` before and after it on the segment. All cells around it
-  /// are replaced, and on each facet the faces around it. The new cells are exactly positive.
+  /// Plans to remove a vertex inside a segment, with `neighbors` before and after it on the segment. All cells around
+  /// it are replaced, and on each facet the faces around it. The new cells are exactly positive.
   ///
-  /// The space around the vertex must be connected: see `plc::count_boundary_sides`.
+  /// The domain around the segment must be connected: see `plc::count_boundary_sides`.
   ///
   /// \return is there a plan?
   bool plan(std::uint32_t vertex, const std::array<std::uint32_t, 2>& neighbors, RemovalEffort effort, Change& change);
@@ -49,10 +54,10 @@ class VertexRemoval {
   struct Sector {
     int region;
     std::vector<std::uint32_t> cells;
-    std::vector<std::uint32_t> hull;  ///< the codes of its faces, as its cells call them
+    std::vector<std::uint32_t> hull;  ///< the codes of its faces except on pages, as its cells call them
     struct Side {
       std::uint32_t page;
-      bool is_above;  ///< the page
+      bool is_above;  ///< is the sector above the page?
       bool operator==(const Side&) const = default;
     };
     std::vector<Side> pages;
@@ -68,11 +73,12 @@ class VertexRemoval {
   bool plan_fill(int growth, Change& change);
   bool fill_sectors(std::size_t page, int growth, Change& change);
   bool fill_sector(Sector sector, int growth, Change& change);
-  bool grow(std::size_t face, Sector& sector) const;
-  bool can_grow(std::uint32_t code) const;
+  bool grow(std::size_t blocked, const Change& change, Sector& sector) const;
+  bool can_pass(std::uint32_t code, const Change& change) const;
   bool add_cell_behind(std::size_t face, Sector& sector) const;
   bool is_on_hull(const Sector& sector, std::uint32_t a, std::uint32_t b) const;
-  void finish(Change& change) const;
+  void replace_star(Change& change) const;
+  Triangle corners_of(std::uint32_t code) const;
 
   const CellComplex& x_;
   PolyhedronFiller filler_;

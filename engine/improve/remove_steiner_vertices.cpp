@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <functional>
 
 #include "engine/improve/plan_vertex_removal.h"
 #include "engine/plc/boundary_sides.h"
@@ -11,11 +10,14 @@
 namespace ccdt::improve {
 namespace {
 
+constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill, RemovalEffort::grow};
+
 /// A Steiner vertex and its neighbors on the segment.
 struct Candidate {
-  std::uint32_t vertex;
-  std::array<std::uint32_t, 2> neighbors;
-  std::array<std::uint64_t, 3> tried_at{};  ///< by effort: the number of the last change when it could not be removed
+  std::uint32_t vertex = no_neighbor;  ///< none if it was removed or may not be
+  std::array<std::uint32_t, 2> neighbors{};
+  /// By effort: the number of the last change when it could not be removed.
+  std::array<std::uint64_t, all_efforts.size()> tried_at{};
 };
 
 class SteinerRemover {
@@ -26,47 +28,46 @@ class SteinerRemover {
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
       const std::uint32_t v = chain[i].vertex;
       if (v < first_steiner_ || x_.cell_at(v) == no_neighbor) continue;
-      resize(v);
-      candidates_[v - first_steiner_] = {v, {chain[i - 1].vertex, chain[i + 1].vertex}};
+      const std::size_t place = v - first_steiner_;
+      if (place >= candidates_.size()) candidates_.resize(place + 1);
+      candidates_[place] = {v, {chain[i - 1].vertex, chain[i + 1].vertex}};
     }
   }
 
+  /// \return how many were removed
   std::uint64_t run(const Progress& progress) {
-    std::uint64_t removed = 0;
-    for (RemovalEffort effort = RemovalEffort::collapse;;) {
-      const std::uint64_t before = removed;
-      for (std::size_t i = candidates_.size(); i-- > 0;) {
-        report(progress, "unsplit", candidates_.size() - i, candidates_.size());
-        Candidate& c = candidates_[i];
-        if (c.vertex == no_neighbor || x_.changed_at(c.vertex) < c.tried_at[static_cast<int>(effort)]) continue;
-        if (try_to_remove(c, effort)) {
-          ++removed;
-        } else {
-          for (int e = 0; e <= static_cast<int>(effort); ++e) c.tried_at[e] = x_.change_count() + 1;
-        }
-      }
-      if (removed != before) {
-        effort = RemovalEffort::collapse;
-      } else if (effort == RemovalEffort::grow) {
-        return removed;
-      } else {
-        effort = static_cast<RemovalEffort>(static_cast<int>(effort) + 1);
-      }
+    std::uint64_t all = 0;
+    for (std::size_t effort = 0; effort < all_efforts.size();) {
+      const std::uint64_t removed = pass(all_efforts[effort], progress);
+      all += removed;
+      effort = removed > 0 ? 0 : effort + 1;
     }
+    return all;
   }
 
  private:
-  void resize(std::uint32_t v) {
-    if (candidates_.size() <= v - first_steiner_)
-      candidates_.resize(v - first_steiner_ + std::size_t{1}, Candidate{no_neighbor, {}});
+  /// Tries each vertex once, the last split first, unless nothing around it has changed since it was last tried.
+  std::uint64_t pass(RemovalEffort effort, const Progress& progress) {
+    std::uint64_t removed = 0;
+    for (std::size_t i = candidates_.size(); i-- > 0;) {
+      report(progress, "steiner", candidates_.size() - i, candidates_.size());
+      Candidate& c = candidates_[i];
+      std::uint64_t& tried_at = c.tried_at[static_cast<std::size_t>(effort)];
+      if (c.vertex == no_neighbor || x_.changed_at(c.vertex) < tried_at) continue;
+      if (removal_.plan(c.vertex, c.neighbors, effort, change_)) {
+        remove(c);
+        ++removed;
+      } else {
+        tried_at = x_.change_count() + 1;
+      }
+    }
+    return removed;
   }
 
-  bool try_to_remove(Candidate& c, RemovalEffort effort) {
-    if (!removal_.plan(c.vertex, c.neighbors, effort, change_)) return false;
+  void remove(Candidate& c) {
     x_.apply(change_, made_);
     for (int side = 0; side < 2; ++side) replace_neighbor(c.neighbors[side], c.vertex, c.neighbors[1 - side]);
     c.vertex = no_neighbor;
-    return true;
   }
 
   void replace_neighbor(std::uint32_t of, std::uint32_t from, std::uint32_t to) {
@@ -88,6 +89,7 @@ class SteinerRemover {
 
 std::uint64_t remove_steiner_vertices(const plc::Plc& plc, std::uint32_t first_steiner, CellComplex& x,
                                       protection::SegmentChains& chains, const Progress& progress) {
+  if (std::ranges::none_of(chains, protection::is_split)) return 0;
   SteinerRemover remover(x, first_steiner);
   const std::vector<std::uint32_t> sides = plc::count_boundary_sides(plc);
   for (std::size_t s = 0; s < chains.size(); ++s)

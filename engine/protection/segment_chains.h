@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -22,5 +23,10 @@ inline constexpr std::uint32_t usual_step = whole_segment >> 20;
 /// The chains of the segments of a PLC: for each segment the vertices on it, from its first end (fraction 0) to its
 /// second (`whole_segment`).
 using SegmentChains = std::vector<std::vector<ChainVertex>>;
+
+/// Did protection split the segment? Vertices that refinement gave it do not count.
+inline bool is_split(const std::vector<ChainVertex>& chain) {
+  return std::ranges::any_of(chain, [](const ChainVertex& v) { return v.level > 0; });
+}
 
 }  // namespace ccdt::protection

@@ -38,6 +38,7 @@ TEST(Agreement, SmallInputsAreConstrainedDelaunayByBruteForce) {
       options.lattice = lattice;
       options.edge_length = 1;
       options.improve.improvement = Improvement::none;
+      options.improve.steiner = SteinerRule::keep;
       expect_constrained_delaunay(mesh_plc(plc, options).mesh, 1);
     }
   }

@@ -30,6 +30,7 @@ MeshOptions options_of(Improvement improvement, Objective objective = Objective:
   options.improve.improvement = improvement;
   options.improve.objective = objective;
   options.improve.boundary = boundary;
+  options.improve.steiner = SteinerRule::keep;
   options.improve.target_dihedral = 40;  // so that there is always something to do
   return options;
 }
@@ -215,6 +216,7 @@ TEST(ImprovedMesh, IsTheSameWhateverTheStrategyAndInEveryRun) {
     SCOPED_TRACE(name);
     MeshOptions options = options_of(Improvement::all, Objective::r, BoundaryRule::slide);
     options.edge_length = 0.8, options.least_core = 0;
+    options.improve.steiner = SteinerRule::remove;
     const TetMesh first = mesh_plc(plc, options).mesh;
     expect_same_cells(first, mesh_plc(plc, options).mesh);
     for (const DelaunayMethod method : {DelaunayMethod::insert, DelaunayMethod::core, DelaunayMethod::wrap})

@@ -60,10 +60,18 @@ MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection p
   options.lattice = lattice;
   options.protection = protection;
   options.improve.improvement = Improvement::none;
+  options.improve.steiner = SteinerRule::keep;
   MeshResult with_check = mesh_plc(input, options);
   expect_verified(input, with_check.mesh);
   options.face_protection = false;
   expect_same_cells(with_check.mesh, mesh_plc(input, options).mesh);
+  if (with_check.counts.steiner_vertices > 0) {
+    options.improve.steiner = SteinerRule::remove;
+    const TetMesh without = mesh_plc(input, options).mesh;
+    expect_right(input, without);
+    options.face_protection = true;
+    EXPECT_EQ(without.tetrahedra, mesh_plc(input, options).mesh.tetrahedra);
+  }
   return with_check;
 }
 

@@ -21,9 +21,10 @@ void expect_right(const InputPlc& input, const TetMesh& mesh, const verify::Veri
 /// The same, and the mesh claims to be constrained Delaunay.
 void expect_verified(const InputPlc& input, const TetMesh& mesh);
 
-/// Meshes with one lattice, verifies, and expects the very same tetrahedra without the face protection check.
+/// Meshes with one lattice, verifies, and expects the very same tetrahedra without the face protection check, with all
+/// Steiner vertices and with those that are needed.
 ///
-/// \return  the result with the check
+/// \return  the result with the check and all Steiner vertices
 MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection protection = Protection::shell);
 
 /// The same with every lattice and both protections.

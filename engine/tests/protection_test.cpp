@@ -27,6 +27,7 @@ MeshResult bare_mesh(const InputPlc& input, Protection protection = Protection::
   MeshOptions options;
   options.lattice = Lattice::none;
   options.protection = protection;
+  options.improve.steiner = SteinerRule::keep;
   return mesh_plc(input, options);
 }
 

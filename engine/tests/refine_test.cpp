@@ -116,6 +116,7 @@ MeshOptions refining(double edge_length) {
   MeshOptions options;
   options.refine_surface = true;
   options.edge_length = edge_length;
+  options.improve.steiner = SteinerRule::keep;
   return options;
 }
 
@@ -387,6 +388,10 @@ TEST(Refine, MeshesAreVerifiedAgainstTheOriginalInput) {
       expect_right(input, mesh_plc(input, options).mesh);
       options.lattice = Lattice::none;
       expect_verified(input, mesh_plc(input, options).mesh);
+      options.improve.steiner = SteinerRule::remove;
+      const MeshResult removed = mesh_plc(input, options);
+      expect_right(input, removed.mesh);
+      EXPECT_GE(removed.counts.vertices, input.vertices.size() + removed.counts.refined_on_segments);
     }
   }
 }

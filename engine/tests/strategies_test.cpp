@@ -173,6 +173,7 @@ MeshResult expect_one_set_of_tetrahedra(const Case& c) {
         options.lattice = c.lattice;
         options.edge_length = c.edge_length;
         options.improve.improvement = Improvement::none;
+        options.improve.steiner = SteinerRule::keep;
         MeshResult result = mesh_plc(c.plc, options);
         if (!first) {
           first = std::move(result);

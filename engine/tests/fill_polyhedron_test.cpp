@@ -1,0 +1,126 @@
+#include "engine/improve/fill_polyhedron.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "engine/numbers/predicates.h"
+#include "engine/plc/build_plc.h"
+#include "engine/tests/improve_checks.h"
+#include "engine/tests/plc_test_solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace improve_test;
+
+/// A polyhedron, and its tetrahedra around one more vertex, the last.
+Model model_of(const plc::InputPlc& input) {
+  const plc::Plc plc = plc::build_plc(input);
+  Model model;
+  model.points = plc.vertices;
+  Point3 middle{};
+  for (const Point3& p : plc.vertices) middle = middle + (1.0 / static_cast<double>(plc.vertices.size())) * p;
+  const auto center = static_cast<std::uint32_t>(model.points.size());
+  model.points.push_back({std::round(middle.x), std::round(middle.y), std::round(middle.z)});
+  for (const plc::Facet& facet : plc.facets)
+    for (const auto& [a, b, c] : facet.triangles) model.cells.push_back({a, b, c, center});
+  return model;
+}
+
+/// The faces of the cells opposite to the last vertex, the inside above.
+std::vector<Triangle> hull_of(const improve::CellComplex& x) {
+  std::vector<Triangle> hull;
+  const auto center = static_cast<std::uint32_t>(x.vertex_count() - 1);
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+    hull.push_back(improve::corners_of_face(x.cell(c).vertices, x.place(c, center)));
+  return hull;
+}
+
+Integer sixfold_volume(const improve::CellComplex& x, const Tetrahedron& t) {
+  std::array<std::array<Integer, 3>, 3> m;
+  const Point3& a = x.point(t[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Point3 edge = x.point(t[i + 1]) - a;
+    m[i] = {Integer(edge.x), Integer(edge.y), Integer(edge.z)};
+  }
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/// Fills the polyhedron without its last vertex. \return was it filled?
+bool fills(const Model& model) {
+  const improve::CellComplex x = complex_of(model, {improve::Objective::r, 1, 1});
+  improve::PolyhedronFiller filler(x);
+  std::vector<improve::NewCell> cells;
+  const bool is_filled = filler.fill(hull_of(x), 7, cells);
+  EXPECT_EQ(is_filled, !cells.empty());
+  if (!is_filled) return false;
+  Integer before = 0, after = 0;
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c) before += sixfold_volume(x, x.cell(c).vertices);
+  std::map<FaceKey, int> counts;
+  for (const improve::NewCell& cell : cells) {
+    EXPECT_GT(sixfold_volume(x, cell.vertices), 0);
+    EXPECT_EQ(cell.region, 7);
+    after += sixfold_volume(x, cell.vertices);
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const auto [a, b, c] = improve::corners_of_face(cell.vertices, f);
+      ++counts[face_key(a, b, c)];
+    }
+  }
+  EXPECT_EQ(before, after);
+  for (const auto& [a, b, c] : hull_of(x)) EXPECT_EQ(counts[face_key(a, b, c)], 1);
+  return true;
+}
+
+TEST(PolyhedronFiller, FillsACube) {
+  EXPECT_TRUE(fills(model_of(plc_test::box({0, 0, 0}, {3, 3, 3}))));
+}
+
+TEST(PolyhedronFiller, FindsThatSchoenhardtsPolyhedronCannotBeFilled) {
+  const Model model = model_of(plc_test::schoenhardt());
+  EXPECT_FALSE(fills(model));
+  const improve::CellComplex x = complex_of(model, {improve::Objective::r, 1, 1});
+  improve::PolyhedronFiller filler(x);
+  std::vector<improve::NewCell> cells;
+  EXPECT_FALSE(filler.fill(hull_of(x), 0, cells));
+  EXPECT_LT(filler.blocked_face(), hull_of(x).size());
+}
+
+/// A triangulated sphere around the origin whose vertices are at random distances from it.
+Model random_star(std::mt19937& random) {
+  std::uniform_real_distribution<double> distance(300, 1000);
+  Model model;
+  constexpr std::uint32_t meridians = 5, parallels = 3;
+  const auto add = [&](double polar, double azimuth) {
+    const double r = distance(random), across = r * std::sin(polar);
+    model.points.push_back({std::round(across * std::cos(azimuth)), std::round(across * std::sin(azimuth)),
+                            std::round(r * std::cos(polar))});
+  };
+  const double pi = std::acos(-1.0);
+  add(0, 0), add(pi, 0);
+  for (std::uint32_t i = 1; i <= parallels; ++i)
+    for (std::uint32_t j = 0; j < meridians; ++j) add(pi * i / (parallels + 1), 2 * pi * j / meridians);
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return 2 + i * meridians + j % meridians; };
+  const auto center = static_cast<std::uint32_t>(model.points.size());
+  model.points.push_back({0, 0, 0});
+  for (std::uint32_t j = 0; j < meridians; ++j) {
+    model.cells.push_back({0, at(0, j), at(0, j + 1), center});
+    model.cells.push_back({1, at(parallels - 1, j), at(parallels - 1, j + 1), center});
+    for (std::uint32_t i = 0; i + 1 < parallels; ++i) {
+      model.cells.push_back({at(i, j), at(i, j + 1), at(i + 1, j), center});
+      model.cells.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j), center});
+    }
+  }
+  return model;
+}
+
+TEST(PolyhedronFiller, FillsMostRandomStars) {
+  std::mt19937 random(1);
+  int filled = 0;
+  for (int i = 0; i < 200; ++i) filled += fills(random_star(random));
+  EXPECT_GT(filled, 150);
+}
+
+}  // namespace
+}  // namespace ccdt

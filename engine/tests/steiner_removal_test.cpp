@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/improve/plan_vertex_removal.h"
+#include "engine/tests/improve_checks.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+
+namespace ccdt {
+namespace {
+
+using namespace improve_test;
+using namespace mesh_test;
+
+constexpr improve::QualityGoal goal{improve::Objective::r, 1, 1};
+
+/// A segment from 0 to 1 that vertex 2 splits, and tetrahedra in a ring of vertices, from 3 on, around it. Two facets
+/// divide them into two regions.
+Model split_segment_in_ring(std::uint32_t size) {
+  Model model;
+  model.points = {{0, 0, -1000}, {0, 0, 1000}, {0, 0, 100}};
+  const auto at = [&](std::uint32_t i) { return 3 + i % size; };
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / size;
+    model.points.push_back({std::round(500 * std::cos(angle)), std::round(500 * std::sin(angle)), 0});
+    for (const std::uint32_t end : {0u, 1u}) {
+      model.cells.push_back({end, 2, at(i), at(i + 1)});
+      model.regions.push_back(i < size / 2 ? 3 : 4);
+    }
+  }
+  for (const std::uint32_t end : {0u, 1u}) {
+    // Seen from one side, the faces on a facet turn the same way.
+    for (const std::uint32_t i : {0u, size / 2})
+      model.faces.push_back(end == 0 ? Triangle{0, 2, at(i)} : Triangle{2, 1, at(i)});
+    model.facet_of_face.insert(model.facet_of_face.end(), {0, 1});
+    model.segments.push_back({end, 2});
+  }
+  return model;
+}
+
+TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdge) {
+  for (std::uint32_t size = 4; size <= 12; size += 2) {
+    SCOPED_TRACE(size);
+    improve::CellComplex x = complex_of(split_segment_in_ring(size), goal);
+    const auto volumes = invariants_of(x).sixfold_volumes;
+    improve::Change change;
+    ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+    ASSERT_TRUE(x.all_positive(change));
+    apply_change(x, change);
+    expect_consistent(x);
+    EXPECT_TRUE(invariants_of(x).sixfold_volumes == volumes);
+    EXPECT_TRUE(x.is_removed(2));
+    EXPECT_TRUE(x.is_segment(0, 1));
+    EXPECT_FALSE(x.is_segment(0, 2) || x.is_segment(2, 1));
+    EXPECT_EQ(cells_of(x).size(), size);
+    for (const Tetrahedron& cell : cells_of(x)) EXPECT_TRUE(cell[0] == 0 && cell[1] == 1);
+    EXPECT_TRUE(x.find_face(0, 1, 3) && x.find_face(0, 1, 3 + size / 2));
+  }
+}
+
+/// All efforts plan sound changes.
+TEST(VertexRemoval, SearchFindsTheSameTetrahedraWhereThereIsOnlyOneWay) {
+  improve::CellComplex x = complex_of(split_segment_in_ring(4), goal);
+  for (const auto effort : {improve::RemovalEffort::fill, improve::RemovalEffort::grow}) {
+    improve::CellComplex copy = x;
+    improve::Change change;
+    ASSERT_TRUE(improve::VertexRemoval(copy).plan(2, {0, 1}, effort, change));
+    apply_change(copy, change);
+    expect_consistent(copy);
+    EXPECT_TRUE(copy.is_segment(0, 1));
+  }
+}
+
+MeshOptions bare(SteinerRule rule) {
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  options.improve.steiner = rule;
+  return options;
+}
+
+TEST(SteinerRemoval, KeepsWhatCannotBeTetrahedralizedWithout) {
+  const InputPlc schoenhardt = plc_test::schoenhardt();
+  const MeshResult kept = mesh_plc(schoenhardt, bare(SteinerRule::keep));
+  const MeshResult removed = mesh_plc(schoenhardt, bare(SteinerRule::remove));
+  EXPECT_EQ(kept.counts.steiner_vertices, 3u);
+  EXPECT_GE(removed.counts.steiner_vertices, 1u);
+  EXPECT_LT(removed.counts.steiner_vertices, 3u);
+  expect_right(schoenhardt, removed.mesh);
+}
+
+TEST(SteinerRemoval, LeavesARightMeshWithTheCountsOfItsReport) {
+  std::uint64_t kept_vertices = 0, removed_vertices = 0;
+  for (const auto& [name, solid] : small_inputs())
+    for (const InputPlc& input : {solid, rotated(oblique, solid)}) {
+      SCOPED_TRACE(name);
+      const MeshResult kept = mesh_plc(input, bare(SteinerRule::keep));
+      expect_verified(input, kept.mesh);
+      EXPECT_EQ(kept.counts.improve.removed_steiner_vertices, 0u);
+      const MeshResult result = mesh_plc(input, bare(SteinerRule::remove));
+      expect_right(input, result.mesh);
+      const MeshCounts& counts = result.counts;
+      EXPECT_EQ(counts.steiner_vertices + counts.improve.removed_steiner_vertices, kept.counts.steiner_vertices);
+      EXPECT_EQ(counts.vertices + counts.improve.removed_steiner_vertices, kept.counts.vertices);
+      EXPECT_EQ(result.mesh.constrained_delaunay, counts.improve.removed_steiner_vertices == 0);
+      std::uint64_t splits = 0;
+      for (const std::uint64_t n : counts.splits_by_level) splits += n;
+      EXPECT_EQ(splits, counts.steiner_vertices);
+      EXPECT_LE(counts.segments->restored, counts.segments->split);
+      EXPECT_EQ(counts.segments->restored == counts.segments->split, counts.steiner_vertices == 0);
+      kept_vertices += kept.counts.steiner_vertices;
+      removed_vertices += counts.improve.removed_steiner_vertices;
+    }
+  EXPECT_GT(removed_vertices, kept_vertices / 2);
+  EXPECT_LT(removed_vertices, kept_vertices);
+}
+
+TEST(SteinerRemoval, ComesBeforeImprovementWithALattice) {
+  for (const auto& [name, input] : small_inputs()) {
+    SCOPED_TRACE(name);
+    MeshOptions options;
+    options.edge_length = 0.5;
+    const MeshResult result = mesh_plc(input, options);
+    expect_right(input, result.mesh);
+    options.improve.steiner = SteinerRule::keep;
+    EXPECT_LE(result.counts.steiner_vertices, mesh_plc(input, options).counts.steiner_vertices);
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
