@@ -148,9 +148,9 @@ class CellComplex {
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
-  /// Writes the result back to the mesh: tetrahedra, regions, faces and their markers. The edges on segments get the
-  /// new numbers of their vertices. What was removed leaves no gaps.
-  /// \return the vertices of the mesh, in grid units
+  /// Writes the result back to the mesh that the complex was made of: tetrahedra, regions, faces and their markers. The
+  /// edges on segments get the new numbers of their vertices. What was removed leaves no gaps. \return the vertices of
+  /// the mesh, in grid units
   std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
  private:

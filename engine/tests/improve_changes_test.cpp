@@ -182,6 +182,7 @@ TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
   apply_checked(x, change);
   mesh::TetMesh mesh;
   const std::size_t faces = x.faces().size();
+  mesh.face_markers.resize(faces);
   std::move(x).take_mesh(mesh);
   ASSERT_EQ(mesh.faces.size(), faces);
   for (std::size_t f = 0; f < 2; ++f) {  // the first two are the square, which faced downwards
@@ -267,6 +268,7 @@ TEST(Changes, InteriorVertexIsCollapsed) {
   apply_checked(x, change);
   EXPECT_EQ(x.cell_at(6), delaunay::no_neighbor);
   mesh::TetMesh mesh;
+  mesh.face_markers.resize(x.faces().size());
   EXPECT_EQ(std::move(x).take_mesh(mesh).size(), 6u);
   EXPECT_EQ(mesh.tetrahedra.size(), 4u);
 }

@@ -60,7 +60,29 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdge) {
   }
 }
 
-/// All efforts plan sound changes.
+TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
+  improve::CellComplex x = complex_of(split_segment_in_ring(6), goal);
+  mesh::TetMesh mesh;
+  mesh.face_markers = {10, 11, 12, 13};
+  mesh.face_markers.resize(x.faces().size(), 14);
+  mesh.edges = {{0, 1}};
+  const std::size_t faces = x.faces().size();
+  improve::Change change;
+  ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+  apply_change(x, change);
+  EXPECT_EQ(std::move(x).take_mesh(mesh).size(), 8u);
+  EXPECT_EQ(mesh.faces.size(), faces - 2);
+  EXPECT_EQ(mesh.face_markers.size(), faces - 2);
+  for (const auto& tetrahedron : mesh.tetrahedra)
+    for (const std::uint32_t v : tetrahedron) EXPECT_LT(v, 8u);
+  std::set<FaceKey> pages;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto [a, b, c] = mesh.faces[f];
+    if (mesh.face_markers[f] < 14) pages.insert(face_key(a, b, c));
+  }
+  EXPECT_EQ(pages, (std::set<FaceKey>{{0, 1, 2}, {0, 1, 5}}));
+}
+
 TEST(VertexRemoval, SearchFindsTheSameTetrahedraWhereThereIsOnlyOneWay) {
   improve::CellComplex x = complex_of(split_segment_in_ring(4), goal);
   for (const auto effort : {improve::RemovalEffort::fill, improve::RemovalEffort::grow}) {

@@ -185,6 +185,8 @@ plc.narrow_evaluations 34
 plc.exact_evaluations 34
 plc.box_tree_nodes 294
 plc.box_pairs 177
+plc.cells_visited 297
+plc.faces_tested 525
 plc.peak_bytes 16128
 protect.peak_bytes 11296
 facets.orient3d_filter_failures 53
@@ -219,11 +221,11 @@ face_check.orient3d_filter_failures 22
 face_check.narrow_evaluations 16
 face_check.wide_evaluations 6
 face_check.exact_evaluations 22
-face_check.cells_visited 1931
+face_check.cells_visited 1634
 face_check.edges_tested 65
 face_check.edges_flipped 5
 face_check.triangles_visited 261
-face_check.faces_tested 1287
+face_check.faces_tested 762
 face_check.peak_bytes 1728
 label.cells_visited 694
 label.peak_bytes 18936
@@ -285,8 +287,8 @@ std::string work_of_front(LocatorKind locator, bool face_protection) {
 
 TEST(WorkOfSmallInputs, FrontWithEachLocator) {
   expect_work(work_of_front(LocatorKind::cavity, true), R"(
-face_check.cells_visited 214
-face_check.faces_tested 344
+face_check.cells_visited 107
+face_check.faces_tested 172
 face_check.peak_bytes 576
 front.orient3d_filter_failures 4
 front.centroid_filter_failures 1
@@ -301,8 +303,8 @@ front.piercing_tests 161
 front.peak_bytes 8104
 )");
   expect_work(work_of_front(LocatorKind::octree, true), R"(
-face_check.cells_visited 214
-face_check.faces_tested 344
+face_check.cells_visited 107
+face_check.faces_tested 172
 face_check.peak_bytes 576
 front.orient3d_filter_failures 18
 front.centroid_filter_failures 6
@@ -316,8 +318,8 @@ front.visibility_tests 245
 front.peak_bytes 14560
 )");
   expect_work(work_of_front(LocatorKind::grid, true), R"(
-face_check.cells_visited 214
-face_check.faces_tested 344
+face_check.cells_visited 107
+face_check.faces_tested 172
 face_check.peak_bytes 576
 front.orient3d_filter_failures 48
 front.centroid_filter_failures 16
@@ -333,8 +335,8 @@ front.peak_bytes 11864
 
 TEST(WorkOfSmallInputs, FrontOverAllFaces) {
   expect_work(work_of_front(LocatorKind::cavity, false), R"(
-face_check.cells_visited 214
-face_check.faces_tested 344
+face_check.cells_visited 107
+face_check.faces_tested 172
 face_check.peak_bytes 576
 front.orient3d_filter_failures 25
 front.centroid_filter_failures 8
@@ -349,8 +351,8 @@ front.piercing_tests 161
 front.peak_bytes 16392
 )");
   expect_work(work_of_front(LocatorKind::octree, false), R"(
-face_check.cells_visited 214
-face_check.faces_tested 344
+face_check.cells_visited 107
+face_check.faces_tested 172
 face_check.peak_bytes 576
 front.orient3d_filter_failures 51
 front.centroid_filter_failures 16
