@@ -124,9 +124,9 @@ void PolyhedronFiller::find_free_edges() {
   const auto all = static_cast<CornerSet>((std::uint64_t{1} << n) - 1);
   for (Corner v = 0; v < n; ++v) free_edges_[v] = all & ~bit(v);
   for (const Triangle& t : hull_) {
-    const auto [above, below] = sides(t[0], t[1], t[2]);
-    for_each(above, [&](Corner p) {
-      for_each(below & free_edges_[p], [&](Corner q) {
+    const Sides both = sides(t[0], t[1], t[2]);
+    for_each(both.above, [&](Corner p) {
+      for_each(both.below & free_edges_[p], [&](Corner q) {
         if (!is_around(t, p, q)) return;
         free_edges_[p] &= ~bit(q);
         free_edges_[q] &= ~bit(p);
@@ -173,9 +173,10 @@ bool PolyhedronFiller::search() {
   CornerSet on_front = 0;
   for (const FrontFace& face : front_) on_front |= corner_set(face.corners);
   const auto count = [&](const FrontFace& face) { return std::popcount(face.apexes & on_front); };
-  const auto [base, both, apexes, number] = *std::ranges::min_element(front_, {}, count);
+  const FrontFace fewest = *std::ranges::min_element(front_, {}, count);
+  const Triangle& base = fewest.corners;
   std::vector<std::pair<double, Corner>> trials;
-  for_each(apexes & on_front, [&, &base = base](Corner apex) {
+  for_each(fewest.apexes & on_front, [&](Corner apex) {
     const double quality = cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
     trials.emplace_back(-quality, apex);
   });
@@ -190,8 +191,14 @@ bool PolyhedronFiller::search() {
     edges_ = edges;
     tetrahedra_.resize(size);
   }
-  if (blocked_face_ == hull_.size()) blocked_face_ = number;
+  if (blocked_face_ == hull_.size()) blocked_face_ = fewest.face_number;
   return false;
+}
+
+/// The vertices on the other side.
+PolyhedronFiller::CornerSet PolyhedronFiller::opposite(const Sides& sides, Corner v) {
+  if ((sides.above & bit(v)) != 0) return sides.below;
+  return (sides.below & bit(v)) != 0 ? sides.above : 0;
 }
 
 /// Does the tetrahedron contain a vertex, or cross edges or the front?
@@ -203,18 +210,17 @@ bool PolyhedronFiller::is_blocked(const Triangle& base, Corner apex) const {
   }
   if (within != 0) return true;
   return std::ranges::any_of(front_, [&](const FrontFace& face) {
-    const auto& [above, below] = face.sides;
-    const CornerSet other = (above & bit(apex)) != 0 ? below : (below & bit(apex)) != 0 ? above : 0;
+    const CornerSet other = opposite(face.sides, apex);
     return std::ranges::any_of(
         base, [&](Corner end) { return (other & bit(end)) != 0 && is_around(face.corners, end, apex); });
   });
 }
 
 bool PolyhedronFiller::is_pierced(const Triangle& t) const {
-  const auto [above, below] = sides(t[0], t[1], t[2]);
+  const Sides both = sides(t[0], t[1], t[2]);
   bool found = false;
-  for_each(above, [&, &below = below](Corner p) {
-    for_each(found ? 0 : edges_[p] & below, [&](Corner q) { found = found || is_around(t, p, q); });
+  for_each(both.above, [&](Corner p) {
+    for_each(found ? 0 : edges_[p] & both.below, [&](Corner q) { found = found || is_around(t, p, q); });
   });
   return found;
 }

@@ -25,7 +25,9 @@ class PolyhedronFiller {
 
   /// Forgets the vertices of the last polyhedron.
   void clear();
-  /// Fills a polyhedron, which has all vertices of those since the last `clear`: what is known of them is used again.
+
+  /// Fills a polyhedron. It must have all vertices of those that were tried since the last `clear`.
+  ///
   /// \param hull   corners of its faces, the inside above
   /// \param cells  get the tetrahedra
   /// \return       were they found? The search gives up after a number of steps.
@@ -58,15 +60,16 @@ class PolyhedronFiller {
   void find_sides(std::size_t known);
   void find_free_edges();
   Sides sides(Corner a, Corner b, Corner c) const;
+  static CornerSet opposite(const Sides& sides, Corner v);
   bool is_around(const Triangle& t, Corner p, Corner q) const;
-  void add_front(const Triangle& corners, std::size_t face_number);
+  void add_front(const Triangle& t, std::size_t face_number);
   bool search();
   bool is_blocked(const Triangle& base, Corner apex) const;
   bool is_pierced(const Triangle& t) const;
   bool put(const Triangle& base, Corner apex);
 
   const CellComplex& x_;
-  std::vector<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> vertices_;  // of all polyhedra since the last `clear`
   std::vector<Point3> points_;
   std::vector<Triangle> hull_;
   std::vector<Sides> sides_;  // by triangle
