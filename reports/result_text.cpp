@@ -169,7 +169,7 @@ std::string segments(const std::optional<SegmentCounts>& s) {
   if (!s) return "";
   std::string text = "segments    " + with_separators(s->all) + ": " + with_separators(s->delaunay) + " Delaunay";
   if (s->split > 0) text += ", " + with_separators(s->split) + " split into " + with_separators(s->pieces) + " pieces";
-  if (s->restored > 0) text += " (" + with_separators(s->restored) + " of them restored)";
+  if (s->restored > 0) text += " (" + with_separators(s->restored) + " segments restored)";
   if (s->front > 0) text += ", " + with_separators(s->front) + " left to the front";
   return text + "\n";
 }
