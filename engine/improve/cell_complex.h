@@ -149,8 +149,9 @@ class CellComplex {
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
   /// Writes the result back to the mesh that the complex was made of: tetrahedra, regions, faces and their markers. The
-  /// edges on segments get the new numbers of their vertices. What was removed leaves no gaps. \return the vertices of
-  /// the mesh, in grid units
+  /// edges on segments get the new numbers of their vertices. What was removed leaves no gaps.
+  ///
+  /// \return the vertices of the mesh, in grid units
   std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
  private:

@@ -282,7 +282,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   if (options.steiner == SteinerRule::remove) {
     const auto first_steiner = static_cast<std::uint32_t>(input.first_steiner);
     removed = remove_steiner_vertices(input.plc, first_steiner, complex, input.chains, progress);
-    mesh::list_edges(input.plc, input.chains, mesh);
+    if (removed > 0) mesh::list_edges(input.plc, input.chains, mesh);
   }
   std::vector<Freedom> freedom;
   const bool all_slide = options.boundary == BoundaryRule::slide;

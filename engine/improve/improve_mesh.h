@@ -35,9 +35,9 @@ struct ImproveInput {
   std::size_t first_sliding = std::numeric_limits<std::size_t>::max();
 };
 
-/// Improves a whole mesh (paper, section 5: edge-face swaps and smoothing). Its boundary, segments and facets stay what
-/// they are, with the vertices of the input where they are; `BoundaryRule::slide` and `first_sliding` say what may move
-/// on them.
+/// Removes Steiner vertices from a whole mesh (`SteinerRule`), then improves it (paper, section 5: edge-face swaps and
+/// smoothing). Its boundary, segments and facets stay what they are, with the vertices of the input where they are;
+/// `BoundaryRule::slide` and `first_sliding` say what may move on them.
 ///
 /// \param points  the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
 /// \param mesh    without coordinates
