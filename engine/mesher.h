@@ -138,7 +138,8 @@ struct MeshResult {
 };
 
 /// The improvement with these options: the given one; by default everything, but nothing if the lattice is `none`,
-/// because the result is then the constrained Delaunay tetrahedralization of the input.
+/// because the result is then a mesh of the surface alone: with `SteinerRule::keep`, the constrained Delaunay
+/// tetrahedralization of the input.
 Improvement improvement_of(const MeshOptions& options);
 
 /// On how many threads `mesh_plc` works with these options.

@@ -286,7 +286,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   }
   std::vector<Freedom> freedom;
   const bool all_slide = options.boundary == BoundaryRule::slide;
-  if (all_slide || input.first_sliding < input.first_interior) {
+  if (options.improvement != Improvement::none && (all_slide || input.first_sliding < input.first_interior)) {
     freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
