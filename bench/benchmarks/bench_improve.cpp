@@ -39,6 +39,7 @@ struct Unimproved {
   LargeVector<delaunay::Cell> cells;
   std::vector<std::uint32_t> facet_of_face;
   std::vector<Point3> points;
+  protection::SegmentChains chains;
 };
 
 const Unimproved& unimproved(const Stages& s) {
@@ -52,6 +53,7 @@ const Unimproved& unimproved(const Stages& s) {
     u.cells = mesh::join_tetrahedra(collected, s.delaunay.cells);
     u.mesh = std::move(collected.mesh);
     u.points = points_of(s.delaunay);
+    u.chains = s.chains;
   }
   return u;
 }
@@ -59,14 +61,13 @@ const Unimproved& unimproved(const Stages& s) {
 improve::ImproveOptions options_of(improve::Improvement improvement) {
   improve::ImproveOptions options;
   options.improvement = improvement;
-  options.steiner = improve::SteinerRule::keep;
+  options.steiner = improve::SteinerRule::keep;  // the same mesh for each kind of improvement
   return options;
 }
 
 improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement, Unimproved& u) {
-  protection::SegmentChains chains = s.chains;
   return improve::improve_mesh(
-      {s.plc, chains, std::move(u.cells), std::move(u.facet_of_face), s.plc.vertices.size(), s.first_interior},
+      {s.plc, u.chains, std::move(u.cells), std::move(u.facet_of_face), s.plc.vertices.size(), s.first_interior},
       options_of(improvement), u.points, u.mesh);
 }
 
