@@ -7,6 +7,7 @@
 #include "engine/improve/smoothing.h"
 #include "engine/improve/topological_changes.h"
 #include "engine/numbers/predicates.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt::improve {
 namespace {
@@ -21,10 +22,10 @@ bool has(const List& list, std::uint32_t value) {
 
 /// The axis closest to a direction.
 Point3 axis_near(const Point3& direction) {
-  const double x = std::fabs(direction.x), y = std::fabs(direction.y), z = std::fabs(direction.z);
-  if (x >= y && x >= z) return {std::copysign(1, direction.x), 0, 0};
-  if (y >= z) return {0, std::copysign(1, direction.y), 0};
-  return {0, 0, std::copysign(1, direction.z)};
+  std::array<double, 3> axis{};
+  const int longest = plc::dominant_axis(direction);
+  axis[longest] = std::copysign(1, as_array(direction)[longest]);
+  return {axis[0], axis[1], axis[2]};
 }
 
 }  // namespace
