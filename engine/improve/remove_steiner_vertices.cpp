@@ -50,7 +50,7 @@ class SteinerRemover {
   std::uint64_t pass(RemovalEffort effort, const Progress& progress) {
     std::uint64_t removed = 0;
     for (std::size_t i = candidates_.size(); i-- > 0;) {
-      report(progress, "steiner", candidates_.size() - i, candidates_.size());
+      report(progress, "improve", candidates_.size() - i, candidates_.size());
       Candidate& c = candidates_[i];
       std::uint64_t& tried_at = c.tried_at[static_cast<std::size_t>(effort)];
       if (c.vertex == no_neighbor || x_.changed_at(c.vertex) < tried_at) continue;
