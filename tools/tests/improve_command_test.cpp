@@ -104,6 +104,20 @@ TEST_F(ImproveCommand, WithoutALatticeTheMeshStaysConstrainedDelaunayUnlessImpro
   EXPECT_NE(asked["counts"]["improve"]["stop"], "none");
 }
 
+TEST_F(ImproveCommand, SteinerVerticesAreRemovedUnlessToldOtherwise) {
+  io::write_plc(plc_test::schoenhardt(), work() / "part.off");
+  const Json removed = mesh("part.off", "--lattice none");
+  EXPECT_EQ(removed["options"]["steiner"], "remove");
+  EXPECT_GT(removed["counts"]["improve"]["removed_steiner_vertices"], 0);
+  EXPECT_FALSE(is_required("locally Delaunay faces, not claimed"));
+  const Json kept = mesh("part.off", "--lattice none --steiner keep", "--constrained-delaunay yes");
+  EXPECT_EQ(kept["options"]["steiner"], "keep");
+  EXPECT_TRUE(is_required("locally Delaunay faces"));
+  const std::uint64_t left = removed["counts"]["steiner_vertices"], all = kept["counts"]["steiner_vertices"];
+  EXPECT_GT(left, 0u);
+  EXPECT_EQ(left + removed["counts"]["improve"]["removed_steiner_vertices"].get<std::uint64_t>(), all);
+}
+
 TEST_F(ImproveCommand, SaysWhyItStopped) {
   io::write_plc(gridded_cube(6), work() / "cube.off");
   const auto stop = [&](const std::string& options) { return mesh("cube.off", options)["counts"]["improve"]["stop"]; };
