@@ -47,16 +47,16 @@ constexpr auto names_of(BoundaryRule) {
        {BoundaryRule::slide, "slide", "vertices inside facets and segments may move along them"}});
 }
 
-/// What happens to the Steiner vertices on segments.
+/// What happens to the Steiner vertices on segments, before improvement.
 enum class SteinerRule {
-  remove,  ///< those that the mesh can do without are removed; it is then no longer constrained Delaunay around them
+  remove,  ///< those that the mesh can do without are removed; it is then not constrained Delaunay where they were
   keep     ///< all stay
 };
 
 constexpr auto names_of(SteinerRule) {
   return std::to_array<NamedValue<SteinerRule>>(
       {{SteinerRule::remove, "remove", "remove those that the mesh can do without"},
-       {SteinerRule::keep, "keep", "keep all: the mesh stays constrained Delaunay"}});
+       {SteinerRule::keep, "keep", "keep all: without improvement, the mesh is constrained Delaunay"}});
 }
 
 struct ImproveOptions {
@@ -66,7 +66,7 @@ struct ImproveOptions {
   double target_dihedral = 20;  ///< target: all dihedral angles are between this and 180 minus this, in degrees
   double target_r = 2;          ///< target for every tetrahedron; only for `Objective::r`
   double time = 0;              ///< stop improvement after this many seconds; 0: no limit
-  SteinerRule steiner = SteinerRule::remove;
+  SteinerRule steiner = SteinerRule::remove;  ///< also with `Improvement::none`
 };
 
 }  // namespace ccdt::improve
