@@ -130,7 +130,7 @@ ExperimentResult measure_interior_points(const ExperimentOptions& options, cases
       for (const InteriorRule& rule : rules()) {
         const std::string name(name_of(lattice)), at = file.edge_length > 0 ? " at " + rounded(file.edge_length) : "";
         std::vector<std::string> words = rule.options;
-        append(words, std::vector<std::string>{"--improve", "none", "--lattice", name});
+        append(words, std::vector<std::string>{"--improve", "none", "--steiner", "keep", "--lattice", name});
         InteriorRow& row = rows.emplace_back();
         row = {{}, file.name, file.edge_length, rule.name, lattice};
         row.measured.asked = single_case(options, joined({file.name + at, name, rule.name}), "ccdt", file.file, words);

@@ -94,7 +94,8 @@ void add_group(const ExperimentOptions& options, const SurfaceFile& surface, Sur
   const std::string check = check_words(row), name = surface.name + ", check " + check;
   for (const LocatorKind locator : locators) {
     row.locator = locator;
-    std::string words = "--improve none --locator " + std::string(name_of(locator)) + " --face-protection " + check;
+    std::string words =
+        "--improve none --steiner keep --locator " + std::string(name_of(locator)) + " --face-protection " + check;
     if (kind == SurfaceKind::uniform) words += " --grading 0";
     const cases::Case single =
         single_case(options, name + ", " + std::string(name_of(locator)), "ccdt", surface.file, words_of(words));

@@ -24,9 +24,9 @@ struct Way {
   Input input = Input::surface;
 };
 const std::vector<Way> ways = {
-    {"with_check", "ccdt", "--improve none --face-protection on"},
-    {"without_check", "ccdt", "--improve none --face-protection off"},
-    {"without_check_grid", "ccdt", "--improve none --face-protection off --locator grid"},
+    {"with_check", "ccdt", "--improve none --steiner keep --face-protection on"},
+    {"without_check", "ccdt", "--improve none --steiner keep --face-protection off"},
+    {"without_check_grid", "ccdt", "--improve none --steiner keep --face-protection off --locator grid"},
     {"cgal_delaunay", "cgal-delaunay", "", Way::Input::our_vertices},
     {"tetgen_cdt", "tetgen", "--lattice none", Way::Input::surface_and_our_interior_vertices},
     {"tetgen_quality", "tetgen", ""},
@@ -65,7 +65,7 @@ const std::vector<Ratio> all_ratios = {{"with check / Delaunay", with_check, del
 
 const std::vector<std::string> definitions = {
     "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
-    "CDT: the stages delaunay, face_check, front and label of a run.",
+    "CDT: the stages delaunay, face_check, front and label of a run. It keeps all Steiner vertices.",
     "Without the check, every face goes through the front.",
     "Not included in CDT times: facets, the constrained Delaunay triangulation of each facet, once before the lattice.",
     "Also not included: finish, which restores the units of the coordinates and checks the result.",

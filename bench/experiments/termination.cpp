@@ -53,8 +53,9 @@ void add_input(const ExperimentOptions& options, const TerminationRow& input, co
     TerminationRow& row = rows.emplace_back(input);
     row.smallest_angle = smallest_angle;
     row.protection = protection;
-    row.measured.asked = single_case(options, joined({name, way}), "ccdt", file,
-                                     {"--protection", way, "--lattice", "none", "--improve", "none"});
+    row.measured.asked =
+        single_case(options, joined({name, way}), "ccdt", file,
+                    {"--protection", way, "--lattice", "none", "--improve", "none", "--steiner", "keep"});
   }
 }
 
@@ -85,7 +86,7 @@ std::vector<std::string> definitions() {
       "or there were a hundred times as many pieces as vertices.",
       "Level: one more than the number of splits that led to a piece.",
       "Midpoint is the paper's method (--protection midpoint), shell is ours (--protection shell).",
-      "Nothing is placed inside (--lattice none), and the meshes are not improved.",
+      "Nothing is placed inside (--lattice none), the meshes are not improved, and no Steiner vertex is removed.",
       "In a star, segments or facets meet at one point in the middle of a cube.",
       "Variant 0 has lengths that alternate between 1 and 1 / sqrt 2, the others random ones from 0.4 to 1.6.",
   };

@@ -153,6 +153,22 @@ TEST_F(Program, ReproducesTheInteriorPointsOfASolidAndAFile) {
   EXPECT_FALSE(text_of(work() / "report/interior-points.md").empty());
 }
 
+TEST_F(Program, ReproducesTheTerminationOfSplittingWithAllItsSteinerVertices) {
+  const Outcome outcome = run("reproduce termination -o report --scale 1000");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const Json termination = Json::parse(text_of(work() / "report/termination.json"));
+  int wheels = 0;
+  for (const Json& row : rows_of(termination, "stars")) {
+    const Json& values = row["values"];
+    if (values["star"] != "wheel") continue;
+    ++wheels;
+    // Where midpoints do not end, no spoke is a Delaunay edge at once.
+    EXPECT_EQ(values["shell_steiner_vertices"] > 0, values["midpoint_ended"] == 0) << row;
+    EXPECT_EQ(values["shell_deepest_level"] > 0, values["midpoint_ended"] == 0) << row;
+  }
+  EXPECT_GT(wheels, 5);
+}
+
 /// Figure 7 alone, which is quick.
 class SmallReport : public Program {
  protected:
