@@ -274,7 +274,7 @@ constexpr const char* footer =
     "Example: keep flat facets and straight segments, but give them new vertices and even triangles\n"
     "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface refine\n"
     "Example: compute the constrained Delaunay tetrahedralization of the input alone\n"
-    "  ccdt mesh part.stl -o part.mesh --lattice none\n";
+    "  ccdt mesh part.stl -o part.mesh --lattice none --steiner keep\n";
 
 void add_files(CLI::App& verb, MeshCommand& command) {
   verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")

@@ -16,7 +16,7 @@ constexpr const char *surface_alone = "surface alone", *end_to_end = "end to end
 constexpr unsigned projected_threads = 64;
 
 const std::vector<std::string> definitions = {
-    "Surface alone: the constrained Delaunay tetrahedralization of the input, or what comes closest (--lattice none).",
+    "Surface alone: a mesh of the input without interior points (--lattice none).",
     "End to end: the surface is kept, the inside gets vertices, and the tetrahedra are improved.",
     "Seconds: meshing alone, without reading and writing.",
     "Of ccdt: all stages. Of others: the call of the library, or the time that the program reports.",
