@@ -51,11 +51,16 @@ std::array<Triangle, 3> sides_on(const Triangle& base, std::uint8_t apex) {
 
 }  // namespace
 
-bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region,
-                            std::vector<NewCell>& cells) {
+bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull,
+                            const std::array<std::uint32_t, 2>& edge, int region, std::vector<NewCell>& cells) {
   if (!load(hull)) return false;
+  const Corner p = corner_of(edge[0]), q = corner_of(edge[1]);
   steps_left_ = most_steps;
+  if (!keep_edge(p, q)) return false;
+  for (const Triangle& t : hull_) add_front(t);
   if (!search()) return false;
+  const auto has_edge = [&](const auto& t) { return std::ranges::count(t, p) + std::ranges::count(t, q) == 2; };
+  if (std::ranges::none_of(tetrahedra_, has_edge)) return false;
   for (const auto& [a, b, c, d] : tetrahedra_) {
     const std::array vertices = {vertices_[a], vertices_[b], vertices_[c], vertices_[d]};
     cells.push_back({vertices, region, x_.quality_of(vertices)});
@@ -63,25 +68,17 @@ bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hul
   return true;
 }
 
-void PolyhedronFiller::clear() {
+bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hull) {
   vertices_.clear();
   points_.clear();
-  sides_.clear();
-}
-
-bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hull) {
-  blocked_face_ = hull.size();
-  const std::size_t known = vertices_.size();
   hull_.clear();
   for (const auto& [a, b, c] : hull) hull_.push_back({corner_of(a), corner_of(b), corner_of(c)});
   if (vertices_.size() > most_vertices) return false;
-  find_sides(known);
+  find_sides();
   find_free_edges();
   tetrahedra_.clear();
   front_.clear();
   edges_.fill(0);
-  for (std::size_t i = 0; i < hull_.size(); ++i) add_front(hull_[i], i);
-  blocked_face_ = hull_.size();
   return true;
 }
 
@@ -95,16 +92,15 @@ PolyhedronFiller::Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
   return corner;
 }
 
-/// Finds the sides of all triangles, where those of the first `known` vertices are known.
-void PolyhedronFiller::find_sides(std::size_t known) {
+void PolyhedronFiller::find_sides() {
   const auto n = static_cast<Corner>(vertices_.size());
-  sides_.resize(number_of_triangle(0, 1, n));
+  sides_.assign(number_of_triangle(0, 1, n), {});
   const auto note = [&](Corner a, Corner b, Corner c, Corner d, int side) {
     Sides& sides = sides_[number_of_triangle(a, b, c)];
     if (side > 0) sides.above |= bit(d);
     if (side < 0) sides.below |= bit(d);
   };
-  for (auto d = static_cast<Corner>(known); d < n; ++d) {
+  for (Corner d = 3; d < n; ++d) {
     for (Corner c = 2; c < d; ++c) {
       for (Corner b = 1; b < c; ++b) {
         for (Corner a = 0; a < b; ++a) {
@@ -158,10 +154,35 @@ bool PolyhedronFiller::is_around(const Triangle& t, Corner p, Corner q) const {
   return divides(r, bit(s) | bit(u)) && divides(s, bit(r) | bit(u));
 }
 
-void PolyhedronFiller::add_front(const Triangle& t, std::size_t face_number) {
+/// Do two edges in one plane cross?
+bool PolyhedronFiller::do_cross(Corner p, Corner q, Corner r, Corner s) const {
+  const Sides of_plane = sides(p, q, r);
+  const CornerSet outside = of_plane.above | of_plane.below;
+  if (outside == 0 || (outside & bit(s)) != 0) return false;
+  const auto top = static_cast<Corner>(std::countr_zero(outside));
+  const auto divides = [&](Corner a, Corner b, Corner c, Corner d) {
+    return (opposite(sides(top, a, b), c) & bit(d)) != 0;
+  };
+  return divides(p, q, r, s) && divides(r, s, p, q);
+}
+
+/// Lets nothing cross an edge. Then it is an edge of the tetrahedra, unless vertices are on it. \return false: it is
+/// not inside
+bool PolyhedronFiller::keep_edge(Corner p, Corner q) {
+  if ((free_edges_[p] & bit(q)) == 0) return false;
+  edges_[p] |= bit(q);
+  edges_[q] |= bit(p);
+  const auto n = static_cast<Corner>(vertices_.size());
+  for (Corner r = 0; r < n; ++r)
+    for (Corner s = 0; s < n; ++s)
+      if (do_cross(p, q, r, s)) free_edges_[r] &= ~bit(s);
+  return true;
+}
+
+void PolyhedronFiller::add_front(const Triangle& t) {
   const auto& [a, b, c] = t;
   const Sides both = sides(a, b, c);
-  front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c], face_number});
+  front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c]});
   edges_[a] |= bit(b) | bit(c);
   edges_[b] |= bit(a) | bit(c);
   edges_[c] |= bit(a) | bit(b);
@@ -191,7 +212,6 @@ bool PolyhedronFiller::search() {
     edges_ = edges;
     tetrahedra_.resize(size);
   }
-  if (blocked_face_ == hull_.size()) blocked_face_ = fewest.face_number;
   return false;
 }
 
@@ -239,7 +259,7 @@ bool PolyhedronFiller::put(const Triangle& base, Corner apex) {
       continue;
     }
     if (find(side) != front_.end()) return false;
-    add_front(side, hull_.size());
+    add_front(side);
   }
   tetrahedra_.push_back({base[0], base[1], base[2], apex});
   return true;

@@ -23,18 +23,14 @@ class PolyhedronFiller {
   /// A polyhedron with more vertices is not tried.
   static constexpr std::size_t most_vertices = 32;
 
-  /// Forgets the vertices of the last polyhedron.
-  void clear();
-
-  /// Fills a polyhedron. It must have all vertices of those that were tried since the last `clear`.
+  /// Fills a polyhedron.
   ///
   /// \param hull   corners of its faces, the inside above
+  /// \param edge   two of its vertices: the edge between them must be one of the tetrahedra
   /// \param cells  get the tetrahedra
   /// \return       were they found? The search gives up after a number of steps.
-  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, std::vector<NewCell>& cells);
-
-  /// A face of the last hull that stopped the search because no vertex could be its apex.
-  std::size_t blocked_face() const { return blocked_face_; }
+  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, const std::array<std::uint32_t, 2>& edge, int region,
+            std::vector<NewCell>& cells);
 
  private:
   using Corner = std::uint8_t;      // a vertex of the polyhedron
@@ -49,27 +45,28 @@ class PolyhedronFiller {
   struct FrontFace {
     Triangle corners;
     Sides sides;
-    CornerSet apexes;         ///< possible ones if nothing were filled yet
-    std::size_t face_number;  ///< of the hull; or more
+    CornerSet apexes;  ///< possible ones if nothing were filled yet
   };
   /// By vertex: the other ends of edges.
   using EdgeSets = std::array<CornerSet, most_vertices>;
 
   bool load(const std::vector<std::array<std::uint32_t, 3>>& hull);
   Corner corner_of(std::uint32_t vertex);
-  void find_sides(std::size_t known);
+  void find_sides();
   void find_free_edges();
   Sides sides(Corner a, Corner b, Corner c) const;
   static CornerSet opposite(const Sides& sides, Corner v);
   bool is_around(const Triangle& t, Corner p, Corner q) const;
-  void add_front(const Triangle& t, std::size_t face_number);
+  bool do_cross(Corner p, Corner q, Corner r, Corner s) const;
+  bool keep_edge(Corner p, Corner q);
+  void add_front(const Triangle& t);
   bool search();
   bool is_blocked(const Triangle& base, Corner apex) const;
   bool is_pierced(const Triangle& t) const;
   bool put(const Triangle& base, Corner apex);
 
   const CellComplex& x_;
-  std::vector<std::uint32_t> vertices_;  // of all polyhedra since the last `clear`
+  std::vector<std::uint32_t> vertices_;
   std::vector<Point3> points_;
   std::vector<Triangle> hull_;
   std::vector<Sides> sides_;  // by triangle
@@ -78,7 +75,6 @@ class PolyhedronFiller {
   EdgeSets edges_{};  // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
   int steps_left_ = 0;
-  std::size_t blocked_face_ = 0;
 };
 
 }  // namespace ccdt::improve

@@ -1,31 +1,22 @@
 #include "engine/improve/plan_vertex_removal.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/improve/smoothing.h"
 #include "engine/improve/topological_changes.h"
+#include "engine/improve/upright_faces.h"
 #include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::improve {
 namespace {
 
-constexpr int most_growth = 30;       ///< cells by which a sector may grow
-constexpr std::size_t most_fans = 5;  ///< of a page that are tried
+/// How many fans of a page are tried.
+constexpr std::size_t most_fans = 5;
 
 template <class List>
 bool has(const List& list, std::uint32_t value) {
   return std::ranges::find(list, value) != list.end();
-}
-
-/// The axis closest to a direction.
-Point3 axis_near(const Point3& direction) {
-  std::array<double, 3> axis{};
-  const int longest = plc::dominant_axis(direction);
-  axis[longest] = std::copysign(1, as_array(direction)[longest]);
-  return {axis[0], axis[1], axis[2]};
 }
 
 }  // namespace
@@ -36,15 +27,11 @@ bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2
   neighbors_ = neighbors;
   gather_cells(x_, vertex, marks_, star_);
   if (!find_pages()) return false;
-  if (effort != RemovalEffort::collapse) return plan_fill(effort == RemovalEffort::fill ? 0 : most_growth, change);
+  if (effort != RemovalEffort::collapse) return plan_fill(change);
   const bool is_planned = plan_collapse(0, change);
   if (!plan_collapse(1, other_)) return is_planned;
   if (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells)) std::swap(change, other_);
   return true;
-}
-
-VertexRemoval::Triangle VertexRemoval::corners_of(std::uint32_t code) const {
-  return corners_of_face(x_.cell(cell_of(code)).vertices, face_of(code));
 }
 
 /// Finds the faces around the vertex on each facet. \return false: they are no pages of a book along the segment
@@ -76,8 +63,7 @@ bool VertexRemoval::find_pages() {
 /// Follows the faces of one facet around the vertex, from one neighbor to the other.
 bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
   page.polygon = {faces_[first].from};
-  const Point3& o = x_.point(vertex_);
-  page.up = axis_near(cross(x_.point(faces_[first].from) - o, x_.point(faces_[first].to) - o));
+  page.up = axis_above(x_.point(vertex_), x_.point(faces_[first].from), x_.point(faces_[first].to));
   for (const FaceAtVertex* face = &faces_[first];;) {
     page.faces.push_back(face->face);
     page.polygon.push_back(face->to);
@@ -96,9 +82,7 @@ bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Triangle t = {polygon[from], polygon[(from + i) % n], polygon[(from + i + 1) % n]};
     page.triangles.push_back(t);
-    const Point3& a = x_.point(t[0]);
-    if (numbers::orient3d(a, x_.point(t[1]), x_.point(t[2]), a + page.up) <= 0) return false;
-    if (x_.find_face(t[0], t[1], t[2]) || is_in_star(t)) return false;
+    if (!is_upright(x_, t, page.up) || x_.find_face(t[0], t[1], t[2]) || is_in_star(t)) return false;
   }
   return true;
 }
@@ -146,18 +130,19 @@ void VertexRemoval::find_sectors() {
   marks_.clear(x_.cell_count());
   for (const std::uint32_t first : star_) {
     if (marks_.is_marked(first)) continue;
-    Sector& sector = sectors_.emplace_back(Sector{x_.region(first), {first}, {}, {}});
+    Sector& sector = sectors_.emplace_back(Sector{x_.region(first), {}, {}});
     marks_.mark(first);
-    for (std::size_t i = 0; i < sector.cells.size(); ++i) {
-      const std::uint32_t c = sector.cells[i];
-      sector.hull.push_back(face_code(c, x_.place(c, vertex_)));
-      add_pages(c, sector);
+    connected_ = {first};
+    for (std::size_t i = 0; i < connected_.size(); ++i) {
+      const std::uint32_t c = connected_[i];
       const Cell& cell = x_.cell(c);
+      sector.hull.push_back(corners_of_face(cell.vertices, x_.place(c, vertex_)));
+      add_pages(c, sector);
       for (std::uint32_t f = 0; f < 4; ++f) {
         const std::uint32_t next = cell.neighbors[f];
         if (cell.vertices[f] == vertex_ || x_.is_wall(face_code(c, f)) || marks_.is_marked(cell_of(next))) continue;
         marks_.mark(cell_of(next));
-        sector.cells.push_back(cell_of(next));
+        connected_.push_back(cell_of(next));
       }
     }
   }
@@ -178,90 +163,31 @@ void VertexRemoval::add_pages(std::uint32_t c, Sector& sector) const {
   }
 }
 
-bool VertexRemoval::plan_fill(int growth, Change& change) {
-  if (pages_.empty()) return false;  // the edge must be in the mesh, which the filler does not know
+bool VertexRemoval::plan_fill(Change& change) {
   find_sectors();
-  return fill_sectors(0, growth, change);
+  return fill_sectors(0, change);
 }
 
 /// Tries all fans of this page and of those after it.
-bool VertexRemoval::fill_sectors(std::size_t page, int growth, Change& change) {
+bool VertexRemoval::fill_sectors(std::size_t page, Change& change) {
   if (page < pages_.size()) {
     // The fans from opposite corners of a quadrilateral are the same.
     const std::size_t n = pages_[page].polygon.size(), fans = n <= 4 ? n - 2 : std::min(n, most_fans);
     for (std::size_t from = 0; from < fans; ++from)
-      if (find_fan(pages_[page], from) && fill_sectors(page + 1, growth, change)) return true;
+      if (find_fan(pages_[page], from) && fill_sectors(page + 1, change)) return true;
     return false;
   }
   change.clear();
   replace_star(change);
-  return std::ranges::all_of(sectors_, [&](const Sector& sector) { return fill_sector(sector, growth, change); });
+  return std::ranges::all_of(sectors_, [&](const Sector& sector) { return fill_sector(sector, change); });
 }
 
-/// Fills a sector without the vertex. Where that is not possible, the sector grows.
-bool VertexRemoval::fill_sector(Sector sector, int growth, Change& change) {
-  const auto size = static_cast<std::ptrdiff_t>(sector.cells.size());
-  filler_.clear();
-  while (true) {
-    hull_.clear();
-    for (const std::uint32_t code : sector.hull) hull_.push_back(corners_of(code));
-    for (const auto& [p, is_above] : sector.pages)
-      for (const auto& [a, b, c] : pages_[p].triangles)
-        hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
-    if (filler_.fill(hull_, sector.region, change.new_cells)) {
-      change.old_cells.insert(change.old_cells.end(), sector.cells.begin() + size, sector.cells.end());
-      return true;
-    }
-    const std::size_t blocked = filler_.blocked_face();
-    if (growth-- == 0 || blocked == hull_.size() || !grow(blocked, change, sector)) return false;
-  }
-}
-
-/// Adds a cell to a sector: the one behind a face of the hull, or behind one that shares corners with it.
-bool VertexRemoval::grow(std::size_t blocked, const Change& change, Sector& sector) const {
-  const auto shared_corners = [&](std::size_t face) {
-    return std::ranges::count_if(hull_[face], [&](std::uint32_t v) { return has(hull_[blocked], v); });
-  };
-  for (std::ptrdiff_t shared = 3; shared > 0; --shared)
-    for (std::size_t i = 0; i < sector.hull.size(); ++i)
-      if (shared_corners(i) == shared && can_pass(sector.hull[i], change)) return add_cell_behind(i, sector);
-  return false;
-}
-
-/// Is there a cell behind a face of the hull that is neither across a wall nor replaced already?
-bool VertexRemoval::can_pass(std::uint32_t code, const Change& change) const {
-  return !x_.is_wall(code) && !has(change.old_cells, cell_of(x_.across(code)));
-}
-
-/// \return false: vertices or segments would not be on the hull
-bool VertexRemoval::add_cell_behind(std::size_t face, Sector& sector) const {
-  const std::uint32_t behind = x_.across(sector.hull[face]), next = cell_of(behind);
-  const auto& v = x_.cell(next).vertices;
-  sector.hull.erase(sector.hull.begin() + static_cast<std::ptrdiff_t>(face));
-  sector.cells.push_back(next);
-  for (std::uint32_t f = 0; f < 4; ++f) {
-    const std::uint32_t mine = face_code(next, f), others = x_.cell(next).neighbors[f];
-    if (mine == behind) continue;
-    const auto twin = x_.is_wall(mine) ? sector.hull.end() : std::ranges::find(sector.hull, others);
-    if (twin == sector.hull.end()) {
-      sector.hull.push_back(mine);
-    } else {
-      sector.hull.erase(twin);
-    }
-  }
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    if (!is_on_hull(sector, v[i], v[i])) return false;
-    for (std::uint32_t j = i + 1; j < 4; ++j)
-      if (x_.is_segment(v[i], v[j]) && !is_on_hull(sector, v[i], v[j])) return false;
-  }
-  return true;
-}
-
-bool VertexRemoval::is_on_hull(const Sector& sector, std::uint32_t a, std::uint32_t b) const {
-  return std::ranges::any_of(sector.hull, [&](std::uint32_t code) {
-    const Triangle corners = corners_of(code);
-    return has(corners, a) && has(corners, b);
-  });
+/// Fills a sector without the vertex.
+bool VertexRemoval::fill_sector(const Sector& sector, Change& change) {
+  hull_ = sector.hull;
+  for (const auto& [p, is_above] : sector.pages)
+    for (const auto& [a, b, c] : pages_[p].triangles) hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
+  return filler_.fill(hull_, neighbors_, sector.region, change.new_cells);
 }
 
 }  // namespace ccdt::improve

@@ -12,8 +12,7 @@ namespace ccdt::improve {
 /// How to remove a vertex, in the order of the effort.
 enum class RemovalEffort {
   collapse,  ///< move it onto a neighbor on the segment
-  fill,      ///< search for other tetrahedra in place of those around it
-  grow       ///< and in place of more tetrahedra
+  fill       ///< search for other tetrahedra in place of those around it
 };
 
 /// Plans to remove vertices that split segments.
@@ -53,8 +52,7 @@ class VertexRemoval {
   /// The space around the vertex between two pages.
   struct Sector {
     int region;
-    std::vector<std::uint32_t> cells;
-    std::vector<std::uint32_t> hull;  ///< the codes of its faces except on pages, as its cells call them
+    std::vector<Triangle> hull;  ///< its faces except on pages, the inside above
     struct Side {
       std::uint32_t page;
       bool is_above;  ///< is the sector above the page?
@@ -70,15 +68,10 @@ class VertexRemoval {
   bool find_fan(Page& page, std::size_t from) const;
   bool is_in_star(const Triangle& triangle) const;
   bool plan_collapse(std::size_t end, Change& change);
-  bool plan_fill(int growth, Change& change);
-  bool fill_sectors(std::size_t page, int growth, Change& change);
-  bool fill_sector(Sector sector, int growth, Change& change);
-  bool grow(std::size_t blocked, const Change& change, Sector& sector) const;
-  bool can_pass(std::uint32_t code, const Change& change) const;
-  bool add_cell_behind(std::size_t face, Sector& sector) const;
-  bool is_on_hull(const Sector& sector, std::uint32_t a, std::uint32_t b) const;
+  bool plan_fill(Change& change);
+  bool fill_sectors(std::size_t page, Change& change);
+  bool fill_sector(const Sector& sector, Change& change);
   void replace_star(Change& change) const;
-  Triangle corners_of(std::uint32_t code) const;
 
   const CellComplex& x_;
   PolyhedronFiller filler_;
@@ -91,6 +84,7 @@ class VertexRemoval {
   std::vector<FaceAtVertex> faces_;
   std::vector<Page> pages_;
   std::vector<Sector> sectors_;
+  std::vector<std::uint32_t> connected_;
   std::vector<Triangle> hull_;
   Change other_;
 };

@@ -4,13 +4,22 @@
 #include <array>
 #include <cstddef>
 
+#include "engine/improve/loosen_star.h"
 #include "engine/improve/plan_vertex_removal.h"
 #include "engine/plc/boundary_sides.h"
 
 namespace ccdt::improve {
 namespace {
 
-constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill, RemovalEffort::grow};
+constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill};
+
+/// How often the cells around a vertex are loosened before the next vertex has its turn.
+constexpr int loosenings = 8;
+/// The turns for `stuck` vertices. Nearly all are removed in their first or second turn, a few only after hundreds, and
+/// some cannot be removed.
+constexpr std::size_t most_turns(std::size_t stuck) {
+  return 100 + stuck;
+}
 
 /// A Steiner vertex and its neighbors on the segment.
 struct Candidate {
@@ -22,7 +31,8 @@ struct Candidate {
 
 class SteinerRemover {
  public:
-  SteinerRemover(CellComplex& x, std::uint32_t first_steiner) : x_(x), removal_(x), first_steiner_(first_steiner) {}
+  SteinerRemover(CellComplex& x, std::uint32_t first_steiner)
+      : x_(x), removal_(x), loosener_(x), first_steiner_(first_steiner) {}
 
   void add_chain(const std::vector<protection::ChainVertex>& chain) {
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
@@ -36,38 +46,63 @@ class SteinerRemover {
 
   /// \return how many were removed
   std::uint64_t run(const Progress& progress) {
-    std::uint64_t all = 0;
-    for (std::size_t effort = 0; effort < all_efforts.size();) {
-      const std::uint64_t removed = pass(all_efforts[effort], progress);
-      all += removed;
-      effort = removed > 0 ? 0 : effort + 1;
-    }
-    return all;
+    for (std::size_t effort = 0; effort < all_efforts.size();)
+      effort = pass(all_efforts[effort], progress) ? 0 : effort + 1;
+    loosen_rest(progress);
+    return removed_;
   }
 
  private:
   /// Tries each vertex once, the last split first, unless nothing around it has changed since it was last tried.
-  std::uint64_t pass(RemovalEffort effort, const Progress& progress) {
-    std::uint64_t removed = 0;
+  /// \return was one removed?
+  bool pass(RemovalEffort effort, const Progress& progress) {
+    const std::uint64_t changes = x_.change_count();
     for (std::size_t i = candidates_.size(); i-- > 0;) {
       report(progress, "improve", candidates_.size() - i, candidates_.size());
       Candidate& c = candidates_[i];
       std::uint64_t& tried_at = c.tried_at[static_cast<std::size_t>(effort)];
-      if (c.vertex == no_neighbor || x_.changed_at(c.vertex) < tried_at) continue;
-      if (removal_.plan(c.vertex, c.neighbors, effort, change_)) {
-        remove(c);
-        ++removed;
-      } else {
-        tried_at = x_.change_count() + 1;
-      }
+      if (c.vertex == no_neighbor || x_.changed_at(c.vertex) < tried_at || try_to_remove(c, effort)) continue;
+      tried_at = x_.change_count() + 1;
     }
-    return removed;
+    return x_.change_count() > changes;
+  }
+
+  bool try_to_remove(Candidate& c, RemovalEffort effort) {
+    if (!removal_.plan(c.vertex, c.neighbors, effort, change_)) return false;
+    remove(c);
+    return true;
+  }
+
+  /// Tries those that are left again and again, after changes of the cells around them.
+  void loosen_rest(const Progress& progress) {
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+      if (candidates_[i].vertex != no_neighbor) left.push_back(i);
+    const std::size_t turns = most_turns(left.size());
+    for (std::size_t turn = 0; !left.empty() && turn + left.size() <= turns;) {
+      std::erase_if(left, [&](std::size_t i) {
+        report(progress, "improve", turn++, turns);
+        return remove_loosened(candidates_[i]);
+      });
+    }
+  }
+
+  /// Changes the cells around a vertex until it can be removed. \return was it?
+  bool remove_loosened(Candidate& c) {
+    for (int i = 0; i < loosenings; ++i) {
+      loosener_.loosen(c.vertex);
+      const bool is_removed = try_to_remove(c, RemovalEffort::collapse) || try_to_remove(c, RemovalEffort::fill);
+      loosener_.tidy(is_removed ? c.neighbors[0] : c.vertex);
+      if (is_removed) return true;
+    }
+    return false;
   }
 
   void remove(Candidate& c) {
     x_.apply(change_, made_);
     for (int side = 0; side < 2; ++side) replace_neighbor(c.neighbors[side], c.vertex, c.neighbors[1 - side]);
     c.vertex = no_neighbor;
+    ++removed_;
   }
 
   void replace_neighbor(std::uint32_t of, std::uint32_t from, std::uint32_t to) {
@@ -77,8 +112,10 @@ class SteinerRemover {
 
   CellComplex& x_;
   VertexRemoval removal_;
+  StarLoosener loosener_;
   const std::uint32_t first_steiner_;
   std::vector<Candidate> candidates_;  ///< by vertex, from the first Steiner vertex
+  std::uint64_t removed_ = 0;
 
   // Working memory.
   Change change_;

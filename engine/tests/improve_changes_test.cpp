@@ -175,6 +175,25 @@ TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
     EXPECT_EQ(x.region(c), std::ranges::count(x.cell(c).vertices, 4u) == 1 ? 1 : 2);
 }
 
+/// A facet that is a dart, flat but for 3 units of 10,000: corner 1 is reflex, between 2 and 3. Vertex 4 is hardly
+/// above its plane. Without the edge from 0 to 1 there would be positive tetrahedra, but outside of the dart.
+Model nearly_flat_dart() {
+  Model model;
+  model.points = {{0, -10000, 0}, {0, -1000, -3}, {-10000, 0, 0}, {10000, 0, 0}, {0, 5000, 10}};
+  model.cells = {{0, 1, 2, 4}, {0, 1, 3, 4}};
+  model.faces = {{0, 1, 2}, {1, 0, 3}};
+  model.facet_of_face = {7, 7};
+  return model;
+}
+
+TEST(Changes, DiagonalOnANearlyFlatFacetIsNotExchangedWhereItsFacesWouldFoldOver) {
+  const improve::CellComplex x = complex_of(nearly_flat_dart(), by_shape);
+  ASSERT_LT(x.quality_of({2, 3, 4, 0}) * x.quality_of({2, 3, 4, 1}), 0);
+  improve::Change change;
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+    EXPECT_FALSE(improve::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), 0, change));
+}
+
 TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
   improve::CellComplex x = complex_of(square_between_regions(), by_shape);
   improve::Change change;

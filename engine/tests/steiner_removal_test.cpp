@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <set>
+#include <utility>
 
+#include "engine/improve/loosen_star.h"
 #include "engine/improve/plan_vertex_removal.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tests/mesh_checks.h"
@@ -83,15 +86,97 @@ TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
   EXPECT_EQ(pages, (std::set<FaceKey>{{0, 1, 2}, {0, 1, 5}}));
 }
 
+TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdgeWithoutFacets) {
+  for (std::uint32_t size = 3; size <= 12; ++size) {
+    SCOPED_TRACE(size);
+    Model model = split_segment_in_ring(size);
+    model.regions.clear();
+    model.faces.clear();
+    model.facet_of_face.clear();
+    for (const auto effort : {improve::RemovalEffort::collapse, improve::RemovalEffort::fill}) {
+      improve::CellComplex x = complex_of(model, goal);
+      improve::Change change;
+      ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, effort, change));
+      apply_change(x, change);
+      expect_consistent(x);
+      EXPECT_TRUE(x.is_segment(0, 1));
+    }
+  }
+}
+
 TEST(VertexRemoval, SearchFindsTheSameTetrahedraWhereThereIsOnlyOneWay) {
   improve::CellComplex x = complex_of(split_segment_in_ring(4), goal);
-  for (const auto effort : {improve::RemovalEffort::fill, improve::RemovalEffort::grow}) {
-    improve::CellComplex copy = x;
-    improve::Change change;
-    ASSERT_TRUE(improve::VertexRemoval(copy).plan(2, {0, 1}, effort, change));
-    apply_change(copy, change);
-    expect_consistent(copy);
-    EXPECT_TRUE(copy.is_segment(0, 1));
+  improve::Change change;
+  ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::fill, change));
+  apply_change(x, change);
+  expect_consistent(x);
+  EXPECT_TRUE(x.is_segment(0, 1));
+}
+
+/// The same with a vertex at a random place in each cell.
+Model split_segment_in_fog(std::mt19937& random) {
+  Model model = split_segment_in_ring(6);
+  const std::vector<Tetrahedron> cells = std::exchange(model.cells, {});
+  const std::vector<int> regions = std::exchange(model.regions, {});
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    Point3 sum{};
+    double total = 0;
+    for (const std::uint32_t v : cells[c]) {
+      const double weight = 1 + static_cast<double>(random() % 8);
+      sum = sum + weight * model.points[v];
+      total += weight;
+    }
+    const auto inside = static_cast<std::uint32_t>(model.points.size());
+    model.points.push_back({std::round(sum.x / total), std::round(sum.y / total), std::round(sum.z / total)});
+    for (std::size_t f = 0; f < 4; ++f) {
+      Tetrahedron cell = cells[c];
+      cell[f] = inside;
+      model.cells.push_back(cell);
+      model.regions.push_back(regions[c]);
+    }
+  }
+  return model;
+}
+
+double worst_cell(const improve::CellComplex& x) {
+  std::vector<std::uint32_t> cells;
+  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+    if (!x.is_dead(c)) cells.push_back(c);
+  return x.worst_of(cells);
+}
+
+TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 20; ++i) {
+    improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
+    const auto before = invariants_of(x);
+    const auto cells = cells_of(x);
+    improve::StarLoosener loosener(x);
+    loosener.loosen(2);
+    expect_consistent(x);
+    EXPECT_TRUE(invariants_of(x) == before);
+    EXPECT_NE(cells_of(x), cells);
+    EXPECT_TRUE(x.is_segment(0, 2) && x.is_segment(2, 1));
+    const double worst = worst_cell(x);
+    loosener.tidy(2);
+    expect_consistent(x);
+    EXPECT_TRUE(invariants_of(x) == before);
+    EXPECT_GE(worst_cell(x), worst);
+  }
+}
+
+TEST(StarLoosener, LeavesAVertexWithFewEdges) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 20; ++i) {
+    improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
+    const auto edges = [&] {
+      int count = 0;
+      for (std::uint32_t v = 0; v < x.vertex_count(); ++v) count += has_edge(x, 2, v);
+      return count;
+    };
+    const int before = edges();
+    improve::StarLoosener(x).loosen(2);
+    EXPECT_LT(edges(), before);
   }
 }
 

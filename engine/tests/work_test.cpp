@@ -231,6 +231,9 @@ label.cells_visited 694
 label.peak_bytes 18936
 finish.cells_visited 156
 finish.peak_bytes 5520
+improve.orient3d_filter_failures 2
+improve.wide_evaluations 2
+improve.exact_evaluations 2
 improve.cells_created 59
 improve.cells_destroyed 77
 improve.changes_tried 220

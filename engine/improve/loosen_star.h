@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "engine/improve/cell_complex.h"
+#include "engine/improve/find_step.h"
+
+namespace ccdt::improve {
+
+/// Changes the cells around a vertex that cannot be removed from a segment, so that the next attempt meets other cells.
+/// The changes are random, but the same on every run.
+class StarLoosener {
+ public:
+  explicit StarLoosener(CellComplex& complex);
+
+  /// Removes edges and faces near the vertex at random, whatever the quality. Then removes edges of the vertex as long
+  /// as that is possible: a vertex with fewer edges is easier to remove.
+  void loosen(std::uint32_t vertex);
+
+  /// Makes bad cells near the vertex better by swaps.
+  void tidy(std::uint32_t vertex);
+
+ private:
+  void shake(std::uint32_t vertex);
+  void shrink(std::uint32_t vertex);
+  bool remove_an_edge(std::uint32_t vertex);
+  bool apply_if_positive(bool is_planned, const Change& change);
+  std::uint32_t random_cell_near(std::uint32_t vertex);
+  void gather_near(std::uint32_t vertex);
+
+  CellComplex& x_;
+  std::mt19937 random_;
+  StepFinder swaps_;
+
+  // Working memory.
+  CellMarks marks_;
+  std::vector<std::uint32_t> star_;
+  std::vector<std::uint32_t> vertices_, near_;
+  std::vector<std::uint32_t> made_;
+  Change change_;
+  Step step_;
+};
+
+}  // namespace ccdt::improve
