@@ -51,16 +51,11 @@ std::array<Triangle, 3> sides_on(const Triangle& base, std::uint8_t apex) {
 
 }  // namespace
 
-bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull,
-                            const std::array<std::uint32_t, 2>& edge, int region, std::vector<NewCell>& cells) {
+bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region,
+                            std::vector<NewCell>& cells) {
   if (!load(hull)) return false;
-  const Corner p = corner_of(edge[0]), q = corner_of(edge[1]);
   steps_left_ = most_steps;
-  if (!keep_edge(p, q)) return false;
-  for (const Triangle& t : hull_) add_front(t);
   if (!search()) return false;
-  const auto has_edge = [&](const auto& t) { return std::ranges::count(t, p) + std::ranges::count(t, q) == 2; };
-  if (std::ranges::none_of(tetrahedra_, has_edge)) return false;
   for (const auto& [a, b, c, d] : tetrahedra_) {
     const std::array vertices = {vertices_[a], vertices_[b], vertices_[c], vertices_[d]};
     cells.push_back({vertices, region, x_.quality_of(vertices)});
@@ -79,6 +74,7 @@ bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hul
   tetrahedra_.clear();
   front_.clear();
   edges_.fill(0);
+  for (const Triangle& t : hull_) add_front(t);
   return true;
 }
 
@@ -152,31 +148,6 @@ bool PolyhedronFiller::is_around(const Triangle& t, Corner p, Corner q) const {
     return (above & others) != 0 && (below & others) != 0;
   };
   return divides(r, bit(s) | bit(u)) && divides(s, bit(r) | bit(u));
-}
-
-/// Do two edges in one plane cross?
-bool PolyhedronFiller::do_cross(Corner p, Corner q, Corner r, Corner s) const {
-  const Sides of_plane = sides(p, q, r);
-  const CornerSet outside = of_plane.above | of_plane.below;
-  if (outside == 0 || (outside & bit(s)) != 0) return false;
-  const auto top = static_cast<Corner>(std::countr_zero(outside));
-  const auto divides = [&](Corner a, Corner b, Corner c, Corner d) {
-    return (opposite(sides(top, a, b), c) & bit(d)) != 0;
-  };
-  return divides(p, q, r, s) && divides(r, s, p, q);
-}
-
-/// Lets nothing cross an edge. Then it is an edge of the tetrahedra, unless vertices are on it. \return false: it is
-/// not inside
-bool PolyhedronFiller::keep_edge(Corner p, Corner q) {
-  if ((free_edges_[p] & bit(q)) == 0) return false;
-  edges_[p] |= bit(q);
-  edges_[q] |= bit(p);
-  const auto n = static_cast<Corner>(vertices_.size());
-  for (Corner r = 0; r < n; ++r)
-    for (Corner s = 0; s < n; ++s)
-      if (do_cross(p, q, r, s)) free_edges_[r] &= ~bit(s);
-  return true;
 }
 
 void PolyhedronFiller::add_front(const Triangle& t) {

@@ -26,11 +26,9 @@ class PolyhedronFiller {
   /// Fills a polyhedron.
   ///
   /// \param hull   corners of its faces, the inside above
-  /// \param edge   two of its vertices: the edge between them must be one of the tetrahedra
   /// \param cells  get the tetrahedra
   /// \return       were they found? The search gives up after a number of steps.
-  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, const std::array<std::uint32_t, 2>& edge, int region,
-            std::vector<NewCell>& cells);
+  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, std::vector<NewCell>& cells);
 
  private:
   using Corner = std::uint8_t;      // a vertex of the polyhedron
@@ -57,8 +55,6 @@ class PolyhedronFiller {
   Sides sides(Corner a, Corner b, Corner c) const;
   static CornerSet opposite(const Sides& sides, Corner v);
   bool is_around(const Triangle& t, Corner p, Corner q) const;
-  bool do_cross(Corner p, Corner q, Corner r, Corner s) const;
-  bool keep_edge(Corner p, Corner q);
   void add_front(const Triangle& t);
   bool search();
   bool is_blocked(const Triangle& base, Corner apex) const;

@@ -164,6 +164,7 @@ void VertexRemoval::add_pages(std::uint32_t c, Sector& sector) const {
 }
 
 bool VertexRemoval::plan_fill(Change& change) {
+  if (pages_.empty()) return false;  // the edge must be in the mesh, which the filler does not know
   find_sectors();
   return fill_sectors(0, change);
 }
@@ -187,7 +188,7 @@ bool VertexRemoval::fill_sector(const Sector& sector, Change& change) {
   hull_ = sector.hull;
   for (const auto& [p, is_above] : sector.pages)
     for (const auto& [a, b, c] : pages_[p].triangles) hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
-  return filler_.fill(hull_, neighbors_, sector.region, change.new_cells);
+  return filler_.fill(hull_, sector.region, change.new_cells);
 }
 
 }  // namespace ccdt::improve
