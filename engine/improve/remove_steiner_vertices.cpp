@@ -15,7 +15,7 @@ constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill
 
 /// How often the cells around a vertex are loosened before the next vertex has its turn.
 constexpr int loosenings = 8;
-/// The turns for `stuck` vertices. Nearly all are removed in their first or second turn, a few only after hundreds, and
+/// The turns for `stuck` vertices. Nearly all are removed in their first or second turn, a few only after dozens, and
 /// some cannot be removed.
 constexpr std::size_t most_turns(std::size_t stuck) {
   return 100 + stuck;

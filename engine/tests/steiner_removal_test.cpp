@@ -111,7 +111,7 @@ TEST(VertexRemoval, SearchFindsTheSameTetrahedraWhereThereIsOnlyOneWay) {
   EXPECT_TRUE(x.is_segment(0, 1));
 }
 
-/// The same with a vertex at a random place in each cell.
+/// The ring of six with a vertex at a random place in each cell.
 Model split_segment_in_fog(std::mt19937& random) {
   Model model = split_segment_in_ring(6);
   const std::vector<Tetrahedron> cells = std::exchange(model.cells, {});
@@ -163,7 +163,7 @@ TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
   }
 }
 
-TEST(StarLoosener, LeavesAVertexWithFewEdges) {
+TEST(StarLoosener, LeavesAVertexWithFewerEdges) {
   std::mt19937 random(2);
   for (int i = 0; i < 20; ++i) {
     improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
