@@ -10,7 +10,7 @@ namespace ccdt::delaunay {
 namespace {
 
 /// In smaller parts, too many vertices are near the border.
-constexpr std::size_t least_part = 1000;
+constexpr std::size_t least_part = 250;
 /// Another pass pays off if more than one vertex waits for every this many cells.
 constexpr std::size_t cells_per_waiting_vertex = 500;
 /// The normals of the planes of each pass. The vertices that wait are near the planes of the pass before; only few of
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
     if (parts < 2 || (p > 0 && those.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
     cut(those, static_cast<std::uint32_t>(parts), bases[p]);
     mark_cells();
-    const auto left = pass(those, p == 0 ? Ties::greatest_rank : Ties::any_rank, shared);
+    const auto left = pass(those, p == 0, shared);
     waiting.resize(with_lower_rank);
     waiting.insert(waiting.end(), left.begin(), left.end());
     with_lower_rank = 0;
@@ -59,7 +59,7 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   for (std::size_t i = 0; i < vertices.size(); i += vertices.size() / sample_size + 1)
     sample.push_back(d_.point(vertices[i]));
   const SpaceCut space(sample, parts, basis);
-  parallel_for(part_.size(), 4096,
+  parallel_for(vertices.back() + 1, 4096,
                [&](std::size_t v) { part_[v] = static_cast<Part>(space.part_of(d_.vertices[v].point)); });
   start_ = std::vector<std::atomic<std::uint32_t>>(parts);
   for (auto& start : start_) start = no_cell;
@@ -80,7 +80,7 @@ void PartedInsertion::mark_cells() {
   });
 }
 
-std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, Ties ties,
+std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, bool is_first,
                                                  SharedProgress& progress) {
   std::vector<std::vector<std::uint32_t>> of_part(start_.size());
   for (const std::uint32_t v : vertices) of_part[part_[v]].push_back(v);
@@ -89,8 +89,9 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   d_.cells.resize(old + room);
   marks_.cells.resize(old + room, InsertionMarks::Cell::unknown);
   CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
+  done_parts_ = 0;
   parallel_for(start_.size(), 1, [&](std::size_t part) {
-    of_part[part] = insert_part(static_cast<Part>(part), of_part[part], ties, pool, progress);
+    of_part[part] = insert_part(static_cast<Part>(part), of_part[part], is_first, pool, progress);
   });
   d_.cells.resize(std::min(pool.next.load(), pool.end));
   for (const std::uint32_t c : unused_) {
@@ -106,13 +107,22 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
 }
 
 /// \return  the vertices that wait
-std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<const std::uint32_t> vertices, Ties ties,
-                                                        CellPool& pool, SharedProgress& progress) {
+std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<const std::uint32_t> vertices,
+                                                        bool is_first, CellPool& pool, SharedProgress& progress) {
   std::uint32_t last = start_[part];
   if (last == no_cell) return {vertices.begin(), vertices.end()};
   Insertion insertion(d_, marks_, {part_, part}, pool);
+  const Ties ties = is_first ? Ties::greatest_rank : Ties::any_rank;
+  // Parts do not take the same time. When half of them are done, the next pass divides what is left of the others. A
+  // part that begins after that has not had its turn.
+  const auto are_half_done = [&] { return 2 * done_parts_.load(std::memory_order_relaxed) >= start_.size(); };
+  const bool may_stop = is_first && !are_half_done();
   std::vector<std::uint32_t> waiting;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (may_stop && are_half_done()) {
+      waiting.insert(waiting.end(), vertices.begin() + static_cast<std::ptrdiff_t>(i), vertices.end());
+      break;
+    }
     if (i % report_every == report_every - 1 && !progress.add(report_every)) break;
     if (insertion.find_cavity(vertices[i], last, ties) && insertion.has_room()) {
       last = insertion.fill_cavity();
@@ -122,6 +132,7 @@ std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<con
       waiting.push_back(vertices[i]);
     }
   }
+  ++done_parts_;
   const std::lock_guard lock(mutex_);
   unused_.insert(unused_.end(), insertion.unused_places().begin(), insertion.unused_places().end());
   return waiting;

@@ -45,14 +45,15 @@ class PartedInsertion {
 
   void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
   void mark_cells();
-  std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, Ties ties, SharedProgress& progress);
-  std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, Ties ties, CellPool& pool,
-                                         SharedProgress& progress);
+  std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, bool is_first, SharedProgress& progress);
+  std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, bool is_first,
+                                         CellPool& pool, SharedProgress& progress);
 
   Delaunay& d_;
   std::vector<Part> part_;                         ///< by vertex
   std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell of it; `no_cell` if there is none
   InsertionMarks marks_;
+  std::atomic<std::size_t> done_parts_ = 0;  ///< of this pass
   std::mutex mutex_;
   std::vector<std::uint32_t> unused_;  ///< places for cells that a pass has left over; guarded by the mutex
 };

@@ -32,6 +32,9 @@ constexpr std::size_t cells_of_vertex = 7;
 constexpr std::size_t cells_of_surface_vertex = 9;  ///< if there are vertices only on surfaces
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
+/// One thread inserts at least this many of them, and all threads those of each round: this many times as many as are
+/// in.
+constexpr std::size_t least_first = 100, growth = 8;
 
 bool are_several_worth_it(std::size_t vertices) {
   return thread_count() > 1 && vertices >= least_for_threads;
@@ -61,12 +64,13 @@ void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const
   }
   // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere. The
   // vertices of a surface around them do not count: the cells between these cross the whole inside, so all would wait.
-  const std::size_t first = vertices.size() / 64;
+  std::size_t first = vertices.size();
+  while (first >= growth * least_first) first /= growth;
   insert_in_order(d, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
   PartedInsertion parted(d);
   std::vector<std::uint32_t> waiting;
   for (std::size_t begin = first, end = 0; begin < vertices.size(); begin = end) {
-    end = 16 * begin < vertices.size() ? 8 * begin : vertices.size();
+    end = 2 * growth * begin < vertices.size() ? growth * begin : vertices.size();
     waiting = parted.insert(vertices.subspan(begin, end - begin), std::move(waiting), begin, vertices.size(), progress);
     if (waiting.size() < (end - begin) / 4) continue;
     // Without them, the cells of the next round would be too large.
