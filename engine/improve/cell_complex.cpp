@@ -53,8 +53,8 @@ void Change::clear() {
   merge.reset();
 }
 
-CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<Point3> points,
-                         std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior,
+CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<int> regions,
+                         std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior,
                          const QualityGoal& goal)
     : goal_(goal),
       points_(std::move(points)),
@@ -63,10 +63,10 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
       changed_at_(points_.size(), 0),
       merged_(first_interior, false),
       cells_(std::move(cells)),
-      walls_(cells_.size(), 0),
-      regions_(mesh.regions),
+      walls_(cells_.size()),
+      regions_(std::move(regions)),
       qualities_(cells_.size()),
-      generations_(cells_.size(), 0),
+      generations_(cells_.size()),
       faces_(mesh.faces),
       facet_of_face_(std::move(facet_of_face)) {
   // Few vertices will be inserted. Without room for them, the first one would double the list.
@@ -124,10 +124,12 @@ void CellComplex::join_open_faces() {
     if (open[i - 1].key == open[i].key) join_faces(cells_, open[i - 1].code, open[i].code);
 }
 
-/// Marks the faces on facets. Interior vertices are on none.
+/// Marks the faces on facets, and no others. Interior vertices are on none.
 void CellComplex::find_walls() {
   parallel_for(cells_.size(), grain, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);
+    walls_[c] = 0;
+    generations_[c] = 0;
     const auto& v = cells_[c].vertices;
     const auto interior = std::ranges::count_if(v, [&](std::uint32_t corner) { return is_interior(corner); });
     for (std::uint32_t f = 0; f < 4; ++f) {

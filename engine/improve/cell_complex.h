@@ -72,12 +72,13 @@ class CellMarks {
 /// vertices on its segments and facets; *interior* vertices may move anywhere or be removed.
 class CellComplex {
  public:
-  /// \param mesh            regions, faces and edges; its tetrahedra and coordinates are not used
-  /// \param cells           the tetrahedra of the regions; neighbors may be missing
+  /// \param mesh            its faces and edges; the rest is not used
+  /// \param cells           the tetrahedra; neighbors may be missing
+  /// \param regions         the attribute of the region of each
   /// \param points          its vertices in grid units
   /// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
-  CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<Point3> points,
+  CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<int> regions, std::vector<Point3> points,
               std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior, const QualityGoal& goal);
 
   const QualityGoal& goal() const { return goal_; }
@@ -185,10 +186,10 @@ class CellComplex {
 
   // By cell.
   LargeVector<Cell> cells_;
-  std::vector<std::uint8_t> walls_;  // bit f is set if face f is a wall
+  RawVector<std::uint8_t> walls_;  // bit f is set if face f is a wall
   std::vector<int> regions_;
-  std::vector<double> qualities_;
-  std::vector<std::uint32_t> generations_;
+  RawVector<double> qualities_;
+  RawVector<std::uint32_t> generations_;
   std::vector<std::uint32_t> free_;  // places of dead cells
 
   // The surface.

@@ -275,9 +275,9 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
                            mesh::TetMesh& mesh, const Progress& progress) {
   // The cells are the tetrahedra. In large meshes there is no memory for both.
   decltype(mesh.tetrahedra)().swap(mesh.tetrahedra);
-  CellComplex complex(mesh, std::move(input.cells), std::move(points), std::move(input.facet_of_face),
-                      static_cast<std::uint32_t>(input.first_interior), goal_of(options));
-  decltype(mesh.regions)().swap(mesh.regions);  // the complex has them
+  CellComplex complex(mesh, std::move(input.cells), std::move(mesh.regions), std::move(points),
+                      std::move(input.facet_of_face), static_cast<std::uint32_t>(input.first_interior),
+                      goal_of(options));
   std::uint64_t removed = 0;
   if (options.steiner == SteinerRule::remove) {
     const auto first_steiner = static_cast<std::uint32_t>(input.first_steiner);

@@ -9,6 +9,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
+#include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
@@ -50,31 +51,17 @@ class FlatTetrahedronPeeler {
  public:
   FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
                         CollectedMesh& collected)
-      : plc_(plc), facets_(facets), mesh_(collected.mesh), sources_(collected.sources) {
-    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-      if (!is_bent_boundary(plc, plc.facets[facets.facet[i]])) continue;
-      triangle_of_.set(key_of(facets.triangles[i]), i);
-      for (const VertexId v : facets.triangles[i]) {
-        std::vector<FacetId>& its = *facets_of_.insert(v).first;
-        if (std::ranges::find(its, facets.facet[i]) == its.end()) its.push_back(facets.facet[i]);
-      }
-    }
-    if (triangle_of_.empty()) return;
-    for (const auto& chain : chains)
-      for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-        segment_edges_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex));
-  }
+      : plc_(plc), chains_(chains), facets_(facets), mesh_(collected.mesh), sources_(collected.sources) {}
 
   void peel() {
-    if (triangle_of_.empty()) return;
+    find_bent_facets();
     std::vector<std::size_t> flat = parallel_collect<std::size_t>(
         mesh_.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
           for (; i < end; ++i)
             if (lies_within_facet(mesh_.tetrahedra[i])) found.push_back(i);
         });
     if (flat.empty()) return;
-    for (std::size_t i = 0; i < facets_.triangles.size(); ++i)
-      if (!is_bent_boundary(plc_, plc_.facets[facets_.facet[i]])) other_faces_.insert(key_of(facets_.triangles[i]));
+    list_faces();
     // In an order that does not depend on how the tetrahedra were found.
     const auto corners = [&](std::size_t i) {
       std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
@@ -96,6 +83,33 @@ class FlatTetrahedronPeeler {
   }
 
  private:
+  void find_bent_facets() {
+    std::vector<std::uint32_t> bent;
+    std::uint32_t vertices = 0;
+    for (std::size_t i = 0; i < facets_.triangles.size(); ++i) {
+      if (!is_bent_boundary(plc_, plc_.facets[facets_.facet[i]])) continue;
+      bent.push_back(static_cast<std::uint32_t>(i));
+      for (const VertexId v : facets_.triangles[i]) vertices = std::max(vertices, v + 1);
+    }
+    vertices_ = vertices;
+    facets_of_ = make_index_lists(vertices, [&](const auto& emit) {
+      for (const std::uint32_t i : bent)
+        for (const VertexId v : facets_.triangles[i]) emit(v, facets_.facet[i]);
+    });
+  }
+
+  void list_faces() {
+    for (std::size_t i = 0; i < facets_.triangles.size(); ++i) {
+      if (is_bent_boundary(plc_, plc_.facets[facets_.facet[i]]))
+        triangle_of_.set(key_of(facets_.triangles[i]), i);
+      else
+        other_faces_.insert(key_of(facets_.triangles[i]));
+    }
+    for (const auto& chain : chains_)
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+        segment_edges_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex));
+  }
+
   /// Removes tetrahedra. The others keep their order.
   void remove(std::vector<std::size_t> those) {
     std::ranges::sort(those);
@@ -116,13 +130,13 @@ class FlatTetrahedronPeeler {
   }
 
   bool lies_within_facet(const std::array<std::uint32_t, 4>& t) const {
-    const auto* const first = facets_of_.find(t[0]);
-    return first != nullptr && std::ranges::any_of(*first, [&](FacetId f) {
-             return std::all_of(t.begin() + 1, t.end(), [&](std::uint32_t v) {
-               const auto* const its = facets_of_.find(v);
-               return its != nullptr && std::ranges::find(*its, f) != its->end();
-             });
-           });
+    if (std::ranges::any_of(t, [&](std::uint32_t v) { return v >= vertices_; })) return false;
+    return std::ranges::any_of(facets_of_.of(t[0]), [&](std::uint32_t f) {
+      return std::all_of(t.begin() + 1, t.end(), [&](std::uint32_t v) {
+        const auto its = facets_of_.of(v);
+        return std::ranges::find(its, f) != its.end();
+      });
+    });
   }
 
   bool try_to_peel(const std::array<std::uint32_t, 4>& t) {
@@ -155,12 +169,15 @@ class FlatTetrahedronPeeler {
   }
 
   const plc::Plc& plc_;
+  const protection::SegmentChains& chains_;
   facets::FacetMesh& facets_;
   TetMesh& mesh_;
   RawVector<std::uint32_t>& sources_;
-  HashTable<FaceKey, std::size_t> triangle_of_;               // of those facets
-  HashSet<FaceKey> other_faces_;                              // of all other facets
-  HashTable<std::uint32_t, std::vector<FacetId>> facets_of_;  // by vertex, each once
+  std::uint32_t vertices_ = 0;  // those of the bent facets are below
+  IndexLists facets_of_;        // by vertex: the bent facets of its triangles
+  // If there are such tetrahedra:
+  HashTable<FaceKey, std::size_t> triangle_of_;  // of the bent facets
+  HashSet<FaceKey> other_faces_;                 // of all other facets
   HashSet<std::uint64_t> segment_edges_;
 };
 

@@ -39,7 +39,7 @@ std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& fro
   std::vector<Point3> points;
   for (const auto& vertex : s.delaunay.vertices) points.push_back(vertex.point);
   const auto complex_of = [&](LargeVector<delaunay::Cell> cells) {
-    return improve::CellComplex(collected.mesh, std::move(cells), points, facet_of_face,
+    return improve::CellComplex(collected.mesh, std::move(cells), collected.mesh.regions, points, facet_of_face,
                                 static_cast<std::uint32_t>(points.size()), {});
   };
   const improve::CellComplex kept = complex_of(joined),
