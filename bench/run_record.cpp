@@ -37,6 +37,7 @@ inline constexpr auto fields<ImproveCounts> = std::tuple(
     field("removed_faces", &ImproveCounts::removed_faces), field("moved_vertices", &ImproveCounts::moved_vertices),
     field("inserted_vertices", &ImproveCounts::inserted_vertices),
     field("collapsed_edges", &ImproveCounts::collapsed_edges),
+    optional_field("reconnected_polyhedra", &ImproveCounts::reconnected_polyhedra),
     optional_field("removed_steiner_vertices", &ImproveCounts::removed_steiner_vertices),
     field("stop", &ImproveCounts::stop));
 

@@ -210,11 +210,11 @@ std::string quality_lines(const bench::Quality& q) {
 /// Nothing if the mesh was not improved.
 std::string improvement(const ImproveCounts& c) {
   if (c.stop == ImproveStop::none) return "";
-  std::string text = "improvement " + with_separators(c.bad_cells) +
-                     " tetrahedra to improve: " + with_separators(c.removed_edges) + " edges and " +
-                     with_separators(c.removed_faces) + " faces removed, " + with_separators(c.moved_vertices) +
-                     " vertices moved, " + with_separators(c.inserted_vertices) + " inserted, " +
-                     with_separators(c.collapsed_edges) + " collapsed; ";
+  std::string text =
+      "improvement " + with_separators(c.bad_cells) + " tetrahedra to improve: " + with_separators(c.removed_edges) +
+      " edges and " + with_separators(c.removed_faces) + " faces removed, " + with_separators(c.moved_vertices) +
+      " vertices moved, " + with_separators(c.inserted_vertices) + " inserted, " + with_separators(c.collapsed_edges) +
+      " collapsed, " + with_separators(c.reconnected_polyhedra) + " polyhedra reconnected; ";
   if (c.stop == ImproveStop::target) return text + "all reach the target\n";
   return text + with_separators(c.bad_cells_left) + " are left, " +
          (c.stop == ImproveStop::time ? "because the time was up" : "because no change improves them") + "\n";

@@ -54,8 +54,8 @@ void Change::clear() {
 }
 
 CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<int> regions,
-                         std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior,
-                         const QualityGoal& goal)
+                         std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
+                         std::uint32_t first_interior, const QualityGoal& goal)
     : goal_(goal),
       points_(std::move(points)),
       first_interior_(first_interior),

@@ -32,6 +32,7 @@ struct ImproveCounts {
   std::uint64_t moved_vertices = 0;
   std::uint64_t inserted_vertices = 0;
   std::uint64_t collapsed_edges = 0;
+  std::uint64_t reconnected_polyhedra = 0;
   std::uint64_t removed_steiner_vertices = 0;  ///< from segments
   ImproveStop stop = ImproveStop::none;
 };

@@ -51,9 +51,10 @@ std::array<Triangle, 3> sides_on(const Triangle& base, std::uint8_t apex) {
 
 }  // namespace
 
-bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region,
+bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, double least,
                             std::vector<NewCell>& cells) {
   if (!load(hull)) return false;
+  least_ = least;
   steps_left_ = most_steps;
   if (!search()) return false;
   for (const auto& [a, b, c, d] : tetrahedra_) {
@@ -170,7 +171,7 @@ bool PolyhedronFiller::search() {
   std::vector<std::pair<double, Corner>> trials;
   for_each(fewest.apexes & on_front, [&](Corner apex) {
     const double quality = cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
-    trials.emplace_back(-quality, apex);
+    if (quality > least_) trials.emplace_back(-quality, apex);
   });
   std::ranges::sort(trials);
   const std::vector<FrontFace> front = front_;

@@ -26,9 +26,11 @@ class PolyhedronFiller {
   /// Fills a polyhedron.
   ///
   /// \param hull   corners of its faces, the inside above
+  /// \param least  all tetrahedra are better than this
   /// \param cells  get the tetrahedra
   /// \return       were they found? The search gives up after a number of steps.
-  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, std::vector<NewCell>& cells);
+  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, double least,
+            std::vector<NewCell>& cells);
 
  private:
   using Corner = std::uint8_t;      // a vertex of the polyhedron
@@ -70,6 +72,7 @@ class PolyhedronFiller {
   std::vector<FrontFace> front_;
   EdgeSets edges_{};  // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
+  double least_ = 0;
   int steps_left_ = 0;
 };
 

@@ -21,6 +21,9 @@ std::array<std::uint32_t, 8> vertices_near(const CellComplex& x, std::uint32_t c
 
 namespace {
 
+/// Reconnection takes long, so it is for cells whose quality is this many times below the target.
+constexpr double reconnection_factor = 20;
+
 const Move* find_move(const Step& step, std::uint32_t vertex) {
   for (std::size_t i = 0; i < step.move_count; ++i)
     if (step.moves[i].vertex == vertex) return &step.moves[i];
@@ -45,6 +48,7 @@ void StepFinder::find(std::uint32_t cell, bool has_moved, Effort effort, Step& s
   if (!has_moved && improvement_ != Improvement::smooth && find_swap(cell, step)) return;
   if (!has_moved && improvement_ != Improvement::swap && find_moves(cell, effort, step)) return;
   if (improvement_ != Improvement::all || effort != Effort::greatest) return;
+  if (find_reconnection(cell, step)) return;
   if (!find_collapse(cell, step)) find_insertion(cell, step);
 }
 
@@ -93,6 +97,19 @@ bool StepFinder::find_insertion(std::uint32_t cell, Step& step) {
   if (!is_found) return false;
   step.kind = Step::Kind::change;
   step.count = &ImproveCounts::inserted_vertices;
+  return true;
+}
+
+bool StepFinder::find_reconnection(std::uint32_t cell, Step& step) {
+  const QualityGoal& goal = x_.goal();
+  const double first_goal = goal.objective == Objective::r ? goal.inverse_r : goal.sine;
+  if (!(x_.quality(cell) < first_goal / reconnection_factor)) return false;
+  const bool is_found = reconnection_.plan(cell, x_.quality(cell), step.change);
+  for (const std::uint32_t c : reconnection_.cells())
+    step.far_vertices.insert(step.far_vertices.end(), x_.cell(c).vertices.begin(), x_.cell(c).vertices.end());
+  if (!is_found || !x_.all_positive(step.change)) return false;
+  step.kind = Step::Kind::change;
+  step.count = &ImproveCounts::reconnected_polyhedra;
   return true;
 }
 

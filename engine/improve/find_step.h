@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/improve/counts.h"
+#include "engine/improve/plan_reconnection.h"
 #include "engine/improve/topological_changes.h"
 
 namespace ccdt::improve {
@@ -33,7 +34,7 @@ struct Step {
   std::array<Move, 4> moves;
   std::size_t move_count = 0;
 
-  /// The vertices of all cells that could have been replaced by a new vertex.
+  /// The vertices of all cells that could have been replaced by a new vertex or a reconnection.
   std::vector<std::uint32_t> far_vertices;
 };
 
@@ -47,10 +48,10 @@ class StepFinder {
  public:
   /// \param freedom  of the vertices that are not interior; empty: they stay
   StepFinder(const CellComplex& complex, const std::vector<Freedom>& freedom, Improvement improvement)
-      : x_(complex), freedom_(freedom), improvement_(improvement) {}
+      : x_(complex), freedom_(freedom), improvement_(improvement), reconnection_(complex) {}
 
   /// The best of all swaps that involve a cell; if there is none, its vertices that can move to better places, until
-  /// it is good enough; with the greatest effort, else a vertex to remove or to insert.
+  /// it is good enough; with the greatest effort, else a polyhedron to reconnect, or a vertex to remove or to insert.
   ///
   /// \param has_moved  try only the last
   void find(std::uint32_t cell, bool has_moved, Effort effort, Step& step);
@@ -60,6 +61,7 @@ class StepFinder {
   bool find_moves(std::uint32_t cell, Effort effort, Step& step);
   bool find_collapse(std::uint32_t cell, Step& step);
   bool find_insertion(std::uint32_t cell, Step& step);
+  bool find_reconnection(std::uint32_t cell, Step& step);
   bool can_move(std::uint32_t vertex, Effort effort, Step& step);
   double gather_moved_star(std::uint32_t vertex, const Step& step);
   Point3 point_after(const Step& step, std::uint32_t vertex) const;
@@ -73,6 +75,7 @@ class StepFinder {
   Change plan_;
   PlanScratch scratch_;
   VertexStar star_;
+  Reconnection reconnection_;
 };
 
 }  // namespace ccdt::improve

@@ -17,7 +17,7 @@ enum class Improvement {
 
 constexpr auto names_of(Improvement) {
   return std::to_array<NamedValue<Improvement>>(
-      {{Improvement::all, "all", "swaps, smoothing, insertion and collapse"},
+      {{Improvement::all, "all", "swaps, smoothing, insertion, collapse and reconnection"},
        {Improvement::swap, "swap", "other tetrahedra of the same vertices"},
        {Improvement::smooth, "smooth", "other positions of the same vertices"},
        {Improvement::none, "none", "the mesh as it is"}});

@@ -1,6 +1,7 @@
 #include "engine/improve/plan_vertex_removal.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/improve/smoothing.h"
@@ -188,7 +189,7 @@ bool VertexRemoval::fill_sector(const Sector& sector, Change& change) {
   hull_ = sector.hull;
   for (const auto& [p, is_above] : sector.pages)
     for (const auto& [a, b, c] : pages_[p].triangles) hull_.push_back(is_above ? Triangle{a, b, c} : Triangle{b, a, c});
-  return filler_.fill(hull_, sector.region, change.new_cells);
+  return filler_.fill(hull_, sector.region, -std::numeric_limits<double>::infinity(), change.new_cells);
 }
 
 }  // namespace ccdt::improve

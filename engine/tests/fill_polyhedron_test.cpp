@@ -55,7 +55,7 @@ bool fills(const Model& model) {
   const improve::CellComplex x = complex_of(model, {improve::Objective::r, 1, 1});
   improve::PolyhedronFiller filler(x);
   std::vector<improve::NewCell> cells;
-  const bool is_filled = filler.fill(hull_of(x), 7, cells);
+  const bool is_filled = filler.fill(hull_of(x), 7, 0, cells);
   EXPECT_EQ(is_filled, !cells.empty());
   if (!is_filled) return false;
   Integer before = 0, after = 0;
