@@ -55,6 +55,7 @@ class FlatTetrahedronPeeler {
 
   void peel() {
     find_bent_facets();
+    if (vertices_ == 0) return;
     std::vector<std::size_t> flat = parallel_collect<std::size_t>(
         mesh_.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
           for (; i < end; ++i)
