@@ -40,15 +40,13 @@ void Reconnection::add(std::uint32_t cell) {
   cells_.push_back(cell);
 }
 
-/// Calls visit(code) for the faces of other cells that are also faces of the polyhedron.
+/// Calls visit(code) for the faces of neighbors of a cell that are not in the polyhedron, except behind walls.
 template <class Visit>
-void Reconnection::for_each_neighbor(const Visit& visit) const {
-  for (const std::uint32_t c : cells_) {
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t code = face_code(c, f);
-      if (x_.is_wall(code) || marks_.is_marked(cell_of(x_.across(code)))) continue;
-      visit(x_.across(code));
-    }
+void Reconnection::visit_neighbors(std::uint32_t cell, const Visit& visit) const {
+  for (std::uint32_t f = 0; f < 4; ++f) {
+    const std::uint32_t code = face_code(cell, f);
+    if (x_.is_wall(code) || marks_.is_marked(cell_of(x_.across(code)))) continue;
+    visit(x_.across(code));
   }
 }
 
@@ -59,7 +57,7 @@ bool Reconnection::grow() {
     double quality;  ///< of the worst cell
   };
   std::vector<Apex> apexes;
-  for_each_neighbor([&](std::uint32_t code) {
+  const auto see = [&](std::uint32_t code) {
     const std::uint32_t vertex = x_.apex_of(code);
     const double quality = x_.quality(cell_of(code));
     const auto known = std::ranges::find(apexes, vertex, &Apex::vertex);
@@ -69,27 +67,23 @@ bool Reconnection::grow() {
     }
     ++known->faces;
     known->quality = std::min(known->quality, quality);
-  });
+  };
+  for (const std::uint32_t c : cells_) visit_neighbors(c, see);
   if (apexes.empty()) return false;
   const auto best = std::ranges::min_element(apexes, [](const Apex& a, const Apex& b) {
     return a.faces != b.faces ? a.faces > b.faces : a.quality < b.quality;
   });
   vertices_.push_back(best->vertex);
-  while (add_cell_inside()) {
-  }
+  add_cells_inside();
   return true;
 }
 
-/// Adds a neighbor whose vertices are all there. \return is there one?
-bool Reconnection::add_cell_inside() {
-  std::uint32_t found = no_neighbor;
-  for_each_neighbor([&](std::uint32_t code) {
-    if (found == no_neighbor && std::ranges::find(vertices_, x_.apex_of(code)) != vertices_.end())
-      found = cell_of(code);
-  });
-  if (found == no_neighbor) return false;
-  add(found);
-  return true;
+/// Adds the cells whose vertices are all there.
+void Reconnection::add_cells_inside() {
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    visit_neighbors(cells_[i], [&](std::uint32_t code) {
+      if (std::ranges::find(vertices_, x_.apex_of(code)) != vertices_.end()) add(cell_of(code));
+    });
 }
 
 /// Lists the faces of the polyhedron. \return is it a ball without walls, vertices and segments inside?

@@ -30,13 +30,13 @@ class Reconnection {
  private:
   void start(std::uint32_t cell);
   bool grow();
-  bool add_cell_inside();
+  void add_cells_inside();
   void add(std::uint32_t cell);
   bool find_hull();
   bool are_vertices_on_hull() const;
   bool are_segments_on_hull() const;
   template <class Visit>
-  void for_each_neighbor(const Visit& visit) const;
+  void visit_neighbors(std::uint32_t cell, const Visit& visit) const;
 
   const CellComplex& x_;
   PolyhedronFiller filler_;
