@@ -114,7 +114,7 @@ std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<con
   Insertion insertion(d_, marks_, {part_, part}, pool);
   const Ties ties = is_first ? Ties::greatest_rank : Ties::any_rank;
   // Parts do not take the same time. When half of them are done, the next pass divides what is left of the others. A
-  // part that begins after that has not had its turn.
+  // part that begins only then, because no thread was free before, is not stopped.
   const auto are_half_done = [&] { return 2 * done_parts_.load(std::memory_order_relaxed) >= start_.size(); };
   const bool may_stop = is_first && !are_half_done();
   std::vector<std::uint32_t> waiting;

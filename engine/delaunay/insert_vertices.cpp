@@ -32,9 +32,10 @@ constexpr std::size_t cells_of_vertex = 7;
 constexpr std::size_t cells_of_surface_vertex = 9;  ///< if there are vertices only on surfaces
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
-/// One thread inserts at least this many of them, and all threads those of each round: this many times as many as are
-/// in.
-constexpr std::size_t least_first = 100, growth = 8;
+/// One thread inserts the first vertices, at least this many.
+constexpr std::size_t least_first = 100;
+/// After each round on all threads, there are this many times as many vertices as before.
+constexpr std::size_t growth = 8;
 
 bool are_several_worth_it(std::size_t vertices) {
   return thread_count() > 1 && vertices >= least_for_threads;

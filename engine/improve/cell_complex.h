@@ -75,8 +75,8 @@ class CellComplex {
   /// \param mesh            its faces and edges; the rest is not used
   /// \param cells           the tetrahedra; neighbors may be missing
   /// \param regions         the attribute of the region of each
-  /// \param points          its vertices in grid units
-  /// \param facet_of_face   the facet of each of its faces: edges between faces of one facet may be exchanged
+  /// \param points          the vertices of the mesh in grid units
+  /// \param facet_of_face   the facet of each of the faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
   CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<int> regions, std::vector<Point3> points,
               std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior, const QualityGoal& goal);

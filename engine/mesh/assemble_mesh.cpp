@@ -174,7 +174,7 @@ class FlatTetrahedronPeeler {
   facets::FacetMesh& facets_;
   TetMesh& mesh_;
   RawVector<std::uint32_t>& sources_;
-  std::uint32_t vertices_ = 0;  // those of the bent facets are below
+  std::uint32_t vertices_ = 0;  // all vertices of bent facets are below
   IndexLists facets_of_;        // by vertex: the bent facets of its triangles
   // If there are such tetrahedra:
   HashTable<FaceKey, std::size_t> triangle_of_;  // of the bent facets
