@@ -72,6 +72,8 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
   // Few vertices will be inserted. Without room for them, the first one would double the list.
   points_.reserve(points_.size() + points_.size() / 64);
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::fill(walls_.data() + begin, walls_.data() + end, std::uint8_t{0});
+    std::fill(generations_.data() + begin, generations_.data() + end, 0u);
     compute_qualities(goal_, points_, std::span(cells_).subspan(begin, end - begin),
                       std::span(qualities_).subspan(begin, end - begin));
   });
@@ -124,12 +126,10 @@ void CellComplex::join_open_faces() {
     if (open[i - 1].key == open[i].key) join_faces(cells_, open[i - 1].code, open[i].code);
 }
 
-/// Marks the faces on facets, and no others. Interior vertices are on none.
+/// Marks the faces on facets. Interior vertices are on none.
 void CellComplex::find_walls() {
   parallel_for(cells_.size(), grain, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);
-    walls_[c] = 0;
-    generations_[c] = 0;
     const auto& v = cells_[c].vertices;
     const auto interior = std::ranges::count_if(v, [&](std::uint32_t corner) { return is_interior(corner); });
     for (std::uint32_t f = 0; f < 4; ++f) {
