@@ -40,7 +40,7 @@ FaceKey key_of(const std::array<std::uint32_t, 3>& corners) {
 }
 
 bool is_new_wall(const std::vector<FaceChange>& faces, const FaceKey& key) {
-  return std::ranges::any_of(faces, [&](const FaceChange& face) { return key == key_of(face.corners); });
+  return std::ranges::any_of(faces, [&](const FaceChange& face) { return is_same_key(key, key_of(face.corners)); });
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ void CellComplex::connect(std::uint32_t code, const std::vector<FaceChange>& fac
   const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
   const bool becomes_wall = !faces.empty() && is_new_wall(faces, key);
   for (OpenFace& face : open_) {
-    if (face.key != key) continue;
+    if (!is_same_key(face.key, key)) continue;
     cells_[cell_of(code)].neighbors[face_of(code)] = face.code;
     if (face.code != no_neighbor) cells_[cell_of(face.code)].neighbors[face_of(face.code)] = code;
     if (face.is_wall || becomes_wall) set_wall(code);

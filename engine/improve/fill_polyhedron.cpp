@@ -12,18 +12,6 @@ namespace {
 /// Nearly all searches that succeed need hardly more steps than there are tetrahedra.
 constexpr int most_steps = 200;
 
-constexpr std::size_t number_of_pair(std::size_t a, std::size_t b) {
-  return b * (b - 1) / 2 + a;
-}
-/// The triangles with a < b < c, counted.
-constexpr std::size_t number_of_triangle(std::size_t a, std::size_t b, std::size_t c) {
-  return c * (c - 1) * (c - 2) / 6 + number_of_pair(a, b);
-}
-
-constexpr std::uint32_t bit(std::uint8_t v) {
-  return std::uint32_t{1} << v;
-}
-
 /// Calls visit(v) for the vertices of a set.
 template <class Visit>
 void for_each(std::uint32_t set, const Visit& visit) {
@@ -32,7 +20,7 @@ void for_each(std::uint32_t set, const Visit& visit) {
 
 template <class Triangle>
 std::uint32_t corner_set(const Triangle& t) {
-  return bit(t[0]) | bit(t[1]) | bit(t[2]);
+  return corner_bit(t[0]) | corner_bit(t[1]) | corner_bit(t[2]);
 }
 
 template <class Triangle>
@@ -40,6 +28,12 @@ bool are_same(const Triangle& s, const Triangle& t) {
   for (int i = 0; i < 3; ++i)
     if (s[0] == t[i]) return s[1] == t[(i + 1) % 3] && s[2] == t[(i + 2) % 3];
   return false;
+}
+
+/// The vertices on the other side.
+CornerSet opposite(const Sides& sides, Corner v) {
+  if ((sides.above & corner_bit(v)) != 0) return sides.below;
+  return (sides.below & corner_bit(v)) != 0 ? sides.above : 0;
 }
 
 /// The sides of a tetrahedron on a base, except the base, as the outside sees them.
@@ -70,16 +64,16 @@ bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hul
   hull_.clear();
   for (const auto& [a, b, c] : hull) hull_.push_back({corner_of(a), corner_of(b), corner_of(c)});
   if (vertices_.size() > most_vertices) return false;
-  find_sides();
+  sides_.find(points_);
   find_free_edges();
   tetrahedra_.clear();
-  front_.clear();
+  front_.clear(), saved_front_.clear();
   edges_.fill(0);
   for (const Triangle& t : hull_) add_front(t);
   return true;
 }
 
-PolyhedronFiller::Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
+Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
   const auto found = std::ranges::find(vertices_, vertex);
   const auto corner = static_cast<Corner>(found - vertices_.begin());
   if (found == vertices_.end()) {
@@ -89,75 +83,29 @@ PolyhedronFiller::Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
   return corner;
 }
 
-void PolyhedronFiller::find_sides() {
-  const auto n = static_cast<Corner>(vertices_.size());
-  sides_.assign(number_of_triangle(0, 1, n), {});
-  const auto note = [&](Corner a, Corner b, Corner c, Corner d, int side) {
-    Sides& sides = sides_[number_of_triangle(a, b, c)];
-    if (side > 0) sides.above |= bit(d);
-    if (side < 0) sides.below |= bit(d);
-  };
-  for (Corner d = 3; d < n; ++d) {
-    for (Corner c = 2; c < d; ++c) {
-      for (Corner b = 1; b < c; ++b) {
-        for (Corner a = 0; a < b; ++a) {
-          const int side = numbers::orient3d(points_[a], points_[b], points_[c], points_[d]);
-          note(a, b, c, d, side);
-          note(a, b, d, c, -side);
-          note(a, c, d, b, side);
-          note(b, c, d, a, -side);
-        }
-      }
-    }
-  }
-}
-
 void PolyhedronFiller::find_free_edges() {
   const auto n = static_cast<Corner>(vertices_.size());
   const auto all = static_cast<CornerSet>((std::uint64_t{1} << n) - 1);
-  for (Corner v = 0; v < n; ++v) free_edges_[v] = all & ~bit(v);
+  for (Corner v = 0; v < n; ++v) free_edges_[v] = all & ~corner_bit(v);
   for (const Triangle& t : hull_) {
-    const Sides both = sides(t[0], t[1], t[2]);
+    const Sides both = sides_.of(t[0], t[1], t[2]);
     for_each(both.above, [&](Corner p) {
       for_each(both.below & free_edges_[p], [&](Corner q) {
-        if (!is_around(t, p, q)) return;
-        free_edges_[p] &= ~bit(q);
-        free_edges_[q] &= ~bit(p);
+        if (!sides_.is_around(t, p, q)) return;
+        free_edges_[p] &= ~corner_bit(q);
+        free_edges_[q] &= ~corner_bit(p);
       });
     });
   }
 }
 
-PolyhedronFiller::Sides PolyhedronFiller::sides(Corner a, Corner b, Corner c) const {
-  bool is_odd = false;
-  const auto order = [&](Corner& first, Corner& second) {
-    if (first < second) return;
-    std::swap(first, second);
-    is_odd = !is_odd;
-  };
-  order(a, b), order(b, c), order(a, b);
-  const Sides& found = sides_[number_of_triangle(a, b, c)];
-  return is_odd ? Sides{found.below, found.above} : found;
-}
-
-/// Does the edge pq, whose ends are on different sides of the triangle, pass through its inside?
-bool PolyhedronFiller::is_around(const Triangle& t, Corner p, Corner q) const {
-  // It does if s and u are on different sides of pqr, and r and u on different sides of pqs.
-  const auto& [r, s, u] = t;
-  const auto divides = [&](Corner v, CornerSet others) {
-    const auto [above, below] = sides(p, q, v);
-    return (above & others) != 0 && (below & others) != 0;
-  };
-  return divides(r, bit(s) | bit(u)) && divides(s, bit(r) | bit(u));
-}
-
 void PolyhedronFiller::add_front(const Triangle& t) {
   const auto& [a, b, c] = t;
-  const Sides both = sides(a, b, c);
+  const Sides both = sides_.of(a, b, c);
   front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c]});
-  edges_[a] |= bit(b) | bit(c);
-  edges_[b] |= bit(a) | bit(c);
-  edges_[c] |= bit(a) | bit(b);
+  edges_[a] |= corner_bit(b) | corner_bit(c);
+  edges_[b] |= corner_bit(a) | corner_bit(c);
+  edges_[c] |= corner_bit(a) | corner_bit(b);
 }
 
 bool PolyhedronFiller::search() {
@@ -168,51 +116,49 @@ bool PolyhedronFiller::search() {
   const auto count = [&](const FrontFace& face) { return std::popcount(face.apexes & on_front); };
   const FrontFace fewest = *std::ranges::min_element(front_, {}, count);
   const Triangle& base = fewest.corners;
-  std::vector<std::pair<double, Corner>> trials;
+  std::array<std::pair<double, Corner>, most_vertices> trials;
+  std::size_t trial_count = 0;
   for_each(fewest.apexes & on_front, [&](Corner apex) {
     const double quality = cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
-    if (quality > least_) trials.emplace_back(-quality, apex);
+    if (quality > least_) trials[trial_count++] = {-quality, apex};
   });
-  std::ranges::sort(trials);
-  const std::vector<FrontFace> front = front_;
+  std::sort(trials.begin(), trials.begin() + trial_count);
+  const auto saved = static_cast<std::ptrdiff_t>(saved_front_.size());
+  saved_front_.insert(saved_front_.end(), front_.begin(), front_.end());
   const EdgeSets edges = edges_;
   const std::size_t size = tetrahedra_.size();
-  for (const auto& [quality, apex] : trials) {
+  for (std::size_t i = 0; i < trial_count; ++i) {
+    const Corner apex = trials[i].second;
     if (is_blocked(base, apex)) continue;
     if (put(base, apex) && search()) return true;
-    front_ = front;
+    front_.assign(saved_front_.begin() + saved, saved_front_.end());
     edges_ = edges;
     tetrahedra_.resize(size);
   }
+  saved_front_.resize(static_cast<std::size_t>(saved));
   return false;
-}
-
-/// The vertices on the other side.
-PolyhedronFiller::CornerSet PolyhedronFiller::opposite(const Sides& sides, Corner v) {
-  if ((sides.above & bit(v)) != 0) return sides.below;
-  return (sides.below & bit(v)) != 0 ? sides.above : 0;
 }
 
 /// Does the tetrahedron contain a vertex, or cross edges or the front?
 bool PolyhedronFiller::is_blocked(const Triangle& base, Corner apex) const {
-  CornerSet within = sides(base[0], base[1], base[2]).above;
+  CornerSet within = sides_.of(base[0], base[1], base[2]).above;
   for (const Triangle& side : sides_on(base, apex)) {
-    within &= sides(side[0], side[1], side[2]).below;
+    within &= sides_.of(side[0], side[1], side[2]).below;
     if (is_pierced(side)) return true;
   }
   if (within != 0) return true;
   return std::ranges::any_of(front_, [&](const FrontFace& face) {
     const CornerSet other = opposite(face.sides, apex);
     return std::ranges::any_of(
-        base, [&](Corner end) { return (other & bit(end)) != 0 && is_around(face.corners, end, apex); });
+        base, [&](Corner end) { return (other & corner_bit(end)) != 0 && sides_.is_around(face.corners, end, apex); });
   });
 }
 
 bool PolyhedronFiller::is_pierced(const Triangle& t) const {
-  const Sides both = sides(t[0], t[1], t[2]);
+  const Sides both = sides_.of(t[0], t[1], t[2]);
   bool found = false;
   for_each(both.above, [&](Corner p) {
-    for_each(found ? 0 : edges_[p] & both.below, [&](Corner q) { found = found || is_around(t, p, q); });
+    for_each(found ? 0 : edges_[p] & both.below, [&](Corner q) { found = found || sides_.is_around(t, p, q); });
   });
   return found;
 }

@@ -7,6 +7,7 @@
 
 #include "engine/base/point.h"
 #include "engine/improve/cell_complex.h"
+#include "engine/improve/vertex_sides.h"
 
 namespace ccdt::improve {
 
@@ -21,7 +22,7 @@ class PolyhedronFiller {
   explicit PolyhedronFiller(const CellComplex& complex) : x_(complex) {}
 
   /// A polyhedron with more vertices is not tried.
-  static constexpr std::size_t most_vertices = 32;
+  static constexpr std::size_t most_vertices = VertexSides::most_vertices;
 
   /// Fills a polyhedron.
   ///
@@ -33,14 +34,8 @@ class PolyhedronFiller {
             std::vector<NewCell>& cells);
 
  private:
-  using Corner = std::uint8_t;      // a vertex of the polyhedron
-  using CornerSet = std::uint32_t;  // by bit
   using Triangle = std::array<Corner, 3>;
 
-  /// The vertices strictly on the two sides of a triangle.
-  struct Sides {
-    CornerSet above = 0, below = 0;
-  };
   /// A face between what is filled and what is not; the latter is above.
   struct FrontFace {
     Triangle corners;
@@ -52,11 +47,7 @@ class PolyhedronFiller {
 
   bool load(const std::vector<std::array<std::uint32_t, 3>>& hull);
   Corner corner_of(std::uint32_t vertex);
-  void find_sides();
   void find_free_edges();
-  Sides sides(Corner a, Corner b, Corner c) const;
-  static CornerSet opposite(const Sides& sides, Corner v);
-  bool is_around(const Triangle& t, Corner p, Corner q) const;
   void add_front(const Triangle& t);
   bool search();
   bool is_blocked(const Triangle& base, Corner apex) const;
@@ -67,9 +58,10 @@ class PolyhedronFiller {
   std::vector<std::uint32_t> vertices_;
   std::vector<Point3> points_;
   std::vector<Triangle> hull_;
-  std::vector<Sides> sides_;  // by triangle
+  VertexSides sides_;
   EdgeSets free_edges_{};     // those that do not cross the hull
   std::vector<FrontFace> front_;
+  std::vector<FrontFace> saved_front_;  // of all steps of the search, one after the other
   EdgeSets edges_{};  // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
   double least_ = 0;

@@ -1,0 +1,85 @@
+#include "engine/improve/vertex_sides.h"
+
+#include <bit>
+#include <cmath>
+
+#include "engine/numbers/predicates.h"
+
+namespace ccdt::improve {
+
+using numbers::IntegerLanes, numbers::filter::larger, numbers::filter::magnitude, numbers::filter::maximum;
+
+void VertexSides::load(std::span<const Point3> points) {
+  points_.assign(points.begin(), points.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    x_[i / 4][i % 4] = points[i].x;
+    y_[i / 4][i % 4] = points[i].y;
+    z_[i / 4][i % 4] = points[i].z;
+  }
+}
+
+/// As `orient3d_filter` finds them, for four vertices at the same time.
+CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Plane& plane, Sides& sides) const {
+  constexpr double factor = 40 * 0x1p-53;
+  const Point3& normal = plane.normal;
+  const Lanes zero = {}, size_x = zero + plane.size.x, size_y = zero + plane.size.y, size_z = zero + plane.size.z;
+  IntegerLanes above = {}, below = {}, bits = {1, 2, 4, 8};
+  for (std::size_t i = 0; i < (points_.size() + 3) / 4; ++i) {
+    const Lanes x = x_[i] - plane.origin.x, y = y_[i] - plane.origin.y, z = z_[i] - plane.origin.z;
+    Lanes large_x, large_y, large_z;
+    magnitude(x, large_x), magnitude(y, large_y), magnitude(z, large_z);
+    maximum(large_x, size_x, large_x), maximum(large_y, size_y, large_y), maximum(large_z, size_z, large_z);
+    const Lanes height = normal.x * x + normal.y * y + normal.z * z;
+    const Lanes bound = factor * large_x * large_y * large_z;
+    above |= (height > bound) & bits;
+    below |= (height < -bound) & bits;
+    bits <<= 4;
+  }
+  sides.above = static_cast<CornerSet>(above[0] | above[1] | above[2] | above[3]);
+  sides.below = static_cast<CornerSet>(below[0] | below[1] | below[2] | below[3]);
+}
+
+CCDT_ALWAYS_INLINE Sides VertexSides::find_sides(Corner a, Corner b, Corner c) const {
+  const Point3 &origin = points_[a], u = points_[b] - origin, v = points_[c] - origin;
+  const auto largest = [](double s, double t) { return larger(std::fabs(s), std::fabs(t)); };
+  const CornerSet all = static_cast<CornerSet>((std::uint64_t{1} << points_.size()) - 1);
+  Sides sides;
+  find_certain_sides({origin, cross(u, v), {largest(u.x, v.x), largest(u.y, v.y), largest(u.z, v.z)}}, sides);
+  sides.above &= all, sides.below &= all;
+  CornerSet rest = all & ~(sides.above | sides.below | corner_bit(a) | corner_bit(b) | corner_bit(c));
+  for (; rest != 0; rest &= rest - 1) {
+    const auto d = static_cast<Corner>(std::countr_zero(rest));
+    // Known if c is the last of the four.
+    const int side = d < c ? -of(a, b, d).side(c) : numbers::orient3d(origin, points_[b], points_[c], points_[d]);
+    if (side > 0) sides.above |= corner_bit(d);
+    if (side < 0) sides.below |= corner_bit(d);
+  }
+  return sides;
+}
+
+CCDT_WIDE_LANES void VertexSides::find(std::span<const Point3> points) {
+  load(points);
+  const auto n = static_cast<Corner>(points.size());
+  sides_.resize(n * (n - std::size_t{1}) / 2 * n);
+  for (Corner c = 2; c < n; ++c) {
+    for (Corner b = 1; b < c; ++b) {
+      for (Corner a = 0; a < b; ++a) {
+        const Sides sides = find_sides(a, b, c);
+        sides_[row(a, b) * n + c] = sides_[row(b, c) * n + a] = sides;
+        sides_[row(a, c) * n + b] = sides.flipped();
+      }
+    }
+  }
+}
+
+bool VertexSides::is_around(const std::array<Corner, 3>& triangle, Corner p, Corner q) const {
+  // It does if s and t are on different sides of pqr, and r and t on different sides of pqs.
+  const auto& [r, s, t] = triangle;
+  const Sides* const around = p < q ? of_row(p, q) : of_row(q, p);
+  const auto divides = [&](Corner v, CornerSet others) {
+    return (around[v].above & others) != 0 && (around[v].below & others) != 0;
+  };
+  return divides(r, corner_bit(s) | corner_bit(t)) && divides(s, corner_bit(r) | corner_bit(t));
+}
+
+}  // namespace ccdt::improve
