@@ -2,19 +2,29 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 
+#include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
 
-using numbers::IntegerLanes, numbers::filter::larger, numbers::filter::magnitude, numbers::filter::maximum;
+using numbers::IntegerLanes, numbers::Lanes, numbers::filter::larger, numbers::filter::magnitude, numbers::filter::maximum;
+
+namespace {
+
+CCDT_ALWAYS_INLINE void load_four(const double* values, Lanes& result) {
+  std::memcpy(&result, values, sizeof result);
+}
+
+}  // namespace
 
 void VertexSides::load(std::span<const Point3> points) {
   points_.assign(points.begin(), points.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    x_[i / 4][i % 4] = points[i].x;
-    y_[i / 4][i % 4] = points[i].y;
-    z_[i / 4][i % 4] = points[i].z;
+    x_[i] = points[i].x;
+    y_[i] = points[i].y;
+    z_[i] = points[i].z;
   }
 }
 
@@ -24,9 +34,10 @@ CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Plane& plane, Side
   const Point3& normal = plane.normal;
   const Lanes zero = {}, size_x = zero + plane.size.x, size_y = zero + plane.size.y, size_z = zero + plane.size.z;
   IntegerLanes above = {}, below = {}, bits = {1, 2, 4, 8};
-  for (std::size_t i = 0; i < (points_.size() + 3) / 4; ++i) {
-    const Lanes x = x_[i] - plane.origin.x, y = y_[i] - plane.origin.y, z = z_[i] - plane.origin.z;
-    Lanes large_x, large_y, large_z;
+  for (std::size_t i = 0; i < points_.size(); i += 4) {
+    Lanes x, y, z, large_x, large_y, large_z;
+    load_four(&x_[i], x), load_four(&y_[i], y), load_four(&z_[i], z);
+    x -= plane.origin.x, y -= plane.origin.y, z -= plane.origin.z;
     magnitude(x, large_x), magnitude(y, large_y), magnitude(z, large_z);
     maximum(large_x, size_x, large_x), maximum(large_y, size_y, large_y), maximum(large_z, size_z, large_z);
     const Lanes height = normal.x * x + normal.y * y + normal.z * z;

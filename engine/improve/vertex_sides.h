@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/base/point.h"
-#include "engine/numbers/filters.h"
 
 namespace ccdt::improve {
 
@@ -43,8 +42,6 @@ class VertexSides {
   bool is_around(const std::array<Corner, 3>& triangle, Corner p, Corner q) const;
 
  private:
-  using Lanes = numbers::Lanes;
-
   /// A plane through an origin, for floating point.
   struct Plane {
     Point3 origin, normal;
@@ -59,7 +56,7 @@ class VertexSides {
   const Sides* of_row(Corner a, Corner b) const { return &sides_[row(a, b) * points_.size()]; }
 
   std::vector<Point3> points_;
-  std::array<Lanes, most_vertices / 4> x_{}, y_{}, z_{};
+  std::array<double, most_vertices> x_{}, y_{}, z_{};
   std::vector<Sides> sides_;  // in a row for each pair a < b, by the third corner
 };
 
