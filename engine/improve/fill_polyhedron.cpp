@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "engine/numbers/predicates.h"
@@ -21,6 +23,11 @@ void for_each(std::uint32_t set, const Visit& visit) {
 template <class Triangle>
 std::uint32_t corner_set(const Triangle& t) {
   return corner_bit(t[0]) | corner_bit(t[1]) | corner_bit(t[2]);
+}
+
+template <class Triangle>
+bool is_corner(const Triangle& t, std::uint8_t v) {
+  return t[0] == v || t[1] == v || t[2] == v;
 }
 
 template <class Triangle>
@@ -47,10 +54,8 @@ std::array<Triangle, 3> sides_on(const Triangle& base, std::uint8_t apex) {
 
 bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, double least,
                             std::vector<NewCell>& cells) {
-  if (!load(hull)) return false;
   least_ = least;
-  steps_left_ = most_steps;
-  if (!search()) return false;
+  if (!load(hull) || !(join_to_vertex() || search())) return false;
   for (const auto& [a, b, c, d] : tetrahedra_) {
     const std::array vertices = {vertices_[a], vertices_[b], vertices_[c], vertices_[d]};
     cells.push_back({vertices, region, x_.quality_of(vertices)});
@@ -63,14 +68,7 @@ bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hul
   points_.clear();
   hull_.clear();
   for (const auto& [a, b, c] : hull) hull_.push_back({corner_of(a), corner_of(b), corner_of(c)});
-  if (vertices_.size() > most_vertices) return false;
-  sides_.find(points_);
-  find_free_edges();
-  tetrahedra_.clear();
-  front_.clear(), saved_front_.clear();
-  edges_.fill(0);
-  for (const Triangle& t : hull_) add_front(t);
-  return true;
+  return vertices_.size() <= most_vertices;
 }
 
 Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
@@ -81,6 +79,46 @@ Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
     points_.push_back(x_.point(vertex));
   }
   return corner;
+}
+
+/// Joins all faces to the vertex for which the worst tetrahedron is best. That is far cheaper than a search.
+/// \return is there a vertex that sees all faces, with tetrahedra that are good enough?
+bool PolyhedronFiller::join_to_vertex() {
+  double best_quality = least_;
+  std::optional<Corner> best;
+  for (Corner v = 0; v < vertices_.size(); ++v) {
+    const double quality = quality_from(v, best_quality);
+    if (quality > best_quality) best_quality = quality, best = v;
+  }
+  tetrahedra_.clear();
+  if (!best) return false;
+  for (const Triangle& t : hull_)
+    if (!is_corner(t, *best)) tetrahedra_.push_back({t[0], t[1], t[2], *best});
+  return true;
+}
+
+/// The quality of the worst tetrahedron between a vertex and the faces; something up to `least` if it is not better.
+double PolyhedronFiller::quality_from(Corner v, double least) const {
+  double worst = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : hull_) {
+    if (is_corner(t, v)) continue;
+    const Point3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]], &d = points_[v];
+    if (numbers::orient3d(a, b, c, d) <= 0) return least;
+    worst = std::min(worst, cell_quality(x_.goal(), a, b, c, d));
+    if (!(worst > least)) return least;
+  }
+  return worst;
+}
+
+/// Searches from the whole polyhedron.
+bool PolyhedronFiller::search() {
+  sides_.find(points_);
+  find_free_edges();
+  front_.clear(), saved_front_.clear();
+  edges_.fill(0);
+  for (const Triangle& t : hull_) add_front(t);
+  steps_left_ = most_steps;
+  return search_on();
 }
 
 void PolyhedronFiller::find_free_edges() {
@@ -108,7 +146,8 @@ void PolyhedronFiller::add_front(const Triangle& t) {
   edges_[c] |= corner_bit(a) | corner_bit(b);
 }
 
-bool PolyhedronFiller::search() {
+/// Searches from the front.
+bool PolyhedronFiller::search_on() {
   if (front_.empty()) return true;
   if (--steps_left_ < 0) return false;
   CornerSet on_front = 0;
@@ -130,7 +169,7 @@ bool PolyhedronFiller::search() {
   for (std::size_t i = 0; i < trial_count; ++i) {
     const Corner apex = trials[i].second;
     if (is_blocked(base, apex)) continue;
-    if (put(base, apex) && search()) return true;
+    if (put(base, apex) && search_on()) return true;
     front_.assign(saved_front_.begin() + saved, saved_front_.end());
     edges_ = edges;
     tetrahedra_.resize(size);

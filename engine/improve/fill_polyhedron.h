@@ -49,7 +49,10 @@ class PolyhedronFiller {
   Corner corner_of(std::uint32_t vertex);
   void find_free_edges();
   void add_front(const Triangle& t);
+  bool join_to_vertex();
+  double quality_from(Corner v, double least) const;
   bool search();
+  bool search_on();
   bool is_blocked(const Triangle& base, Corner apex) const;
   bool is_pierced(const Triangle& t) const;
   bool put(const Triangle& base, Corner apex);
