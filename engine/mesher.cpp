@@ -246,17 +246,16 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
                                      options.protection, progress);
   });
   const auto count_steiner_vertices = [&] {
-    t.chains = surface.chains;
     t.first_interior = surface.delaunay.vertices.size();
     t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size() - t.counts.refined_on_segments;
-    t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
+    t.counts.splits_by_level = protection::count_splits_by_level(surface.chains);
   };
   count_steiner_vertices();
 
   facets::FacetMesh facets;
   const auto triangulate_facets = [&] {
     facets = measured(costs, mesh_stage::facets,
-                      [&] { return facets::triangulate_facets(t.plc, t.chains, surface.delaunay, progress); });
+                      [&] { return facets::triangulate_facets(t.plc, surface.chains, surface.delaunay, progress); });
   };
   triangulate_facets();
   lattice::LatticePoints lattice;
@@ -272,6 +271,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     count_steiner_vertices();
     triangulate_facets();
   }
+  t.chains = std::move(surface.chains);
   delaunay::Delaunay all = measured(costs, mesh_stage::delaunay, [&] {
     return add_points(lattice, std::move(surface.delaunay), options, progress, t.counts);
   });

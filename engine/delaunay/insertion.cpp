@@ -4,7 +4,6 @@
 #include <array>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::delaunay {
@@ -146,16 +145,19 @@ CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
       numbers::insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
   if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
   if (sign == numbers::Sign::zero && ties_ == Ties::greatest_rank) return false;
-  return conflicts_exactly(cell);
+  return conflicts_in_doubt(cell, sign);
 }
 
-bool Insertion::conflicts_exactly(const Cell& cell) const {
+/// \param sign  zero or unknown
+bool Insertion::conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const {
   const auto& v = cell.vertices;
   const Point3 &a = d_.point(v[0]), &b = d_.point(v[1]), &c = d_.point(v[2]), &d = d_.point(v[3]);
-  const int sign = numbers::insphere_exactly(a, b, c, d, p_);
-  if (sign != 0 || ties_ == Ties::greatest_rank) return sign > 0;
+  const int exact = sign == numbers::Sign::zero ? 0 : numbers::insphere_exactly(a, b, c, d, p_);
+  if (exact != 0 || ties_ == Ties::greatest_rank) return exact > 0;
   const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
-  return numbers::insphere_perturbed(a, b, c, d, p_, {rank(v[0]), rank(v[1]), rank(v[2]), rank(v[3]), rank(v_)}) > 0;
+  const std::array ranks = {rank(v[0]), rank(v[1]), rank(v[2]), rank(v[3]), rank(v_)};
+  if (*std::ranges::max_element(ranks) == ranks[4]) return false;
+  return numbers::insphere_tie(a, b, c, d, p_, ranks) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.

@@ -9,6 +9,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/numbers/filters.h"
 
 namespace ccdt::delaunay {
 
@@ -118,7 +119,7 @@ class Insertion {
   std::uint32_t walk(const Point3& p, std::uint32_t start);
   bool spread(std::uint32_t first);
   bool conflicts(const Cell& cell) const;
-  bool conflicts_exactly(const Cell& cell) const;
+  bool conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const;
   bool ghost_conflicts(const Cell& ghost) const;
   void number_border_vertices();
   void choose_places();

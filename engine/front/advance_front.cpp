@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index_lists.h"
+#include "engine/base/parallel.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
 #include "engine/front/find_swallowed.h"
@@ -106,6 +107,8 @@ class CavityFinder {
 
 enum Side : std::size_t { above = 0, below = 1 };
 
+constexpr std::size_t grain = 4096;  ///< of loops on several threads
+
 /// What is above a side (2 * triangle + Side) of a face of the PLC.
 FrontFace state_of(const FrontInput& in, std::size_t side) {
   const plc::Facet& facet = in.plc.facets[in.facets.facet[side / 2]];
@@ -117,11 +120,11 @@ FrontFace state_of(const FrontInput& in, std::size_t side) {
 /// The sides of the PLC's faces on which the domain lies.
 std::vector<std::uint8_t> sides_within(const FrontInput& in) {
   std::vector<std::uint8_t> is_within(2 * in.facets.triangles.size());
-  for (std::size_t i = 0; i < in.facets.triangles.size(); ++i) {
+  parallel_for(in.facets.triangles.size(), grain, [&](std::size_t i) {
     const plc::Facet& facet = in.plc.facets[in.facets.facet[i]];
     is_within[2 * i + above] = in.plc.regions[facet.above].inside;
     is_within[2 * i + below] = in.plc.regions[facet.below].inside;
-  }
+  });
   return is_within;
 }
 
@@ -419,10 +422,12 @@ class Front {
 /// The front when no face is missing: all faces of the PLC.
 FrontResult standing_front(const FrontInput& in) {
   FrontResult result;
-  result.open.reserve(2 * in.codes.size());
   const std::vector<std::uint8_t> is_within = sides_within(in);
-  for (std::size_t side = 0; side < is_within.size(); ++side)
-    if (is_within[side]) result.open.push_back(state_of(in, side));
+  result.open = parallel_collect<FrontFace>(
+      is_within.size(), grain, [&](std::size_t side, std::size_t end, std::vector<FrontFace>& open) {
+        for (; side < end; ++side)
+          if (is_within[side]) open.push_back(state_of(in, side));
+      });
   return result;
 }
 

@@ -188,12 +188,17 @@ int insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
   return insphere_exactly(a, b, c, d, e);
 }
 
+int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                       const std::array<std::uint32_t, 5>& ranks) {
+  const int sign = insphere(a, b, c, d, e);
+  return sign != 0 ? sign : insphere_tie(a, b, c, d, e, ranks);
+}
+
 // With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of a
 // corner acts with the sign of the volume in which e replaces that corner, raising that of e with the sign of minus the
 // whole volume.
-int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
-                       const std::array<std::uint32_t, 5>& ranks) {
-  if (const int sign = insphere(a, b, c, d, e); sign != 0) return sign;
+int insphere_tie(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                 const std::array<std::uint32_t, 5>& ranks) {
   count_tie();
   return first_nonzero(ranks, [&](std::size_t i) {
     return i < 4 ? orient3d_with({&a, &b, &c, &d}, i, e) : -orient3d(a, b, c, d);

@@ -45,6 +45,10 @@ int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                        const std::array<std::uint32_t, 5>& ranks);
 
+/// The same for five points with `insphere` zero.
+int insphere_tie(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
+                 const std::array<std::uint32_t, 5>& ranks);
+
 /// Within a plane: for a, b, c, d exactly coplanar and `apex` off their plane with orient3d(a, b, c, apex) > 0: +1 when
 /// d is inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has
 /// none), so that the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.

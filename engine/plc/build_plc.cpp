@@ -93,22 +93,19 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
 }
 
 std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatches& patches, const RegionMap& map) {
-  std::vector<std::uint32_t> sizes(patches.count(), 0);
-  for (const std::uint32_t f : patches.facet_of) ++sizes[f];
   std::vector<Facet> facets(patches.count());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::uint32_t f = patches.facet_of[t];
+  parallel_for(facets.size(), 1024, [&](std::size_t f) {
+    const auto members = patches.members.of(f);
+    const std::uint32_t first = members.front();
     Facet& facet = facets[f];
-    if (facet.triangles.empty()) {
-      facet.triangles.reserve(sizes[f]);
-      facet.exactly_flat = patches.exactly_flat[f];
-      facet.marker = triangles.markers[t];
-      facet.number = triangles.numbers[t];
-      facet.above = map.of(t, true);
-      facet.below = map.of(t, false);
-    }
-    facet.triangles.push_back(triangles.corners[t]);
-  }
+    facet.triangles.reserve(members.size());
+    for (const std::uint32_t t : members) facet.triangles.push_back(triangles.corners[t]);
+    facet.exactly_flat = patches.exactly_flat[f];
+    facet.marker = triangles.markers[first];
+    facet.number = triangles.numbers[first];
+    facet.above = map.of(first, true);
+    facet.below = map.of(first, false);
+  });
   return facets;
 }
 

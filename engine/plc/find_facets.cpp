@@ -220,13 +220,13 @@ class PatchFinder {
       }
       patches.facet_of[t] = n;
     }
-    const IndexLists members =
+    patches.members =
         group_indices(reference.size(), triangles_.size(), [&](std::size_t t) { return patches.facet_of[t]; });
     patches.exactly_flat.assign(reference.size(), 1);
     parallel_for(reference.size(), 16, [&](std::size_t facet) {
       const auto [a, b, c] = corner_points(reference[facet]);
       const auto is_in_plane = [&](const Point3& p) { return numbers::orient3d(a, b, c, p) == 0; };
-      patches.exactly_flat[facet] = std::ranges::all_of(members.of(facet), [&](std::uint32_t t) {
+      patches.exactly_flat[facet] = std::ranges::all_of(patches.members.of(facet), [&](std::uint32_t t) {
         return t == reference[facet] || std::ranges::all_of(corner_points(t), is_in_plane);
       });
     });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/point.h"
+#include "engine/base/index_lists.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::plc {
@@ -12,6 +13,7 @@ namespace ccdt::plc {
 /// Which triangles form one facet.
 struct FacetPatches {
   std::vector<std::uint32_t> facet_of;  ///< of each triangle; facets are numbered by their first triangle
+  IndexLists members;                   ///< the triangles of each facet
   std::vector<char> exactly_flat;       ///< of each facet: all its vertices are in one plane
   std::vector<char> is_inner_edge;      ///< of each edge: it lies within one facet and is not a segment
 

@@ -7,7 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/union_find.h"
+#include "engine/base/parallel.h"
+#include "engine/base/shared_union_find.h"
 #include "engine/plc/input_faults.h"
 #include "engine/plc/integer_points.h"
 
@@ -16,6 +17,8 @@ namespace ccdt::plc {
 namespace {
 
 using VeryWide = boost::multiprecision::int256_t;
+
+constexpr std::size_t grain = 4096;  // of loops on several threads
 
 IntegerPoint six_times(const Point3& p) {
   const IntegerPoint q = to_integers(p);
@@ -161,35 +164,38 @@ std::uint32_t side(std::uint32_t triangle, bool above) {
 // Counterclockwise about an edge from its smaller end to its greater, the sector that follows a triangle is on its
 // upper side if the triangle runs along the edge that way; the sector before it is on the other.
 void join_through_sectors(const TriangleSet& triangles, const EdgeTable& edges, const FacetPatches& facets,
-                          UnionFind& sides) {
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+                          SharedUnionFind& sides) {
+  parallel_for(edges.size(), grain, [&](std::size_t i) {
+    const auto e = static_cast<std::uint32_t>(i);
     const auto around = edges.around(e);
     if (facets.is_inner_edge[e]) {  // oriented alike; a tiny fold between them does not matter
       sides.join(side(around[0], true), side(around[1], true));
       sides.join(side(around[0], false), side(around[1], false));
-      continue;
+      return;
     }
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const std::uint32_t s = around[k], t = around[(k + 1) % around.size()];
       const auto [a, b] = edges.ends[e];
       sides.join(side(s, runs_along(triangles.corners[s], a, b)), side(t, !runs_along(triangles.corners[t], a, b)));
     }
-  }
+  });
 }
 
-UnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
-  UnionFind components(triangles.size());
-  for (std::uint32_t e = 0; e < edges.size(); ++e)
-    for (const std::uint32_t t : edges.around(e)) components.join(edges.around(e)[0], t);
+SharedUnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
+  SharedUnionFind components(triangles.size());
+  parallel_for(edges.size(), grain, [&](std::size_t i) {
+    const auto around = edges.around(static_cast<std::uint32_t>(i));
+    for (const std::uint32_t t : around) components.join(around[0], t);
+  });
   return components;
 }
 
 // One ray per component suffices: the sides of one component that see the same connected part of space are joined
 // already. So on the way from a component up to whatever encloses it, every crossed component joins its outermost side.
 RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
-                       const FacetPatches& facets, UnionFind& components, const VerticalRays& rays) {
+                       const FacetPatches& facets, SharedUnionFind& components, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
-  UnionFind sides(infinity + 1);
+  SharedUnionFind sides(infinity + 1);
   join_through_sectors(triangles, edges, facets, sides);
 
   std::vector<std::uint32_t> outer_side(triangles.size());  // of the first triangle of each component
@@ -287,7 +293,7 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
 
 RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::vector<Box> boxes,
                        std::optional<BoxTree>& tree) {
-  UnionFind components = components_of(parts.triangles, parts.edges);
+  SharedUnionFind components = components_of(parts.triangles, parts.edges);
   constexpr std::size_t few_rays = 8;
   std::size_t searches = 2 * (input.holes.size() + input.regions.size()) + parts.match.loose.size();
   for (std::uint32_t t = 0; t < parts.triangles.size(); ++t) searches += components.find(t) == t;

@@ -95,11 +95,13 @@ class Protector {
 
 ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, SegmentChains chains) {
   ProtectedDelaunay result{std::move(delaunay), std::move(chains), {}};
-  const bool is_split = !result.chains.empty();
-  for (const plc::Segment& s : plc.segments) {
-    if (!is_split) result.chains.push_back({{s.ends[0], 0}, {s.ends[1], whole}});
-    result.must_be_chain.push_back(s.grazeable);
-  }
+  for (const plc::Segment& s : plc.segments) result.must_be_chain.push_back(s.grazeable);
+  if (!result.chains.empty()) return result;
+  result.chains.resize(plc.segments.size());
+  parallel_for(plc.segments.size(), 4096, [&](std::size_t i) {
+    const auto [a, b] = plc.segments[i].ends;
+    result.chains[i] = {{a, 0}, {b, whole}};
+  });
   return result;
 }
 
