@@ -423,11 +423,11 @@ class Front {
 FrontResult standing_front(const FrontInput& in) {
   FrontResult result;
   const std::vector<std::uint8_t> is_within = sides_within(in);
-  result.open = parallel_collect<FrontFace>(
-      is_within.size(), grain, [&](std::size_t side, std::size_t end, std::vector<FrontFace>& open) {
-        for (; side < end; ++side)
-          if (is_within[side]) open.push_back(state_of(in, side));
-      });
+  result.open = parallel_collect<FrontFace>(is_within.size(), grain,
+                                            [&](std::size_t side, std::size_t end, std::vector<FrontFace>& open) {
+                                              for (; side < end; ++side)
+                                                if (is_within[side]) open.push_back(state_of(in, side));
+                                            });
   return result;
 }
 

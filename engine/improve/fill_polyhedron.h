@@ -62,10 +62,10 @@ class PolyhedronFiller {
   std::vector<Point3> points_;
   std::vector<Triangle> hull_;
   VertexSides sides_;
-  EdgeSets free_edges_{};     // those that do not cross the hull
+  EdgeSets free_edges_{};  // those that do not cross the hull
   std::vector<FrontFace> front_;
   std::vector<FrontFace> saved_front_;  // of all steps of the search, one after the other
-  EdgeSets edges_{};  // of the hull and the tetrahedra
+  EdgeSets edges_{};                    // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
   double least_ = 0;
   int steps_left_ = 0;

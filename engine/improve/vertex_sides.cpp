@@ -9,7 +9,8 @@
 
 namespace ccdt::improve {
 
-using numbers::IntegerLanes, numbers::Lanes, numbers::filter::larger, numbers::filter::magnitude, numbers::filter::maximum;
+using numbers::IntegerLanes, numbers::Lanes, numbers::filter::larger, numbers::filter::magnitude,
+    numbers::filter::maximum;
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/point.h"
 #include "engine/base/index_lists.h"
+#include "engine/base/point.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::plc {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -77,6 +78,25 @@ bool fills(const Model& model) {
 
 TEST(PolyhedronFiller, FillsACube) {
   EXPECT_TRUE(fills(model_of(plc_test::box({0, 0, 0}, {3, 3, 3}))));
+}
+
+TEST(PolyhedronFiller, JoinsAllFacesToTheVertexWithTheBestTetrahedra) {
+  // An octahedron whose axis along x is short: tetrahedra around that axis are the best.
+  Model model;
+  model.points = {{-3, 0, 0}, {3, 0, 0}, {0, -9, 0}, {0, 9, 0}, {0, 0, -9}, {0, 0, 9}, {0, 0, 0}};
+  for (const std::uint32_t a : {0u, 1u})
+    for (const std::uint32_t b : {2u, 3u})
+      for (const std::uint32_t c : {4u, 5u})
+        model.cells.push_back({a, b, c, 6});
+  const improve::CellComplex x = complex_of(model, {improve::Objective::r, 1, 1});
+  improve::PolyhedronFiller filler(x);
+  std::vector<improve::NewCell> cells;
+  ASSERT_TRUE(filler.fill(hull_of(x), 7, 0, cells));
+  ASSERT_EQ(cells.size(), 4u);
+  for (const improve::NewCell& cell : cells) {
+    EXPECT_NE(std::ranges::find(cell.vertices, 0u), cell.vertices.end());
+    EXPECT_NE(std::ranges::find(cell.vertices, 1u), cell.vertices.end());
+  }
 }
 
 TEST(PolyhedronFiller, FindsThatSchoenhardtsPolyhedronCannotBeFilled) {
