@@ -88,7 +88,7 @@ bool PolyhedronFiller::join_to_vertex() {
   std::optional<Corner> best;
   for (Corner v = 0; v < vertices_.size(); ++v) {
     const double quality = quality_from(v, best_quality);
-    if (quality > best_quality) best_quality = quality, best = v;
+    if (quality > best_quality && keeps_all_faces(v)) best_quality = quality, best = v;
   }
   tetrahedra_.clear();
   if (!best) return false;
@@ -108,6 +108,34 @@ double PolyhedronFiller::quality_from(Corner v, double least) const {
     if (!(worst > least)) return least;
   }
   return worst;
+}
+
+/// Are all faces at the vertex faces of the tetrahedra that join it to the other faces, and all others in two of them?
+/// A facet that ends inside the polyhedron could be lost.
+bool PolyhedronFiller::keeps_all_faces(Corner v) const {
+  EdgeSets joined{}, at_vertex{};  // directed edges of the other faces, and opposite to the vertex
+  const auto add = [](EdgeSets& edges, Corner a, Corner b) {
+    const bool is_new = (edges[a] & corner_bit(b)) == 0;
+    edges[a] |= corner_bit(b);
+    return is_new;
+  };
+  for (const auto& [a, b, c] : hull_) {
+    const bool is_new = a == v   ? add(at_vertex, b, c)
+                        : b == v ? add(at_vertex, c, a)
+                        : c == v ? add(at_vertex, a, b)
+                                 : add(joined, a, b) && add(joined, b, c) && add(joined, c, a);
+    if (!is_new) return false;
+  }
+  for (Corner a = 0; a < vertices_.size(); ++a) {
+    CornerSet to_joined = 0, to_any = 0;
+    for (Corner b = 0; b < vertices_.size(); ++b) {
+      if ((joined[b] & corner_bit(a)) != 0) to_joined |= corner_bit(b);
+      if (((joined[b] | at_vertex[b]) & corner_bit(a)) != 0) to_any |= corner_bit(b);
+    }
+    const bool is_once = (joined[a] & at_vertex[a]) == 0;
+    if (!is_once || (at_vertex[a] & ~to_joined) != 0 || (joined[a] & ~to_any) != 0) return false;
+  }
+  return true;
 }
 
 /// Searches from the whole polyhedron.

@@ -51,6 +51,7 @@ class PolyhedronFiller {
   void add_front(const Triangle& t);
   bool join_to_vertex();
   double quality_from(Corner v, double least) const;
+  bool keeps_all_faces(Corner v) const;
   bool search();
   bool search_on();
   bool is_blocked(const Triangle& base, Corner apex) const;

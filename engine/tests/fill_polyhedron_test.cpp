@@ -80,23 +80,39 @@ TEST(PolyhedronFiller, FillsACube) {
   EXPECT_TRUE(fills(model_of(plc_test::box({0, 0, 0}, {3, 3, 3}))));
 }
 
-TEST(PolyhedronFiller, JoinsAllFacesToTheVertexWithTheBestTetrahedra) {
-  // An octahedron whose axis along x is short: tetrahedra around that axis are the best.
+/// An octahedron around the last vertex, with the other vertices on the axes, and its axis along x short.
+Model octahedron() {
   Model model;
   model.points = {{-3, 0, 0}, {3, 0, 0}, {0, -9, 0}, {0, 9, 0}, {0, 0, -9}, {0, 0, 9}, {0, 0, 0}};
   for (const std::uint32_t a : {0u, 1u})
     for (const std::uint32_t b : {2u, 3u})
-      for (const std::uint32_t c : {4u, 5u})
-        model.cells.push_back({a, b, c, 6});
-  const improve::CellComplex x = complex_of(model, {improve::Objective::r, 1, 1});
+      for (const std::uint32_t c : {4u, 5u}) model.cells.push_back({a, b, c, 6});
+  return model;
+}
+
+bool has_all(const improve::NewCell& cell, std::initializer_list<std::uint32_t> vertices) {
+  return std::ranges::all_of(
+      vertices, [&](std::uint32_t v) { return std::ranges::find(cell.vertices, v) != cell.vertices.end(); });
+}
+
+TEST(PolyhedronFiller, JoinsAllFacesToTheVertexWithTheBestTetrahedra) {
+  const improve::CellComplex x = complex_of(octahedron(), {improve::Objective::r, 1, 1});
   improve::PolyhedronFiller filler(x);
   std::vector<improve::NewCell> cells;
   ASSERT_TRUE(filler.fill(hull_of(x), 7, 0, cells));
   ASSERT_EQ(cells.size(), 4u);
-  for (const improve::NewCell& cell : cells) {
-    EXPECT_NE(std::ranges::find(cell.vertices, 0u), cell.vertices.end());
-    EXPECT_NE(std::ranges::find(cell.vertices, 1u), cell.vertices.end());
-  }
+  for (const improve::NewCell& cell : cells) EXPECT_TRUE(has_all(cell, {0, 1}));
+}
+
+TEST(PolyhedronFiller, KeepsAFacetThatEndsInside) {
+  const improve::CellComplex x = complex_of(octahedron(), {improve::Objective::r, 1, 1});
+  std::vector<Triangle> hull = hull_of(x);
+  hull.push_back({0, 2, 6});
+  hull.push_back({0, 6, 2});
+  improve::PolyhedronFiller filler(x);
+  std::vector<improve::NewCell> cells;
+  ASSERT_TRUE(filler.fill(hull, 7, 0, cells));
+  EXPECT_EQ(std::ranges::count_if(cells, [](const auto& cell) { return has_all(cell, {0, 2, 6}); }), 2);
 }
 
 TEST(PolyhedronFiller, FindsThatSchoenhardtsPolyhedronCannotBeFilled) {
