@@ -86,7 +86,8 @@ Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
 bool PolyhedronFiller::join_to_vertex() {
   double best_quality = least_;
   std::optional<Corner> best;
-  for (Corner v = 0; v < vertices_.size(); ++v) {
+  const auto n = static_cast<Corner>(vertices_.size());
+  for (Corner v = 0; v < n; ++v) {
     const double quality = quality_from(v, best_quality);
     if (quality > best_quality && keeps_all_faces(v)) best_quality = quality, best = v;
   }
@@ -126,9 +127,10 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
                                  : add(joined, a, b) && add(joined, b, c) && add(joined, c, a);
     if (!is_new) return false;
   }
-  for (Corner a = 0; a < vertices_.size(); ++a) {
+  const auto n = static_cast<Corner>(vertices_.size());
+  for (Corner a = 0; a < n; ++a) {
     CornerSet to_joined = 0, to_any = 0;
-    for (Corner b = 0; b < vertices_.size(); ++b) {
+    for (Corner b = 0; b < n; ++b) {
       if ((joined[b] & corner_bit(a)) != 0) to_joined |= corner_bit(b);
       if (((joined[b] | at_vertex[b]) & corner_bit(a)) != 0) to_any |= corner_bit(b);
     }
@@ -189,7 +191,7 @@ bool PolyhedronFiller::search_on() {
     const double quality = cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
     if (quality > least_) trials[trial_count++] = {-quality, apex};
   });
-  std::sort(trials.begin(), trials.begin() + trial_count);
+  std::sort(trials.begin(), trials.begin() + static_cast<std::ptrdiff_t>(trial_count));
   const auto saved = static_cast<std::ptrdiff_t>(saved_front_.size());
   saved_front_.insert(saved_front_.end(), front_.begin(), front_.end());
   const EdgeSets edges = edges_;
