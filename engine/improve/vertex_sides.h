@@ -35,7 +35,6 @@ class VertexSides {
   /// \param points  at most `most_vertices`, on the grid
   void find(std::span<const Point3> points);
 
-  std::size_t vertex_count() const { return points_.size(); }
   /// The vertices above and below a triangle. From above, its corners are in counterclockwise order.
   Sides of(Corner a, Corner b, Corner c) const { return a < b ? of_row(a, b)[c] : of_row(b, a)[c].flipped(); }
   /// Does the edge pq pass through the inside of the triangle rst? Its ends are on different sides of the triangle.
