@@ -11,9 +11,10 @@
 
 namespace ccdt::improve {
 
-/// Searches for tetrahedra that fill a polyhedron without new vertices. At each step, one is put onto the face of the
-/// front with the fewest possible apexes (after Liu, Sun, Wang 2006, "Small polyhedron reconnection"; Marot, Verhetsel,
-/// Remacle 2020, "Reviving the search for optimal tetrahedralizations").
+/// Fills a polyhedron with tetrahedra without new vertices: joins its faces to one of its vertices or, if none sees
+/// them all, searches. At each step of the search, a tetrahedron is put onto the face of the front with the fewest
+/// possible apexes (after Liu, Sun, Wang 2006, "Small polyhedron reconnection"; Marot, Verhetsel, Remacle 2020,
+/// "Reviving the search for optimal tetrahedralizations").
 ///
 /// What is found is right by construction: all tetrahedra are exactly positive, and each of their faces is shared by
 /// two of them or is one of the polyhedron. The tests for crossings only cut the search short.

@@ -31,7 +31,6 @@ void VertexSides::load(std::span<const Point3> points) {
 
 /// As `orient3d_filter` finds them, for four vertices at the same time.
 CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Plane& plane, Sides& sides) const {
-  constexpr double factor = 40 * 0x1p-53;
   const Point3& normal = plane.normal;
   const Lanes zero = {}, size_x = zero + plane.size.x, size_y = zero + plane.size.y, size_z = zero + plane.size.z;
   IntegerLanes above = {}, below = {}, bits = {1, 2, 4, 8};
@@ -42,7 +41,7 @@ CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Plane& plane, Side
     magnitude(x, large_x), magnitude(y, large_y), magnitude(z, large_z);
     maximum(large_x, size_x, large_x), maximum(large_y, size_y, large_y), maximum(large_z, size_z, large_z);
     const Lanes height = normal.x * x + normal.y * y + normal.z * z;
-    const Lanes bound = factor * large_x * large_y * large_z;
+    const Lanes bound = numbers::orient3d_error * large_x * large_y * large_z;
     above |= (height > bound) & bits;
     below |= (height < -bound) & bits;
     bits <<= 4;

@@ -79,19 +79,20 @@ CCDT_ALWAYS_INLINE void integer_bits(const Lanes& a, IntegerLanes& result) {
 
 }  // namespace filter
 
+/// The error of `orient3d`, relative to the product of the largest entries in x, y and z: six products of three
+/// entries, each with at most five roundings, make 30 * 2^-53, rounded up for the bound's own roundings.
+inline constexpr double orient3d_error = 40 * 0x1p-53;
+
 /// Sign of ((b-a) x (c-a)) . (d-a).
 CCDT_ALWAYS_INLINE Sign orient3d_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
   const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
   const double dx = d.x - a.x, dy = d.y - a.y, dz = d.z - a.z;
   const double det = dx * (by * cz - bz * cy) + dy * (bz * cx - bx * cz) + dz * (bx * cy - by * cx);
-  // Six products of three entries, each with at most five roundings: 30 * 2^-53, rounded up for the bound's own
-  // roundings.
-  constexpr double factor = 40 * 0x1p-53;
   using filter::largest_magnitude;
   const double mx = largest_magnitude(bx, cx, dx), my = largest_magnitude(by, cy, dy),
                mz = largest_magnitude(bz, cz, dz);
-  if (std::fabs(det) > factor * mx * my * mz) return det > 0 ? Sign::plus : Sign::minus;
+  if (std::fabs(det) > orient3d_error * mx * my * mz) return det > 0 ? Sign::plus : Sign::minus;
   const Lanes rows[3] = {{bx, by, bz, 0}, {cx, cy, cz, 0}, {dx, dy, dz, 0}};
   IntegerLanes bits = {}, row_bits;
   for (const Lanes& row : rows) {
