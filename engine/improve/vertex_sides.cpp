@@ -68,9 +68,8 @@ CCDT_ALWAYS_INLINE Sides VertexSides::find_sides(Corner a, Corner b, Corner c) c
   return sides;
 }
 
-CCDT_WIDE_LANES void VertexSides::find(std::span<const Point3> points) {
-  load(points);
-  const auto n = static_cast<Corner>(points.size());
+CCDT_WIDE_LANES void VertexSides::find_all() {
+  const auto n = static_cast<Corner>(points_.size());
   sides_.resize(n * (n - std::size_t{1}) / 2 * n);
   for (Corner c = 2; c < n; ++c) {
     for (Corner b = 1; b < c; ++b) {
@@ -81,6 +80,11 @@ CCDT_WIDE_LANES void VertexSides::find(std::span<const Point3> points) {
       }
     }
   }
+}
+
+void VertexSides::find(std::span<const Point3> points) {
+  load(points);
+  find_all();
 }
 
 bool VertexSides::is_around(const std::array<Corner, 3>& triangle, Corner p, Corner q) const {

@@ -48,6 +48,7 @@ class VertexSides {
   };
 
   void load(std::span<const Point3> points);
+  void find_all();
   Sides find_sides(Corner a, Corner b, Corner c) const;
   void find_certain_sides(const Plane& plane, Sides& sides) const;
 
