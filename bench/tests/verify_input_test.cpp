@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "bench/tests/verify_cases.h"
 #include "bench/verify/verify.h"
@@ -116,6 +117,27 @@ TEST(Verify, AMissingSegmentIsFound) {
   segment({0, 0, 0}, {3, 3, 3});
   expect_ok(m);
   segment({1, 1, 1}, {2, 3, 1});
+  expect_failure(m, "input segments");
+}
+
+TEST(Verify, ASegmentMayPassAVertexWithinTheTolerance) {
+  // Triangles in a plane, joined to a vertex above and one below. The segment from 0 to 1 passes vertex 2, from which
+  // no edge goes to vertex 1.
+  const double quantum = 0x1p-30;
+  MeshedInput m;
+  m.input.vertices = {{0, 0, 0},    {2, quantum, 0}, {0x1p-10, 0, 0}, {3, quantum, 0},
+                      {0.5, -1, 0}, {0.5, 1, 0},     {1, 0, 1},       {1, 0, -1}};
+  m.mesh.vertices = m.input.vertices;
+  for (const auto& [a, b, c] :
+       {std::array{0u, 3u, 1u}, {0u, 2u, 3u}, {0u, 1u, 5u}, {1u, 3u, 5u}, {0u, 4u, 2u}, {2u, 4u, 3u}}) {
+    m.mesh.tetrahedra.insert(m.mesh.tetrahedra.end(), {{a, b, c, 6}, {b, a, c, 7}});
+    m.mesh.regions.insert(m.mesh.regions.end(), 2, 0);
+  }
+  for (const auto& [a, b] : {std::array{0u, 4u}, {4u, 3u}, {3u, 5u}, {5u, 0u}})
+    m.input.triangles.insert(m.input.triangles.end(), {{a, b, 6}, {b, a, 7}});
+  m.input.segments = {{0, 1}};
+  expect_ok(m);
+  m.input.segments = {{2, 1}};
   expect_failure(m, "input segments");
 }
 

@@ -311,21 +311,6 @@ void split_edges(Surface& surface) {
       surface);
 }
 
-/// Splits segments at the vertices of the input on them, since only a part of one may be in the domain.
-void split_segments(Surface& surface) {
-  if (surface.segments.empty()) return;
-  std::vector<std::uint32_t> sites = surface.sites.of_input;
-  sort_and_unique(sites);
-  const SiteFinder finder(surface, std::move(sites));
-  std::vector<Edge> parts;
-  for (const Edge& segment : surface.segments) {
-    std::uint32_t from = segment[0];
-    for (const std::uint32_t to : finder.within(segment)) parts.push_back({std::exchange(from, to), to});
-    parts.push_back({from, segment[1]});
-  }
-  surface.segments = std::move(parts);
-}
-
 }  // namespace
 
 Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
@@ -400,8 +385,22 @@ Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& 
   surface.tolerances = tolerances;
   set_pieces(find_pieces(input, surface), surface);
   split_edges(surface);
-  split_segments(surface);
   return surface;
+}
+
+void split_segments(const std::vector<bool>& chosen, Surface& surface) {
+  if (std::ranges::find(chosen, true) == chosen.end()) return;
+  std::vector<std::uint32_t> sites = surface.sites.of_input;
+  sort_and_unique(sites);
+  const SiteFinder finder(surface, std::move(sites));
+  std::vector<Edge> parts;
+  for (std::size_t s = 0; s < surface.segments.size(); ++s) {
+    auto [from, end] = surface.segments[s];
+    if (chosen[s])
+      for (const std::uint32_t to : finder.within(surface.segments[s])) parts.push_back({std::exchange(from, to), to});
+    parts.push_back({from, end});
+  }
+  surface.segments = std::move(parts);
 }
 
 DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected, std::span<const Point3> position) {

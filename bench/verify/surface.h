@@ -128,4 +128,7 @@ std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edg
 
 Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& tolerances);
 
+/// Splits the segments that are chosen at the vertices of the input on them.
+void split_segments(const std::vector<bool>& chosen, Surface& surface);
+
 }  // namespace ccdt::verify

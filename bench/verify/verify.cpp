@@ -252,10 +252,20 @@ bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {
   return options.delaunay == VerifyOptions::Delaunay::yes;
 }
 
+/// Splits the segments that the mesh does not have as a whole: only a part of one may be in the domain. (One that it
+/// has may pass a vertex of the input within the tolerance, and then its parts are not in the mesh.)
+void split_incomplete_segments(const Topology& topology, Surface& surface) {
+  const Chains chains = find_chains(topology, surface, surface.segments);
+  std::vector<bool> incomplete;
+  for (std::size_t s = 0; s < surface.segments.size(); ++s) incomplete.push_back(chains.missing(s));
+  split_segments(incomplete, surface);
+}
+
 void check_against_input(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances,
                          const VerifyOptions& options, const Progress& progress, Verification& result) {
   report(progress, "verify facets", 0, 0);
   Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
+  split_incomplete_segments(topology, surface);
   embed_lines(surface);
   const bool may_slide = options.boundary == VerifyOptions::Boundary::slide;
   Regions regions;
