@@ -136,13 +136,6 @@ void visit_cases(const Visit& visit) {
   }
 }
 
-double worst_quality(const improve::CellComplex& x) {
-  double worst = 2;
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    if (!x.is_dead(c)) worst = std::min(worst, x.quality(c));
-  return worst;
-}
-
 std::vector<std::uint32_t> bad_cells(const improve::CellComplex& x, const improve::QualityGoal& goal) {
   std::vector<std::uint32_t> bad;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)

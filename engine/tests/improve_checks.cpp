@@ -238,6 +238,12 @@ PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex) {
   return counts;
 }
 
+double worst_quality(const improve::CellComplex& x) {
+  double worst = 2;
+  visit_cells(x, [&](std::uint32_t c) { worst = std::min(worst, x.quality(c)); });
+  return worst;
+}
+
 std::set<Tetrahedron> cells_of(const improve::CellComplex& x) {
   std::set<Tetrahedron> cells;
   visit_cells(x, [&](std::uint32_t c) {

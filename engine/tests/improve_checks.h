@@ -50,6 +50,9 @@ struct Invariants {
   bool operator==(const Invariants&) const = default;
 };
 
+/// Of the living cells.
+double worst_quality(const improve::CellComplex& complex);
+
 Invariants invariants_of(const improve::CellComplex& complex);
 
 /// The data of the complex are consistent: neighbors are mutual and share three vertices, walls are exactly at the
