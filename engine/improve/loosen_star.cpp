@@ -38,6 +38,7 @@ void StarLoosener::loosen(std::uint32_t vertex) {
 bool StarLoosener::apply_if_positive(bool is_planned, const Change& change) {
   if (!is_planned || !x_.all_positive(change)) return false;
   x_.apply(change, made_);
+  new_cells_.insert(new_cells_.end(), made_.begin(), made_.end());
   return true;
 }
 
@@ -84,28 +85,16 @@ bool StarLoosener::remove_an_edge(std::uint32_t vertex) {
   return false;
 }
 
-/// Gathers the cells around all vertices of the star.
-void StarLoosener::gather_near(std::uint32_t vertex) {
-  gather_cells(x_, vertex, marks_, star_);
-  vertices_.clear();
-  for (const std::uint32_t c : star_)
-    vertices_.insert(vertices_.end(), x_.cell(c).vertices.begin(), x_.cell(c).vertices.end());
-  keep_one_of_each(vertices_);
-  near_.clear();
-  for (const std::uint32_t v : vertices_) {
-    gather_cells(x_, v, marks_, star_);
-    near_.insert(near_.end(), star_.begin(), star_.end());
-  }
-  keep_one_of_each(near_);
-}
-
 void StarLoosener::tidy(std::uint32_t vertex) {
-  gather_near(vertex);
-  for (const std::uint32_t c : near_) {
+  gather_cells(x_, vertex, marks_, star_);
+  new_cells_.insert(new_cells_.end(), star_.begin(), star_.end());
+  keep_one_of_each(new_cells_);
+  for (const std::uint32_t c : new_cells_) {
     if (x_.is_dead(c) || x_.quality(c) >= goal_quality(x_.goal())) continue;
     swaps_.find(c, false, Effort::usual, step_);
     if (step_.kind == Step::Kind::change) x_.apply(step_.change, made_);
   }
+  new_cells_.clear();
 }
 
 }  // namespace ccdt::improve

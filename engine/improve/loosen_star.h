@@ -19,7 +19,7 @@ class StarLoosener {
   /// as that is possible: a vertex with fewer edges is easier to remove.
   void loosen(std::uint32_t vertex);
 
-  /// Makes bad cells near the vertex better by swaps.
+  /// Makes bad cells better by swaps: those around the vertex and those that loosening has made.
   void tidy(std::uint32_t vertex);
 
  private:
@@ -28,16 +28,17 @@ class StarLoosener {
   bool remove_an_edge(std::uint32_t vertex);
   bool apply_if_positive(bool is_planned, const Change& change);
   std::uint32_t random_cell_near(std::uint32_t vertex);
-  void gather_near(std::uint32_t vertex);
 
   CellComplex& x_;
   std::mt19937 random_;
   StepFinder swaps_;
 
+  std::vector<std::uint32_t> new_cells_;  ///< since the last `tidy`; some may be dead
+
   // Working memory.
   CellMarks marks_;
   std::vector<std::uint32_t> star_;
-  std::vector<std::uint32_t> vertices_, near_;
+  std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> made_;
   Change change_;
   Step step_;
