@@ -206,7 +206,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
     return plc::triangulate_bent_facets(given).value_or(std::move(given));
   }();
   record = begin_record(command, input);
-  record.input.sha256 = bench::sha256_of_file(command.input);
+  if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
   check_edge_length(command, input, options, record);
   if (command.surface == Surface::remesh) input = remeshed(command, input, options.edge_length, progress, record);

@@ -9,8 +9,6 @@
 namespace ccdt::improve {
 namespace {
 
-/// How many edges and faces to try to remove at random.
-constexpr int shakes = 250;
 /// The cells to change are found by random walks that are shorter than this.
 constexpr int most_walk_steps = 16;
 
@@ -30,8 +28,8 @@ void keep_one_of_each(List& list) {
 
 StarLoosener::StarLoosener(CellComplex& x) : x_(x), swaps_(x, nothing_moves, Improvement::swap) {}
 
-void StarLoosener::loosen(std::uint32_t vertex) {
-  shake(vertex);
+void StarLoosener::loosen(std::uint32_t vertex, int shakes) {
+  shake(vertex, shakes);
   shrink(vertex);
 }
 
@@ -52,7 +50,7 @@ std::uint32_t StarLoosener::random_cell_near(std::uint32_t vertex) {
   return cell;
 }
 
-void StarLoosener::shake(std::uint32_t vertex) {
+void StarLoosener::shake(std::uint32_t vertex, int shakes) {
   for (int i = 0; i < shakes; ++i) {
     const std::uint32_t cell = random_cell_near(vertex);
     const std::uint32_t choice = random_() % (edges_of_cell + faces_of_cell);

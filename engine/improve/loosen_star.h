@@ -17,20 +17,22 @@ class StarLoosener {
 
   /// Removes edges and faces near the vertex at random, whatever the quality. Then removes edges of the vertex as long
   /// as that is possible: a vertex with fewer edges is easier to remove.
-  void loosen(std::uint32_t vertex);
+  ///
+  /// \param shakes  how many edges and faces to try
+  void loosen(std::uint32_t vertex, int shakes);
 
   /// Makes bad cells better by swaps: those around the vertex and those that loosening has made.
   void tidy(std::uint32_t vertex);
 
  private:
-  void shake(std::uint32_t vertex);
+  void shake(std::uint32_t vertex, int shakes);
   void shrink(std::uint32_t vertex);
   bool remove_an_edge(std::uint32_t vertex);
   bool apply_if_positive(bool is_planned, const Change& change);
   std::uint32_t random_cell_near(std::uint32_t vertex);
 
   CellComplex& x_;
-  std::mt19937 random_;
+  std::mt19937 random_{2};
   StepFinder swaps_;
 
   std::vector<std::uint32_t> new_cells_;  ///< since the last `tidy`; some may be dead

@@ -15,11 +15,12 @@ constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill
 
 /// How often the cells around a vertex are loosened before the next vertex has its turn.
 constexpr int loosenings = 8;
-/// The turns for `stuck` vertices. Nearly all are removed in their first or second turn, a few only after dozens, and
-/// some cannot be removed.
-constexpr std::size_t most_turns(std::size_t stuck) {
-  return 100 + stuck;
-}
+/// How many edges and faces loosening tries to remove at random. Few are enough for most vertices, so that the first turn
+/// of each is cheap.
+constexpr int few_shakes = 25, many_shakes = 250;
+/// The turns beyond the first two of each vertex. Nearly all are removed in these two, a few only after dozens, and some
+/// cannot be removed.
+constexpr std::size_t more_turns = 100;
 
 /// A Steiner vertex and its neighbors on the segment.
 struct Candidate {
@@ -78,19 +79,22 @@ class SteinerRemover {
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].vertex != no_neighbor) left.push_back(i);
-    const std::size_t turns = most_turns(left.size());
-    for (std::size_t turn = 0; !left.empty() && turn + left.size() <= turns;) {
+    std::size_t turn = 0, most_turns = left.size();
+    const auto give_turns = [&](int shakes) {
       std::erase_if(left, [&](std::size_t i) {
-        report(progress, "improve", turn++, turns);
-        return remove_loosened(candidates_[i]);
+        report(progress, "improve", turn++, most_turns);
+        return remove_loosened(candidates_[i], shakes);
       });
-    }
+    };
+    give_turns(few_shakes);
+    most_turns = turn + left.size() + more_turns;
+    while (!left.empty() && turn + left.size() <= most_turns) give_turns(many_shakes);
   }
 
   /// Changes the cells around a vertex until it can be removed. \return was it?
-  bool remove_loosened(Candidate& c) {
+  bool remove_loosened(Candidate& c, int shakes) {
     for (int i = 0; i < loosenings; ++i) {
-      loosener_.loosen(c.vertex);
+      loosener_.loosen(c.vertex, shakes);
       const bool is_removed = try_to_remove(c, RemovalEffort::collapse) || try_to_remove(c, RemovalEffort::fill);
       loosener_.tidy(is_removed ? c.neighbors[0] : c.vertex);
       if (is_removed) return true;

@@ -43,7 +43,7 @@ Model random_tetrahedra(std::mt19937& random) {
 improve::CellComplex bad_complex(std::mt19937& random) {
   improve::CellComplex x = complex_of(random_tetrahedra(random), goal);
   improve::StarLoosener loosener(x);
-  for (std::uint32_t v = 0; v < x.vertex_count(); v += 3) loosener.loosen(v);
+  for (std::uint32_t v = 0; v < x.vertex_count(); v += 3) loosener.loosen(v, 250);
   return x;
 }
 

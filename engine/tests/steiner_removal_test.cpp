@@ -143,7 +143,7 @@ TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
     const auto before = invariants_of(x);
     const auto cells = cells_of(x);
     improve::StarLoosener loosener(x);
-    loosener.loosen(2);
+    loosener.loosen(2, 250);
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
     EXPECT_NE(cells_of(x), cells);
@@ -166,7 +166,7 @@ TEST(StarLoosener, LeavesAVertexWithFewerEdges) {
       return count;
     };
     const int before = edges();
-    improve::StarLoosener(x).loosen(2);
+    improve::StarLoosener(x).loosen(2, 250);
     EXPECT_LT(edges(), before);
   }
 }
