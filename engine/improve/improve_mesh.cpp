@@ -15,6 +15,7 @@
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/find_step.h"
 #include "engine/improve/remove_steiner_vertices.h"
+#include "engine/improve/shake_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 
 namespace ccdt::improve {
@@ -35,6 +36,13 @@ struct BadCell {
 /// After this many failed attempts, a cell is given up. More attempts would cost 50% more time to fix one more percent
 /// of the bad cells.
 constexpr int most_tries = 3;
+
+/// Around the worst cells that are left, if their quality is below this, random changes are tried at each corner: more
+/// in each round, then few again.
+constexpr double very_bad = 0.01;
+constexpr std::size_t most_shaken = 16;
+constexpr int shaking_rounds = 12;
+constexpr std::array shaking_tries = {10, 20, 40};
 
 /// A cell of the window.
 struct Trial {
@@ -62,6 +70,7 @@ class Improver {
         options_(options),
         improvement_(options.improvement.value_or(Improvement::all)),
         begin_(Clock::now()),
+        shaker_(x),
         finders_(thread_count(), StepFinder(x, freedom, improvement_)),
         attempts_(1) {}
 
@@ -78,6 +87,7 @@ class Improver {
       effort = Effort::greatest;
       for (BadCell& bad : found_) bad.tried_at = 0, bad.tries = 0;
     }
+    if (improvement_ == Improvement::all) shake_worst_cells(progress);
     tidy(found_);
     counts_.bad_cells_left = found_.size();
     counts_.stop = found_.empty() ? ImproveStop::target : time_is_up() ? ImproveStop::time : ImproveStop::stuck;
@@ -133,6 +143,35 @@ class Improver {
       try_window(effort);
     }
     return x_.change_count() != changes;
+  }
+
+  /// Changes the mesh around the worst cells at random and improves it again.
+  void shake_worst_cells(const Progress& progress) {
+    for (std::size_t round = 0; round < shaking_rounds && !time_is_up(); ++round) {
+      tidy(found_);
+      if (!shake_worst_cells(shaking_tries[round % shaking_tries.size()])) return;
+      while (pass(Effort::usual, progress) && !time_is_up()) {
+      }
+      pass(Effort::greatest, progress);
+    }
+  }
+
+  /// All new cells are better than the one near which they are. \return are there any very bad ones?
+  bool shake_worst_cells(int tries) {
+    new_cells_.clear();
+    bool any = false;
+    for (std::size_t i = 0; i < std::min(most_shaken, found_.size()); ++i) {
+      BadCell& bad = found_[i];
+      if (bad.quality >= very_bad) break;
+      if (is_stale(bad)) continue;
+      any = true;
+      bad.tries = 0, bad.tried_at = 0, bad.has_moved = false;
+      const auto corners = x_.cell(bad.cell).vertices;
+      for (const std::uint32_t v : corners) shaker_.shake(v, tries, bad.quality, new_cells_);
+    }
+    for (const std::uint32_t c : new_cells_)
+      if (!x_.is_dead(c)) add_bad(c, found_);
+    return any;
   }
 
   /// Takes the next cells to try: first those that wait, then those of the queue. A cell close to one that was taken
@@ -248,6 +287,7 @@ class Improver {
   const ImproveOptions& options_;
   const Improvement improvement_;
   const Clock::time_point begin_;
+  CellShaker shaker_;
   ImproveCounts counts_;
   std::vector<BadCell> queue_, found_;  ///< of this pass, the worst first; of the next pass
   std::size_t next_ = 0;                ///< of the queue

@@ -9,10 +9,7 @@
 namespace ccdt::improve {
 namespace {
 
-/// The cells to change are found by random walks that are shorter than this.
-constexpr int most_walk_steps = 16;
-
-constexpr std::uint32_t edges_of_cell = 6, faces_of_cell = 4;
+constexpr std::uint32_t edges_of_cell = 6;
 constexpr std::uint32_t ends_of_edge[edges_of_cell][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 const std::vector<Freedom> nothing_moves;
@@ -26,38 +23,11 @@ void keep_one_of_each(List& list) {
 
 }  // namespace
 
-StarLoosener::StarLoosener(CellComplex& x) : x_(x), swaps_(x, nothing_moves, Improvement::swap) {}
+StarLoosener::StarLoosener(CellComplex& x) : x_(x), shaker_(x), swaps_(x, nothing_moves, Improvement::swap) {}
 
 void StarLoosener::loosen(std::uint32_t vertex, int shakes) {
-  shake(vertex, shakes);
+  shaker_.shake(vertex, shakes, 0, new_cells_);
   shrink(vertex);
-}
-
-bool StarLoosener::apply_if_positive(bool is_planned, const Change& change) {
-  if (!is_planned || !x_.all_positive(change)) return false;
-  x_.apply(change, made_);
-  new_cells_.insert(new_cells_.end(), made_.begin(), made_.end());
-  return true;
-}
-
-/// The end of a random walk from a cell of a vertex.
-std::uint32_t StarLoosener::random_cell_near(std::uint32_t vertex) {
-  std::uint32_t cell = x_.cell_at(vertex);
-  for (auto steps = random_() % most_walk_steps; steps > 0; --steps) {
-    const std::uint32_t face = face_code(cell, random_() % 4);
-    if (!x_.is_wall(face)) cell = cell_of(x_.across(face));
-  }
-  return cell;
-}
-
-void StarLoosener::shake(std::uint32_t vertex, int shakes) {
-  for (int i = 0; i < shakes; ++i) {
-    const std::uint32_t cell = random_cell_near(vertex);
-    const std::uint32_t choice = random_() % (edges_of_cell + faces_of_cell);
-    apply_if_positive(choice < edges_of_cell ? plan_edge_removal(x_, cell, choice, 0, change_)
-                                             : plan_face_removal(x_, cell, choice - edges_of_cell, 0, change_),
-                      change_);
-  }
 }
 
 void StarLoosener::shrink(std::uint32_t vertex) {
@@ -77,7 +47,10 @@ bool StarLoosener::remove_an_edge(std::uint32_t vertex) {
       const std::uint32_t other = v[from] == vertex ? v[to] : v[from];
       if (std::ranges::find(vertices_, other) != vertices_.end()) continue;
       vertices_.push_back(other);
-      if (apply_if_positive(plan_edge_removal(x_, c, edge, 0, change_), change_)) return true;
+      if (!plan_edge_removal(x_, c, edge, 0, change_) || !x_.all_positive(change_)) continue;
+      x_.apply(change_, made_);
+      new_cells_.insert(new_cells_.end(), made_.begin(), made_.end());
+      return true;
     }
   }
   return false;

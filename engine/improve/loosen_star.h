@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "engine/improve/cell_complex.h"
 #include "engine/improve/find_step.h"
+#include "engine/improve/shake_cells.h"
 
 namespace ccdt::improve {
 
@@ -25,14 +25,11 @@ class StarLoosener {
   void tidy(std::uint32_t vertex);
 
  private:
-  void shake(std::uint32_t vertex, int shakes);
   void shrink(std::uint32_t vertex);
   bool remove_an_edge(std::uint32_t vertex);
-  bool apply_if_positive(bool is_planned, const Change& change);
-  std::uint32_t random_cell_near(std::uint32_t vertex);
 
   CellComplex& x_;
-  std::mt19937 random_{2};
+  CellShaker shaker_;
   StepFinder swaps_;
 
   std::vector<std::uint32_t> new_cells_;  ///< since the last `tidy`; some may be dead

@@ -15,11 +15,11 @@ constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill
 
 /// How often the cells around a vertex are loosened before the next vertex has its turn.
 constexpr int loosenings = 8;
-/// How many edges and faces loosening tries to remove at random. Few are enough for most vertices, so that the first turn
-/// of each is cheap.
+/// How many edges and faces loosening tries to remove at random. Few are enough for most vertices, so that the first
+/// turn of each is cheap.
 constexpr int few_shakes = 25, many_shakes = 250;
-/// The turns beyond the first two of each vertex. Nearly all are removed in these two, a few only after dozens, and some
-/// cannot be removed.
+/// The turns beyond the first two of each vertex. Nearly all are removed in these two, a few only after dozens, and
+/// some cannot be removed.
 constexpr std::size_t more_turns = 100;
 
 /// A Steiner vertex and its neighbors on the segment.

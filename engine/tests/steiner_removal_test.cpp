@@ -7,6 +7,7 @@
 
 #include "engine/improve/loosen_star.h"
 #include "engine/improve/plan_vertex_removal.h"
+#include "engine/improve/shake_cells.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -134,6 +135,28 @@ Model split_segment_in_fog(std::mt19937& random) {
     }
   }
   return model;
+}
+
+TEST(CellShaker, MakesOnlyBetterCells) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 20; ++i) {
+    improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
+    const auto before = invariants_of(x);
+    const auto cells = cells_of(x);
+    const double worst = worst_quality(x), least = worst * (1 + i % 4);
+    std::vector<std::uint32_t> made;
+    improve::CellShaker(x).shake(2, 100, least, made);
+    expect_consistent(x);
+    EXPECT_TRUE(invariants_of(x) == before);
+    EXPECT_NE(cells_of(x), cells);
+    EXPECT_FALSE(made.empty());
+    for (const std::uint32_t c : made) {
+      if (!x.is_dead(c)) {
+        EXPECT_GT(x.quality(c), least);
+      }
+    }
+    EXPECT_GE(worst_quality(x), worst);
+  }
 }
 
 TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
