@@ -37,11 +37,11 @@ struct BadCell {
 /// of the bad cells.
 constexpr int most_tries = 3;
 
-/// Around the worst cells that are left, if their quality is below this, random changes are tried at each corner: more
-/// in each round, then few again.
+/// The mesh is changed at random around cells of lower quality that are left, and only around this many of them.
 constexpr double very_bad = 0.01;
 constexpr std::size_t most_shaken = 16;
-constexpr int shaking_rounds = 12;
+/// How often, and how many edges and faces are tried at each corner of a cell: more in each round, then few again.
+constexpr std::size_t shaking_rounds = 12;
 constexpr std::array shaking_tries = {10, 20, 40};
 
 /// A cell of the window.
@@ -149,15 +149,15 @@ class Improver {
   void shake_worst_cells(const Progress& progress) {
     for (std::size_t round = 0; round < shaking_rounds && !time_is_up(); ++round) {
       tidy(found_);
-      if (!shake_worst_cells(shaking_tries[round % shaking_tries.size()])) return;
+      if (!shake_once(shaking_tries[round % shaking_tries.size()])) return;
       while (pass(Effort::usual, progress) && !time_is_up()) {
       }
       pass(Effort::greatest, progress);
     }
   }
 
-  /// All new cells are better than the one near which they are. \return are there any very bad ones?
-  bool shake_worst_cells(int tries) {
+  /// All new cells are better than the bad cell near them. \return was there a very bad one?
+  bool shake_once(int tries) {
     new_cells_.clear();
     bool any = false;
     for (std::size_t i = 0; i < std::min(most_shaken, found_.size()); ++i) {
