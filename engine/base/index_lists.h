@@ -52,6 +52,7 @@ IndexLists group_indices(std::size_t count, std::size_t item_count, const ListOf
       for (std::uint32_t i = 0; i < item_count; ++i) emit(list_of(i), i);
     });
   constexpr std::size_t grain = 4096;
+  const AddOne add_one;
   IndexLists lists;
   lists.first.assign(count + 1, 0);
   lists.items.resize(item_count);

@@ -131,12 +131,17 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
   return all;
 }
 
-/// Adds one to a number to which several threads add.
-///
-/// \return  the number before
-inline std::uint32_t add_one(std::uint32_t& number) {
-  return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed);
-}
+/// Adds one to numbers to which all threads of the following loops add. One thread alone does not pay for this.
+class AddOne {
+ public:
+  /// \return  the number before
+  std::uint32_t operator()(std::uint32_t& number) const {
+    return is_alone_ ? number++ : std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed);
+  }
+
+ private:
+  const bool is_alone_ = thread_count() == 1;
+};
 
 /// Fills a list to which each chunk of 0 .. count adds some items, on several threads, in the order of the chunks.
 ///

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/base/sort_in_buckets.h"
 
 namespace ccdt {
@@ -39,18 +40,21 @@ class SimplexMap {
   /// \param vertices   more than each corner
   template <class Id>
   SimplexMap(const std::vector<std::array<Id, N>>& simplices, std::size_t vertices)
-      : first_(vertices + 1, 0), entries_(simplices.size()) {
-    for (const auto& s : simplices) ++first_[*std::ranges::min_element(s)];
-    // Turns counts into ends; filling from the back turns the ends into beginnings.
+      : first_(vertices + 2, 0), entries_(simplices.size()) {
+    constexpr std::size_t grain = 4096;
+    const AddOne add_one;
+    parallel_for(simplices.size(), grain,
+                 [&](std::size_t i) { add_one(first_[2 + *std::ranges::min_element(simplices[i])]); });
+    // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    for (std::uint32_t i = 0; i < simplices.size(); ++i) {
+    parallel_for(simplices.size(), grain, [&](std::size_t i) {
       Corners corners;
       std::ranges::copy(simplices[i], corners.begin());
       std::ranges::sort(corners);
-      Entry& entry = entries_[--first_[corners[0]]];
+      Entry& entry = entries_[add_one(first_[1 + corners[0]])];
       std::copy(corners.begin() + 1, corners.end(), entry.others.begin());
-      entry.index = i;
-    }
+      entry.index = static_cast<std::uint32_t>(i);
+    });
   }
 
   bool empty() const { return entries_.empty(); }

@@ -16,7 +16,7 @@ namespace ccdt {
 /// \param less      a strict order: no two items are alike, or it does not matter which one comes first
 template <class Items, class SortRun, class Less>
 void sort_in_runs(Items& items, const SortRun& sort_run, const Less& less) {
-  constexpr std::size_t least_run = 20000;
+  constexpr std::size_t least_run = 4096;
   using Iterator = typename Items::iterator;
   const std::size_t runs = std::bit_floor(std::clamp<std::size_t>(items.size() / least_run, 1, thread_count()));
   const auto place = [&](std::size_t run) {

@@ -18,6 +18,7 @@ using delaunay::no_neighbor;
 /// fast because it is small, and because the order of the corners does not matter.
 class FaceFilter {
  public:
+  FaceFilter() = default;
   explicit FaceFilter(std::span<const std::array<VertexId, 3>> triangles)
       : bits_(std::bit_ceil(triangles.size() / 4 + 1)), shift_(58 - std::countr_zero(bits_.size())) {
     for (const auto& [a, b, c] : triangles) {
@@ -38,7 +39,7 @@ class FaceFilter {
   }
 
   std::vector<std::uint64_t> bits_;  ///< a power of two of words, about 16 bits for each triangle
-  int shift_;
+  int shift_ = 0;
 };
 
 }  // namespace
@@ -48,8 +49,9 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
   std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
   for (const auto& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
-  const FaceMap faces(triangles, vertices);
-  const FaceFilter filter(triangles);
+  FaceMap faces;
+  FaceFilter filter;
+  parallel_both([&] { faces = FaceMap(triangles, vertices); }, [&] { filter = FaceFilter(triangles); });
   // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
   parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);

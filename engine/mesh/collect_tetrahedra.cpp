@@ -98,8 +98,7 @@ struct Buckets {
 };
 
 Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
-  const bool alone = thread_count() == 1;
-  const auto take_one = [&](std::uint32_t& number) { return alone ? number++ : add_one(number); };
+  const AddOne add_one;
   Buckets buckets;
   std::vector<std::uint32_t>& ends = buckets.ends;
   ends.assign(vertices + 1, 0);
@@ -107,13 +106,13 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
   constexpr std::uint32_t not_in_mesh = delaunay::ghost_vertex;
   parallel_for(parts.size(), grain, [&](std::size_t i) {
     least[i] = parts.is_in_mesh(i) ? least_vertex(parts[i]) : not_in_mesh;
-    if (least[i] != not_in_mesh) take_one(ends[least[i] + 1]);
+    if (least[i] != not_in_mesh) add_one(ends[least[i] + 1]);
   });
   for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
   // So far each entry is where the bucket begins. Each source moves it on, to where the bucket ends.
   buckets.sources.resize(ends.back());
   parallel_for(parts.size(), grain, [&](std::size_t i) {
-    if (least[i] != not_in_mesh) buckets.sources[take_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
+    if (least[i] != not_in_mesh) buckets.sources[add_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
   });
   ends.pop_back();
   return buckets;
