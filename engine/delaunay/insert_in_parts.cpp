@@ -12,7 +12,7 @@ namespace {
 /// In smaller parts, too many vertices are near the border.
 constexpr std::size_t least_part = 250;
 /// Another pass pays off if more than one vertex waits for every this many cells.
-constexpr std::size_t cells_per_waiting_vertex = 500;
+constexpr std::size_t cells_per_waiting_vertex = 2000;
 /// The normals of the planes of each pass. The vertices that wait are near the planes of the pass before; only few of
 /// them are near planes in very different directions.
 constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
@@ -40,7 +40,6 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
     const std::size_t parts = std::min<std::size_t>(thread_count(), those.size() / least_part);
     if (parts < 2 || (p > 0 && those.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
     cut(those, static_cast<std::uint32_t>(parts), bases[p]);
-    mark_cells();
     const auto left = pass(those, p == 0, shared);
     waiting.resize(with_lower_rank);
     waiting.insert(waiting.end(), left.begin(), left.end());
@@ -59,24 +58,14 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   for (std::size_t i = 0; i < vertices.size(); i += vertices.size() / sample_size + 1)
     sample.push_back(d_.point(vertices[i]));
   const SpaceCut space(sample, parts, basis);
-  parallel_for(vertices.back() + 1, 4096,
-               [&](std::size_t v) { part_[v] = static_cast<Part>(space.part_of(d_.vertices[v].point)); });
   start_ = std::vector<std::atomic<std::uint32_t>>(parts);
   for (auto& start : start_) start = no_cell;
-}
-
-void PartedInsertion::mark_cells() {
-  marks_.cells.resize(d_.cells.size());
-  parallel_for(d_.cells.size(), 4096, [&](std::size_t i) {
-    const auto c = static_cast<std::uint32_t>(i);
-    marks_.cells[c] = InsertionMarks::Cell::unknown;
-    if (d_.is_dead(c)) return;
-    const auto& v = d_.cells[c].vertices;
-    const Part part = part_[v[0]];
-    if (part_[v[1]] != part || part_[v[2]] != part || (v[3] != ghost_vertex && part_[v[3]] != part))
-      marks_.cells[c] = InsertionMarks::Cell::shared;
-    else if (v[3] != ghost_vertex && start_[part].load(std::memory_order_relaxed) == no_cell)
-      start_[part].store(c, std::memory_order_relaxed);
+  parallel_for(vertices.back() + 1, 4096, [&](std::size_t v) {
+    const DelaunayVertex& vertex = d_.vertices[v];
+    const std::uint32_t part = space.part_of(vertex.point);
+    part_[v] = static_cast<Part>(part);
+    if (vertex.cell != no_cell && start_[part].load(std::memory_order_relaxed) == no_cell)
+      start_[part].store(vertex.cell, std::memory_order_relaxed);
   });
 }
 
@@ -87,7 +76,10 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   const std::size_t old = d_.cells.size(), chunk = CellPool::chunk;
   const std::size_t room = (cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
   d_.cells.resize(old + room);
-  marks_.cells.resize(old + room, InsertionMarks::Cell::unknown);
+  marks_.cells.resize(old + room);
+  parallel_ranges(old, 1 << 16, [&](std::size_t begin, std::size_t end) {
+    std::fill_n(marks_.cells.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, InsertionMarks::Cell::unseen);
+  });
   CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
   done_parts_ = 0;
   parallel_for(start_.size(), 1, [&](std::size_t part) {

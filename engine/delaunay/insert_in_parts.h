@@ -16,12 +16,12 @@ namespace ccdt::delaunay {
 /// Inserts vertices on several threads, without locks (after Marot, Pellerin and Remacle 2019, "One machine, one
 /// minute, three billion tetrahedra", who cut along a space-filling curve).
 ///
-/// Planes cut space into parts. A cell belongs to a part if all its finite vertices do; otherwise it is shared. A
-/// thread inserts the vertices of one part. It removes only cells of its part, and all cells that it makes belong to
-/// its part too, because the border of its cavities has no other vertices. Shared cells stay: all threads may read
-/// their vertices, and each of their neighbor codes is written only by the one part that has the face. So a thread may
-/// walk through them, and back into its part. A vertex whose cavity would contain a shared cell waits, and is tried
-/// again with other parts.
+/// Planes cut space into parts. A cell belongs to a part if all its finite vertices do; otherwise it is shared, which
+/// is found when a thread first sees it. A thread inserts the vertices of one part. It removes only cells of its part,
+/// and all cells that it makes belong to its part too, because the border of its cavities has no other vertices. Shared
+/// cells stay: all threads may read their vertices, and each of their neighbor codes is written only by the one part
+/// that has the face. So a thread may walk through them, and back into its part. A vertex whose cavity would contain a
+/// shared cell waits, and is tried again with other parts.
 ///
 /// The Delaunay tetrahedralization is unique, so its cells do not depend on the parts or the threads. The order of the
 /// cells does.
@@ -44,14 +44,13 @@ class PartedInsertion {
   using Part = InsertionParts::Part;
 
   void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
-  void mark_cells();
   std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, bool is_first, SharedProgress& progress);
   std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, bool is_first,
                                          CellPool& pool, SharedProgress& progress);
 
   Delaunay& d_;
   std::vector<Part> part_;                         ///< by vertex
-  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell of it; `no_cell` if there is none
+  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell with a vertex of it; `no_cell`: none
   InsertionMarks marks_;
   std::atomic<std::size_t> done_parts_ = 0;  ///< of this pass
   std::mutex mutex_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "engine/base/count_work.h"
 #include "engine/numbers/predicates.h"
@@ -34,14 +35,14 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   const unsigned turn = turn_;
   const std::uint32_t first = reached_ = walk(p_, start);
   work_done.walk_steps += turn_ - turn;
-  if (marks_.cells[first] == Mark::shared) return false;
+  if (mark_of(first) == Mark::shared) return false;
   for (const std::uint32_t corner : d_.cells[first].vertices) {
     if (corner != ghost_vertex && d_.point(corner) == p_) {
       twin_ = corner;
       return false;
     }
   }
-  if (!spread(first)) return false;
+  if (!(pool_ == nullptr ? spread(first) : spread_in_part(first))) return false;
   // Each cell of the cavity except the first, and each one around it, was tested once.
   work_done.cells_tested += cavity_.size + outside_.size - 1;
   work_done.largest_cavity = std::max<std::uint64_t>(work_done.largest_cavity, cavity_.size);
@@ -49,9 +50,23 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   return true;
 }
 
+/// Sees a cell for the first time. Several threads may do so with a shared cell.
+CCDT_ALWAYS_INLINE InsertionMarks::Cell Insertion::mark_of(std::uint32_t cell) {
+  const std::atomic_ref mark(marks_.cells[cell]);
+  Mark its = mark.load(std::memory_order_relaxed);
+  if (its == Mark::unseen) [[unlikely]] {
+    its = parts_.is_shared(d_.cells[cell]) ? Mark::shared : Mark::unknown;
+    mark.store(its, std::memory_order_relaxed);
+  }
+  return its;
+}
+
 /// Grows the cavity from its first cell across all faces to cells whose sphere contains the new vertex.
+///
+/// \tparam in_part  may there be shared cells?
 /// \return false if a shared cell is in the cavity
-CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {
+template <bool in_part>
+CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
   const Cell* const cells = d_.cells.data();
   Mark* const mark = marks_.cells.data();
   cavity_.add(first);
@@ -61,17 +76,18 @@ CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {
     const Cell cell = cells[cavity_.slots[i]];
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
-      if (mark[next] == Mark::conflict) continue;
-      if (mark[next] != Mark::outside) {
+      const Mark its = in_part ? mark_of(next) : mark[next];
+      if (its == Mark::conflict) continue;
+      if (its != Mark::outside) {
         if (conflicts(cells[next])) {
-          if (mark[next] == Mark::shared) return false;
+          if (in_part && its == Mark::shared) return false;
           mark[next] = Mark::conflict;
           cavity_.add(next);
           // They exist by the time they are needed.
           for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
           continue;
         }
-        if (mark[next] == Mark::unknown) {
+        if (its == Mark::unknown) {
           mark[next] = Mark::outside;
           outside_.add(next);
         }
@@ -80,6 +96,14 @@ CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {
     }
   }
   return true;
+}
+
+CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {
+  return grow_cavity<false>(first);
+}
+
+CCDT_WIDE_LANES bool Insertion::spread_in_part(std::uint32_t first) {
+  return grow_cavity<true>(first);
 }
 
 void Insertion::discard_cavity() {
@@ -119,7 +143,7 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   std::uint32_t from = no_neighbor;
   while (true) {
-    const bool is_shared = pool_ != nullptr && marks_.cells[here] == Mark::shared;
+    const bool is_shared = pool_ != nullptr && mark_of(here) == Mark::shared;
     const Cell& cell = d_.cells[here];
     if (cell.vertices[3] == ghost_vertex) return here;
     std::uint32_t exit = 4;
@@ -182,6 +206,7 @@ bool Insertion::has_room() {
     const std::uint32_t first = pool_->next.fetch_add(CellPool::chunk, std::memory_order_relaxed);
     if (first + CellPool::chunk > pool_->end) return false;
     for (std::uint32_t i = CellPool::chunk; i-- > 0;) places_from_pool_.push_back(first + i);
+    std::fill_n(marks_.cells.begin() + first, CellPool::chunk, Mark::unknown);
   }
   return true;
 }

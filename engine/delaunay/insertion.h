@@ -28,6 +28,7 @@ enum class Ties {
 /// Marks of an insertion at the cells and vertices that it visits; between two insertions, all have their first values.
 struct InsertionMarks {
   enum class Cell : std::uint8_t {
+    unseen,  ///< not even known whether it is shared; only if others insert at the same time
     unknown,
     conflict,
     outside,
@@ -46,6 +47,12 @@ struct InsertionParts {
   std::span<const Part> of_vertex;
   Part own;
 
+  /// Are finite vertices of a cell in different parts?
+  bool is_shared(const Cell& cell) const {
+    const auto& v = cell.vertices;
+    const Part part = of_vertex[v[0]];
+    return of_vertex[v[1]] != part || of_vertex[v[2]] != part || (v[3] != ghost_vertex && of_vertex[v[3]] != part);
+  }
   /// Is the cell behind this face of a shared cell certain to be shared or of the own part? If not, another thread may
   /// be replacing it.
   bool may_cross(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -67,10 +74,10 @@ struct CellPool {
 class Insertion {
  public:
   explicit Insertion(Delaunay& delaunay);
-  /// One of several that insert at the same time, each in its own place. It changes no cell that is marked `shared`,
-  /// except for the codes of its own faces.
+  /// One of several that insert at the same time, each in its own part. It changes no shared cell, except for the codes
+  /// of its own faces.
   ///
-  /// \param marks  of all cells and vertices, places of the pool included
+  /// \param marks  of all cells and vertices, places of the pool included; those of cells are `unseen` at first
   /// \param parts  of the vertices in the tetrahedralization
   Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool);
 
@@ -116,8 +123,12 @@ class Insertion {
     std::span<const T> items() const { return {slots.data(), size}; }
   };
 
+  Mark mark_of(std::uint32_t cell);
   std::uint32_t walk(const Point3& p, std::uint32_t start);
+  template <bool in_part>
+  bool grow_cavity(std::uint32_t first);
   bool spread(std::uint32_t first);
+  bool spread_in_part(std::uint32_t first);
   bool conflicts(const Cell& cell) const;
   bool conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const;
   bool ghost_conflicts(const Cell& ghost) const;
