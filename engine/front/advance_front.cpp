@@ -84,8 +84,8 @@ class CavityFinder {
       }
     }
     if (cavity == no_cavity) return std::nullopt;
-    return search == Search::near ? find_near_apex(locator_.cavity(cavity), facets_, d_, face, near_)
-                                  : find_apex(locator_.cavity(cavity), facets_, d_, face);
+    const auto near = find_near_apex(locator_.cavity(cavity), facets_, d_, face, near_);
+    return search == Search::near ? near : find_apex(locator_.cavity(cavity), facets_, d_, face, near);
   }
 
   Search first_search() const { return Search::near; }
@@ -134,8 +134,9 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 /// The vertices near a face nearly always include its apex, but this is not certain. If the tetrahedra fit together,
 /// they are right: they are positive, share their faces, end at the facets, contain no other vertices, and their inner
 /// faces are locally Delaunay, so they are the constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk
-/// 2008). Where one does not fit, its apex is searched for among all vertices. Tetrahedra that it still contradicts are
-/// taken back, and their apexes are searched for in the same way.
+/// 2008). Where one does not fit, its apex is searched for among all vertices. For the tetrahedra that it still
+/// contradicts, and those on which they rest, this is done too, until one has another apex: it is taken back with all
+/// that rest on it.
 class Front {
  public:
   Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
@@ -148,7 +149,7 @@ class Front {
     finder_bytes_ = finder.bytes();
     while (!undelaunay_.empty() && !result_.stuck) {
       fill_all(finder, progress);
-      if (!result_.stuck) take_back_swallowing();
+      if (!result_.stuck) take_back_swallowing(finder);
     }
   }
 
@@ -251,11 +252,12 @@ class Front {
   }
 
   /// Removes the tetrahedra that contain a vertex that no search has found.
-  void take_back_swallowing() {
+  template <class Finder>
+  void take_back_swallowing(Finder& finder) {
     contradicted_ = find_swallowing(result_.tetrahedra, in_.facets, in_.delaunay);
     if (contradicted_.empty()) return;
     const OrientedFace first = base_of(result_.tetrahedra[contradicted_[0]]);
-    if (!take_back_contradicted()) fail(first, "a tetrahedron of the front contains a vertex");
+    if (!take_back_contradicted(finder)) fail(first, "a tetrahedron of the front contains a vertex");
   }
 
   /// Makes the tetrahedron above a face taken from the front, or removes what conflicts with it.
@@ -274,20 +276,18 @@ class Front {
     // that is wrong or rests on something wrong.
     open(face, state);
     if (state.side == no_side) contradict(face.reversed());
-    if (!take_back_contradicted()) fail(face, problem);
+    if (!take_back_contradicted(finder)) fail(face, problem);
   }
 
-  /// Removes the uncertain tetrahedra on which the contradicted ones rest.
-  /// \return  false if all are certain
-  bool take_back_contradicted() {
-    std::vector<OrientedFace> unsure;
+  /// Removes the wrong tetrahedra on which the contradicted ones rest.
+  /// \return  false if there are none
+  template <class Finder>
+  bool take_back_contradicted(Finder& finder) {
+    std::vector<OrientedFace> wrong;
     for (const std::uint32_t tetrahedron : contradicted_)
-      if (const auto base = first_unsure_base(tetrahedron)) unsure.push_back(*base);
-    for (const OrientedFace& base : unsure) {
-      doubts_.insert(base);
-      take_back(base);
-    }
-    return !unsure.empty();
+      if (const auto base = first_wrong_base(finder, tetrahedron)) wrong.push_back(*base);
+    for (const OrientedFace& base : wrong) take_back(base);
+    return !wrong.empty();
   }
 
   /// Notes the tetrahedron above a face, if there is one.
@@ -300,12 +300,17 @@ class Front {
     return state != nullptr && state->side != no_side;
   }
 
-  /// The base of the tetrahedron, or of the next one on which it rests, for which not all vertices were tried; none if
-  /// it rests on the PLC through certain tetrahedra.
-  std::optional<OrientedFace> first_unsure_base(std::uint32_t tetrahedron) const {
+  /// The base of the tetrahedron, or of the next one on which it rests, that has another apex if all vertices are
+  /// tried; none if it rests on the PLC through certain tetrahedra. To take back those that are merely uncertain would
+  /// be right too. But then all that rests on them would be made again for each of them.
+  template <class Finder>
+  std::optional<OrientedFace> first_wrong_base(Finder& finder, std::uint32_t tetrahedron) {
     for (;;) {
       const OrientedFace base = base_of(result_.tetrahedra[tetrahedron]);
-      if (first_search_ == Search::near && !doubts_.contains(base)) return base;
+      if (first_search_ == Search::near && doubts_.insert(base, {}).second) {
+        std::uint32_t cavity = cavities_[tetrahedron];
+        if (finder.find(base, Search::full, cavity) != result_.tetrahedra[tetrahedron][3]) return base;
+      }
       if (is_of_plc(base)) return std::nullopt;
       tetrahedron = *owners_.find(base.reversed());
     }

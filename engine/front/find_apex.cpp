@@ -81,18 +81,20 @@ class ApexSearch {
         b_(d.vertices[face_[1]]),
         c_(d.vertices[face_[2]]) {}
 
-  std::optional<std::uint32_t> find() {
-    const locate::LocatedVertex any = best([](const locate::LocatedVertex&) { return true; });
+  std::optional<std::uint32_t> find(std::optional<std::uint32_t> seen_before) {
+    if (seen_before)
+      return best(located(*seen_before), [&](const locate::LocatedVertex& v) { return is_visible(v); }).id;
+    const locate::LocatedVertex any = best(nobody, [](const locate::LocatedVertex&) { return true; });
     if (any.id == delaunay::ghost_vertex) return std::nullopt;
     if (is_visible(any)) return any.id;
     const locate::LocatedVertex seen =
-        best([&](const locate::LocatedVertex& v) { return v.id != any.id && is_visible(v); });
+        best(nobody, [&](const locate::LocatedVertex& v) { return v.id != any.id && is_visible(v); });
     if (seen.id == delaunay::ghost_vertex) return std::nullopt;
     return seen.id;
   }
 
   std::optional<std::uint32_t> find_near(NearVertices& near) {
-    locate::LocatedVertex best{{}, 0, delaunay::ghost_vertex};
+    locate::LocatedVertex best = nobody;
     std::vector<Candidate> candidates;
     for (auto vertices = near.of_face(face_);; vertices = near.more(best.id)) {
       const std::uint32_t last = best.id;
@@ -134,17 +136,17 @@ class ApexSearch {
 
   locate::LocatedVertex located(std::uint32_t id) const { return {d_.point(id), d_.vertices[id].rank, id}; }
 
-  /// The vertex above the face with the emptiest sphere among those that satisfy a condition; `ghost_vertex` if
-  /// there is none.
+  /// The vertex above the face with the emptiest sphere among the best so far and those that satisfy a condition;
+  /// `ghost_vertex` if there is none.
   template <class Satisfies>
-  locate::LocatedVertex best(const Satisfies& satisfies) {
+  locate::LocatedVertex best(locate::LocatedVertex best, const Satisfies& satisfies) {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point;
     locate::Cap cap(a, b, c);
-    locate::LocatedVertex best{{}, 0, delaunay::ghost_vertex};
+    if (best.id != delaunay::ghost_vertex) shrink(cap, a, b, c, best.point);
     // Any vertex above the face in a later, smaller sphere is also in the earlier one, so one search suffices.
     locator_.visit_nearest_first(approximate_centroid(a, b, c), cap, [&](const locate::LocatedVertex& v) {
       ++work_done.front_candidates;
-      if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2]) return;
+      if (!cap.may_hold(v.point) || v.id == face_[0] || v.id == face_[1] || v.id == face_[2] || v.id == best.id) return;
       if (!is_above(v.point) || (best.id != delaunay::ghost_vertex && !is_in_sphere(best, v)) || !satisfies(v)) return;
       best = v;
       shrink(cap, a, b, c, v.point);
@@ -167,11 +169,16 @@ class ApexSearch {
   }
 
   bool is_visible(const locate::LocatedVertex& v) {
-    // The triangle that hid the last vertex is likely to hide this one.
-    if (last_occluder_ != none && is_hidden_by(last_occluder_, v)) return false;
+    // The triangles that hid the last vertices are likely to hide this one.
+    for (std::size_t i = 0; i < occluders_.size(); ++i)
+      if (is_hidden_by(occluders_[i], v)) {
+        std::rotate(occluders_.begin(), occluders_.begin() + i, occluders_.begin() + i + 1);
+        return false;
+      }
     return !locator_.any_near_edge(approximate_centroid(a_.point, b_.point, c_.point), v.point, [&](std::uint32_t f) {
       if (!is_hidden_by(f, v)) return false;
-      last_occluder_ = f;
+      if (occluders_.size() == most_occluders) occluders_.pop_back();
+      occluders_.insert(occluders_.begin(), f);
       return true;
     });
   }
@@ -183,22 +190,24 @@ class ApexSearch {
     return hides({&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])}, v.point, a_.point, b_.point, c_.point);
   }
 
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
+  static constexpr locate::LocatedVertex nobody{{}, 0, delaunay::ghost_vertex};
+  static constexpr std::size_t most_occluders = 16;
 
   const Locator& locator_;
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   const std::array<std::uint32_t, 3>& face_;
   const delaunay::DelaunayVertex &a_, &b_, &c_;
-  std::uint32_t last_occluder_ = none;
+  std::vector<std::uint32_t> occluders_;  // the last first
 };
 
 }  // namespace
 
 template <class Locator>
 std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
-                                       const delaunay::Delaunay& delaunay, const OrientedFace& face) {
-  return ApexSearch<Locator>(locator, facets, delaunay, face).find();
+                                       const delaunay::Delaunay& delaunay, const OrientedFace& face,
+                                       std::optional<std::uint32_t> seen_before) {
+  return ApexSearch<Locator>(locator, facets, delaunay, face).find(seen_before);
 }
 
 template <class Locator>
@@ -209,9 +218,11 @@ std::optional<std::uint32_t> find_near_apex(const Locator& locator, const facets
 }
 
 template std::optional<std::uint32_t> find_apex(const locate::GridLocator&, const facets::FacetMesh&,
-                                                const delaunay::Delaunay&, const OrientedFace&);
+                                                const delaunay::Delaunay&, const OrientedFace&,
+                                                std::optional<std::uint32_t>);
 template std::optional<std::uint32_t> find_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
-                                                const delaunay::Delaunay&, const OrientedFace&);
+                                                const delaunay::Delaunay&, const OrientedFace&,
+                                                std::optional<std::uint32_t>);
 template std::optional<std::uint32_t> find_near_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                      const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
 

@@ -33,10 +33,12 @@ struct OrientedFace {
 /// best so far is tested.
 ///
 /// \tparam Locator  `GridLocator` or `OctreeLocator`, of all vertices and faces that may be near
+/// \param seen_before  a vertex above the face that is visible from it, if one is known: only better ones are tested
 /// \return  nothing if no vertex above the face can be seen from it
 template <class Locator>
 std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
-                                       const delaunay::Delaunay& delaunay, const OrientedFace& face);
+                                       const delaunay::Delaunay& delaunay, const OrientedFace& face,
+                                       std::optional<std::uint32_t> seen_before = {});
 
 /// The same among the vertices near the face, and those near the best so far, until none of these is better. The sphere
 /// of a large face may contain thousands of hidden vertices, which this search skips. So the apex is nearly always

@@ -201,7 +201,8 @@ CavityLocator::CavityLocator(const facets::FacetMesh& facets, std::span<const st
   }
   cavities_.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i)
-    cavities_.emplace_back(delaunay.vertices, vertices_of(delaunay, pierced_.cells[i]), facets.triangles, faces[i]);
+    cavities_.emplace_back(delaunay.vertices, vertices_of(delaunay, pierced_.cells[i]), facets.triangles, facets.facet,
+                           faces[i]);
 }
 
 std::uint32_t CavityLocator::cavity_of_cell(std::uint32_t cell) const {

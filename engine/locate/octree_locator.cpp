@@ -1,6 +1,7 @@
 #include "engine/locate/octree_locator.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
@@ -43,6 +44,30 @@ std::vector<Box> boxes_of_faces(std::span<const delaunay::DelaunayVertex> vertic
     boxes.push_back(bounding_box(std::array{vertices[a].point, vertices[b].point, vertices[c].point}));
   }
   return boxes;
+}
+
+/// Facets with this many faces become layers.
+constexpr std::size_t faces_of_layer = 64;
+
+/// Makes the facets with many faces layers.
+///
+/// \return  the other faces
+std::vector<std::uint32_t> take_layers(std::span<const delaunay::DelaunayVertex> vertices,
+                                       std::span<const std::array<VertexId, 3>> faces, std::span<const FacetId> facets,
+                                       std::span<const std::uint32_t> some_faces, std::vector<FacetLayer>& layers) {
+  std::vector<std::uint32_t> others(some_faces.begin(), some_faces.end());
+  if (facets.empty() || some_faces.size() < faces_of_layer) return others;
+  std::vector<std::uint32_t> by_facet = std::exchange(others, {});
+  std::ranges::sort(by_facet, {}, [&](std::uint32_t f) { return std::pair(facets[f], f); });
+  for (auto first = by_facet.begin(); first != by_facet.end();) {
+    const auto last = std::find_if(first, by_facet.end(), [&](std::uint32_t f) { return facets[f] != facets[*first]; });
+    if (static_cast<std::size_t>(last - first) >= faces_of_layer)
+      layers.emplace_back(vertices, faces, std::span(first, last));
+    else
+      others.insert(others.end(), first, last);
+    first = last;
+  }
+  return others;
 }
 
 }  // namespace
@@ -97,23 +122,48 @@ void BoxOctree::split(std::uint32_t node, const std::vector<std::uint64_t>& keys
   }
 }
 
+FaceOctree::FaceOctree(std::span<const delaunay::DelaunayVertex> vertices,
+                       std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces)
+    : tree_(boxes_of_faces(vertices, faces, some_faces), faces_of_leaf) {
+  faces_.reserve(some_faces.size());
+  for (const std::uint32_t i : tree_.order()) faces_.push_back(some_faces[i]);
+  boxes_ = boxes_of_faces(vertices, faces, faces_);
+}
+
+FacetLayer::FacetLayer(std::span<const delaunay::DelaunayVertex> vertices,
+                       std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces)
+    : octree_(vertices, faces, some_faces), origin_(vertices[faces[some_faces[0]][0]].point) {
+  Point3 normal{0, 0, 0};
+  for (const std::uint32_t f : some_faces) {
+    const Point3& a = vertices[faces[f][0]].point;
+    normal = normal + cross(vertices[faces[f][1]].point - a, vertices[faces[f][2]].point - a);
+  }
+  normal_ = (1 / std::sqrt(squared_length(normal))) * normal;
+  for (const std::uint32_t f : some_faces)
+    for (const std::uint32_t v : faces[f]) {
+      low_ = std::min(low_, height(vertices[v].point));
+      high_ = std::max(high_, height(vertices[v].point));
+    }
+  // Covers rounding: of coordinates below 2^53, in three heights and in an end that is moved.
+  constexpr double margin = 64;
+  low_ -= margin, high_ += margin;
+}
+
 OctreeLocator::OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices,
                              std::span<const std::array<VertexId, 3>> faces)
-    : OctreeLocator(vertices, all_indices(vertices.size()), faces, all_indices(faces.size())) {}
+    : OctreeLocator(vertices, all_indices(vertices.size()), faces, {}, all_indices(faces.size())) {}
 
 OctreeLocator::OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices,
                              std::span<const std::uint32_t> some_vertices,
-                             std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces)
+                             std::span<const std::array<VertexId, 3>> faces, std::span<const FacetId> facets,
+                             std::span<const std::uint32_t> some_faces)
     : vertex_tree_(boxes_of_vertices(vertices, some_vertices), vertices_of_leaf),
-      face_tree_(boxes_of_faces(vertices, faces, some_faces), faces_of_leaf) {
+      other_faces_(vertices, faces, take_layers(vertices, faces, facets, some_faces, layers_)) {
   vertices_.reserve(some_vertices.size());
   for (const std::uint32_t i : vertex_tree_.order()) {
     const std::uint32_t v = some_vertices[i];
     vertices_.push_back({vertices[v].point, vertices[v].rank, v});
   }
-  faces_.reserve(some_faces.size());
-  for (const std::uint32_t i : face_tree_.order()) faces_.push_back(some_faces[i]);
-  face_boxes_ = boxes_of_faces(vertices, faces, faces_);
 }
 
 }  // namespace ccdt::locate

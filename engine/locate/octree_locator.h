@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -124,19 +125,81 @@ bool BoxOctree::any_leaf_at(const EdgeProbe& probe, const Visit& visit) const {
   return false;
 }
 
-/// Finds vertices near a face and PLC faces near an edge by two octrees, which adapt to graded density. A few vertices
-/// and faces form a single leaf.
+/// An octree over faces.
+class FaceOctree {
+ public:
+  FaceOctree(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
+             std::span<const std::uint32_t> some_faces);
+
+  std::size_t bytes() const { return tree_.bytes() + bytes_of(faces_, boxes_); }
+
+  /// Calls visit(face) for the faces whose box the probe does not miss until it returns true. \return did some call?
+  template <class Visit>
+  bool any_at(const EdgeProbe& probe, const Visit& visit) const {
+    return tree_.any_leaf_at(probe, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t i = first; i < last; ++i)
+        if (!probe.misses(boxes_[i]) && visit(faces_[i])) return true;
+      return false;
+    });
+  }
+
+ private:
+  BoxOctree tree_;
+  // In the order of the tree.
+  std::vector<std::uint32_t> faces_;
+  std::vector<Box> boxes_;
+};
+
+/// The many faces of one facet, and the space between two planes that encloses them tightly. An edge nearly parallel to
+/// the facet meets the boxes of very many faces if the facet is oblique, but is between the planes only for a short
+/// piece, if at all. Without this, stacks of thin plates, through which such edges run, would take forever.
+class FacetLayer {
+ public:
+  FacetLayer(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
+             std::span<const std::uint32_t> some_faces);
+
+  std::size_t bytes() const { return octree_.bytes(); }
+
+  /// Like that of `OctreeLocator`.
+  template <class Visit>
+  bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const {
+    const double from = height(p), to = height(q);
+    if ((from < low_ && to < low_) || (from > high_ && to > high_)) return false;
+    return octree_.any_at(EdgeProbe(clipped(p, from, q, to), clipped(q, to, p, from)), visit);
+  }
+
+ private:
+  double height(const Point3& p) const { return dot(normal_, p - origin_); }
+
+  /// The end p of the edge pq, moved to where the edge enters the layer.
+  Point3 clipped(const Point3& p, double from, const Point3& q, double to) const {
+    if (from >= low_ && from <= high_) return p;
+    return p + ((from < low_ ? low_ : high_) - from) / (to - from) * (q - p);
+  }
+
+  FaceOctree octree_;
+  Point3 origin_, normal_;
+  double low_ = 0, high_ = 0;  // heights, with a margin
+};
+
+/// Finds vertices near a face and PLC faces near an edge by octrees, which adapt to graded density. A few vertices and
+/// faces form a single leaf.
 class OctreeLocator {
  public:
   /// Of all vertices and all faces.
   OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
 
-  /// Of some vertices and some faces, by their numbers.
+  /// Of some vertices and some faces, by their numbers. Facets with many of the faces become layers.
+  ///
+  /// \param facets  of all faces
   OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::uint32_t> some_vertices,
-                std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces);
+                std::span<const std::array<VertexId, 3>> faces, std::span<const FacetId> facets,
+                std::span<const std::uint32_t> some_faces);
 
   std::size_t bytes() const {
-    return vertex_tree_.bytes() + face_tree_.bytes() + bytes_of(vertices_, faces_, face_boxes_);
+    std::size_t bytes = vertex_tree_.bytes() + bytes_of(vertices_) + other_faces_.bytes();
+    for (const FacetLayer& layer : layers_) bytes += layer.bytes();
+    return bytes;
   }
 
   /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, roughly by increasing
@@ -154,20 +217,15 @@ class OctreeLocator {
   /// \return did some call?
   template <class Visit>
   bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const {
-    const EdgeProbe probe(p, q);
-    return face_tree_.any_leaf_at(probe, [&](std::uint32_t first, std::uint32_t last) {
-      for (std::uint32_t i = first; i < last; ++i)
-        if (!probe.misses(face_boxes_[i]) && visit(faces_[i])) return true;
-      return false;
-    });
+    return other_faces_.any_at(EdgeProbe(p, q), visit) ||
+           std::ranges::any_of(layers_, [&](const FacetLayer& layer) { return layer.any_near_edge(p, q, visit); });
   }
 
  private:
-  BoxOctree vertex_tree_, face_tree_;
-  // In the order of the trees.
-  std::vector<LocatedVertex> vertices_;
-  std::vector<std::uint32_t> faces_;
-  std::vector<Box> face_boxes_;
+  BoxOctree vertex_tree_;
+  std::vector<LocatedVertex> vertices_;  // in the order of the tree
+  std::vector<FacetLayer> layers_;
+  FaceOctree other_faces_;
 };
 
 }  // namespace ccdt::locate

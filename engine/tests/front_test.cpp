@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/mesher.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"
 
@@ -127,6 +128,33 @@ TEST(Front, FillsTheWholeVolumeByItself) {
     const double unit = stages.plc.grid.unit;
     EXPECT_NEAR(sixfold / 6 * unit * unit * unit, inside_volume(stages.plc), 1e-9);
   }
+}
+
+/// Oblique plates on a beam, each of 1e-6 of its length, so that nearly all vertices near a face are behind other
+/// plates.
+plc::InputPlc stack_on_a_beam() {
+  plc::InputPlc stack;
+  const Point3 along{-41, 31, -38}, across{0.59375, 0.796875, 0}, up{-0.484375, 0.359375, 0.796875};
+  for (const double height : {0.0, 0x1p-6, 0x1p-6 + 0x1p-17, 0x1p-6 + 0x1p-16, 0x1p-6 + 0x1p-15}) {
+    const auto first = static_cast<std::uint32_t>(stack.vertices.size());
+    for (const Point3& p : {Point3{0, 0, 0}, along, along + across, across}) stack.vertices.push_back(p + height * up);
+    if (first > 0)
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t next = (k + 1) % 4;
+        stack.polygon_facets.push_back({{{first - 4 + k, first - 4 + next, first + next, first + k}}, {}, 0, 0});
+      }
+    stack.polygon_facets.push_back({{{first, first + 1, first + 2, first + 3}}, {}, 0, 0});
+  }
+  return stack;
+}
+
+TEST(Front, LooksAtFewFacesInAStackOfThinPlates) {
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  options.refine_surface = true;
+  const MeshResult result = mesh_plc(stack_on_a_beam(), options);
+  EXPECT_GT(result.counts.front_tetrahedra, 2000u);
+  EXPECT_LT(result.work.front.visibility_tests, 100 * result.counts.front_tetrahedra);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "engine/base/index_lists.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
@@ -134,7 +135,7 @@ TEST(OctreeLocator, OfSomeFindsTheseAlone) {
   std::vector<std::uint32_t> some_vertices, some_faces;
   for (std::uint32_t v = 0; v < scene.vertices.size(); v += 7) some_vertices.push_back(v);
   for (std::uint32_t f = 0; f < scene.triangles.size(); f += 5) some_faces.push_back(f);
-  const locate::OctreeLocator locator(scene.vertices, some_vertices, scene.triangles, some_faces);
+  const locate::OctreeLocator locator(scene.vertices, some_vertices, scene.triangles, {}, some_faces);
   const locate::Cap cap(scene.corner(0, 0), scene.corner(0, 1), scene.corner(0, 2));
   locator.visit_nearest_first({}, cap, [](const locate::LocatedVertex& v) { EXPECT_EQ(v.id % 7, 0u); });
   int faces = 0;
@@ -157,6 +158,61 @@ TEST(OctreeLocator, OfNothingFindsNothing) {
   locator.visit_nearest_first({}, locate::Cap({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
                               [](const locate::LocatedVertex&) { ADD_FAILURE(); });
   EXPECT_FALSE(locator.any_near_edge({0, 0, 0}, {1, 1, 1}, [](std::uint32_t) { return true; }));
+}
+
+/// Oblique square plates, one above the other at a very small distance, with a facet on each.
+struct Stack : Scene {
+  static constexpr std::uint32_t plates = 6, steps = 20;
+  std::vector<FacetId> facets;
+
+  Stack() : Scene(0, false, 0) {
+    const Point3 along{0.6 * side, 0.8 * side, 0}, across{-0.48 * side, 0.36 * side, 0.8 * side}, up{8000, -6000, 7500};
+    constexpr std::uint32_t row = steps + 1;
+    for (std::uint32_t plate = 0; plate < plates; ++plate) {
+      for (std::uint32_t i = 0; i < row * row; ++i) {
+        const Point3 p =
+            static_cast<double>(plate) * up + (1.0 / steps * (i % row)) * along + (1.0 / steps * (i / row)) * across;
+        vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0, 0});
+      }
+      for (std::uint32_t i = 0; i < steps * steps; ++i) {
+        const std::uint32_t v = plate * row * row + i / steps * row + i % steps;
+        triangles.push_back({VertexId(v), VertexId(v + 1), VertexId(v + row)});
+        triangles.push_back({VertexId(v + 1), VertexId(v + row + 1), VertexId(v + row)});
+      }
+      facets.resize(triangles.size(), FacetId(plate));
+    }
+  }
+};
+
+TEST(OctreeLocator, FindsAllFacesOfFacets) {
+  const Stack stack;
+  expect_faces_of_edges(
+      stack,
+      locate::OctreeLocator(stack.vertices, {}, stack.triangles, stack.facets, all_indices(stack.triangles.size())), 9);
+  for (const bool graded : {false, true}) {
+    const Scene scene(3000, graded, 10);
+    std::vector<FacetId> facets;
+    for (std::uint32_t f = 0; f < scene.triangles.size(); ++f) facets.push_back(FacetId(f % 9 * f % 10));
+    expect_faces_of_edges(
+        scene, locate::OctreeLocator(scene.vertices, {}, scene.triangles, facets, all_indices(scene.triangles.size())),
+        11);
+  }
+}
+
+/// Edges between thin plates meet the boxes of many faces, but only those at their ends can be in the way.
+TEST(OctreeLocator, VisitsFewFacesBetweenThinPlates) {
+  const Stack stack;
+  const locate::OctreeLocator locator(stack.vertices, {}, stack.triangles, stack.facets,
+                                      all_indices(stack.triangles.size()));
+  const std::size_t of_plate = stack.vertices.size() / Stack::plates;
+  std::size_t visits = 0;
+  for (std::size_t i = 0; i < of_plate; ++i)
+    locator.any_near_edge(stack.vertices[2 * of_plate + i].point, stack.vertices[4 * of_plate - 1 - i].point,
+                          [&](std::uint32_t) {
+                            ++visits;
+                            return false;
+                          });
+  EXPECT_LT(visits / of_plate, 20u);
 }
 
 /// With a coarse grid or an octree, few vertices are visited when the cap is small: that is what locators are for.

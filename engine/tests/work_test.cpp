@@ -297,11 +297,11 @@ front.orient3d_filter_failures 4
 front.centroid_filter_failures 1
 front.narrow_evaluations 4
 front.exact_evaluations 4
-front.octree_nodes 233
+front.octree_nodes 191
 front.cells_visited 852
 front.octree_nodes_created 14
 front.front_candidates 142
-front.visibility_tests 142
+front.visibility_tests 129
 front.piercing_tests 161
 front.peak_bytes 8104
 )");
@@ -309,15 +309,15 @@ front.peak_bytes 8104
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 18
-front.centroid_filter_failures 6
-front.narrow_evaluations 18
-front.exact_evaluations 18
-front.octree_nodes 590
+front.orient3d_filter_failures 12
+front.centroid_filter_failures 4
+front.narrow_evaluations 12
+front.exact_evaluations 12
+front.octree_nodes 421
 front.cells_visited 172
 front.octree_nodes_created 31
 front.front_candidates 336
-front.visibility_tests 245
+front.visibility_tests 195
 front.peak_bytes 14560
 )");
   expect_work(work_of_front(LocatorKind::grid, true), R"(
@@ -328,10 +328,10 @@ front.orient3d_filter_failures 48
 front.centroid_filter_failures 16
 front.narrow_evaluations 48
 front.exact_evaluations 48
-front.grid_cells 743
+front.grid_cells 725
 front.cells_visited 172
 front.front_candidates 239
-front.visibility_tests 705
+front.visibility_tests 679
 front.peak_bytes 11864
 )");
 }
@@ -341,15 +341,15 @@ TEST(WorkOfSmallInputs, FrontOverAllFaces) {
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 25
-front.centroid_filter_failures 8
-front.narrow_evaluations 25
-front.exact_evaluations 25
-front.octree_nodes 373
+front.orient3d_filter_failures 13
+front.centroid_filter_failures 4
+front.narrow_evaluations 13
+front.exact_evaluations 13
+front.octree_nodes 249
 front.cells_visited 1560
 front.octree_nodes_created 14
 front.front_candidates 142
-front.visibility_tests 233
+front.visibility_tests 202
 front.piercing_tests 161
 front.peak_bytes 16392
 )");
@@ -357,14 +357,14 @@ front.peak_bytes 16392
 face_check.cells_visited 107
 face_check.faces_tested 172
 face_check.peak_bytes 576
-front.orient3d_filter_failures 51
-front.centroid_filter_failures 16
-front.narrow_evaluations 51
-front.exact_evaluations 51
-front.octree_nodes 1119
+front.orient3d_filter_failures 30
+front.centroid_filter_failures 9
+front.narrow_evaluations 30
+front.exact_evaluations 30
+front.octree_nodes 784
 front.octree_nodes_created 31
 front.front_candidates 660
-front.visibility_tests 447
+front.visibility_tests 361
 front.peak_bytes 16704
 )");
 }
