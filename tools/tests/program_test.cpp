@@ -28,6 +28,11 @@ TEST_F(Program, HelpOfModelListsTheSolids) {
     EXPECT_NE(help.find(solid), std::string::npos) << solid;
 }
 
+TEST_F(Program, LoadsNoLibraryFromTheCurrentFolder) {
+  write("libz.so.1", "no library");
+  EXPECT_EQ(run("--version").exit_code, 0);
+}
+
 TEST_F(Program, WrongUsageExitsWithTwoAndWritesNothing) {
   write("cube.off", cube_off);
   for (const char* arguments :
