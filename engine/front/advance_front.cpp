@@ -134,9 +134,8 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 /// The vertices near a face nearly always include its apex, but this is not certain. If the tetrahedra fit together,
 /// they are right: they are positive, share their faces, end at the facets, contain no other vertices, and their inner
 /// faces are locally Delaunay, so they are the constrained Delaunay tetrahedralization (the Delaunay lemma, Shewchuk
-/// 2008). Where one does not fit, its apex is searched for among all vertices. For the tetrahedra that it still
-/// contradicts, and those on which they rest, this is done too, until one has another apex: it is taken back with all
-/// that rest on it.
+/// 2008). Where one does not fit, its apex is searched for among all vertices. Tetrahedra that it still contradicts are
+/// taken back, and their apexes are searched for in the same way.
 class Front {
  public:
   Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
@@ -279,15 +278,15 @@ class Front {
     if (!take_back_contradicted(finder)) fail(face, problem);
   }
 
-  /// Removes the wrong tetrahedra on which the contradicted ones rest.
-  /// \return  false if there are none
+  /// Removes the uncertain tetrahedra on which the contradicted ones rest.
+  /// \return  false if all are certain
   template <class Finder>
   bool take_back_contradicted(Finder& finder) {
-    std::vector<OrientedFace> wrong;
+    std::vector<OrientedFace> unsure;
     for (const std::uint32_t tetrahedron : contradicted_)
-      if (const auto base = first_wrong_base(finder, tetrahedron)) wrong.push_back(*base);
-    for (const OrientedFace& base : wrong) take_back(base);
-    return !wrong.empty();
+      if (const auto base = first_unsure_base(finder, tetrahedron)) unsure.push_back(*base);
+    for (const OrientedFace& base : unsure) take_back(base);
+    return !unsure.empty();
   }
 
   /// Notes the tetrahedron above a face, if there is one.
@@ -300,20 +299,27 @@ class Front {
     return state != nullptr && state->side != no_side;
   }
 
-  /// The base of the tetrahedron, or of the next one on which it rests, that has another apex if all vertices are
-  /// tried; none if it rests on the PLC through certain tetrahedra. To take back those that are merely uncertain would
-  /// be right too. But then all that rests on them would be made again for each of them.
+  /// The base of the tetrahedron, or of the next one on which it rests, for which not all vertices were tried; none if
+  /// it rests on the PLC through certain tetrahedra.
   template <class Finder>
-  std::optional<OrientedFace> first_wrong_base(Finder& finder, std::uint32_t tetrahedron) {
+  std::optional<OrientedFace> first_unsure_base(Finder& finder, std::uint32_t tetrahedron) {
     for (;;) {
       const OrientedFace base = base_of(result_.tetrahedra[tetrahedron]);
-      if (first_search_ == Search::near && doubts_.insert(base, {}).second) {
-        std::uint32_t cavity = cavities_[tetrahedron];
-        if (finder.find(base, Search::full, cavity) != result_.tetrahedra[tetrahedron][3]) return base;
-      }
+      if (first_search_ == Search::near && doubts_.insert(base, {}).second && !is_confirmed(finder, tetrahedron))
+        return base;
       if (is_of_plc(base)) return std::nullopt;
       tetrahedron = *owners_.find(base.reversed());
     }
+  }
+
+  /// Does a search among all vertices give the tetrahedron again? Only tried where much was taken back: usually it is
+  /// cheaper to take back a right tetrahedron too, but where thousands rest on each, they would all be made again for
+  /// each of those on which they rest.
+  template <class Finder>
+  bool is_confirmed(Finder& finder, std::uint32_t tetrahedron) {
+    const Tetrahedron& t = result_.tetrahedra[tetrahedron];
+    std::uint32_t cavity = cavities_[tetrahedron];
+    return 2 * taken_back_ > result_.tetrahedra.size() && finder.find(base_of(t), Search::full, cavity) == t[3];
   }
 
   /// The reason why the face and the apex do not make a constrained Delaunay tetrahedron with those around them;
@@ -393,6 +399,7 @@ class Front {
   /// \param bases  gains the bases of those that rest on it
   void take_back_alone(std::uint32_t number, std::vector<OrientedFace>& bases) {
     const Tetrahedron t = std::exchange(result_.tetrahedra[number], no_tetrahedron);
+    ++taken_back_;
     for (const OrientedFace& face : faces_of(t)) {
       owners_.erase(owners_.find(face));
       const OrientedFace outer = face.reversed();
@@ -420,6 +427,7 @@ class Front {
   HashSet<OrientedFace, OrientedFaceTraits> doubts_;  // faces above which all vertices are tried
   std::vector<std::uint32_t> cavities_;               // of the tetrahedra
   std::vector<std::uint32_t> contradicted_;
+  std::uint64_t taken_back_ = 0;  // tetrahedra
   FrontResult result_;
   std::size_t finder_bytes_ = 0;
 };
