@@ -50,7 +50,8 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   return true;
 }
 
-/// Sees a cell for the first time. Several threads may do so with a shared cell.
+/// The mark of a cell. Whether the cell is shared is found when it is first seen; several threads may do this at the
+/// same time for a shared cell.
 CCDT_ALWAYS_INLINE InsertionMarks::Cell Insertion::mark_of(std::uint32_t cell) {
   const std::atomic_ref mark(marks_.cells[cell]);
   Mark its = mark.load(std::memory_order_relaxed);

@@ -312,9 +312,9 @@ class Front {
     }
   }
 
-  /// Does a search among all vertices give the tetrahedron again? Only tried where much was taken back: usually it is
-  /// cheaper to take back a right tetrahedron too, but where thousands rest on each, they would all be made again for
-  /// each of those on which they rest.
+  /// Does a search among all vertices give the tetrahedron again? Only tried once much was taken back. Usually it is
+  /// cheaper to take back a right tetrahedron than to search for it. But where thousands rest on each, they would be
+  /// made again and again.
   template <class Finder>
   bool is_confirmed(Finder& finder, std::uint32_t tetrahedron) {
     const Tetrahedron& t = result_.tetrahedra[tetrahedron];

@@ -225,7 +225,7 @@ class OctreeLocator {
   BoxOctree vertex_tree_;
   std::vector<LocatedVertex> vertices_;  // in the order of the tree
   std::vector<FacetLayer> layers_;
-  FaceOctree other_faces_;
+  FaceOctree other_faces_;  // those that became no layers, so it comes after them
 };
 
 }  // namespace ccdt::locate
