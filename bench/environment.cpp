@@ -1,6 +1,6 @@
 #include "bench/environment.h"
 
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
@@ -11,7 +11,6 @@
 #include <boost/version.hpp>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <tuple>
 
@@ -94,33 +93,29 @@ std::map<std::string, std::string> library_versions() {
   return versions;
 }
 
-/// Computes the SHA-256 digest of bytes. If memory runs out, the digest is empty.
+/// Computes the SHA-256 digest of bytes.
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    is_good_ = context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1;
-  }
+  Sha256() { sha256_init(&context_); }
 
   void add(std::string_view bytes) {
-    is_good_ = is_good_ && EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1;
+    sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
   }
 
   std::string digits() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int size = 0;
-    if (!is_good_ || EVP_DigestFinal_ex(context_.get(), digest.data(), &size) != 1) return {};
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest;
+    sha256_digest(&context_, digest.size(), digest.data());
     constexpr std::string_view hex = "0123456789abcdef";
     std::string text;
-    for (unsigned int i = 0; i < size; ++i) {
-      text += hex[digest[i] >> 4];
-      text += hex[digest[i] & 15];
+    for (const std::uint8_t byte : digest) {
+      text += hex[byte >> 4];
+      text += hex[byte & 15];
     }
     return text;
   }
 
  private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-  bool is_good_ = false;
+  sha256_ctx context_;
 };
 
 }  // namespace

@@ -1,9 +1,8 @@
 #include "bench/results/kept_mesh.h"
 
-#include <openssl/evp.h>
+#include <nettle/base64.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -18,11 +17,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the arrays of ccdt.mesh/1 are little-endian");
 
 std::string base64(const std::string& bytes) {
-  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');  // with the zero that OpenSSL appends
-  const int length =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(length));
+  std::string text(BASE64_ENCODE_RAW_LENGTH(bytes.size()), '\0');
+  base64_encode_raw(text.data(), bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
   return text;
 }
 
@@ -37,13 +33,15 @@ std::string deflated(const void* data, std::size_t size) {
 }
 
 std::string from_base64(const std::string& text) {
-  std::string bytes(text.size() / 4 * 3, '\0');
-  const int length =
-      EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
-                      reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
-  if (length < 0) throw std::runtime_error("not in base64");
-  const std::size_t padding = text.size() - std::min(text.size(), text.find_last_not_of('=') + 1);
-  bytes.resize(static_cast<std::size_t>(length) - padding);
+  std::string bytes(BASE64_DECODE_LENGTH(text.size()), '\0');
+  std::size_t length = bytes.size();
+  base64_decode_ctx context;
+  base64_decode_init(&context);
+  if (base64_decode_update(&context, &length, reinterpret_cast<std::uint8_t*>(bytes.data()), text.size(),
+                           text.data()) != 1 ||
+      base64_decode_final(&context) != 1)
+    throw std::runtime_error("not in base64");
+  bytes.resize(length);
   return bytes;
 }
 

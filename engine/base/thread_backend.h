@@ -22,8 +22,17 @@ inline unsigned core_count() {
   return static_cast<unsigned>(tbb::info::default_concurrency());
 }
 
+/// One thread alone does without oneTBB, whose start takes as long as meshing a small part.
+inline thread_local bool is_alone = false;
+
 template <class Run>
 auto run_on(unsigned threads, const Run& run) {
+  struct Restore {
+    bool before = is_alone;
+    ~Restore() { is_alone = before; }
+  } restore;
+  is_alone = threads == 1;
+  if (is_alone) return run();
   // Tests use more threads than there are cores.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::max(threads, core_count()));
   tbb::task_arena arena(static_cast<int>(threads));
@@ -31,16 +40,16 @@ auto run_on(unsigned threads, const Run& run) {
 }
 
 inline unsigned thread_count() {
-  return static_cast<unsigned>(std::max(1, tbb::this_task_arena::max_concurrency()));
+  return is_alone ? 1 : static_cast<unsigned>(std::max(1, tbb::this_task_arena::max_concurrency()));
 }
 
 /// The number of the running thread, below `thread_count()`.
 inline unsigned thread_number() {
-  return static_cast<unsigned>(std::max(0, tbb::this_task_arena::current_thread_index()));
+  return is_alone ? 0 : static_cast<unsigned>(std::max(0, tbb::this_task_arena::current_thread_index()));
 }
 
 inline bool is_canceled() {
-  return tbb::is_current_task_group_canceling();
+  return !is_alone && tbb::is_current_task_group_canceling();
 }
 
 template <class Work>

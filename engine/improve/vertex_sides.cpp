@@ -1,16 +1,15 @@
 #include "engine/improve/vertex_sides.h"
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 
+#include "engine/base/box.h"
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
 
-using numbers::IntegerLanes, numbers::Lanes, numbers::filter::larger, numbers::filter::magnitude,
-    numbers::filter::maximum;
+using numbers::IntegerLanes, numbers::Lanes;
 
 namespace {
 
@@ -22,6 +21,9 @@ CCDT_ALWAYS_INLINE void load_four(const double* values, Lanes& result) {
 
 void VertexSides::load(std::span<const Point3> points) {
   points_.assign(points.begin(), points.end());
+  const Box box = bounding_box(points);
+  const Point3 size = box.high - box.low;
+  error_ = numbers::orient3d_error * size.x * size.y * size.z;
   for (std::size_t i = 0; i < points.size(); ++i) {
     x_[i] = points[i].x;
     y_[i] = points[i].y;
@@ -29,19 +31,16 @@ void VertexSides::load(std::span<const Point3> points) {
   }
 }
 
-/// As `orient3d_filter` finds them, for four vertices at the same time.
-CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Plane& plane, Sides& sides) const {
-  const Point3& normal = plane.normal;
-  const Lanes zero = {}, size_x = zero + plane.size.x, size_y = zero + plane.size.y, size_z = zero + plane.size.z;
+/// As `orient3d_filter` finds them, for four vertices at the same time. One bound of the error, that of the box of all
+/// vertices, leaves few more of them undecided than one for each, and takes a third less time.
+CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Point3& origin, const Point3& normal,
+                                                        Sides& sides) const {
+  const Lanes zero = {}, bound = zero + error_;
   IntegerLanes above = {}, below = {}, bits = {1, 2, 4, 8};
   for (std::size_t i = 0; i < points_.size(); i += 4) {
-    Lanes x, y, z, large_x, large_y, large_z;
+    Lanes x, y, z;
     load_four(&x_[i], x), load_four(&y_[i], y), load_four(&z_[i], z);
-    x -= plane.origin.x, y -= plane.origin.y, z -= plane.origin.z;
-    magnitude(x, large_x), magnitude(y, large_y), magnitude(z, large_z);
-    maximum(large_x, size_x, large_x), maximum(large_y, size_y, large_y), maximum(large_z, size_z, large_z);
-    const Lanes height = normal.x * x + normal.y * y + normal.z * z;
-    const Lanes bound = numbers::orient3d_error * large_x * large_y * large_z;
+    const Lanes height = normal.x * (x - origin.x) + normal.y * (y - origin.y) + normal.z * (z - origin.z);
     above |= (height > bound) & bits;
     below |= (height < -bound) & bits;
     bits <<= 4;
@@ -51,11 +50,10 @@ CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Plane& plane, Side
 }
 
 CCDT_ALWAYS_INLINE Sides VertexSides::find_sides(Corner a, Corner b, Corner c) const {
-  const Point3 &origin = points_[a], u = points_[b] - origin, v = points_[c] - origin;
-  const auto largest = [](double s, double t) { return larger(std::fabs(s), std::fabs(t)); };
+  const Point3& origin = points_[a];
   const CornerSet all = static_cast<CornerSet>((std::uint64_t{1} << points_.size()) - 1);
   Sides sides;
-  find_certain_sides({origin, cross(u, v), {largest(u.x, v.x), largest(u.y, v.y), largest(u.z, v.z)}}, sides);
+  find_certain_sides(origin, cross(points_[b] - origin, points_[c] - origin), sides);
   sides.above &= all, sides.below &= all;
   CornerSet rest = all & ~(sides.above | sides.below | corner_bit(a) | corner_bit(b) | corner_bit(c));
   for (; rest != 0; rest &= rest - 1) {

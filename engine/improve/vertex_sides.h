@@ -41,22 +41,17 @@ class VertexSides {
   bool is_around(const std::array<Corner, 3>& triangle, Corner p, Corner q) const;
 
  private:
-  /// A plane through an origin, for floating point.
-  struct Plane {
-    Point3 origin, normal;
-    Point3 size;  ///< largest magnitudes of the coordinates of its points
-  };
-
   void load(std::span<const Point3> points);
   void find_all();
   Sides find_sides(Corner a, Corner b, Corner c) const;
-  void find_certain_sides(const Plane& plane, Sides& sides) const;
+  void find_certain_sides(const Point3& origin, const Point3& normal, Sides& sides) const;
 
   static std::size_t row(Corner a, Corner b) { return b * (b - std::size_t{1}) / 2 + a; }
   const Sides* of_row(Corner a, Corner b) const { return &sides_[row(a, b) * points_.size()]; }
 
   std::vector<Point3> points_;
   std::array<double, most_vertices> x_{}, y_{}, z_{};
+  double error_ = 0;          // of six volumes in floating point
   std::vector<Sides> sides_;  // in a row for each pair a < b, by the third corner
 };
 
