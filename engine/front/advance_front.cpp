@@ -43,8 +43,10 @@ class WholeModelFinder {
   WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator)
       : facets_(facets), d_(delaunay), locator_(locator) {}
 
+  /// \param region  above the face
   /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
-  std::optional<std::uint32_t> find(const OrientedFace& face, Search /*all*/, std::uint32_t& /*cavity*/) const {
+  std::optional<std::uint32_t> find(const OrientedFace& face, RegionId /*region*/, Search /*all*/,
+                                    std::uint32_t& /*cavity*/) const {
     return find_apex(locator_, facets_, d_, face);
   }
 
@@ -61,20 +63,19 @@ class WholeModelFinder {
   Locator locator_;
 };
 
-/// The same, cavity by cavity.
+/// The same, cavity by cavity and region by region.
 class CavityFinder {
  public:
   /// \param all_faces  may the front hold Delaunay faces, outside of the cavities too?
-  CavityFinder(const facets::FacetMesh& facets, const std::vector<std::uint32_t>& codes, bool all_faces,
-               const delaunay::Delaunay& delaunay, delaunay::CellStar& star, NearVertices& near)
-      : facets_(facets),
-        d_(delaunay),
+  CavityFinder(const FrontInput& input, bool all_faces, delaunay::CellStar& star, NearVertices& near)
+      : facets_(input.facets),
+        d_(input.delaunay),
         star_(star),
         near_(near),
         all_faces_(all_faces),
-        locator_(facets, codes, delaunay, star) {}
+        locator_(input.plc, input.facets, input.codes, input.delaunay, star) {}
 
-  std::optional<std::uint32_t> find(const OrientedFace& face, Search search, std::uint32_t& cavity) {
+  std::optional<std::uint32_t> find(const OrientedFace& face, RegionId region, Search search, std::uint32_t& cavity) {
     if (all_faces_) {
       const auto& [a, b, c] = face.corners;
       if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
@@ -84,8 +85,9 @@ class CavityFinder {
       }
     }
     if (cavity == no_cavity) return std::nullopt;
-    const auto near = find_near_apex(locator_.cavity(cavity), facets_, d_, face, near_);
-    return search == Search::near ? near : find_apex(locator_.cavity(cavity), facets_, d_, face, near);
+    const locate::OctreeLocator& chamber = locator_.chamber(cavity, region);
+    const auto near = find_near_apex(chamber, facets_, d_, face, near_);
+    return search == Search::near ? near : find_apex(chamber, facets_, d_, face, near);
   }
 
   Search first_search() const { return Search::near; }
@@ -263,11 +265,11 @@ class Front {
   template <class Finder>
   void fill(Finder& finder, const OrientedFace& face, State state) {
     const Search first = doubts_.contains(face) ? Search::full : first_search_;
-    auto apex = finder.find(face, first, state.cavity);
+    auto apex = finder.find(face, state.face.region, first, state.cavity);
     const char* problem = problem_of(face, apex, state);
     if (problem != nullptr && first == Search::near) {
       doubts_.insert(face);
-      apex = finder.find(face, Search::full, state.cavity);
+      apex = finder.find(face, state.face.region, Search::full, state.cavity);
       problem = problem_of(face, apex, state);
     }
     if (problem == nullptr) return add_tetrahedron(face, *apex, state);
@@ -319,7 +321,8 @@ class Front {
   bool is_confirmed(Finder& finder, std::uint32_t tetrahedron) {
     const Tetrahedron& t = result_.tetrahedra[tetrahedron];
     std::uint32_t cavity = cavities_[tetrahedron];
-    return 2 * taken_back_ > result_.tetrahedra.size() && finder.find(base_of(t), Search::full, cavity) == t[3];
+    return 2 * taken_back_ > result_.tetrahedra.size() &&
+           finder.find(base_of(t), result_.regions[tetrahedron], Search::full, cavity) == t[3];
   }
 
   /// The reason why the face and the apex do not make a constrained Delaunay tetrahedron with those around them;
@@ -463,7 +466,7 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
       break;
     case locate::LocatorKind::cavity: {
       NearVertices near(facets, codes, delaunay, star);
-      front.advance(CavityFinder(facets, codes, !options.face_protection, delaunay, star, near), progress);
+      front.advance(CavityFinder(in, !options.face_protection, star, near), progress);
       break;
     }
   }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "engine/base/count_work.h"
+#include "engine/base/index_lists.h"
 #include "engine/base/union_find.h"
 #include "engine/numbers/predicates.h"
 
@@ -168,9 +170,57 @@ std::vector<std::uint32_t> vertices_of(const delaunay::Delaunay& d, const std::v
   return vertices;
 }
 
+template <class Condition>
+std::vector<std::uint32_t> only(const std::vector<std::uint32_t>& all, const Condition& condition) {
+  std::vector<std::uint32_t> some;
+  std::ranges::copy_if(all, std::back_inserter(some), condition);
+  return some;
+}
+
+/// The regions of the domain at each face and at each vertex on a facet.
+class RegionsOfDomain {
+ public:
+  RegionsOfDomain(const plc::Plc& plc, const facets::FacetMesh& facets, std::size_t vertex_count)
+      : plc_(plc), facets_(facets) {
+    if (std::ranges::count(plc.regions, true, &plc::Region::inside) < 2) return;
+    of_vertex_ = make_index_lists(vertex_count, [&](const auto& emit) {
+      for (std::uint32_t f = 0; f < facets.triangles.size(); ++f)
+        for (const VertexId v : facets.triangles[f])
+          for (const RegionId region : of_face(f)) emit(v, region);
+    });
+  }
+
+  std::array<RegionId, 2> of_face(std::uint32_t face) const {
+    const plc::Facet& facet = plc_.facets[facets_.facet[face]];
+    return {facet.above, facet.below};
+  }
+
+  /// Those on either side of some of the faces.
+  std::vector<RegionId> at(std::span<const std::uint32_t> faces) const {
+    std::vector<RegionId> regions;
+    for (const std::uint32_t face : faces)
+      for (const RegionId region : of_face(face))
+        if (plc_.regions[region].inside && std::ranges::find(regions, region) == regions.end())
+          regions.push_back(region);
+    return regions;
+  }
+
+  bool is_at_face(RegionId region, std::uint32_t face) const { return std::ranges::count(of_face(face), region) > 0; }
+  /// A vertex on no facet may be in any region.
+  bool may_be_at_vertex(RegionId region, std::uint32_t vertex) const {
+    const auto regions = of_vertex_.of(vertex);
+    return regions.empty() || std::ranges::find(regions, region) != regions.end();
+  }
+
+ private:
+  const plc::Plc& plc_;
+  const facets::FacetMesh& facets_;
+  IndexLists of_vertex_;  // none if there is only one region
+};
+
 }  // namespace
 
-CavityLocator::CavityLocator(const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
+CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                              const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // Delaunay faces that have no code yet
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
@@ -199,10 +249,25 @@ CavityLocator::CavityLocator(const facets::FacetMesh& facets, std::span<const st
       if (codes[i] != delaunay::no_neighbor) add_delaunay_face(i, codes[i]);
     for (const auto& [triangle, code] : found) add_delaunay_face(triangle, code);
   }
-  cavities_.reserve(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    cavities_.emplace_back(delaunay.vertices, vertices_of(delaunay, pierced_.cells[i]), facets.triangles, facets.facet,
-                           faces[i]);
+  const RegionsOfDomain regions(plc, facets, delaunay.vertices.size());
+  cavities_.resize(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const std::vector<std::uint32_t> vertices = vertices_of(delaunay, pierced_.cells[i]);
+    const std::vector<RegionId> here = regions.at(faces[i]);
+    const auto add_chamber = [&](RegionId region, const auto& its_vertices, const auto& its_faces) {
+      cavities_[i].push_back(
+          {region, OctreeLocator(delaunay.vertices, its_vertices, facets.triangles, facets.facet, its_faces)});
+    };
+    if (here.size() == 1) add_chamber(here[0], vertices, faces[i]);
+    if (here.size() < 2) continue;
+    for (const RegionId region : here)
+      add_chamber(region, only(vertices, [&](std::uint32_t v) { return regions.may_be_at_vertex(region, v); }),
+                  only(faces[i], [&](std::uint32_t f) { return regions.is_at_face(region, f); }));
+  }
+}
+
+const OctreeLocator& CavityLocator::chamber(std::uint32_t cavity, RegionId region) const {
+  return std::ranges::find(cavities_[cavity], region, &Chamber::region)->locator;
 }
 
 std::uint32_t CavityLocator::cavity_of_cell(std::uint32_t cell) const {

@@ -30,21 +30,27 @@ struct PiercedCells {
 /// reach p: a contradiction. So p is hidden, and by a face that is missing in this cavity or is a face of its cells.
 /// Vertices outside the sphere of t do no harm, whether hidden or not; and the apex of t is itself a corner of the
 /// cavity, since t is within it. More cells than needed do no harm either.
+///
+/// Nor is anything of another region needed: a line of sight leaves its region only through a face on the region's
+/// boundary. So a cavity has *chambers*, one for each region of the domain in it. Between thin plates, most vertices in
+/// the sphere of a face belong to other regions.
 class CavityLocator {
  public:
   static constexpr std::uint32_t no_cavity = 0xFFFFFFFFu;
 
-  /// \param codes  the Delaunay faces by their codes in the cell above; `no_neighbor` entries are searched again
-  CavityLocator(const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
+  /// \param facets  of the PLC
+  /// \param codes   the Delaunay faces by their codes in the cell above; `no_neighbor` entries are searched again
+  CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                 const delaunay::Delaunay& delaunay, delaunay::CellStar& star);
 
-  /// By its number.
-  const OctreeLocator& cavity(std::uint32_t number) const { return cavities_[number]; }
+  /// The vertices and faces of a cavity that a region of the domain has.
+  const OctreeLocator& chamber(std::uint32_t cavity, RegionId region) const;
   std::size_t cavity_count() const { return cavities_.size(); }
 
   std::size_t bytes() const {
     std::size_t bytes = bytes_of(missing_, triangles_, pierced_.part_of_face) + pierced_.part_of.bytes();
-    for (const OctreeLocator& cavity : cavities_) bytes += cavity.bytes();
+    for (const auto& chambers : cavities_)
+      for (const Chamber& chamber : chambers) bytes += chamber.locator.bytes();
     for (const auto& cells : pierced_.cells) bytes += bytes_of(cells);
     return bytes;
   }
@@ -58,10 +64,15 @@ class CavityLocator {
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }
 
  private:
+  struct Chamber {
+    RegionId region;
+    OctreeLocator locator;
+  };
+
   std::vector<std::uint32_t> missing_;  // ascending
   PiercedCells pierced_;
   std::vector<std::uint32_t> triangles_;
-  std::vector<OctreeLocator> cavities_;
+  std::vector<std::vector<Chamber>> cavities_;
 };
 
 }  // namespace ccdt::locate
