@@ -100,12 +100,14 @@ bool PolyhedronFiller::join_to_vertex() {
 
 /// The quality of the worst tetrahedron between a vertex and the faces; something up to `least` if it is not better.
 double PolyhedronFiller::quality_from(Corner v, double least) const {
+  const auto sees = [&](const Triangle& t) {
+    return is_corner(t, v) || numbers::orient3d(points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > 0;
+  };
+  if (!std::ranges::all_of(hull_, sees)) return least;
   double worst = std::numeric_limits<double>::infinity();
   for (const Triangle& t : hull_) {
     if (is_corner(t, v)) continue;
-    const Point3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]], &d = points_[v];
-    if (numbers::orient3d(a, b, c, d) <= 0) return least;
-    worst = std::min(worst, cell_quality(x_.goal(), a, b, c, d));
+    worst = std::min(worst, cell_quality(x_.goal(), points_[t[0]], points_[t[1]], points_[t[2]], points_[v]));
     if (!(worst > least)) return least;
   }
   return worst;
