@@ -4,30 +4,17 @@
 #include <numeric>
 
 #include "bench/verify/exact.h"
+#include "engine/base/box.h"
 
 namespace ccdt::verify {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-struct Box {
-  Point3 low, high;
-};
-
 Box box_of(const plc::InputPlc& surface, const Triangle& triangle) {
-  const Point3& first = surface.vertices[triangle[0]];
-  Box box{first, first};
-  for (const std::uint32_t v : triangle) {
-    const Point3& p = surface.vertices[v];
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
+  Box box = empty_box;
+  for (const std::uint32_t v : triangle) box = hull(box, ccdt::box_of(surface.vertices[v]));
   return box;
-}
-
-bool meet(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
 /// A triangle in the order that begins with the vertices which it shares with another.
@@ -76,7 +63,7 @@ std::vector<std::array<std::uint32_t, 2>> find_crossings(const plc::InputPlc& su
   std::vector<std::array<std::uint32_t, 2>> crossings;
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].low.x <= boxes[order[i]].high.x; ++j)
-      if (meet(boxes[order[i]], boxes[order[j]]) && cross(surface.triangles[order[i]], surface.triangles[order[j]]))
+      if (boxes[order[i]].meets(boxes[order[j]]) && cross(surface.triangles[order[i]], surface.triangles[order[j]]))
         crossings.push_back({order[i], order[j]});
   return crossings;
 }

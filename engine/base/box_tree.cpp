@@ -6,12 +6,12 @@ namespace ccdt {
 
 namespace {
 
-constexpr std::size_t grain = 4096;  ///< of loops on several threads
+constexpr std::size_t boxes_at_once = 4096;  ///< of loops on several threads
 
 std::vector<std::uint32_t> order_of(const std::vector<Box>& boxes) {
   // Twice the centers; finite boxes of the grid do not overflow.
   RawVector<Point3> centers(boxes.size());
-  parallel_for(boxes.size(), grain, [&](std::size_t i) { centers[i] = boxes[i].low + boxes[i].high; });
+  parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { centers[i] = boxes[i].low + boxes[i].high; });
   return morton_order(centers);
 }
 
@@ -19,16 +19,16 @@ std::vector<std::uint32_t> order_of(const std::vector<Box>& boxes) {
 
 BoxTree::BoxTree(std::vector<Box> boxes) : items_(order_of(boxes)) {
   boxes_.resize(boxes.size());
-  parallel_for(boxes.size(), grain, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
+  parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
   while (std::size_t{leaf_count_} * leaf_size < items_.size()) leaf_count_ *= 2;
   nodes_.resize(std::size_t{leaf_count_} * 2);
-  parallel_for(leaf_count_, grain, [&](std::size_t i) {
+  parallel_for(leaf_count_, boxes_at_once, [&](std::size_t i) {
     const auto leaf = static_cast<std::uint32_t>(leaf_count_ + i);
     Box& all = nodes_[leaf] = empty_box;
     for (auto [place, end] = places_of(leaf); place < end; ++place) all = hull(all, boxes_[place]);
   });
   for (std::size_t level = leaf_count_ / 2; level >= 1; level /= 2)
-    parallel_for(level, grain, [&](std::size_t i) {
+    parallel_for(level, boxes_at_once, [&](std::size_t i) {
       const std::size_t node = level + i;
       nodes_[node] = hull(nodes_[2 * node], nodes_[2 * node + 1]);
     });

@@ -16,13 +16,6 @@ using delaunay::no_neighbor;
 using Numbers = Surrounded<std::uint32_t>;
 using Kinds = Surrounded<std::uint8_t>;
 
-constexpr auto stride = Numbers::stride;
-
-constexpr int corner_offset(unsigned corner) {
-  return static_cast<int>(corner & 1) * stride[0] + static_cast<int>(corner >> 1 & 1) * stride[1] +
-         static_cast<int>(corner >> 2 & 1) * stride[2];
-}
-
 /// The corners of even sum of a unit cube, and those of odd sum: positively oriented.
 constexpr std::array<std::array<std::uint8_t, 4>, 2> tetrahedron_corners = {{{0, 5, 3, 6}, {1, 2, 4, 7}}};
 

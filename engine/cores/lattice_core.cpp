@@ -12,14 +12,6 @@ namespace {
 using Flags = Surrounded<std::uint8_t>;
 using Numbers = Surrounded<std::uint32_t>;
 
-constexpr auto stride = Flags::stride;
-
-/// The offset of a corner of a unit cube from its least corner, by the bits x, y, z of the corner.
-constexpr int corner_offset(unsigned corner) {
-  return static_cast<int>(corner & 1) * stride[0] + static_cast<int>(corner >> 1 & 1) * stride[1] +
-         static_cast<int>(corner >> 2 & 1) * stride[2];
-}
-
 /// Calls visit(index) for the vertices of the shape around a place, until it returns false.
 /// \return  did it return true for all?
 template <class Visit>

@@ -132,13 +132,20 @@ class SiteMap {
   std::vector<Run> runs_;
 };
 
+/// The side of a block with the places around it, and how far apart neighbors are there along x, y and z.
+inline constexpr int surrounded_side = SiteBlock::side + 2;
+inline constexpr std::array<int, 3> stride = {1, surrounded_side, surrounded_side* surrounded_side};
+
+/// The offset of a corner of a unit cube from its least corner, by the bits x, y, z of the corner.
+constexpr int corner_offset(unsigned corner) {
+  return static_cast<int>(corner & 1) * stride[0] + static_cast<int>(corner >> 1 & 1) * stride[1] +
+         static_cast<int>(corner >> 2 & 1) * stride[2];
+}
+
 /// A copy of one array of a block, and of the places around it.
 template <class T>
 class Surrounded {
  public:
-  static constexpr int side = SiteBlock::side + 2;
-  static constexpr std::array<int, 3> stride = {1, side, side* side};
-
   void gather(const SiteBlocks& all, const SiteBlock& block, const std::array<T, SiteBlock::size> SiteBlock::*array,
               T otherwise) {
     int i = 0;
@@ -163,12 +170,12 @@ class Surrounded {
 
   /// The index of a place of the block; neighbors are at it plus or minus the strides.
   static int index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    return static_cast<int>(x + 1 + side * (y + 1 + side * (z + 1)));
+    return static_cast<int>(x + 1 + surrounded_side * (y + 1 + surrounded_side * (z + 1)));
   }
   const T& operator[](int i) const { return values_[static_cast<std::size_t>(i)]; }
 
  private:
-  std::array<T, side * side * side> values_;
+  std::array<T, surrounded_side * surrounded_side * surrounded_side> values_;
 };
 
 /// Calls visit(x, y, z, place in the block, index in its surroundings) for the places of a block.

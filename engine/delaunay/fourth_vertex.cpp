@@ -27,7 +27,6 @@ using Face = std::array<std::uint32_t, 3>;
 using CellIndex = UniformGrid::CellIndex;
 
 constexpr double huge = 100;  // in cells: the spheres of faces at the hull, and of those over narrow gaps
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double sum_of_magnitudes(const Point3& p) {
   return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
@@ -308,7 +307,7 @@ double BlockTops::top(Direction& direction, std::size_t block) const {
   double& top = direction.tops[block];
   if (!std::isnan(top)) return top;
   const GridBlock& b = grid_.blocks[block];
-  double highest = -std::numeric_limits<double>::infinity();
+  double highest = -infinity;
   work_done.grid_cells += static_cast<std::uint64_t>(b.to[0] - b.from[0] + 1) *
                           static_cast<std::uint64_t>(b.to[1] - b.from[1] + 1) *
                           static_cast<std::uint64_t>(b.to[2] - b.from[2] + 1);

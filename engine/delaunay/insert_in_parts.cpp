@@ -20,7 +20,7 @@ constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                                          {{{6, 2, 3}, {-3, 6, 2}, {-2, -3, 6}}}}};
 constexpr std::size_t sample_size = 4096;
 /// More than this many cells per new vertex are rare; then the rest of a part waits.
-constexpr std::size_t cells_of_vertex = 8;
+constexpr std::size_t most_cells_of_vertex = 8;
 constexpr std::size_t report_every = 4096;
 
 }  // namespace
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
 
 std::size_t PartedInsertion::most_cells(std::size_t vertices) {
   // Those of the vertices that are in, and room for those that wait, which are few.
-  return (cells_of_vertex + 1) * vertices + 4 * thread_count() * CellPool::chunk;
+  return (most_cells_of_vertex + 1) * vertices + 4 * thread_count() * CellPool::chunk;
 }
 
 void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis) {
@@ -74,7 +74,7 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   std::vector<std::vector<std::uint32_t>> of_part(start_.size());
   for (const std::uint32_t v : vertices) of_part[part_[v]].push_back(v);
   const std::size_t old = d_.cells.size(), chunk = CellPool::chunk;
-  const std::size_t room = (cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
+  const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
   d_.cells.resize(old + room);
   marks_.cells.resize(old + room);
   parallel_ranges(old, 1 << 16, [&](std::size_t begin, std::size_t end) {

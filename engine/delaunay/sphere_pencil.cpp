@@ -6,7 +6,6 @@ namespace ccdt::delaunay {
 namespace {
 
 constexpr double unit = 0x1p-53;  // of roundings
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Point3 magnitudes(const Point3& p) {
   return {std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};

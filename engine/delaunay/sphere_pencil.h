@@ -12,6 +12,8 @@
 
 namespace ccdt::delaunay {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// A vertex in the searches of the grid.
 struct GridVertex {
   Point3 point;  ///< relative to the low corner of all points, exactly
@@ -68,17 +70,17 @@ class SpherePencil {
   /// The circle through the corners, in their plane.
   struct Circle {
     Point3 center;
-    double radius = std::numeric_limits<double>::infinity();  ///< infinite: not known
-    double error = 0;                                         ///< at most, of center and radius
+    double radius = infinity;  ///< infinite: not known
+    double error = 0;          ///< at most, of center and radius
   };
   const Circle& circle() const { return circle_; }
 
   /// The part of the sphere that is above the face.
   struct Cap {
     Point3 center;  ///< of a ball that holds it
-    double radius = std::numeric_limits<double>::infinity();
+    double radius = infinity;
     /// An upper bound of the height of the sphere's center above the face, at least zero.
-    double lift = std::numeric_limits<double>::infinity();
+    double lift = infinity;
   };
   Cap cap() const;
 

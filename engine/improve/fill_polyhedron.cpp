@@ -12,7 +12,7 @@ namespace ccdt::improve {
 namespace {
 
 /// Nearly all searches that succeed need hardly more steps than there are tetrahedra.
-constexpr int most_steps = 200;
+constexpr int most_search_steps = 200;
 
 /// Calls visit(v) for the vertices of a set.
 template <class Visit>
@@ -149,7 +149,7 @@ bool PolyhedronFiller::search() {
   front_.clear(), saved_front_.clear();
   edges_.fill(0);
   for (const Triangle& t : hull_) add_front(t);
-  steps_left_ = most_steps;
+  steps_left_ = most_search_steps;
   return search_on();
 }
 

@@ -9,8 +9,7 @@
 namespace ccdt::improve {
 namespace {
 
-constexpr std::uint32_t edges_of_cell = 6;
-constexpr std::uint32_t ends_of_edge[edges_of_cell][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+constexpr std::uint32_t ends_of_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 const std::vector<Freedom> nothing_moves;
 
@@ -41,7 +40,7 @@ bool StarLoosener::remove_an_edge(std::uint32_t vertex) {
   vertices_.assign(1, vertex);
   for (const std::uint32_t c : star_) {
     const auto& v = x_.cell(c).vertices;
-    for (std::uint32_t edge = 0; edge < edges_of_cell; ++edge) {
+    for (std::uint32_t edge = 0; edge < std::size(ends_of_edge); ++edge) {
       const auto [from, to] = ends_of_edge[edge];
       if (v[from] != vertex && v[to] != vertex) continue;
       const std::uint32_t other = v[from] == vertex ? v[to] : v[from];

@@ -73,7 +73,7 @@ void write_blocks(const Entities& entities, const std::vector<std::array<std::ui
 }
 
 /// One block of all nodes, in the first volume.
-void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {
+void write_node_block(const std::vector<Point3>& vertices, OutputFile& out) {
   out << "$Nodes\n";
   for (const std::size_t n : {std::size_t{1}, vertices.size(), std::size_t{1}, vertices.size()}) put_size(n, out);
   put_integer(3, out).raw(std::int32_t{1}).raw(std::int32_t{0});
@@ -112,7 +112,7 @@ void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
   for (const Entities* entities : {&curves, &surfaces, &volumes}) write_entities(*entities, box, out);
   out << "\n$EndEntities\n";
 
-  write_nodes(mesh.vertices, out);
+  write_node_block(mesh.vertices, out);
 
   const std::size_t edges = mesh.edges.size(), faces = mesh.faces.size();
   const std::size_t elements = edges + faces + mesh.tetrahedra.size();

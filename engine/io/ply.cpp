@@ -25,7 +25,7 @@ struct Type {
   double (*decode)(const char* bytes, bool big_endian);
 };
 
-constexpr Type types[] = {
+constexpr Type number_types[] = {
     {"char", "int8", 1, false, decode<std::int8_t>},    {"uchar", "uint8", 1, false, decode<std::uint8_t>},
     {"short", "int16", 2, false, decode<std::int16_t>}, {"ushort", "uint16", 2, false, decode<std::uint16_t>},
     {"int", "int32", 4, false, decode<std::int32_t>},   {"uint", "uint32", 4, false, decode<std::uint32_t>},
@@ -57,7 +57,7 @@ struct Header {
 
 const Type* read_type(TextScanner& in) {
   const std::string_view name = in.word("header");
-  for (const Type& type : types)
+  for (const Type& type : number_types)
     if (name == type.name || name == type.alias) return &type;
   in.fail("header", "unknown type " + in_quotes(name));
 }

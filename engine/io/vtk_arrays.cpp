@@ -58,17 +58,17 @@ StoredNumbers<Value> stored(std::span<const Value> values) {
   return numbers;
 }
 
-std::string_view attribute_of(pugi::xml_node node, const char* name) {
+std::string_view xml_attribute(pugi::xml_node node, const char* name) {
   return node.attribute(name).value();
 }
 
 std::string name_of(pugi::xml_node array) {
-  const std::string_view name = attribute_of(array, "Name");
+  const std::string_view name = xml_attribute(array, "Name");
   return "array " + in_quotes(name.empty() ? array.parent().name() : name);
 }
 
 bool is_appended(pugi::xml_node array) {
-  return attribute_of(array, "format") == "appended";
+  return xml_attribute(array, "format") == "appended";
 }
 
 }  // namespace
@@ -83,8 +83,8 @@ VtkArrays::VtkArrays(const FileBytes& file) : file_(file) {
   if (piece_.next_sibling("Piece"))
     fail(static_cast<std::size_t>(piece_.next_sibling("Piece").offset_debug()), "it has several pieces",
          "merge the pieces into one file");
-  big_endian_ = attribute_of(header_, "byte_order") == "BigEndian";
-  length_size_ = attribute_of(header_, "header_type") == "UInt64" ? 8 : 4;
+  big_endian_ = xml_attribute(header_, "byte_order") == "BigEndian";
+  length_size_ = xml_attribute(header_, "header_type") == "UInt64" ? 8 : 4;
 }
 
 /// Parses the XML up to the appended data.
@@ -110,14 +110,14 @@ void VtkArrays::load_outline() {
 }
 
 void VtkArrays::check_header() const {
-  if (attribute_of(header_, "type") != "UnstructuredGrid")
+  if (xml_attribute(header_, "type") != "UnstructuredGrid")
     fail(0, "this is not a VTK XML unstructured grid", outline_remedy);
 }
 
 VtkArrays::Array VtkArrays::find(const char* parent, std::string_view name) const {
   for (const pugi::xml_node place : {piece_, piece_.parent()})
     for (const Array array : place.child(parent).children("DataArray"))
-      if (name.empty() || attribute_of(array, "Name") == name) return array;
+      if (name.empty() || xml_attribute(array, "Name") == name) return array;
   return {};
 }
 
@@ -128,7 +128,7 @@ VtkArrays::Array VtkArrays::required(const char* parent, std::string_view name) 
 }
 
 std::size_t VtkArrays::claimed(const char* name) const {
-  const std::string_view text = attribute_of(piece_, name);
+  const std::string_view text = xml_attribute(piece_, name);
   const std::optional<std::uint32_t> count = parse_whole<std::uint32_t>(text);
   if (!count) fail(0, name + (" is " + in_quotes(text)) + ", not a number below 2^32");
   return *count;
@@ -137,14 +137,14 @@ std::size_t VtkArrays::claimed(const char* name) const {
 void VtkArrays::check_size(Array array, std::size_t found, std::size_t due) const {
   if (found != due)
     fail(begin_of(array),
-         "array " + in_quotes(attribute_of(array, "Name")) + " has " + std::to_string(found) + " values, not " +
+         "array " + in_quotes(xml_attribute(array, "Name")) + " has " + std::to_string(found) + " values, not " +
              std::to_string(due),
          "the file is damaged: export it again");
 }
 
 template <class Value>
 StoredNumbers<Value> VtkArrays::read(Array array) const {
-  const std::string_view type = attribute_of(array, "type"), format = attribute_of(array, "format");
+  const std::string_view type = xml_attribute(array, "type"), format = xml_attribute(array, "format");
   if (format.empty() || format == "ascii") {
     std::vector<Value> values;
     const std::string_view text = text_of(array);
@@ -180,7 +180,7 @@ std::size_t VtkArrays::begin_of(Array array) const {
 }
 
 std::size_t VtkArrays::appended_begin(Array array) const {
-  const std::string_view offset = attribute_of(array, "offset");
+  const std::string_view offset = xml_attribute(array, "offset");
   const std::optional<std::uint64_t> value = parse_whole<std::uint64_t>(offset);
   if (!value || *value > appended_end_ - appended_begin_)
     fail(begin_of(array), name_of(array) + ": its offset " + in_quotes(offset) + " is not within the appended data");
@@ -201,14 +201,14 @@ std::string_view VtkArrays::encoded_bytes(Array array) const {
 }
 
 RawVector<char> VtkArrays::bytes_of(Array array) const {
-  const std::string_view compressor = attribute_of(header_, "compressor");
+  const std::string_view compressor = xml_attribute(header_, "compressor");
   if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
     fail(0, "its data are compressed by " + in_quotes(compressor) + ", which is not supported",
          "export the file again, compressed by zlib or not compressed");
   const std::string_view encoded = encoded_bytes(array);
   std::string decoded;
   std::string_view bytes = encoded;
-  if (!is_appended(array) || attribute_of(appended_, "encoding") != "raw") {
+  if (!is_appended(array) || xml_attribute(appended_, "encoding") != "raw") {
     std::optional<std::string> binary = decode_base64(encoded);
     if (!binary) fail(begin_of(array), name_of(array) + " is not valid base64");
     decoded = std::move(*binary);

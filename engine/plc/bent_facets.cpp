@@ -21,7 +21,7 @@ namespace {
 /// The search takes n^4 steps.
 constexpr std::size_t most_corners = 64;
 
-using Triangle = std::array<std::uint32_t, 3>;
+using TriangleCorners = std::array<std::uint32_t, 3>;
 
 /// The defects of a triangulation, the worst first.
 struct Cost {
@@ -69,14 +69,14 @@ class LeastBending {
         }
   }
 
-  std::vector<Triangle> find() {
+  std::vector<TriangleCorners> find() {
     for (std::uint32_t width = 2; width < n_; ++width)
       for (std::uint32_t i = 0; i + width < n_; ++i)
         for (std::uint32_t k = i + 1; k < i + width; ++k) {
           const std::size_t t = at(i, k, i + width);
           best_[t] = own_[t] + best_part(i, k, t).first + best_part(k, i + width, t).first;
         }
-    std::vector<Triangle> triangles;
+    std::vector<TriangleCorners> triangles;
     collect(0, n_ - 1, best_apex(0, n_ - 1, {}).second, triangles);
     return triangles;
   }
@@ -102,7 +102,7 @@ class LeastBending {
     return best;
   }
 
-  void collect(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::vector<Triangle>& triangles) const {
+  void collect(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::vector<TriangleCorners>& triangles) const {
     triangles.push_back({i, k, j});
     const std::size_t t = at(i, k, j);
     if (k > i + 1) collect(i, k, best_part(i, k, t).second, triangles);
@@ -212,7 +212,7 @@ class BentFacets {
     }
   }
 
-  void add(const Triangle& corners, int marker, std::uint32_t number) {
+  void add(const TriangleCorners& corners, int marker, std::uint32_t number) {
     const std::size_t count = input_.triangles.size();
     if (input_.triangle_numbers.empty()) {
       input_.triangle_numbers.resize(count);

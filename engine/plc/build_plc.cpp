@@ -22,7 +22,7 @@ namespace ccdt::plc {
 namespace {
 
 constexpr std::string_view stage = "plc";
-constexpr std::uint64_t steps = 5;
+constexpr std::uint64_t steps_of_build = 5;
 constexpr std::size_t most_overlaps = 1000;
 
 void check_facets_exist(const InputPlc& input) {
@@ -112,7 +112,7 @@ std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatch
 }  // namespace
 
 UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const Progress& progress) {
-  report(progress, stage, 0, steps);
+  report(progress, stage, 0, steps_of_build);
   check_facets_exist(input);
   UncheckedPlc gathered;
   auto& [plc, triangles, segments] = gathered;
@@ -126,7 +126,7 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const 
   if (drop_triangles_without_area(plc.vertices, triangles) > 0 && triangles.size() == 0)
     throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
   check_duplicate_triangles(plc, triangles);
-  report(progress, stage, 1, steps);
+  report(progress, stage, 1, steps_of_build);
   return gathered;
 }
 
@@ -141,10 +141,10 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
 
-  report(progress, stage, 2, steps);
+  report(progress, stage, 2, steps_of_build);
   patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
 
-  report(progress, stage, 3, steps);
+  report(progress, stage, 3, steps_of_build);
   const auto covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges, 1);
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
@@ -154,7 +154,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
                    find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, most_overlaps));
   }
 
-  report(progress, stage, 4, steps);
+  report(progress, stage, 4, steps_of_build);
   RegionMap map = find_regions(input, plc, parts, std::move(boxes), tree);
   note_bytes(bytes_of(plc.world, plc.vertices, triangles.corners, triangles.markers, triangles.numbers, segments.ends,
                       edges.ends, patches.facet_of, map.of_side) +
@@ -162,7 +162,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
   plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
   plc.regions = std::move(map.regions);
-  report(progress, stage, steps, steps);
+  report(progress, stage, steps_of_build, steps_of_build);
   return plc;
 }
 

@@ -81,8 +81,6 @@ bool on_one_side(const std::array<int, 3>& s) {
   return (s[0] == s[1] && s[1] == s[2] && s[0] != 0);
 }
 
-using Between = Overlap::Between;
-
 // The corners turned so that the given one is the first.
 VertexTriple from_corner(const VertexTriple& c, VertexId v) {
   return c[0] == v ? c : c[1] == v ? VertexTriple{c[1], c[2], c[0]} : VertexTriple{c[2], c[0], c[1]};
@@ -138,7 +136,7 @@ std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const Trian
     if (one_facet && last.facet != facet) last = {facet, dominant_axis(points_of(vertices, s))};
     if (const auto contact = meet(vertices, s, t, one_facet ? last.axis : -1)) {
       const bool covering = contact->coplanar && are_coplanar(points_of(vertices, s), points_of(vertices, t));
-      found.push_back({covering ? Between::covering_facets : Between::facets, i, j, contact->where});
+      found.push_back({covering ? Overlap::Between::covering_facets : Overlap::Between::facets, i, j, contact->where});
     }
   };
   std::vector<Overlap> all = parallel_collect<Overlap>(
@@ -161,14 +159,14 @@ std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, con
     tree.for_each_meeting(boxes.back(), [&](std::uint32_t t) {
       if (found.size() >= limit) return;
       if (const auto contact = meet_loose(vertices, ends, triangles.corners[t]))
-        found.push_back({Between::facet_and_segment, t, s, contact->where});
+        found.push_back({Overlap::Between::facet_and_segment, t, s, contact->where});
     });
   }
   BoxTree(std::move(boxes)).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
     const auto &a = segments.ends[loose[i]], &b = segments.ends[loose[j]];
     if (found.size() >= limit || share_end(a, b)) return;
     if (const auto contact = meet_segments(vertices[a[0]], vertices[a[1]], vertices[b[0]], vertices[b[1]]))
-      found.push_back({Between::segments, loose[i], loose[j], contact->where});
+      found.push_back({Overlap::Between::segments, loose[i], loose[j], contact->where});
   });
   return found;
 }

@@ -18,7 +18,7 @@ namespace {
 
 using VeryWide = boost::multiprecision::int256_t;
 
-constexpr std::size_t grain = 4096;  // of loops on several threads
+constexpr std::size_t edges_at_once = 4096;  // in loops on several threads
 
 IntegerPoint six_times(const Point3& p) {
   const IntegerPoint q = to_integers(p);
@@ -165,7 +165,7 @@ std::uint32_t side(std::uint32_t triangle, bool above) {
 // upper side if the triangle runs along the edge that way; the sector before it is on the other.
 void join_through_sectors(const TriangleSet& triangles, const EdgeTable& edges, const FacetPatches& facets,
                           SharedUnionFind& sides) {
-  parallel_for(edges.size(), grain, [&](std::size_t i) {
+  parallel_for(edges.size(), edges_at_once, [&](std::size_t i) {
     const auto e = static_cast<std::uint32_t>(i);
     const auto around = edges.around(e);
     if (facets.is_inner_edge[e]) {  // oriented alike; a tiny fold between them does not matter
@@ -183,7 +183,7 @@ void join_through_sectors(const TriangleSet& triangles, const EdgeTable& edges, 
 
 SharedUnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
   SharedUnionFind components(triangles.size());
-  parallel_for(edges.size(), grain, [&](std::size_t i) {
+  parallel_for(edges.size(), edges_at_once, [&](std::size_t i) {
     const auto around = edges.around(static_cast<std::uint32_t>(i));
     for (const std::uint32_t t : around) components.join(around[0], t);
   });

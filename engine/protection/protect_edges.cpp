@@ -13,8 +13,6 @@
 namespace ccdt::protection {
 namespace {
 
-constexpr std::uint32_t whole = whole_segment;
-
 /// The pieces that are no edges, in the order of their segments. Most pieces are edges.
 std::vector<std::uint64_t> find_missing(const ProtectedDelaunay& state) {
   return parallel_collect<std::uint64_t>(
@@ -100,7 +98,7 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
   result.chains.resize(plc.segments.size());
   parallel_for(plc.segments.size(), 4096, [&](std::size_t i) {
     const auto [a, b] = plc.segments[i].ends;
-    result.chains[i] = {{a, 0}, {b, whole}};
+    result.chains[i] = {{a, 0}, {b, whole_segment}};
   });
   return result;
 }

@@ -10,7 +10,6 @@
 namespace ccdt::protection {
 namespace {
 
-constexpr std::uint32_t whole = whole_segment;
 constexpr std::uint32_t no_segment = 0xFFFFFFFFu;
 
 /// From this level on, a piece is not split close to its ends. Levels of 4, 8 and 12 cost about the same number of
@@ -49,17 +48,17 @@ double distance_of_round_plane(const Point3& origin, const Point3& direction, do
 /// The least fraction of a segment whose multiples are on the grid. The coordinates of its ends are multiples of 2^20,
 /// and in regular shapes of greater powers of two.
 std::uint32_t finest_step(const Point3& along) {
-  int zeros = std::countr_zero(whole);
+  int zeros = std::countr_zero(whole_segment);
   for (const double part : as_array(along))
     if (part != 0) zeros = std::min(zeros, std::countr_zero(static_cast<std::uint64_t>(std::fabs(part))));
-  return whole >> zeros;
+  return whole_segment >> zeros;
 }
 
 Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
   const Point3& a = plc.vertices[plc.segments[segment].ends[0]];
   const Point3& b = plc.vertices[plc.segments[segment].ends[1]];
   // Exact, as the fraction is a multiple of `finest_step`.
-  return a + fraction * ((1.0 / whole) * (b - a));
+  return a + fraction * ((1.0 / whole_segment) * (b - a));
 }
 
 /// More than any real part needed (six splits per vertex). So segments that would split each other forever are refused
@@ -121,7 +120,7 @@ std::uint32_t EdgeSplitter::step_of(std::uint32_t segment) const {
 /// of these serves its purpose, in smaller ones, as far as the segment allows.
 std::uint32_t EdgeSplitter::fraction_near(const Subsegment& piece, const SplitPlace& place) const {
   const auto& ends = plc_.segments[piece.segment].ends;
-  const double unit = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0]))) / whole;
+  const double unit = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0]))) / whole_segment;
   const std::uint32_t finest = step_of(piece.segment);
   for (std::uint32_t step = usual_step;; step /= 2) {
     const std::uint32_t first = (piece.from.fraction / step + 1) * step, last = (piece.to.fraction - 1) / step * step;
@@ -172,13 +171,13 @@ SplitPlace EdgeSplitter::split_place(const Subsegment& piece, std::uint32_t encr
   const auto& ends = plc_.segments[piece.segment].ends;
   const Point3 &first = d_.point(ends[0]), &p = d_.point(encroaching);
   const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
-  const double from = length * piece.from.fraction / whole, to = length * piece.to.fraction / whole;
+  const double from = length * piece.from.fraction / whole_segment, to = length * piece.to.fraction / whole_segment;
   const std::uint32_t other =
       encroaching < plc_.vertices.size() ? no_segment : segment_of_[encroaching - plc_.vertices.size()];
   if (other != no_segment) {
     // The vertex is on a segment that meets this one. The split is on its shell, so that the two do not split each
     // other forever.
-    const double margin = length * std::min(usual_step, (piece.to.fraction - piece.from.fraction) / 2) / whole;
+    const double margin = length * std::min(usual_step, (piece.to.fraction - piece.from.fraction) / 2) / whole_segment;
     const auto& others = plc_.segments[other].ends;
     for (int i = 0; i < 2; ++i) {
       if (ends[i] != others[0] && ends[i] != others[1]) continue;

@@ -21,7 +21,7 @@ constexpr double small_angle = 0.25;
 /// Unit vectors nearer than the first are surely at a smaller angle, those farther than the second at a larger one.
 constexpr double surely_small = 0.5176, surely_large = 0.5177;
 
-constexpr std::uint32_t most_in_leaf = 8;
+constexpr std::uint32_t most_spokes_in_leaf = 8;
 
 /// The distance for two segments; 0 if the angle is not small.
 double distance_of(const Spoke& s, const Spoke& t) {
@@ -68,7 +68,7 @@ class FanSearch {
     for (std::uint32_t i = begin + 1; node.is_one_fan && i < end; ++i) join(order_[begin], order_[i], 0);
     const auto number = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back(node);
-    if (end - begin > most_in_leaf) {
+    if (end - begin > most_spokes_in_leaf) {
       const std::uint32_t middle = halve(node);
       const std::uint32_t first = add_node(begin, middle), second = add_node(middle, end);
       nodes_[number].children = {first, second};

@@ -18,7 +18,7 @@ constexpr std::uint32_t most_in_leaf = 32;
 constexpr double least_side = 0.5;
 
 /// Thin places are found for up to this times the allowed tetrahedra, because their number is only an estimate then.
-constexpr double most_excess = 4;
+constexpr double excess_of_estimate = 4;
 
 std::vector<SizedPoint> in_morton_order(const std::vector<SizedPoint>& places) {
   std::vector<Point3> points;
@@ -36,7 +36,7 @@ SurfaceSizes::SurfaceSizes(const plc::Plc& plc, const RefineOptions& options)
     : largest_(options.edge_length),
       grading_(options.grading),
       box_(bounding_box(plc.vertices)),
-      found_(find_thin_places(plc, options.edge_length, most_excess * options.most_tetrahedra)) {
+      found_(find_thin_places(plc, options.edge_length, excess_of_estimate * options.most_tetrahedra)) {
   limit_from_below(0);
 }
 

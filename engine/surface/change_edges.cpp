@@ -13,8 +13,6 @@
 namespace ccdt::surface {
 namespace {
 
-constexpr std::uint32_t none = WorkingMesh::none;
-
 // Edges are split above and collapsed below these multiples of the wanted length (Botsch and Kobbelt 2004).
 constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
 

@@ -12,8 +12,6 @@
 namespace ccdt::surface {
 namespace {
 
-constexpr std::uint32_t none = 0xFFFFFFFFu;
-
 class Chainer {
  public:
   Chainer(const OriginalSurface& surface, double sharp_angle)

@@ -11,8 +11,6 @@
 namespace ccdt::surface {
 namespace {
 
-constexpr std::uint32_t none = WorkingMesh::none;
-
 // A possible position of a vertex, with properties of the original surface there.
 struct Spot {
   Point3 point;

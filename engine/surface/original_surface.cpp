@@ -20,8 +20,6 @@ namespace ccdt::surface {
 
 namespace {
 
-constexpr std::uint32_t none = 0xFFFFFFFFu;
-
 using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key
 
 std::uint32_t corner_at(const plc::VertexTriple& corners, std::uint32_t point) {

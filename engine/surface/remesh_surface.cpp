@@ -90,7 +90,7 @@ bool improve_triangle(WorkingMesh& m, FaceHandle f) {
 std::vector<FaceHandle> triangles_near(const WorkingMesh& m, FaceHandle f) {
   std::vector<VertexHandle> near;
   const auto add = [&](VertexHandle v) {
-    if (m.at(v).knot == WorkingMesh::none) {
+    if (m.at(v).knot == none) {
       near.push_back(v);
     } else {
       near.insert(near.end(), m.knots[m.at(v).knot].copies.begin(), m.knots[m.at(v).knot].copies.end());

@@ -30,7 +30,6 @@ double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
   return std::min({std::max(edge, least), usual, whole});
 }
 
-constexpr std::uint32_t none = WorkingMesh::none;
 constexpr double most_ratio = 2;       // of the wanted length to the shortest edge of a vertex
 constexpr double most_turn = 0.42;     // radians, of the normals along an edge
 constexpr double width_ratio = 1.15;   // of edges along a strip to its width: equilateral triangles fill it

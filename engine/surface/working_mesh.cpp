@@ -9,8 +9,6 @@
 namespace ccdt::surface {
 namespace {
 
-constexpr std::uint32_t none = WorkingMesh::none;
-
 // Adds the knots. Returns that of each point; `none` for points inside one patch that may move.
 std::vector<std::uint32_t> add_knots(WorkingMesh& m) {
   const OriginalSurface& original = m.original;

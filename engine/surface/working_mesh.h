@@ -105,8 +105,6 @@ using FaceHandle = HalfedgeMesh::FaceHandle;
 /// move. Knots are joined by links, the edges along the features, which may have any number of copies, even none if a
 /// segment is in no facet.
 struct WorkingMesh {
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
-
   /// The data of a vertex of the halfedge mesh.
   struct Vertex {
     std::uint32_t knot = none;

@@ -12,10 +12,6 @@
 namespace ccdt::test {
 namespace {
 
-lattice::DomainSurface surface_of(const Shape& shape) {
-  return {shape.vertices, shape.triangles, shape.subsegments};
-}
-
 lattice::Octree octree_of(const Shape& shape, double edge_length, double grading) {
   const lattice::DomainSurface surface = surface_of(shape);
   return lattice::build_octree(surface, lattice::SizeField(surface, edge_length, grading), lattice::Lattice::fcc);

@@ -14,8 +14,6 @@
 namespace ccdt::test {
 namespace {
 
-constexpr lattice::Lattice lattices[] = {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc};
-
 bool before(const Point3& a, const Point3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }

@@ -25,6 +25,12 @@ struct Shape {
   }
 };
 
+inline constexpr std::array lattices = {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc};
+
+inline lattice::DomainSurface surface_of(const Shape& shape) {
+  return {shape.vertices, shape.triangles, shape.subsegments};
+}
+
 /// Puts vertices on the dyadic grid.
 inline void put_on_grid(Shape& shape) {
   const numbers::DyadicGrid grid = numbers::make_grid(shape.vertices);

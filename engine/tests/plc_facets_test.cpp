@@ -14,8 +14,6 @@ namespace {
 
 using namespace plc_test;
 
-const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
-
 void expect_valid(const plc::Plc& plc) {
   std::set<std::array<std::uint32_t, 2>> ends = segment_ends(plc);
   EXPECT_EQ(ends.size(), plc.segments.size()) << "a segment is there twice";

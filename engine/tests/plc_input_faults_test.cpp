@@ -12,8 +12,6 @@ namespace {
 
 using namespace plc_test;
 
-const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
-
 struct InputFault {
   bool is_found = false;
   Place place = {};

@@ -14,8 +14,6 @@ using namespace plc_test;
 
 using Polygon = std::vector<std::uint32_t>;
 
-const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
-
 plc::PolygonFacet facet(std::vector<Polygon> polygons, std::uint32_t number) {
   plc::PolygonFacet f;
   f.polygons = std::move(polygons);

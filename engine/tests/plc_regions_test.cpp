@@ -13,8 +13,6 @@ using namespace plc_test;
 
 using Inside = plc::InputPlc::Inside;
 
-const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
-
 std::vector<double> inside_volumes(const plc::Plc& plc) {
   std::vector<double> volumes;
   for (std::uint32_t c = 0; c < plc.regions.size(); ++c)

@@ -121,6 +121,8 @@ inline Matrix rotation(double w, double x, double y, double z) {
            {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
 }
 
+inline const Matrix arbitrary = rotation(0.31, -0.74, 0.52, 0.29);
+
 inline Point3 rotated(const Matrix& m, const Point3& p) {
   const auto row = [&](int i) { return m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z; };
   return {row(0), row(1), row(2)};

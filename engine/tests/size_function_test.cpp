@@ -16,12 +16,6 @@
 namespace ccdt::test {
 namespace {
 
-constexpr std::array lattices = {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc};
-
-lattice::DomainSurface surface_of(const Shape& shape) {
-  return {shape.vertices, shape.triangles, shape.subsegments};
-}
-
 /// A cube of n^3 small cubes, of six tetrahedra each, around [-half, half]^3.
 template <class Size>
 lattice::BackgroundSizes background_cube(int n, double half, const Size& size_at) {
