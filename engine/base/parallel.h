@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
+#include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,7 +23,15 @@ namespace ccdt {
 /// \return  what `run` returns
 template <class Run>
 auto with_threads(unsigned threads, const Run& run) {
-  return thread_backend::run_on(threads == 0 ? thread_backend::core_count() : threads, run);
+  using Result = decltype(run());
+  if (threads == 0) threads = thread_backend::core_count();
+  if constexpr (std::is_void_v<Result>) {
+    thread_backend::run_on(threads, std::cref(run));
+  } else {
+    std::optional<Result> result;
+    thread_backend::run_on(threads, [&] { result.emplace(run()); });
+    return *std::move(result);
+  }
 }
 
 /// How many threads the loops of the calling thread use.
