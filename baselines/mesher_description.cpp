@@ -11,8 +11,8 @@
 namespace ccdt::baselines {
 namespace {
 
-using Json = nlohmann::ordered_json;  // choices and files keep their order
-using Pointer = Json::json_pointer;
+using OrderedJson = nlohmann::ordered_json;  // choices and files keep their order
+using Pointer = OrderedJson::json_pointer;
 
 constexpr UserFile description_file = {"the description of a mesher", mesher_schema,
                                        "; baselines/described has examples"};
@@ -24,7 +24,7 @@ constexpr std::string_view placeholder_letters = "abcdefghijklmnopqrstuvwxyz_";
 
 /// Checks all texts in a part of the description.
 /// \throw InputError  a placeholder is not known
-void check_placeholders(const Json& part, const Pointer& at, const std::vector<std::string>& known,
+void check_placeholders(const OrderedJson& part, const Pointer& at, const std::vector<std::string>& known,
                         const std::string& file) {
   if (part.is_structured())
     for (const auto& [name, value] : part.items()) check_placeholders(value, at / name, known, file);
@@ -34,7 +34,7 @@ void check_placeholders(const Json& part, const Pointer& at, const std::vector<s
       fail(file, at, "there is no placeholder {" + name + "}", "known are " + listed(known));
 }
 
-void check_all_placeholders(const Json& json, const std::string& file) {
+void check_all_placeholders(const OrderedJson& json, const std::string& file) {
   std::vector<std::string> known = {"input", "stem", "folder", "here", "edge_length", "max_volume"};
   const auto check = [&](const char* member, const std::vector<std::string>& names) {
     if (json.contains(member)) check_placeholders(json.at(member), Pointer() / member, names, file);
@@ -46,7 +46,7 @@ void check_all_placeholders(const Json& json, const std::string& file) {
   for (const char* member : {"command", "output", "files", "environment"}) check(member, known);
 }
 
-std::string pattern(const Json& json, const char* member, const std::string& file) {
+std::string pattern(const OrderedJson& json, const char* member, const std::string& file) {
   std::string value = json.value(member, "");
   try {
     const std::regex ignored(value);
@@ -58,21 +58,21 @@ std::string pattern(const Json& json, const char* member, const std::string& fil
 }
 
 /// A text, or the lines of one.
-std::string text_of(const Json& value) {
+std::string text_of(const OrderedJson& value) {
   if (value.is_string()) return value.get<std::string>();
   std::string text;
-  for (const Json& line : value) text += line.get<std::string>() + "\n";
+  for (const OrderedJson& line : value) text += line.get<std::string>() + "\n";
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> texts_by_name(const Json& object) {
+std::vector<std::pair<std::string, std::string>> texts_by_name(const OrderedJson& object) {
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& [name, value] : object.items()) all.emplace_back(name, text_of(value));
   return all;
 }
 
-MesherDescription description_from(const Json& json, const std::string& file) {
-  const Json none = Json::object(), choices = json.value("choices", none);
+MesherDescription description_from(const OrderedJson& json, const std::string& file) {
+  const OrderedJson empty = OrderedJson::object(), choices = json.value("choices", empty);
   MesherDescription d;
   d.file = file;
   d.name = json.at("name");
@@ -82,13 +82,13 @@ MesherDescription description_from(const Json& json, const std::string& file) {
   d.command = json.at("command").get<std::vector<std::string>>();
   d.input_format = json.at("input_format");
   d.output = json.at("output");
-  d.files = texts_by_name(json.value("files", none));
+  d.files = texts_by_name(json.value("files", empty));
   for (const auto& [name, choice] : choices.items())
     d.choices.push_back({name, value_of<ChoiceCondition>(choice.at("if").get<std::string>()).value(), choice.at("then"),
                          choice.value("else", "")});
   d.version_command = json.value("version_command", d.version_command);
   d.version_pattern = pattern(json, "version_pattern", file);
-  d.environment = texts_by_name(json.value("environment", none));
+  d.environment = texts_by_name(json.value("environment", empty));
   d.seconds_pattern = pattern(json, "seconds_pattern", file);
   d.success_codes = json.value("success_codes", d.success_codes);
   d.keeps_surface = json.value("keeps_surface", d.keeps_surface);
@@ -108,7 +108,7 @@ std::string_view next_name(std::string_view text, std::size_t from) {
 
 MesherDescription read_mesher_description(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const Json json = read_user_file(file, description_file);
+  const OrderedJson json = read_user_file(file, description_file);
   check_all_placeholders(json, name);
   return description_from(json, name);
 }

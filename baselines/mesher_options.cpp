@@ -11,7 +11,7 @@
 namespace ccdt::baselines {
 namespace {
 
-constexpr std::string_view none = "none";
+constexpr std::string_view value_none = "none";
 
 /// Options of surface remeshing, which happens before any mesher runs.
 constexpr auto options_of_surface = std::to_array<std::string_view>({"edge-length", "flatness", "sharp-angle"});
@@ -53,7 +53,7 @@ class Asked {
   explicit Asked(const NamedOptions& options) {
     for (const auto& [name, value] : options) options_[name] = canonical(name, value);
     // The default of improvement depends on the lattice, even for a mesher without one.
-    if (!options_.contains("improve") && value("lattice") == none) options_["improve"] = none;
+    if (!options_.contains("improve") && value("lattice") == value_none) options_["improve"] = value_none;
   }
 
   std::string value(const std::string& name) const {
@@ -67,8 +67,8 @@ class Asked {
 };
 
 bool matters(const OptionUse& use, const Asked& asked) {
-  if (use.only_inside && asked.value("lattice") == none) return false;
-  if (is_among(options_of_improvement, use.name) && asked.value("improve") == none) return false;
+  if (use.only_inside && asked.value("lattice") == value_none) return false;
+  if (is_among(options_of_improvement, use.name) && asked.value("improve") == value_none) return false;
   return use.name != "target-r" || asked.value("objective") == name_of(Objective::r);
 }
 
@@ -119,9 +119,9 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
   const auto use_of = [&](const std::string& name) {
     return std::ranges::find(mesher.options, name, &OptionUse::name);
   };
-  const bool is_bare = asked.value("lattice") == none && use_of("lattice") != mesher.options.end();
+  const bool is_bare = asked.value("lattice") == value_none && use_of("lattice") != mesher.options.end();
   const auto usual = [&](const std::string& name) {
-    return name == "improve" && is_bare ? std::string(none) : usual_options().at(name);
+    return name == "improve" && is_bare ? std::string(value_none) : usual_options().at(name);
   };
   NamedOptions effective;
   for (const auto& [name, value] : asked.options()) {
@@ -133,8 +133,9 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
     const bool is_known = usual_options().contains(name);
     if (is_known && !is_of_surface && !is_used) continue;
     if (is_known && value == usual(name)) continue;
-    const bool is_any = is_used && use->only_none && value != none;  // all values except none have the same effect
-    if (is_any && usual(name) != none) continue;
+    const bool is_any =
+        is_used && use->only_none && value != value_none;  // all values except none have the same effect
+    if (is_any && usual(name) != value_none) continue;
     effective[name] = is_any ? usual_options().at(name) : value;
   }
   return effective;

@@ -41,7 +41,7 @@ std::vector<const JudgedFigure*> figures_in(const Part& part, const Verdict& ver
   return figures;
 }
 
-std::string number_text(double value) {
+std::string figure_text(double value) {
   if (!std::isfinite(value)) return "infinite";
   if (value == std::floor(value) && std::abs(value) < 1e15)
     return (value < 0 ? "-" : "") + results::with_separators(static_cast<std::uint64_t>(std::abs(value)));
@@ -51,7 +51,7 @@ std::string number_text(double value) {
 std::string side_text(const std::optional<double>& number, const std::string& text, const JudgedFigure& figure) {
   constexpr std::size_t most_letters = 16;  // of a fingerprint
   if (!number) return text.size() > most_letters ? text.substr(0, most_letters) + "..." : text;
-  return figure.layer == gate::Layer::time ? results::rounded(*number, 4) + " s" : number_text(*number);
+  return figure.layer == gate::Layer::time ? results::rounded(*number, 4) + " s" : figure_text(*number);
 }
 
 std::string percent(double ratio) {

@@ -18,7 +18,7 @@ std::string first_line(const std::string& text) {
 
 /// A text between single quotes.
 /// \param quote  what stands for a single quote within them: by default as in bash and zsh
-std::string quoted(const std::string& text, const char* quote = "'\\''") {
+std::string shell_quoted(const std::string& text, const char* quote = "'\\''") {
   std::string safe;
   for (const char c : text) safe += c == '\'' ? std::string(quote) : std::string(1, c);
   return "'" + safe + "'";
@@ -48,10 +48,11 @@ std::string bash_script(const ProgramText& program) {
     for (const OptionText& option : verb.options)
       if (!option.is_positional && !option.choices.empty())
         for (const std::string& name : option.names)
-          values += "    " + quoted(verb.name + " " + name) + ") words=" + quoted(joined(option.choices)) + " ;;\n";
+          values += "    " + shell_quoted(verb.name + " " + name) + ") words=" + shell_quoted(joined(option.choices)) +
+                    " ;;\n";
     const auto [names, choices] = words_of(verb);
-    options += "    " + verb.name + ") words=" + quoted(joined(names)) + " ;;\n";
-    arguments += "    " + verb.name + ") words=" + quoted(joined(choices)) + " ;;\n";
+    options += "    " + verb.name + ") words=" + shell_quoted(joined(names)) + " ;;\n";
+    arguments += "    " + verb.name + ") words=" + shell_quoted(joined(choices)) + " ;;\n";
   }
   const std::string& name = program.name;
   return "# Completion of " + name + " for bash, as `" + name + " completion bash` prints it.\n_" + name +
@@ -60,7 +61,7 @@ std::string bash_script(const ProgramText& program) {
          "  COMPREPLY=()\n"
          "  if ((COMP_CWORD == 1)); then\n"
          "    words=" +
-         quoted(joined(names_of_verbs(program)) + " --help --version") +
+         shell_quoted(joined(names_of_verbs(program)) + " --help --version") +
          "\n"
          "  else\n"
          "    case \"$verb $before\" in\n" +
@@ -92,13 +93,14 @@ std::string zsh_values(const OptionText& option) {
 
 std::string zsh_option(const OptionText& option) {
   const std::string what = for_zsh(first_line(option.what));
-  if (option.is_positional) return "      " + quoted("*:" + for_zsh(option.names.front()) + ":" + zsh_values(option));
+  if (option.is_positional)
+    return "      " + shell_quoted("*:" + for_zsh(option.names.front()) + ":" + zsh_values(option));
   std::string lines;
   for (const std::string& name : option.names) {
     std::string line = name;
     line.append("[").append(what).append("]");
     if (!option.is_flag) line += ":value:" + zsh_values(option);
-    lines += (lines.empty() ? "      " : " \\\n      ") + quoted(line);
+    lines += (lines.empty() ? "      " : " \\\n      ") + shell_quoted(line);
   }
   return lines;
 }
@@ -107,7 +109,7 @@ std::string zsh_script(const ProgramText& program) {
   const std::string& name = program.name;
   std::string verbs, cases;
   for (const VerbText& verb : program.verbs) {
-    verbs += "    " + quoted(for_zsh(verb.name) + ":" + verb.what) + "\n";
+    verbs += "    " + shell_quoted(for_zsh(verb.name) + ":" + verb.what) + "\n";
     cases += "    " + verb.name + ") _arguments";
     bool has_positional = false;
     for (const OptionText& option : verb.options) {
@@ -139,19 +141,20 @@ std::string fish_script(const ProgramText& program) {
   std::string text =
       "# Completion of " + program.name + " for fish, as `" + program.name + " completion fish` prints it.\n";
   for (const VerbText& verb : program.verbs)
-    text += start + "__fish_use_subcommand -f -a " + verb.name + " -d " + quoted(verb.what, "\\'") + "\n";
+    text += start + "__fish_use_subcommand -f -a " + verb.name + " -d " + shell_quoted(verb.what, "\\'") + "\n";
   for (const VerbText& verb : program.verbs) {
-    const std::string within = start + quoted("__fish_seen_subcommand_from " + verb.name, "\\'");
+    const std::string within = start + shell_quoted("__fish_seen_subcommand_from " + verb.name, "\\'");
     for (const OptionText& option : verb.options) {
       if (option.is_positional) {
-        if (!option.choices.empty()) text += within + " -f -a " + quoted(joined(option.choices), "\\'") + "\n";
+        if (!option.choices.empty()) text += within + " -f -a " + shell_quoted(joined(option.choices), "\\'") + "\n";
         continue;
       }
       text += within;
       for (const std::string& name : option.names)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      if (!option.is_flag) text += option.choices.empty() ? " -r" : " -x -a " + quoted(joined(option.choices), "\\'");
-      text += " -d " + quoted(first_line(option.what), "\\'") + "\n";
+      if (!option.is_flag)
+        text += option.choices.empty() ? " -r" : " -x -a " + shell_quoted(joined(option.choices), "\\'");
+      text += " -d " + shell_quoted(first_line(option.what), "\\'") + "\n";
     }
   }
   return text;

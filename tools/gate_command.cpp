@@ -205,7 +205,7 @@ void check(const GateCommand& command) {
   require(command.against.empty() || !command.sweep.empty(), "--against", "a baseline needs the cases of a --sweep");
 }
 
-constexpr const char* footer =
+constexpr const char* gate_footer =
     "Finds out whether a program is worse than another one, or than a recording. There are three layers:\n\n"
     "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks, exit codes: any change of what\n"
     "                must stay the same fails, more work fails, less work passes; compared with a recording\n"
@@ -270,7 +270,7 @@ void add_gate_command(CLI::App& app, ExitCode& exit_code) {
   verb->add_flag("--update", command->update, "write the current figures to the baseline, the file of --against");
   verb->add_option("--reason", command->reason, "why the baseline changes; stored in its history");
   add_measuring_options(*verb, *command);
-  verb->footer(footer);
+  verb->footer(gate_footer);
   verb->callback([command, &exit_code] {
     check(*command);
     exit_code = run(*command);

@@ -264,7 +264,7 @@ std::string meshers_of_build() {
          list_line("FILE.json", "any other mesher, as the file describes it; see the examples in baselines/described");
 }
 
-constexpr const char* footer =
+constexpr const char* mesh_footer =
     "Example: fill a part with edges of about 2 mm, and write a report of the run\n"
     "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
     "Example: take edge lengths from the size function part.sol, which is defined on the mesh part.mesh\n"
@@ -402,7 +402,7 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("mesh", "fill a solid with tetrahedra");
   add_options(*verb, *command);
   verb->footer(meshers_of_build);
-  verb->footer(footer);
+  verb->footer(mesh_footer);
   verb->callback([command, verb, &exit_code] {
     for (const CLI::Option* option : verb->get_options())
       if (option->count() > 0 && !option->get_lnames().empty())

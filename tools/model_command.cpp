@@ -16,7 +16,7 @@ struct ModelCommand {
   std::string output;
 };
 
-std::string footer() {
+std::string model_footer() {
   std::string text = "Solids:\n";
   for (const models::Solid& solid : models::solids())
     text += list_line(std::string(solid.name), std::string(solid.what));
@@ -47,7 +47,7 @@ void add_model_command(CLI::App& app, ExitCode& exit_code) {
       ->check(positive_number());
   verb->add_option("-o,--output", command->output, "surface or PLC: .stl .off .obj .ply .poly .smesh .mesh .meshb")
       ->required();
-  verb->footer(footer());
+  verb->footer(model_footer());
   verb->callback([command, &exit_code] {
     run(*command);
     exit_code = done;

@@ -62,7 +62,7 @@ void run(const ReportCommand& command) {
   make_report(command.folders[0]);
 }
 
-constexpr const char* footer =
+constexpr const char* report_footer =
     "The folder is one that `ccdt reproduce` or `ccdt sweep` has filled. Everything is made again from the JSON files "
     "in it:\n"
     "report.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG), the page index.html, and\n"
@@ -116,7 +116,7 @@ void add_report_command(CLI::App& app, ExitCode& exit_code) {
       ->expected(1, 2)
       ->check(CLI::ExistingDirectory);
   verb->add_option("-o,--output", command->output, "folder for a comparison; default: comparison in the second DIR");
-  verb->footer(footer + in_lines(sweep_results::run_columns_help(), 116) + examples);
+  verb->footer(report_footer + in_lines(sweep_results::run_columns_help(), 116) + examples);
   verb->callback([command, &exit_code] {
     if (command->folders.size() == 1 && !command->output.empty())
       throw CLI::ValidationError("--output", "use it with two folders only: a report is written to its own folder");

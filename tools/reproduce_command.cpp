@@ -198,7 +198,7 @@ ExitCode run_until_stopped(ReproduceCommand& command) {
   }
 }
 
-std::string footer() {
+std::string reproduce_footer() {
   std::string text = "Experiments; without one, all but those in brackets:\n";
   for (const experiments::KnownExperiment& e : experiments::known_experiments())
     text += list_line(e.name, e.is_usual ? e.what : "[" + e.what + "]");
@@ -272,7 +272,7 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   add_what_to_measure(*verb, *command);
   add_limits(*verb, *command);
   add_what_to_keep(*verb, *command);
-  verb->footer(footer());
+  verb->footer(reproduce_footer());
   verb->callback([command, &exit_code] { exit_code = run_until_stopped(*command); });
 }
 

@@ -170,7 +170,7 @@ bool is_fault(const cases::MeasuredCase& measured) {
          (kind == FailureKind::wrong || kind == FailureKind::crashed);
 }
 
-constexpr const char* footer =
+constexpr const char* sweep_footer =
     "The spec (JSON, schema ccdt.sweep/1) says which models and files, in which sizes, are meshed by which meshers "
     "with\n"
     "which options. Each run is a separate process with limits of time and memory; its report is a file in DIR/runs.\n"
@@ -285,7 +285,7 @@ void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
       ->excludes(status);
   verb->add_flag("--json", command->json, "print --status and --dry-run as JSON");
   add_cluster_options(*verb, command->cluster);
-  verb->footer(footer);
+  verb->footer(sweep_footer);
   verb->callback([command, &exit_code] {
     const bool names_folder = command->cluster.chunk >= 0;  // the first argument is a folder, not a spec
     if (command->folder.empty() && !names_folder) throw CLI::RequiredError("-o,--output");
