@@ -11,7 +11,7 @@
 namespace ccdt::sweep {
 namespace {
 
-constexpr const char* rules = R"(
+constexpr const char* snakemake_rules = R"(
 workdir: workflow.basedir  # wherever the folder has been moved to, and wherever snakemake is called
 
 rule all:
@@ -44,7 +44,7 @@ void write_snakefile(const std::filesystem::path& folder, std::span<const Chunk>
        << "threads_of = {";
   for (const Chunk& chunk : chunks)
     file << (&chunk == &chunks.front() ? "" : ", ") << chunk.number << ": " << chunk.threads;
-  file << "}\n" << rules;
+  file << "}\n" << snakemake_rules;
   file.commit();
 }
 
