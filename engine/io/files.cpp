@@ -15,8 +15,6 @@ namespace ccdt::io {
 
 namespace {
 
-constexpr std::size_t buffer_size = 1 << 18;
-
 std::filesystem::path temporary_beside(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter = 0;
   std::string name = ".";
@@ -110,14 +108,9 @@ OutputFile::~OutputFile() {
   if (!committed_ && !temporary_.empty()) std::filesystem::remove(temporary_, ignored);
 }
 
-OutputFile& OutputFile::operator<<(std::string_view text) {
-  buffer_ += text;
-  if (buffer_.size() >= buffer_size) flush();
-  return *this;
-}
-
 void OutputFile::flush() {
-  if (!buffer_.empty() && std::fwrite(buffer_.data(), 1, buffer_.size(), stream_) != buffer_.size()) fail(errno);
+  const std::string& bytes = buffer_.bytes();
+  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) fail(errno);
   buffer_.clear();
 }
 

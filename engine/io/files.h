@@ -62,9 +62,35 @@ Number number_at(const char* bytes, bool big_endian = false) {
   return std::bit_cast<Number>(digits);
 }
 
+/// Text and numbers, in the shortest form that reads back bit for bit.
+class TextBuffer {
+ public:
+  const std::string& bytes() const { return bytes_; }
+  void reserve(std::size_t size) { bytes_.reserve(size); }
+  void clear() { bytes_.clear(); }
+
+  TextBuffer& operator<<(std::string_view text) {
+    bytes_ += text;
+    return *this;
+  }
+  TextBuffer& operator<<(const char* text) { return *this << std::string_view(text); }
+  TextBuffer& operator<<(char c) {
+    bytes_ += c;
+    return *this;
+  }
+  template <class Number>
+  requires(std::integral<Number> || std::same_as<Number, double>) TextBuffer& operator<<(Number value) {
+    char digits[40];
+    return *this << std::string_view(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  TextBuffer& operator<<(const Point3& p) { return *this << p.x << ' ' << p.y << ' ' << p.z; }
+
+ private:
+  std::string bytes_;
+};
+
 /// A file that appears completely or not at all: it is written under a temporary name in the same folder, and `commit`
-/// renames it. Without `commit` the destructor removes it. Numbers are written in the shortest form that reads back bit
-/// for bit.
+/// renames it. Without `commit` the destructor removes it.
 class OutputFile {
  public:
   /// \throw OutputError  the place is a directory, or cannot be written
@@ -73,15 +99,13 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  OutputFile& operator<<(std::string_view text);
-  OutputFile& operator<<(const char* text) { return *this << std::string_view(text); }
-  OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
-  template <class Number>
-  requires(std::integral<Number> || std::same_as<Number, double>) OutputFile& operator<<(Number value) {
-    char digits[40];
-    return *this << std::string_view(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  /// Writes what a `TextBuffer` takes.
+  template <class T>
+  OutputFile& operator<<(const T& value) {
+    buffer_ << value;
+    if (buffer_.bytes().size() >= buffer_size) flush();
+    return *this;
   }
-  OutputFile& operator<<(const Point3& p) { return *this << p.x << ' ' << p.y << ' ' << p.z; }
   /// The bytes of a value in memory.
   template <class T>
   OutputFile& raw(const T& value) {
@@ -94,12 +118,14 @@ class OutputFile {
   void commit();
 
  private:
+  static constexpr std::size_t buffer_size = 1 << 18;
+
   void flush();
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path target_, temporary_;
   std::FILE* stream_ = nullptr;
-  std::string buffer_;
+  TextBuffer buffer_;
   bool committed_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/io/files.h"
+#include "engine/io/write_lines.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 
@@ -91,13 +92,15 @@ inline int attribute_of(const std::vector<int>& attributes, std::size_t i) {
 }
 
 /// Writes the corners of an element, each with a blank before it. `first` is the number of the first vertex.
-inline void write_corners(std::span<const std::uint32_t> corners, OutputFile& out, std::uint32_t first = 1) {
+template <class Output>
+void write_corners(std::span<const std::uint32_t> corners, Output& out, std::uint32_t first = 1) {
   for (const std::uint32_t v : corners) out << ' ' << v + first;
 }
 
 /// Writes a line "number x y z" for each point, numbered from 1.
 inline void write_numbered(const std::vector<Point3>& points, OutputFile& out) {
-  for (std::size_t i = 0; i < points.size(); ++i) out << i + 1 << ' ' << points[i] << '\n';
+  write_lines(
+      points.size(), [&](std::size_t i, auto& text) { text << i + 1 << ' ' << points[i] << '\n'; }, out);
 }
 
 /// The file with the same name and another ending.

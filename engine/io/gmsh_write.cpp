@@ -15,13 +15,16 @@ template <std::size_t Corners>
 void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& elements, const std::vector<int>& markers,
                     std::int64_t type, std::size_t& number, OutputFile& out) {
   std::map<int, std::size_t> elementary;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    elementary.try_emplace(attribute_of(markers, i), elementary.size() + 1);
+  const auto line = [&](std::size_t i, auto& text) {
     const int marker = attribute_of(markers, i);
-    const std::size_t entity = elementary.try_emplace(marker, elementary.size() + 1).first->second;
-    out << ++number << ' ' << type << " 2 " << marker << ' ' << entity;
-    write_corners(elements[i], out);
-    out << '\n';
-  }
+    text << number + i + 1 << ' ' << type << " 2 " << marker << ' ' << elementary.at(marker);
+    write_corners(elements[i], text);
+    text << '\n';
+  };
+  write_lines(elements.size(), line, out);
+  number += elements.size();
 }
 
 /// The geometric entities of one dimension by their markers, each with its elements. Nodes belong to an entity, so

@@ -80,7 +80,8 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
 /// \param comment  a line "# ...", or empty; it comes second because other readers want the version in the first line
 void write_head(std::string_view comment, const std::vector<Point3>& vertices, OutputFile& out) {
   out << "MeshVersionFormatted 2\n" << comment << "\nDimension 3\n\nVertices\n" << vertices.size() << '\n';
-  for (const Point3& p : vertices) out << p << " 0\n";
+  write_lines(
+      vertices.size(), [&](std::size_t i, auto& text) { text << vertices[i] << " 0\n"; }, out);
 }
 
 /// Writes a section, or nothing if there are no elements. `references` is empty (all 0) or has one per element.
@@ -89,10 +90,11 @@ void write_elements(const char* keyword, std::span<const std::array<std::uint32_
                     std::span<const int> references, OutputFile& out) {
   if (elements.empty()) return;
   out << '\n' << keyword << '\n' << elements.size() << '\n';
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    for (const std::uint32_t v : elements[i]) out << v + 1 << ' ';
-    out << (references.empty() ? 0 : references[i]) << '\n';
-  }
+  const auto line = [&](std::size_t i, auto& text) {
+    for (const std::uint32_t v : elements[i]) text << v + 1 << ' ';
+    text << (references.empty() ? 0 : references[i]) << '\n';
+  };
+  write_lines(elements.size(), line, out);
 }
 
 }  // namespace

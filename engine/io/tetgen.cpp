@@ -185,11 +185,12 @@ void write_seeds(const plc::InputPlc& plc, OutputFile& out) {
 template <std::size_t Corners>
 void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& elements, const std::vector<int>& attributes,
                     OutputFile& out) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    out << i + 1;
-    write_corners(elements[i], out);
-    out << ' ' << attribute_of(attributes, i) << '\n';
-  }
+  const auto line = [&](std::size_t i, auto& text) {
+    text << i + 1;
+    write_corners(elements[i], text);
+    text << ' ' << attribute_of(attributes, i) << '\n';
+  };
+  write_lines(elements.size(), line, out);
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ namespace {
 // Level 1 is three times as fast as zlib's default, and the file is hardly larger.
 constexpr int fast = 1;
 
-std::string compressed(std::string_view bytes) {
+}  // namespace
+
+std::string compress_block(std::span<const std::byte> bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string block(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(block.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
@@ -21,8 +23,6 @@ std::string compressed(std::string_view bytes) {
   block.resize(size);
   return block;
 }
-
-}  // namespace
 
 std::optional<std::string> decode_base64(std::string_view text) {
   static constexpr std::uint8_t bad = 255, padding = 254, blank = 253;
@@ -54,23 +54,12 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return digits == 0 ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-void CompressedBlocks::compress() {
-  const auto blocks = parallel_chunks(bytes_.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    return compressed(std::string_view(bytes_).substr(begin, end - begin));
-  });
-  for (const std::string& block : blocks) {
-    compressed_ += block;
-    sizes_.push_back(block.size());
-  }
-  bytes_.clear();
-}
-
-std::string CompressedBlocks::finish() {
-  const std::uint64_t last = bytes_.size() % block_size;
-  compress();
-  std::vector<std::uint64_t> head = {sizes_.size(), block_size, last};
-  head.insert(head.end(), sizes_.begin(), sizes_.end());
-  return std::string(reinterpret_cast<const char*>(head.data()), head.size() * sizeof head[0]) + compressed_;
+std::string join_blocks(std::span<const std::string> blocks, std::size_t size) {
+  std::vector<std::uint64_t> head = {blocks.size(), block_size, size % block_size};
+  for (const std::string& block : blocks) head.push_back(block.size());
+  std::string bytes(reinterpret_cast<const char*>(head.data()), head.size() * sizeof head[0]);
+  for (const std::string& block : blocks) bytes += block;
+  return bytes;
 }
 
 bool may_hold(std::uint64_t compressed, std::uint64_t size) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,32 +18,32 @@ namespace ccdt::io {
 /// \return nothing if there is another character or a piece is incomplete
 std::optional<std::string> decode_base64(std::string_view text);
 
-/// Compresses bytes block by block with zlib, in the layout of VTK's arrays: the number of blocks, the size of a whole
-/// block, the size of the last block if it is not whole (0 if it is), the compressed size of each block, the blocks.
-class CompressedBlocks {
- public:
-  static constexpr std::size_t block_size = std::size_t{1} << 17;
+/// The size of the blocks that are written.
+inline constexpr std::size_t block_size = std::size_t{1} << 17;
 
-  /// Adds the bytes of a value as they are in memory.
-  template <class T>
-  void put(const T& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    if (bytes_.size() >= most_waiting_) compress();
-  }
+/// Compresses a block with zlib.
+std::string compress_block(std::span<const std::byte> bytes);
 
-  /// To be called once, after the last `put`.
-  ///
-  /// \return the bytes for the file: 64-bit numbers, then the blocks
-  std::string finish();
+/// The layout of VTK's arrays: the number of blocks, the size of a whole block, the size of the last block if it is not
+/// whole (0 if it is), the compressed size of each block, as 64-bit numbers; then the blocks.
+///
+/// \param size  of all bytes before they were compressed
+std::string join_blocks(std::span<const std::string> blocks, std::size_t size);
 
- private:
-  void compress();
-
-  // As many blocks are collected as keep all threads busy.
-  const std::size_t most_waiting_ = block_size * (thread_count() == 1 ? 1 : 4 * thread_count());
-  std::string bytes_, compressed_;
-  std::vector<std::uint64_t> sizes_;
-};
+/// Compresses the values `value_at(i)` for each i below `count`, as they are in memory, on several threads.
+///
+/// \return the bytes for the file
+template <class ValueAt>
+std::string compress_values(std::size_t count, const ValueAt& value_at) {
+  using Value = decltype(value_at(count));
+  const auto blocks = parallel_chunks(count, block_size / sizeof(Value), [&](std::size_t begin, std::size_t end) {
+    std::vector<Value> values;
+    values.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) values.push_back(value_at(i));
+    return compress_block(std::as_bytes(std::span<const Value>(values)));
+  });
+  return join_blocks(blocks, count * sizeof(Value));
+}
 
 /// May this many compressed bytes hold a block of this size? To be checked before memory is allocated.
 bool may_hold(std::uint64_t compressed, std::uint64_t size);

@@ -209,51 +209,56 @@ struct AppendedArray {
   const char* attributes = "";
 };
 
-/// Calls visit(elements, type, attributes) for each kind of element, in the order of the cells.
-template <class Visit>
-void for_each_kind(const mesh::TetMesh& mesh, const Visit& visit) {
-  visit(mesh.tetrahedra, tetrahedron, mesh.regions);
-  visit(mesh.faces, triangle, mesh.face_markers);
-  visit(mesh.edges, line, mesh.edge_markers);
+AppendedArray points_of(const mesh::TetMesh& mesh) {
+  const auto coordinate = [&](std::size_t i) { return as_array(mesh.vertices[i / 3])[i % 3]; };
+  return {"Float64", "Points", compress_values(3 * mesh.vertices.size(), coordinate), " NumberOfComponents=\"3\""};
 }
 
-AppendedArray points_of(const mesh::TetMesh& mesh) {
-  CompressedBlocks blocks;
-  for (const Point3& p : mesh.vertices)
-    for (const double coordinate : as_array(p)) blocks.put(coordinate);
-  return {"Float64", "Points", blocks.finish(), " NumberOfComponents=\"3\""};
-}
+/// The tetrahedra, the faces and the edges of a mesh in one list.
+struct AllCells {
+  const mesh::TetMesh& mesh;
+  std::size_t tetrahedra = mesh.tetrahedra.size(), faces = mesh.faces.size(), edges = mesh.edges.size();
+
+  std::size_t size() const { return tetrahedra + faces + edges; }
+  std::size_t corner_count() const { return 4 * tetrahedra + 3 * faces + 2 * edges; }
+
+  std::uint32_t corner(std::size_t i) const {
+    if (i < 4 * tetrahedra) return mesh.tetrahedra[i / 4][i % 4];
+    i -= 4 * tetrahedra;
+    if (i < 3 * faces) return mesh.faces[i / 3][i % 3];
+    i -= 3 * faces;
+    return mesh.edges[i / 2][i % 2];
+  }
+
+  /// Where the corners of a cell end.
+  std::size_t corners_end(std::size_t cell) const {
+    const std::size_t end = cell + 1;
+    if (end <= tetrahedra) return 4 * end;
+    return end <= tetrahedra + faces ? tetrahedra + 3 * end : 2 * tetrahedra + faces + 2 * end;
+  }
+
+  std::uint8_t type(std::size_t cell) const {
+    return cell < tetrahedra ? tetrahedron : cell < tetrahedra + faces ? triangle : line;
+  }
+
+  /// Of a tetrahedron; 0 for the other cells.
+  std::int32_t region(std::size_t cell) const { return cell < tetrahedra ? attribute_of(mesh.regions, cell) : 0; }
+
+  /// Of a face or an edge; 0 for tetrahedra.
+  std::int32_t marker(std::size_t cell) const {
+    if (cell < tetrahedra) return 0;
+    cell -= tetrahedra;
+    return cell < faces ? attribute_of(mesh.face_markers, cell) : attribute_of(mesh.edge_markers, cell - faces);
+  }
+};
 
 /// The corners of the cells, and where the corners of each end.
 template <class Index>
-std::array<AppendedArray, 2> corners_of(const mesh::TetMesh& mesh, const char* type) {
-  CompressedBlocks corners, offsets;
-  Index offset = 0;
-  for_each_kind(mesh, [&](const auto& elements, std::uint8_t, const auto&) {
-    for (const auto& element : elements) {
-      for (const std::uint32_t v : element) corners.put(static_cast<Index>(v));
-      offsets.put(offset += static_cast<Index>(element.size()));
-    }
-  });
-  return {{{type, "connectivity", corners.finish()}, {type, "offsets", offsets.finish()}}};
-}
-
-AppendedArray types_of(const mesh::TetMesh& mesh) {
-  CompressedBlocks types;
-  for_each_kind(mesh, [&](const auto& elements, std::uint8_t type, const auto&) {
-    for (std::size_t i = 0; i < elements.size(); ++i) types.put(type);
-  });
-  return {"UInt8", "types", types.finish()};
-}
-
-/// The regions of the tetrahedra, or the markers of the other cells; 0 for cells that do not have this attribute.
-AppendedArray attributes_of(const mesh::TetMesh& mesh, bool regions) {
-  CompressedBlocks blocks;
-  for_each_kind(mesh, [&](const auto& elements, std::uint8_t type, const auto& attributes) {
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      blocks.put(static_cast<std::int32_t>((type == tetrahedron) == regions ? attribute_of(attributes, i) : 0));
-  });
-  return {"Int32", regions ? "region" : "marker", blocks.finish()};
+std::array<AppendedArray, 2> corners_of(const AllCells& cells, const char* type) {
+  const auto corner = [&](std::size_t i) { return static_cast<Index>(cells.corner(i)); };
+  const auto end = [&](std::size_t cell) { return static_cast<Index>(cells.corners_end(cell)); };
+  return {{{type, "connectivity", compress_values(cells.corner_count(), corner)},
+           {type, "offsets", compress_values(cells.size(), end)}}};
 }
 
 /// Declares a group of arrays. Their bytes begin `offset` bytes after the start of the appended data; `offset` moves
@@ -290,19 +295,23 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
 /// Tetrahedra come first, then the faces and edges on facets and segments. `region` is of the tetrahedra, `marker` of
 /// the others. All arrays are compressed and appended.
 void write_vtu(const mesh::TetMesh& mesh, OutputFile& out) {
-  const std::size_t tetrahedra = mesh.tetrahedra.size(), faces = mesh.faces.size(), edges = mesh.edges.size();
-  const bool is_short = std::max(4 * tetrahedra + 3 * faces + 2 * edges, mesh.vertices.size()) <= INT_MAX;
+  const AllCells all{mesh};
+  const bool is_short = std::max(all.corner_count(), mesh.vertices.size()) <= INT_MAX;
   const std::array<AppendedArray, 1> points = {points_of(mesh)};
-  auto [corners, offsets] =
-      is_short ? corners_of<std::int32_t>(mesh, "Int32") : corners_of<std::int64_t>(mesh, "Int64");
-  const std::array<AppendedArray, 3> cells = {std::move(corners), std::move(offsets), types_of(mesh)};
-  const std::array<AppendedArray, 2> attributes = {attributes_of(mesh, true), attributes_of(mesh, false)};
+  auto [corners, offsets] = is_short ? corners_of<std::int32_t>(all, "Int32") : corners_of<std::int64_t>(all, "Int64");
+  const auto of_cells = [&](auto(AllCells::*of_cell)(std::size_t) const) {
+    return compress_values(all.size(), [&](std::size_t cell) { return (all.*of_cell)(cell); });
+  };
+  const std::array<AppendedArray, 3> cells = {std::move(corners), std::move(offsets),
+                                              AppendedArray{"UInt8", "types", of_cells(&AllCells::type)}};
+  const std::array<AppendedArray, 2> attributes = {AppendedArray{"Int32", "region", of_cells(&AllCells::region)},
+                                                   AppendedArray{"Int32", "marker", of_cells(&AllCells::marker)}};
 
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <FieldData>\n"
          "      <DataArray type=\"Int32\" Name=\"constrained_delaunay\" NumberOfTuples=\"1\" format=\"ascii\">"
       << (mesh.constrained_delaunay ? 1 : 0) << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\""
-      << mesh.vertices.size() << "\" NumberOfCells=\"" << tetrahedra + faces + edges << "\">\n";
+      << mesh.vertices.size() << "\" NumberOfCells=\"" << all.size() << "\">\n";
   std::size_t offset = 0;
   declare("Points", "", points, offset, out);
   declare("Cells", "", cells, offset, out);

@@ -1,3 +1,4 @@
+#include "engine/base/parallel.h"
 #include "engine/tests/io_test_files.h"
 
 namespace ccdt {
@@ -30,6 +31,32 @@ TEST(TetMeshFiles, MeshesWithoutFacesAndEdges) {
     io::write_tet_mesh(small_mesh(), folder / name);  // whose faces and edges must not survive
     io::write_tet_mesh(mesh, folder / name);
     expect_same_mesh(io::read_tet_mesh(folder / name), mesh);
+  }
+}
+
+/// More vertices and elements than the threads write at a time.
+mesh::TetMesh long_mesh() {
+  mesh::TetMesh mesh;
+  for (int i = 0; i < 40000; ++i) mesh.vertices.push_back({0.1 * i, 1.0 / (i + 1), -1e-3 * i * i});
+  for (std::uint32_t i = 0; i + 3 < mesh.vertices.size(); ++i) {
+    mesh.tetrahedra.push_back({i, i + 1, i + 2, i + 3});
+    mesh.regions.push_back(static_cast<int>(i % 7));
+    if (i % 3 == 0) mesh.faces.push_back({i, i + 1, i + 2}), mesh.face_markers.push_back(static_cast<int>(i % 5) - 2);
+    if (i % 2 == 0) mesh.edges.push_back({i, i + 1}), mesh.edge_markers.push_back(static_cast<int>(i % 11));
+  }
+  return mesh;
+}
+
+TEST(TetMeshFiles, AreTheSameOnAnyNumberOfThreads) {
+  const mesh::TetMesh mesh = long_mesh();
+  for (const std::string& name : mesh_names) {
+    SCOPED_TRACE(name);
+    const Folder one, several;
+    with_threads(1, [&] { io::write_tet_mesh(mesh, one / name); });
+    with_threads(3, [&] { io::write_tet_mesh(mesh, several / name); });
+    for (const auto& file : std::filesystem::directory_iterator(one / "."))
+      EXPECT_TRUE(bytes_of(file.path()) == bytes_of(several / file.path().filename().string())) << file.path();
+    expect_same_mesh(io::read_tet_mesh(several / name), mesh);
   }
 }
 
