@@ -10,6 +10,7 @@
 
 #include "bench/statistics.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 
 namespace ccdt::bench {
 namespace {
@@ -143,15 +144,16 @@ Histogram histogram_of(std::span<const double> values, const MeasureEdges& edges
   return histogram;
 }
 
-Quality::Measure measure_of(std::span<const double> values, const MeasureEdges& edges) {
+/// Changes the order of the values.
+Quality::Measure measure_of(std::span<double> values, const MeasureEdges& edges) {
   Quality::Measure measure;
   measure.histogram = histogram_of(values, edges);
   if (values.empty()) return measure;
   measure.min = std::ranges::min(values);
   measure.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  measure.median = median(values);
-  measure.p99 = quantile(values, 0.99);
   measure.max = std::ranges::max(values);
+  measure.p99 = quantile_in_place(values, 0.99);
+  measure.median = quantile_in_place(values, 0.5);
   return measure;
 }
 
@@ -204,7 +206,7 @@ Quality measure_quality(const mesh::TetMesh& mesh) {
   constexpr std::size_t chunk_length = 8192;
   const std::size_t size = mesh.tetrahedra.size();
   const DihedralBins bins;
-  std::vector<double> volumes(size), r(size), aspect(size), radius_edge(size);
+  RawVector<double> volumes(size), r(size), aspect(size), radius_edge(size);
   const auto turns_of_chunks = parallel_chunks(size, chunk_length, [&](std::size_t begin, std::size_t end) {
     DihedralTurns turns;
     for (std::size_t i = begin; i < end; ++i) {
@@ -223,7 +225,7 @@ Quality measure_quality(const mesh::TetMesh& mesh) {
   quality.dihedral_degrees = dihedral_of(turns_of_chunks);
   // In the order of the mesh, so that the rounding does not depend on the threads.
   quality.volume = std::accumulate(volumes.begin(), volumes.end(), 0.0);
-  const std::array<std::span<const double>, 3> values = {r, aspect, radius_edge};
+  const std::array<std::span<double>, 3> values = {r, aspect, radius_edge};
   const std::array<const MeasureEdges*, 3> edges = {&r_edges, &r_edges, &radius_edge_edges};
   const std::array<Quality::Measure*, 3> measures = {&quality.r, &quality.aspect_ratio, &quality.radius_edge_ratio};
   parallel_for(measures.size(), 1, [&](std::size_t i) { *measures[i] = measure_of(values[i], *edges[i]); });

@@ -81,15 +81,19 @@ double relative_spread(const Estimate& estimate) {
   return value > 0 ? std::max(high - value, value - low) / value : 0;
 }
 
-double quantile(std::span<const double> samples, double fraction) {
+double quantile_in_place(std::span<double> samples, double fraction) {
   assert(!samples.empty() && fraction >= 0 && fraction <= 1);
-  std::vector<double> sorted(samples.begin(), samples.end());
-  const double position = fraction * static_cast<double>(sorted.size() - 1);
+  const double position = fraction * static_cast<double>(samples.size() - 1);
   const auto below = static_cast<std::size_t>(position);
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(sorted.begin(), at, sorted.end());
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(samples.begin(), at, samples.end());
   const double low = *at, weight = position - static_cast<double>(below);
-  return weight == 0 ? low : low + weight * (*std::min_element(at + 1, sorted.end()) - low);
+  return weight == 0 ? low : low + weight * (*std::min_element(at + 1, samples.end()) - low);
+}
+
+double quantile(std::span<const double> samples, double fraction) {
+  std::vector<double> copy(samples.begin(), samples.end());
+  return quantile_in_place(copy, fraction);
 }
 
 double median(std::span<const double> samples) {

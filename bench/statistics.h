@@ -39,6 +39,9 @@ double median(std::span<const double> samples);
 /// \pre there is a sample, 0 <= fraction <= 1
 double quantile(std::span<const double> samples, double fraction);
 
+/// The same without a copy: it changes the order of the samples.
+double quantile_in_place(std::span<double> samples, double fraction);
+
 /// The mean of the samples that remain when this share is dropped at each end.
 /// \pre there is a sample, 0 <= share < 0.5
 double trimmed_mean(std::span<const double> samples, double share);

@@ -186,7 +186,8 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   if (!options.background.empty() && !is_ccdt)
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(result.mesh);
-  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none)
+  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none &&
+      record.quality.r.max > bench::SurfaceLimit::bad_r)
     if (const bench::SurfaceLimit limit = bench::find_surface_limit(result.mesh); limit.limits_quality())
       record.notes.push_back(words_of(limit));
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
