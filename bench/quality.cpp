@@ -73,7 +73,8 @@ double radius_edge_ratio_of(const Shape& shape) {
 /// by it: arctangents of all of them would take longer than all other measures.
 double turn_of(double sine, double cosine) {
   const double sum = sine + std::abs(cosine);
-  if (!(sum > 0 && sum <= std::numeric_limits<double>::max())) return 0;
+  const bool is_in_range = sum > 0 && sum <= std::numeric_limits<double>::max();
+  if (!is_in_range) return 0;
   return cosine >= 0 ? sine / sum : 2 - sine / sum;
 }
 
