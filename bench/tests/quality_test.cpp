@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "bench/surface_limit.h"
 
@@ -99,6 +101,31 @@ TEST(Quality, HistogramsCountEveryTetrahedronAndEveryAngle) {
   EXPECT_EQ(sum(quality.dihedral_degrees.histogram), 12u);
   EXPECT_EQ(quality.r.histogram.edges.size(), quality.r.histogram.counts.size() + 1);
   EXPECT_EQ(quality.dihedral_degrees.histogram.counts[14], 6u);  // 70 to 75 degrees: the regular one's
+}
+
+TEST(Quality, AnglesAreCountedInTheBinsOfTheirDegrees) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  mesh::TetMesh mesh;
+  std::vector<std::uint64_t> counts(36, 0);
+  double least = 180, most = 0;
+  for (std::uint32_t i = 0; i < 4000; i += 4) {
+    std::array<Point3, 4> corners;
+    // Every other one is nearly flat, so that the sharpest and the widest bins are used too.
+    for (Point3& p : corners)
+      p = {coordinate(random), coordinate(random), coordinate(random) * (i % 8 == 0 ? 1 : 0.05)};
+    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+    mesh.tetrahedra.push_back({i, i + 1, i + 2, i + 3});
+    for (const double angle : bench::dihedral_angles(corners)) {
+      ++counts[static_cast<std::size_t>(angle / 5)];
+      least = std::min(least, angle), most = std::max(most, angle);
+    }
+  }
+  const bench::Quality::Dihedral dihedral = bench::measure_quality(mesh).dihedral_degrees;
+  EXPECT_EQ(dihedral.histogram.counts, counts);
+  EXPECT_TRUE(std::ranges::all_of(counts, [](std::uint64_t count) { return count > 0; }));
+  EXPECT_EQ(dihedral.min, least);
+  EXPECT_EQ(dihedral.max, most);
 }
 
 TEST(Quality, OfAMeshSummarizesItsTetrahedra) {

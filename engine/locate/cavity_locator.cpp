@@ -258,6 +258,7 @@ CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facet
       cavities_[i].push_back(
           {region, OctreeLocator(delaunay.vertices, its_vertices, facets.triangles, facets.facet, its_faces)});
     };
+    // Usually there is one region, which has everything.
     if (here.size() == 1) add_chamber(here[0], vertices, faces[i]);
     if (here.size() < 2) continue;
     for (const RegionId region : here)
