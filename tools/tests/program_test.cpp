@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/base/thread_backend.h"
+
 namespace ccdt {
 namespace {
 
@@ -86,6 +88,17 @@ TEST_F(Program, AnyNumberOfThreadsIsALimitThatCanBeKept) {
   EXPECT_EQ(run("mesh cube.off -o a.vtu --threads 0").exit_code, 2);
   EXPECT_EQ(run("verify cube.off a.vtu --threads 8").exit_code, 0);
   EXPECT_EQ(run("verify cube.off a.vtu --threads 0").exit_code, 2);
+}
+
+TEST_F(Program, ASmallFileIsMeshedOnOneThreadUnlessMoreAreAskedForOrItIsFilled) {
+  write("cube.off", cube_off);
+  const auto threads = [&](const std::string& options) {
+    EXPECT_EQ(run("mesh cube.off -o a.vtu --report r.json " + options).exit_code, 0);
+    return Json::parse(text_of(work() / "r.json"))["options"]["threads"].get<unsigned>();
+  };
+  EXPECT_EQ(threads("--lattice none"), 1u);
+  EXPECT_EQ(threads("--lattice none --threads 3"), 3u);
+  EXPECT_EQ(threads("--edge-length 0.4"), thread_backend::core_count());
 }
 
 TEST_F(Program, AnEdgeLengthBeyondThePartIsReplacedAndNoted) {
