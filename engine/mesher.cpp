@@ -6,6 +6,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/stopwatch.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
@@ -62,11 +63,11 @@ std::vector<Point3> points_of(const delaunay::Delaunay& delaunay) {
 lattice::LatticePoints place_points(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
                                     const facets::FacetMesh& facets, const MeshOptions& options,
                                     const Progress& progress) {
-  std::vector<lattice::SurfaceTriangle> triangles;
-  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+  RawVector<lattice::SurfaceTriangle> triangles(facets.triangles.size());
+  parallel_for(triangles.size(), 4096, [&](std::size_t i) {
     const plc::Facet& facet = plc.facets[facets.facet[i]];
-    triangles.push_back({facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside});
-  }
+    triangles[i] = {facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside};
+  });
   std::vector<std::array<VertexId, 2>> subsegments;
   for (const auto& chain : surface.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});

@@ -95,7 +95,10 @@ struct AtEdge {
 };
 
 /// Sorts the values by edge, and those of an edge.
-inline void sort_by_edge(std::vector<AtEdge>& values) {
+///
+/// \param values  a vector of `AtEdge`
+template <class Values>
+void sort_by_edge(Values& values) {
   sort_in_buckets(values, [](const AtEdge& value) { return static_cast<std::uint32_t>(value.edge >> 32); });
 }
 

@@ -18,8 +18,9 @@ namespace ccdt {
 ///
 /// \param bucket_of  of an item: the order of the buckets is part of the order of the items
 /// \param less       a strict order: no two items are alike, or it does not matter which one comes first
-template <class Item, class BucketOf, class Less = std::less<>>
-void sort_in_buckets(std::vector<Item>& items, const BucketOf& bucket_of, const Less& less = {}) {
+template <class Items, class BucketOf, class Less = std::less<>>
+void sort_in_buckets(Items& items, const BucketOf& bucket_of, const Less& less = {}) {
+  using Item = typename Items::value_type;
   constexpr std::size_t grain = 4096;
   std::size_t buckets = 0;
   for (const Item& item : items) buckets = std::max<std::size_t>(buckets, std::size_t{bucket_of(item)} + 1);

@@ -278,11 +278,13 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   release(qualities_), release(generations_), release(walls_), release(changed_at_), release(facet_of_face_);
   std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
-  points.reserve(points_.size());
-  for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    number[v] = static_cast<std::uint32_t>(points.size());
-    if (!is_removed(v)) points.push_back(points_[v]);
-  }
+  const auto number_vertices = [&] {
+    points.reserve(points_.size());
+    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+      number[v] = static_cast<std::uint32_t>(points.size());
+      if (!is_removed(v)) points.push_back(points_[v]);
+    }
+  };
   parallel_pack(
       cells_.size(), grain,
       [&](std::size_t c, std::size_t end) {
@@ -291,8 +293,8 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
         return count;
       },
       [&](std::size_t count) {
-        mesh.tetrahedra.resize(count);
-        mesh.regions.resize(count);
+        // By this thread, which gets the memory that it gave back.
+        parallel_both([&] { mesh.tetrahedra.resize(count), mesh.regions.resize(count); }, number_vertices);
       },
       [&](std::size_t c, std::size_t end, std::size_t place) {
         for (; c < end; ++c) {

@@ -10,6 +10,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/sort_in_runs.h"
 #include "engine/lattice/inside_test.h"
 
@@ -288,7 +289,20 @@ class Builder {
       boxes[c] = tree_.box(tree_.nodes[first_child + c]);
       lists[c].clear();
     }
-    for (std::uint32_t t : tree_.triangles_of(parent)) hand_down(t, boxes, lists);
+    const std::span<const std::uint32_t> those = tree_.triangles_of(parent);
+    // The first nodes have too many triangles for one thread.
+    constexpr std::size_t length = 8192;
+    if (thread_count() > 1 && those.size() > length) {
+      const auto runs = parallel_chunks(those.size(), length, [&](std::size_t begin, std::size_t end) {
+        std::array<Triangles, 8> found;
+        for (const std::uint32_t t : those.subspan(begin, end - begin)) hand_down(t, boxes, found);
+        return found;
+      });
+      for (const std::array<Triangles, 8>& found : runs)
+        for (std::uint32_t c = 0; c < 8; ++c) lists[c].insert(lists[c].end(), found[c].begin(), found[c].end());
+    } else {
+      for (const std::uint32_t t : those) hand_down(t, boxes, lists);
+    }
     for (std::uint32_t c = 0; c < 8; ++c) {
       OctreeNode& child = tree_.nodes[first_child + c];
       child.first_triangle = static_cast<std::uint32_t>(triangles.size());
@@ -353,7 +367,7 @@ class Builder {
 
   Octree& tree_;
   const DomainSurface& surface_;
-  std::vector<Box> around_;         ///< by triangle
+  RawVector<Box> around_;           ///< by triangle
   std::array<Triangles, 8> lists_;  ///< working memory
 };
 

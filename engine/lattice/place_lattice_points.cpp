@@ -9,6 +9,7 @@
 
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/lattice/clear_sites.h"
 #include "engine/plc/edge_length_bounds.h"
 
@@ -75,14 +76,16 @@ double share_in_one_level(const Octree& tree) {
 /// Sorts things with corners among the vertices along a space-filling curve, so that neighbors in space are neighbors
 /// in memory. The place of each is the sum of its corners.
 template <class Thing, class Corners>
-std::vector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<const Thing> things,
-                                   const Corners& corners_of) {
-  std::vector<Point3> places(things.size());
+RawVector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<const Thing> things,
+                                 const Corners& corners_of) {
+  RawVector<Point3> places(things.size());
   parallel_for(things.size(), 4096, [&](std::size_t i) {
-    for (const VertexId v : corners_of(things[i])) places[i] = places[i] + vertices[v];
+    Point3 sum;
+    for (const VertexId v : corners_of(things[i])) sum = sum + vertices[v];
+    places[i] = sum;
   });
   const std::vector<std::uint32_t> order = morton_order(places);
-  std::vector<Thing> sorted(things.size());
+  RawVector<Thing> sorted(things.size());
   parallel_for(things.size(), 4096, [&](std::size_t i) { sorted[i] = things[order[i]]; });
   return sorted;
 }
@@ -92,9 +95,9 @@ std::vector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<c
 LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress) {
   if (options.kind == Lattice::none || any_order.triangles.empty()) return {};
-  const std::vector<SurfaceTriangle> triangles =
+  const RawVector<SurfaceTriangle> triangles =
       in_morton_order(any_order.vertices, any_order.triangles, [](const SurfaceTriangle& t) { return t.vertices; });
-  const std::vector<std::array<VertexId, 2>> subsegments =
+  const RawVector<std::array<VertexId, 2>> subsegments =
       in_morton_order(any_order.vertices, any_order.subsegments, [](const std::array<VertexId, 2>& s) { return s; });
   const DomainSurface surface{any_order.vertices, triangles, subsegments};
   constexpr std::uint64_t steps = 4;

@@ -97,7 +97,8 @@ struct Buckets {
   RawVector<std::uint32_t> sources;
 };
 
-Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
+/// \param mesh  meanwhile gets room for the tetrahedra: clearing so much memory takes as long as filling the lists
+Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices, TetMesh& mesh) {
   const AddOne add_one;
   Buckets buckets;
   std::vector<std::uint32_t>& ends = buckets.ends;
@@ -110,10 +111,15 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
   });
   for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
   // So far each entry is where the bucket begins. Each source moves it on, to where the bucket ends.
-  buckets.sources.resize(ends.back());
-  parallel_for(parts.size(), grain, [&](std::size_t i) {
-    if (least[i] != not_in_mesh) buckets.sources[add_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
-  });
+  const std::size_t count = ends.back();
+  buckets.sources.resize(count);
+  const auto fill = [&] {
+    parallel_for(parts.size(), grain, [&](std::size_t i) {
+      if (least[i] != not_in_mesh) buckets.sources[add_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
+    });
+  };
+  const auto make_room = [&] { mesh.tetrahedra.resize(count), mesh.regions.resize(count); };
+  parallel_both(make_room, fill);
   ends.pop_back();
   return buckets;
 }
@@ -124,11 +130,10 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
                                  std::span<const RegionId> region_of_cell, const delaunay::Delaunay& delaunay) {
   const Parts parts(plc, front, region_of_cell, delaunay.cells);
   const std::size_t vertices = delaunay.vertices.size();
-  Buckets buckets = group_by_least_vertex(parts, vertices);
-  CollectedMesh collected{{}, std::move(buckets.sources)};
+  CollectedMesh collected;
   auto& [mesh, sources] = collected;
-  mesh.tetrahedra.resize(sources.size());
-  mesh.regions.resize(sources.size());
+  Buckets buckets = group_by_least_vertex(parts, vertices, mesh);
+  sources = std::move(buckets.sources);
   parallel_ranges(vertices, grain, [&](std::size_t v, std::size_t end) {
     constexpr std::size_t ahead = 16;  // cells of a bucket are far apart, so memory is asked for them early
     const std::size_t last = buckets.ends[end - 1];

@@ -37,7 +37,6 @@ void check_overlaps(const Plc& plc, const PlcParts& parts, const std::vector<Ove
 
 // The triangles in space, and the pairs of them that may cross.
 struct TriangleSearch {
-  std::vector<Box> boxes;       // empty if there is a tree over them
   std::optional<BoxTree> tree;  // none: it was not worth its price
   std::vector<TrianglePair> close;
 };
@@ -45,10 +44,10 @@ struct TriangleSearch {
 // Splits triangles at the vertices that are on them.
 TriangleSearch make_conforming(std::span<const Point3> vertices, std::span<const std::uint8_t> is_doubtful,
                                TriangleSet& triangles) {
-  TriangleSearch search{boxes_of(vertices, triangles), {}, {}};
-  auto& [boxes, tree, close] = search;
+  TriangleSearch search;
+  auto& [tree, close] = search;
   if (!is_doubtful.empty() && std::ranges::find(is_doubtful, 1) == is_doubtful.end()) return search;
-  tree.emplace(std::move(boxes));
+  tree.emplace(boxes_of(vertices, triangles));
   close = find_close_triangles(vertices, triangles, *tree, is_doubtful);
   if (split_triangles_at_vertices(vertices, close, *tree, triangles)) {
     tree.emplace(boxes_of(vertices, triangles));
@@ -136,7 +135,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
   PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
   auto& [triangles, segments, edges, match, patches] = parts;
   const double tolerance = tolerance_of(plc, options.flatness);
-  auto [boxes, tree, close] = make_conforming(plc.vertices, is_doubtful, triangles);
+  auto [tree, close] = make_conforming(plc.vertices, is_doubtful, triangles);
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
@@ -149,16 +148,16 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
   if (!match.loose.empty()) {
-    if (!tree) tree.emplace(std::exchange(boxes, {}));
+    if (!tree) tree.emplace(boxes_of(plc.vertices, triangles));
     check_overlaps(plc, parts,
                    find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, most_overlaps));
   }
 
   report(progress, stage, 4, steps_of_build);
-  RegionMap map = find_regions(input, plc, parts, std::move(boxes), tree);
+  RegionMap map = find_regions(input, plc, parts, tree);
   note_bytes(bytes_of(plc.world, plc.vertices, triangles.corners, triangles.markers, triangles.numbers, segments.ends,
                       edges.ends, patches.facet_of, map.of_side) +
-             (tree ? tree->bytes() : triangles.size() * sizeof(Box)));
+             (tree ? tree->bytes() : 0));
   plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
   plc.regions = std::move(map.regions);

@@ -5,6 +5,7 @@
 
 #include "engine/base/merge_sort.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
@@ -48,7 +49,7 @@ Point3 common_point(const Point3& a, const Point3& b, const Point3& c, const Poi
 }  // namespace
 
 EdgeTable make_edge_table(std::span<const VertexTriple> triangles) {
-  std::vector<AtEdge> slots(triangles.size() * 3);  // 3 * triangle + corner
+  RawVector<AtEdge> slots(triangles.size() * 3);  // 3 * triangle + corner
   parallel_for(slots.size(), chunk_length, [&](std::size_t i) {
     const VertexTriple& t = triangles[i / 3];
     slots[i] = {edge_key(t[i % 3], t[(i + 1) % 3]), static_cast<std::uint32_t>(i)};
@@ -113,10 +114,9 @@ Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3&
 std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
                                        const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges,
                                        std::size_t limit) {
-  std::vector<Overlap> covering;
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+  const auto sort_around = [&](std::uint32_t e, std::vector<Overlap>& covering) {
     const std::span<std::uint32_t> around = edges.around(e);
-    if (is_inner_edge[e] || around.size() < 2) continue;
+    if (is_inner_edge[e] || around.size() < 2) return;
     const Point3 &a = vertices[edges.ends[e][0]], &b = vertices[edges.ends[e][1]];
     const auto apex = [&](std::uint32_t t) -> const Point3& {
       return vertices[apex_over(triangles.corners[t], edges.ends[e][0], edges.ends[e][1])];
@@ -141,9 +141,15 @@ std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const T
       const Point3 &c = apex(s), &d = apex(t);
       if (!nearly_cover(a, b, c, d, tolerance) && turn_about(a, b, c, d) != Turn::zero) continue;
       covering.push_back({Overlap::Between::covering_facets, s, t, common_point(a, b, c, d)});
-      if (covering.size() == limit) return covering;
+      if (covering.size() == limit) return;
     }
-  }
+  };
+  std::vector<Overlap> covering = parallel_collect<Overlap>(
+      edges.size(), chunk_length, [&](std::size_t begin, std::size_t end, std::vector<Overlap>& found) {
+        for (std::size_t e = begin; e < end && found.size() < limit; ++e)
+          sort_around(static_cast<std::uint32_t>(e), found);
+      });
+  if (covering.size() > limit) covering.resize(limit);
   return covering;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/shared_union_find.h"
+#include "engine/plc/close_triangles.h"
 #include "engine/plc/input_faults.h"
 #include "engine/plc/integer_points.h"
 
@@ -93,11 +94,9 @@ struct RayHit {
 // triangle. It starts from a point that is given as six times its quanta: a mean of up to three vertices.
 class VerticalRays {
  public:
-  // \param boxes  of the triangles, if there is no tree
-  // \param tree   over the boxes; none: all are looked at for each ray. All four must outlive this
-  VerticalRays(std::span<const Point3> vertices, const TriangleSet& triangles, std::span<const Box> boxes,
-               const std::optional<BoxTree>& tree)
-      : vertices_(vertices), triangles_(triangles), boxes_(boxes), tree_(tree) {}
+  // \param tree  over the boxes of the triangles; none: all are looked at for each ray. All three must outlive this
+  VerticalRays(std::span<const Point3> vertices, const TriangleSet& triangles, const std::optional<BoxTree>& tree)
+      : vertices_(vertices), triangles_(triangles), tree_(tree) {}
 
   // All triangles above the point from the lowest to the highest, except `own`.
   std::vector<RayHit> shoot(const IntegerPoint& q, std::optional<std::uint32_t> own = std::nullopt) const {
@@ -147,13 +146,12 @@ class VerticalRays {
   template <class Visit>
   void for_each_meeting(const Box& box, const Visit& visit) const {
     if (tree_) return tree_->for_each_meeting(box, visit);
-    for (std::uint32_t t = 0; t < boxes_.size(); ++t)
-      if (boxes_[t].meets(box)) visit(t);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      if (bounding_box(points_of(vertices_, triangles_.corners[t])).meets(box)) visit(t);
   }
 
   std::span<const Point3> vertices_;
   const TriangleSet& triangles_;
-  std::span<const Box> boxes_;
   const std::optional<BoxTree>& tree_;
 };
 
@@ -291,14 +289,13 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
 
 }  // namespace
 
-RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::vector<Box> boxes,
-                       std::optional<BoxTree>& tree) {
+RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::optional<BoxTree>& tree) {
   SharedUnionFind components = components_of(parts.triangles, parts.edges);
-  constexpr std::size_t few_rays = 8;
+  constexpr std::size_t few_rays = 3;
   std::size_t searches = 2 * (input.holes.size() + input.regions.size()) + parts.match.loose.size();
   for (std::uint32_t t = 0; t < parts.triangles.size(); ++t) searches += components.find(t) == t;
-  if (!tree && searches > few_rays) tree.emplace(std::exchange(boxes, {}));
-  const VerticalRays rays(plc.vertices, parts.triangles, boxes, tree);
+  if (!tree && searches > few_rays) tree.emplace(boxes_of(plc.vertices, parts.triangles));
+  const VerticalRays rays(plc.vertices, parts.triangles, tree);
   RegionMap map = divide_space(parts.triangles, plc.vertices, parts.edges, parts.patches, components, rays);
   mark_inside(input, plc, parts.triangles, parts.edges, rays, map);
   for (const std::uint32_t s : parts.match.loose) {

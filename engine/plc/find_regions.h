@@ -37,11 +37,9 @@ struct RegionMap {
 /// facets that are connected by edges may be nested in others, through rays from one component to the next. Marks what
 /// is inside, as the input's kind says, and gives the regions the attributes of their seeds.
 ///
-/// \param boxes  of the triangles; may be empty if there is a tree
-/// \param tree   over the boxes; made if it is missing and would be used often
+/// \param tree  over the boxes of the triangles; made if it is missing and would be used often
 /// \throw InputError  a seed of a hole or region is outside or on a facet; or nothing is enclosed, or nothing is left
 ///                    by the holes
-RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::vector<Box> boxes,
-                       std::optional<BoxTree>& tree);
+RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::optional<BoxTree>& tree);
 
 }  // namespace ccdt::plc

@@ -12,6 +12,7 @@
 #include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/sort_in_runs.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
@@ -273,7 +274,7 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
   check_coordinates(input);
   plc.grid = numbers::make_grid(input.vertices);
   const auto count = static_cast<std::uint32_t>(input.vertices.size());
-  std::vector<Point3> snapped(count);
+  RawVector<Point3> snapped(count);
   const auto roundings = parallel_chunks(count, 4096, [&](std::size_t i, std::size_t end) {
     double largest = 0;
     for (; i < end; ++i) {
@@ -295,12 +296,16 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
     return i < j;
   });
   std::vector<std::uint32_t> first_equal(count);
+  std::size_t different = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const bool same = k > 0 && snapped[order[k]] == snapped[order[k - 1]];
+    different += !same;
     first_equal[order[k]] = same ? first_equal[order[k - 1]] : order[k];
   }
 
   plc.vertex_of_input.resize(count);
+  plc.vertices.reserve(different);
+  plc.world.reserve(different);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (first_equal[i] != i) {
       plc.vertex_of_input[i] = plc.vertex_of_input[first_equal[i]];
