@@ -15,7 +15,7 @@ void match_nearest(const plc::InputPlc& input, const Topology& topology, const T
   const auto& vertices = topology.mesh.vertices;
   const Box bounds = expanded(bounding_box(input.vertices), tolerances.place);
   std::vector<std::uint32_t> near_input;
-  std::vector<Box> places;
+  RawVector<Box> places;
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
     if (!topology.used(v) || !bounds.meets(box_of(vertices[v]))) continue;
     near_input.push_back(v);

@@ -284,8 +284,8 @@ class SiteFinder {
   }
 
  private:
-  static std::vector<Box> boxes_of(const Surface& surface, std::span<const std::uint32_t> sites) {
-    std::vector<Box> places;
+  static RawVector<Box> boxes_of(const Surface& surface, std::span<const std::uint32_t> sites) {
+    RawVector<Box> places;
     for (const std::uint32_t s : sites) places.push_back(box_of(surface.at(s)));
     return places;
   }
@@ -336,14 +336,14 @@ void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_
   number.push_back(its_number);
 }
 
-ScaledBoxTree::ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerances)
+ScaledBoxTree::ScaledBoxTree(RawVector<Box> boxes, const Tolerances& tolerances)
     : scale_(tolerances.box > 1e-300 ? std::ldexp(1, 21 - std::ilogb(tolerances.box)) : 1), tree_([&] {
         for (Box& box : boxes) box = scaled(box);
         return std::move(boxes);
       }()) {}
 
-std::vector<Box> Surface::boxes_of_pieces() const {
-  std::vector<Box> boxes(pieces(), empty_box);
+RawVector<Box> Surface::boxes_of_pieces() const {
+  RawVector<Box> boxes(pieces(), empty_box);
   parallel_for(pieces(), chunk_length, [&](std::size_t p) {
     for (const auto& [site, next] : edges_of(static_cast<std::uint32_t>(p)))
       boxes[p] = hull(boxes[p], box_of(at(site)));

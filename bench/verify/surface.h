@@ -41,7 +41,7 @@ Sites match_sites(const plc::InputPlc& input, const Topology& topology, const To
 /// A tree of boxes in the units of the input, scaled internally for any size of the input.
 class ScaledBoxTree {
  public:
-  ScaledBoxTree(std::vector<Box> boxes, const Tolerances& tolerances);
+  ScaledBoxTree(RawVector<Box> boxes, const Tolerances& tolerances);
 
   /// Calls visit(i) for all boxes that meet the given one.
   template <class Visit>
@@ -110,7 +110,7 @@ struct Surface : Pieces {
   const Point3& at(std::uint32_t site) const { return sites.position[site]; }
   /// Some point of the piece's plane.
   const Point3& origin(std::uint32_t piece) const { return at(directed[piece_begin[piece]][0]); }
-  std::vector<Box> boxes_of_pieces() const;
+  RawVector<Box> boxes_of_pieces() const;
   bool is_triangle(std::uint32_t piece) const { return edges_of(piece).size() == 3; }
   /// Does the directed edge run from the smaller site to the larger?
   bool is_forward(std::uint32_t use) const { return directed[use][0] < directed[use][1]; }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t boxes_at_once = 4096;  ///< of loops on several threads
 
-std::vector<std::uint32_t> order_of(const std::vector<Box>& boxes) {
+std::vector<std::uint32_t> order_of(const RawVector<Box>& boxes) {
   // Twice the centers; finite boxes of the grid do not overflow.
   RawVector<Point3> centers(boxes.size());
   parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { centers[i] = boxes[i].low + boxes[i].high; });
@@ -17,7 +17,7 @@ std::vector<std::uint32_t> order_of(const std::vector<Box>& boxes) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<Box> boxes) : items_(order_of(boxes)) {
+BoxTree::BoxTree(RawVector<Box> boxes) : items_(order_of(boxes)) {
   boxes_.resize(boxes.size());
   parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
   while (std::size_t{leaf_count_} * leaf_size < items_.size()) leaf_count_ *= 2;

@@ -18,7 +18,7 @@ namespace ccdt {
 ///     node 1 = [2 3], node i = [2i 2i+1], the last `leaf_count` nodes are runs of `leaf_size` items
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes);
+  explicit BoxTree(RawVector<Box> boxes);
 
   std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_); }
 

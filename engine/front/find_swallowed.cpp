@@ -43,7 +43,7 @@ std::vector<std::uint32_t> find_swallowing(std::span<const Tetrahedron> tetrahed
   const std::vector<bool> is_corner = corners_of(tetrahedra, facets, d.vertices.size());
   if (std::ranges::find(is_corner, false) == is_corner.end()) return found;
   std::vector<std::uint32_t> real;
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) {
     if (!is_real(tetrahedra[i])) continue;
     real.push_back(i);

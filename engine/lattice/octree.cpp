@@ -295,13 +295,13 @@ class Builder {
     if (thread_count() > 1 && those.size() > length) {
       const auto runs = parallel_chunks(those.size(), length, [&](std::size_t begin, std::size_t end) {
         std::array<Triangles, 8> found;
-        for (const std::uint32_t t : those.subspan(begin, end - begin)) hand_down(t, boxes, found);
+        hand_down(those.subspan(begin, end - begin), boxes, found);
         return found;
       });
       for (const std::array<Triangles, 8>& found : runs)
         for (std::uint32_t c = 0; c < 8; ++c) lists[c].insert(lists[c].end(), found[c].begin(), found[c].end());
     } else {
-      for (const std::uint32_t t : those) hand_down(t, boxes, lists);
+      hand_down(those, boxes, lists);
     }
     for (std::uint32_t c = 0; c < 8; ++c) {
       OctreeNode& child = tree_.nodes[first_child + c];
@@ -311,25 +311,31 @@ class Builder {
     }
   }
 
-  /// Lists a triangle of the parent for each child that it may touch.
-  void hand_down(std::uint32_t t, const std::array<Box, 8>& boxes, std::array<Triangles, 8>& lists) const {
-    const Box& around = around_[t];
-    unsigned children = children_overlapping(boxes, around);
-    std::optional<TouchTest> touch;
-    for (; children != 0; children &= children - 1) {
-      const auto c = static_cast<std::uint32_t>(std::countr_zero(children));
-      if (!contains(boxes[c], around)) {
-        if (!touch) {
-          const Point3 center = boxes[0].high, side = boxes[0].high - boxes[0].low;
-          double reach = 0;
-          for (const Point3& corner : {around.low - center, around.high - center})
-            for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
-          touch.emplace(surface_.corners(t), 0.5 * side, reach + 0.5 * side.x);
+  /// Lists triangles of the parent for each child that they may touch.
+  void hand_down(std::span<const std::uint32_t> those, const std::array<Box, 8>& boxes,
+                 std::array<Triangles, 8>& lists) const {
+    for (const std::uint32_t t : those) {
+      const Box& around = around_[t];
+      unsigned children = children_overlapping(boxes, around);
+      std::optional<TouchTest> touch;
+      for (; children != 0; children &= children - 1) {
+        const auto c = static_cast<std::uint32_t>(std::countr_zero(children));
+        if (!contains(boxes[c], around)) {
+          if (!touch) touch.emplace(touch_test(t, boxes));
+          if (!touch->may_touch(boxes[c].center())) continue;
         }
-        if (!touch->may_touch(boxes[c].center())) continue;
+        lists[c].push_back(t);
       }
-      lists[c].push_back(t);
     }
+  }
+
+  /// A test of a triangle against the children of a node.
+  TouchTest touch_test(std::uint32_t t, const std::array<Box, 8>& boxes) const {
+    const Point3 center = boxes[0].high, side = boxes[0].high - boxes[0].low;
+    double reach = 0;
+    for (const Point3& corner : {around_[t].low - center, around_[t].high - center})
+      for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
+    return {surface_.corners(t), 0.5 * side, reach + 0.5 * side.x};
   }
 
   /// A bit for each child whose box overlaps another.

@@ -47,8 +47,8 @@ bool are_apart(std::span<const Point3> vertices, const CornerPairs& pair) {
 
 }  // namespace
 
-std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
-  std::vector<Box> boxes(triangles.size());
+RawVector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
+  RawVector<Box> boxes(triangles.size());
   parallel_for(boxes.size(), 4096,
                [&](std::size_t t) { boxes[t] = bounding_box(points_of(vertices, triangles.corners[t])); });
   return boxes;

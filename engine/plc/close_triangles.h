@@ -10,7 +10,7 @@
 namespace ccdt::plc {
 
 /// The boxes of triangles.
-std::vector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
+RawVector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
 
 /// Two different triangles, by their indices.
 struct TrianglePair {

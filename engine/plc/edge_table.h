@@ -20,6 +20,7 @@ struct TriangleSet {
   std::vector<std::uint32_t> numbers;  ///< number in the file of the triangle's facet
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(corners.size()); }
+  void reserve(std::size_t count) { corners.reserve(count), markers.reserve(count), numbers.reserve(count); }
   void add(const VertexTriple& c, int marker, std::uint32_t number) {
     corners.push_back(c);
     markers.push_back(marker);

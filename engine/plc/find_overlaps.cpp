@@ -152,7 +152,7 @@ std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, con
                                            const SegmentSet& segments, std::span<const std::uint32_t> loose,
                                            const BoxTree& tree, std::size_t limit) {
   std::vector<Overlap> found;
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (const std::uint32_t s : loose) {
     const auto& ends = segments.ends[s];
     boxes.push_back(hull(box_of(vertices[ends[0]]), box_of(vertices[ends[1]])));

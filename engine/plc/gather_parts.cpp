@@ -325,6 +325,7 @@ double tolerance_of(const Plc& plc, double flatness) {
 
 TriangleSet gather_triangles(const InputPlc& input, const Plc& plc) {
   TriangleSet triangles;
+  triangles.reserve(input.triangles.size());
   for (std::uint32_t t = 0; t < input.triangles.size(); ++t) {
     const auto [a, b, c] = input.triangles[t];
     triangles.add({plc.vertex_of_input[a], plc.vertex_of_input[b], plc.vertex_of_input[c]},
@@ -421,7 +422,7 @@ bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<con
 
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments) {
   if (segments.ends.empty()) return;
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (const auto& [a, b] : segments.ends) boxes.push_back(hull(box_of(vertices[a]), box_of(vertices[b])));
   const BoxTree tree(std::move(boxes));
   std::vector<std::pair<std::uint32_t, VertexId>> found;  // segment and a vertex on it

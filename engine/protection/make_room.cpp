@@ -34,8 +34,8 @@ std::vector<PieceEnds> protected_edges(const ProtectedDelaunay& p) {
   return edges;
 }
 
-std::vector<Box> boxes_of(std::span<const Point3> points) {
-  std::vector<Box> boxes;
+RawVector<Box> boxes_of(std::span<const Point3> points) {
+  RawVector<Box> boxes;
   boxes.reserve(points.size());
   for (const Point3& p : points) boxes.push_back(box_of(p));
   return boxes;

@@ -67,7 +67,7 @@ class CloseSegmentSearch {
   void compare_at_distance() {
     double longest_step = 0;
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) longest_step = std::max(longest_step, step_of(s));
-    std::vector<Box> boxes;
+    RawVector<Box> boxes;
     for (const Point3& p : plc_.vertices) boxes.push_back(expanded(box_of(p), close_steps * longest_step));
     const BoxTree tree(std::move(boxes));
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {

@@ -213,7 +213,7 @@ std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::In
     const auto& [a, b, c] = surface.triangles[t];
     return std::array<Point3, 3>{surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
     boxes.push_back(expanded(bounding_box(corners(t)), 1e-6 * usual));
   const BoxTree tree(std::move(boxes));
@@ -233,7 +233,7 @@ std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::In
 
 void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& places, double edges_around,
             std::vector<char>& frozen) {
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
   const BoxTree tree(std::move(boxes));
   for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
@@ -254,7 +254,7 @@ void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& plac
 void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Progress& progress) {
   constexpr double edges_around = 6;
   constexpr int rounds = 3;
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
   const BoxTree tree(std::move(boxes));
   const std::vector<char> frozen_faces = m.face_is_frozen;

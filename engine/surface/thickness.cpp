@@ -29,8 +29,8 @@ std::array<Point3, 3> corners_of(const OriginalSurface& surface, std::uint32_t t
   return {surface.points[a], surface.points[b], surface.points[c]};
 }
 
-std::vector<Box> boxes_of(const OriginalSurface& surface) {
-  std::vector<Box> boxes;
+RawVector<Box> boxes_of(const OriginalSurface& surface) {
+  RawVector<Box> boxes;
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) boxes.push_back(bounding_box(corners_of(surface, t)));
   return boxes;
 }

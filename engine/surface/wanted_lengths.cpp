@@ -176,7 +176,7 @@ double EdgeLengths::at(const Point3& p) const {
 
 void EdgeLengths::limit(const std::vector<Ball>& balls) {
   balls_.insert(balls_.end(), balls.begin(), balls.end());
-  std::vector<Box> reaches;
+  RawVector<Box> reaches;
   for (const Ball& ball : balls_)
     reaches.push_back(expanded(box_of(ball.center), ball.radius + std::max(0.0, usual_ - ball.wanted) / length_growth));
   reaches_ = BoxTree(std::move(reaches));

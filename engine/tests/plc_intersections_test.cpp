@@ -172,7 +172,7 @@ TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {
 TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
   std::mt19937 random(9);
   for (const std::size_t count : {0, 1, 3, 4, 5, 17, 200}) {
-    std::vector<Box> boxes;
+    RawVector<Box> boxes;
     for (std::size_t i = 0; i < count; ++i)
       boxes.push_back(hull(box_of(random_point(random, 12)), box_of(random_point(random, 12))));
     if (count == 17) boxes.assign(count, box_of({1, 2, 3}));

@@ -51,7 +51,7 @@ bool cross_or_fold(std::span<const Point3> p, const Triangle& s, const Triangle&
 
 std::vector<std::pair<std::size_t, std::size_t>> crossings(std::span<const Point3> vertices,
                                                            std::span<const Triangle> triangles) {
-  std::vector<Box> boxes;
+  RawVector<Box> boxes;
   for (const auto& [a, b, c] : triangles)
     boxes.push_back(bounding_box(std::array{vertices[a], vertices[b], vertices[c]}));
   std::vector<std::pair<std::size_t, std::size_t>> found;
