@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -41,6 +42,20 @@ RawVector<Box> boxes_of(std::span<const Point3> points) {
   return boxes;
 }
 
+/// A vector with more digits.
+struct LongVector : std::array<long double, 3> {
+  LongVector(long double x, long double y, long double z) : array{x, y, z} {}
+  explicit LongVector(const Point3& p) : array{p.x, p.y, p.z} {}
+};
+
+long double dot(const LongVector& a, const LongVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+LongVector cross(const LongVector& a, const LongVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// Finds the points that may harm an edge; keeps its working memory from one edge to the next.
 class HarmSearch {
  public:
@@ -72,9 +87,34 @@ class HarmSearch {
     const auto size = [&](std::uint32_t cell) { return rough_squared_radius(edge, cell); };
     const std::uint32_t smallest = *std::ranges::min_element(ring_.cells, {}, size);
     best_.clear();
-    tree_.for_each_meeting(face_.covering_ball(), [&](std::uint32_t i) {
+    const std::optional<Ball> ball = ball_around(smallest);
+    tree_.for_each_meeting(ball ? *ball : face_.covering_ball(), [&](std::uint32_t i) {
       if (destroys(points_[i], smallest)) best_.push_back(i);
     });
+  }
+
+  /// A ball that holds the sphere of a cell, enlarged by more than its rounding; none for a ghost or a flat cell. The
+  /// ball around the spheres of all cells of an edge would hold most points of a convex part.
+  ///
+  /// Cells on a nearly flat surface have large spheres, of which hardly anything is inside. So the center is computed
+  /// with many digits.
+  std::optional<Ball> ball_around(std::uint32_t cell) const {
+    if (d_.is_ghost(cell)) return {};
+    const auto& v = d_.cells[cell].vertices;
+    const Point3 origin = d_.point(v[0]);
+    const LongVector a(d_.point(v[1]) - origin), b(d_.point(v[2]) - origin), c(d_.point(v[3]) - origin);
+    const LongVector bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    const long double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), det = dot(a, bc);
+    // Rounding moves the center by up to 30 times this share of the radius.
+    const long double rounding = std::numeric_limits<long double>::epsilon() * std::sqrt(aa * bb * cc) / std::abs(det);
+    if (!(rounding < 1e-6L)) return {};
+    const auto coordinate = [&](int k) {
+      return static_cast<double>((aa * bc[k] + bb * ca[k] + cc * ab[k]) / (2 * det));
+    };
+    const Point3 to_center = {coordinate(0), coordinate(1), coordinate(2)};
+    const double radius = length(to_center), margin = static_cast<double>(100 * rounding);
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    return Ball{origin + to_center, (1 + margin) * radius + 16 * epsilon * (radius + length(origin))};
   }
 
   /// The squared radius of the cell's sphere up to rounding, which does not depend on the order of the cell's vertices;

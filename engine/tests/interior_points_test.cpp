@@ -356,6 +356,41 @@ TEST(InteriorPoints, EdgesThatHarmFewOfThemAreNotSplit) {
   p.expect_protected_after(remaining);
 }
 
+/// A unit cube whose upper side is a dome of n x n squares, each split into two triangles.
+plc::InputPlc cube_with_dome(std::uint32_t n, double height) {
+  plc::InputPlc plc;
+  const auto top = [n](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
+  for (std::uint32_t j = 0; j <= n; ++j)
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const double x = static_cast<double>(i) / n - 0.5, y = static_cast<double>(j) / n - 0.5;
+      plc.vertices.push_back({x, y, 0.5 - height * (x * x + y * y)});
+    }
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) append_fan(plc, {top(i, j), top(i + 1, j), top(i + 1, j + 1), top(i, j + 1)});
+  const auto bottom = static_cast<std::uint32_t>(plc.vertices.size());
+  for (const auto& [x, y] : {std::pair(-0.5, -0.5), {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+    plc.vertices.push_back({x, y, -0.5});
+  append_fan(plc, {bottom, bottom + 3, bottom + 2, bottom + 1});
+  for (std::uint32_t side = 0; side < 4; ++side) {
+    std::vector<std::uint32_t> polygon = {bottom + side, bottom + (side + 1) % 4};
+    for (std::uint32_t i = n + 1; i-- > 0;)
+      polygon.push_back(side == 0 ? top(i, 0) : side == 1 ? top(n, i) : side == 2 ? top(n - i, n) : top(0, n - i));
+    append_fan(plc, polygon);
+  }
+  return plc;
+}
+
+TEST(InteriorPoints, FewAreComparedWithTheSpheresOfANearlyFlatSurface) {
+  // The squares' diagonals have no empty sphere that floating point can find, and the cells around them have spheres
+  // that reach far away from the cube.
+  MeshOptions options;
+  options.edge_length = 0.03;
+  options.improve.improvement = Improvement::none;
+  const MeshResult mesh = mesh_plc(cube_with_dome(20, 1e-6), options);
+  EXPECT_GT(mesh.counts.interior_vertices, 500u);
+  EXPECT_LT(mesh.work.lattice.box_pairs, 100u);  // 2,394 with a ball around all these spheres
+}
+
 TEST(InteriorPoints, ThatWereDroppedAreCounted) {
   // Without the sphere rule and close to the surface, some of the lattice's points harm reflex edges.
   MeshOptions options;
