@@ -10,7 +10,7 @@
 namespace ccdt::proving_ground {
 
 struct ProofOptions {
-  double seconds = 20;                             ///< seconds for one mesh; a longer one counts as endless
+  double seconds = 20;                             ///< of CPU time for one mesh; more count as endless
   std::vector<Lattice> lattices = {Lattice::fcc};  ///< beside none
   bool refined = true;                             ///< also refine the surface, which takes half of the time
 };
