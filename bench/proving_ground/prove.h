@@ -10,7 +10,7 @@
 namespace ccdt::proving_ground {
 
 struct ProofOptions {
-  double seconds = 20;                             ///< of CPU time for one mesh; more count as endless
+  double seconds = 20;  ///< of CPU time for one mesh; one that takes longer counts as endless
   std::vector<Lattice> lattices = {Lattice::fcc};  ///< beside none
   bool refined = true;                             ///< also refine the surface, which takes half of the time
 };

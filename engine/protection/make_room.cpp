@@ -43,10 +43,13 @@ RawVector<Box> boxes_of(std::span<const Point3> points) {
 }
 
 /// A vector with more digits.
-struct LongVector : std::array<long double, 3> {
-  LongVector(long double x, long double y, long double z) : array{x, y, z} {}
-  explicit LongVector(const Point3& p) : array{p.x, p.y, p.z} {}
-};
+using LongVector = std::array<long double, 3>;
+
+/// Exact for points of the grid, whose difference may have one digit more than they.
+LongVector difference(const Point3& a, const Point3& b) {
+  return {static_cast<long double>(a.x) - b.x, static_cast<long double>(a.y) - b.y,
+          static_cast<long double>(a.z) - b.z};
+}
 
 long double dot(const LongVector& a, const LongVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -102,7 +105,8 @@ class HarmSearch {
     if (d_.is_ghost(cell)) return {};
     const auto& v = d_.cells[cell].vertices;
     const Point3 origin = d_.point(v[0]);
-    const LongVector a(d_.point(v[1]) - origin), b(d_.point(v[2]) - origin), c(d_.point(v[3]) - origin);
+    const LongVector a = difference(d_.point(v[1]), origin), b = difference(d_.point(v[2]), origin),
+                     c = difference(d_.point(v[3]), origin);
     const LongVector bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
     const long double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), det = dot(a, bc);
     // Rounding moves the center by up to 30 times this share of the radius.
