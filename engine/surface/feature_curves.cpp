@@ -36,6 +36,8 @@ class Chainer {
  private:
   void find_corners() {
     result_.is_corner = surface_.is_listed_alone;
+    for (std::uint32_t w = 0; w < surface_.wedge_normals.size(); ++w)
+      if (surface_.wedge_normals[w] == Point3{}) result_.is_corner[surface_.wedge_points[w]] = 1;  // a tip
     for (std::uint32_t p = 0; p < surface_.points.size(); ++p)
       if (features_at_[p].size() != 2 ? !features_at_[p].empty() : !runs_on(p)) result_.is_corner[p] = 1;
     find_points_of_other_wedges();

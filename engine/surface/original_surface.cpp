@@ -20,6 +20,9 @@ namespace ccdt::surface {
 
 namespace {
 
+// A tip is a vertex whose triangles turn from their mean by more than this multiple of the angle of a sharp edge.
+constexpr double tip_to_sharp = 1.5;
+
 using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key
 
 std::uint32_t corner_at(const plc::VertexTriple& corners, std::uint32_t point) {
@@ -55,7 +58,9 @@ std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const p
 class SurfaceCutter {
  public:
   SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness)
-      : plc_(plc), cosine_(portable::cosine(to_radians(sharp_angle + 1e-6))) {
+      : plc_(plc),
+        cosine_(portable::cosine(to_radians(sharp_angle + 1e-6))),
+        cosine_at_tips_(portable::cosine(to_radians(std::min(180.0, tip_to_sharp * sharp_angle)))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
     segments_ = declared_segments(input, plc, plc::tolerance_of(plc, flatness));
@@ -261,10 +266,21 @@ class SurfaceCutter {
       }
     }
     for (Point3& normal : surface_.wedge_normals) normal = normalized(normal);
+    forget_normals_at_tips();
+  }
+
+  // Between a tip and the rim of a cone, the mean at the tip would turn the normals away from the surface.
+  void forget_normals_at_tips() {
+    std::vector<char> is_tip(surface_.wedge_normals.size(), 0);
+    for (std::uint32_t t = 0; t < corners_.size(); ++t)
+      for (const std::uint32_t w : surface_.wedges[t])
+        if (dot(surface_.triangle_normals[t], surface_.wedge_normals[w]) < cosine_at_tips_) is_tip[w] = 1;
+    for (std::uint32_t w = 0; w < is_tip.size(); ++w)
+      if (is_tip[w]) surface_.wedge_normals[w] = {};
   }
 
   const plc::Plc& plc_;
-  double cosine_;
+  double cosine_, cosine_at_tips_;
   plc::SegmentSet segments_;
   SegmentMarkers segment_markers_;
   std::vector<plc::VertexTriple> corners_;

@@ -68,7 +68,7 @@ void limit_by_edges(WorkingMesh& m) {
     const double edge = m.edge_length(a, b);
     double most = most_ratio * edge;
     const double turn = length(m.at(b).normal - m.at(a).normal);
-    if (!m.is_flat(a) && turn > 0) {
+    if (!m.is_flat(a) && !m.is_tip(a) && !m.is_tip(b) && turn > 0) {
       const double usual = std::min(m.lengths.at(m.point(a)), m.lengths.at(m.point(b)));
       most = std::min(most, std::max(edge * most_turn / turn, least_by_turn * usual));
     }

@@ -24,7 +24,7 @@ enum class TriangleMeasure { area, angle };
 /// The shape of a triangle, and how well it represents the original surface at its corners.
 struct TriangleFit {
   double quality;    ///< 1 for the equilateral triangle, 0 for a degenerate one
-  double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners
+  double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners but tips
 };
 
 /// The cosine of a triangle's smallest angle.
@@ -50,8 +50,11 @@ inline TriangleFit fit_of(const std::array<Point3, 3>& p, const std::array<Point
   const double size = length(area);
   const double squares = squared_length(p[1] - p[0]) + squared_length(p[2] - p[1]) + squared_length(p[0] - p[2]);
   if (size == 0) return {0, -1};
+  double agreement = size;
+  for (const Point3& normal : normals)
+    if (normal != Point3{}) agreement = std::min(agreement, dot(area, normal));
   return {measure == TriangleMeasure::area ? two_root_three * size / squares : smallest_angle(p) / to_radians(60),
-          std::min({dot(area, normals[0]), dot(area, normals[1]), dot(area, normals[2])}) / size};
+          agreement / size};
 }
 
 /// The worst of several triangles.
@@ -110,7 +113,7 @@ struct WorkingMesh {
     std::uint32_t knot = none;
     std::uint32_t patch = none;
     std::uint32_t near = none;  ///< a triangle of the original surface near to it
-    Point3 normal;              ///< of the original surface, in its patch; of length one
+    Point3 normal;              ///< of the original surface, in its patch; of length one, or zero at a tip
     double wanted = 0;          ///< length of edges there
     bool is_frozen = false;     ///< a corner of a frozen face
   };
@@ -157,6 +160,7 @@ struct WorkingMesh {
   const Vertex& at(VertexHandle v) const { return vertices[static_cast<std::size_t>(v.idx())]; }
   bool is_frozen(const FaceHandle& f) const { return face_is_frozen[static_cast<std::size_t>(f.idx())] != 0; }
   bool is_flat(VertexHandle v) const { return original.patch_is_flat[at(v).patch] != 0; }
+  bool is_tip(VertexHandle v) const { return at(v).normal == Point3{}; }
 
   std::array<VertexHandle, 2> ends(EdgeHandle e) const {
     return {mesh.to_vertex_handle(mesh.halfedge_handle(e, 0)), mesh.to_vertex_handle(mesh.halfedge_handle(e, 1))};
