@@ -22,11 +22,13 @@ Point3 at_share(const std::array<Point3, 2>& ends, double share) {
 std::vector<double> even_shares(const std::array<Point3, 2>& ends, SurfaceSizes& sizes) {
   const double whole = length(ends[1] - ends[0]);
   std::vector<std::pair<double, double>> passed = {{0, 0}};  // share of the length, wanted edges up to there
+  double size = sizes.at(ends[0]);
   for (double t = 0; t < 1;) {
-    const double step = std::min(0.25 * sizes.at(at_share(ends, t)) / whole, 1 - t);
-    const Point3 middle = at_share(ends, t + step / 2);
+    const double step = std::min(0.5 * size / whole, 1 - t);
     t = 1 - t - step < 1e-9 ? 1 : t + step;
-    passed.emplace_back(t, passed.back().second + step * whole / sizes.at(middle));
+    const double next = sizes.at(at_share(ends, t));
+    passed.emplace_back(t, passed.back().second + 0.5 * step * whole * (1 / size + 1 / next));
+    size = next;
   }
   const auto pieces = static_cast<std::uint32_t>(std::max(1.0, std::nearbyint(passed.back().second)));
   std::vector<double> shares;

@@ -181,18 +181,33 @@ class Refiner {
   }
 
   void divide(std::uint32_t segment) {
-    const auto& [first, second] = plc_.segments[segment].ends;
-    VertexId last = first;
+    const auto& [first, last] = plc_.segments[segment].ends;
+    const VertexId begin(points_.size());
     for (const std::uint32_t fraction : divide_segment(ends_of(segment), least_distances_[segment], sizes_))
-      last = add_on_segment(segment, last, second, fraction);
+      add_point_on_segment(segment, fraction);
+    split_evenly(segment, first, last, begin, VertexId(points_.size()));
+  }
+
+  /// Splits the edge ab of a segment at the vertices from `begin` to before `end`, the middle one first: in the order
+  /// along the segment, each one would take over the edges of the one before.
+  void split_evenly(std::uint32_t segment, VertexId a, VertexId b, VertexId begin, VertexId end) {
+    if (begin == end) return;
+    const VertexId middle(begin + (end - begin) / 2);
+    for (const std::uint32_t f : facets_of_segment_[segment]) facets_[f].split(a, b, middle);
+    split_evenly(segment, a, middle, begin, middle);
+    split_evenly(segment, middle, b, VertexId(middle + 1), end);
+  }
+
+  VertexId add_point_on_segment(std::uint32_t segment, std::uint32_t fraction) {
+    points_.push_back(at_fraction(ends_of(segment), fraction));
+    place_.push_back({segment, fraction, none});
+    wanted_.push_back(sizes_.at(points_.back()));
+    return VertexId(points_.size() - 1);
   }
 
   /// Splits the edge ab of a segment.
   VertexId add_on_segment(std::uint32_t segment, VertexId a, VertexId b, std::uint32_t fraction) {
-    const VertexId v(points_.size());
-    points_.push_back(at_fraction(ends_of(segment), fraction));
-    place_.push_back({segment, fraction, none});
-    wanted_.push_back(sizes_.at(points_.back()));
+    const VertexId v = add_point_on_segment(segment, fraction);
     for (const std::uint32_t f : facets_of_segment_[segment]) facets_[f].split(a, b, v);
     return v;
   }
@@ -443,7 +458,7 @@ RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const P
     const double excess = tetrahedra_of_triangle * (static_cast<double>(refiner.triangle_count()) - even_triangles) /
                           options.most_tetrahedra;
     const bool is_near = excess <= most_excess && (least == 0 || excess >= least_excess);
-    if (is_near || tries == most_tries) {
+    if (is_near || tries == most_tries || least == options.edge_length) {
       RefinedPlc result = std::move(refiner).take();
       result.least_size = least;
       return result;

@@ -20,8 +20,13 @@ namespace ccdt::surface {
 
 namespace {
 
-// A tip is a vertex whose triangles turn from their mean by more than this multiple of the angle of a sharp edge.
-constexpr double tip_to_sharp = 1.5;
+// A tip is a vertex where a triangle turns by more than this from the mean of all, in degrees, and by more than at the
+// sharpest edge that is none.
+constexpr double least_turn_at_tip = 30;
+
+double turn_at_tip(double sharp_angle) {
+  return std::max(least_turn_at_tip, sharp_angle / 2);
+}
 
 using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key
 
@@ -60,7 +65,7 @@ class SurfaceCutter {
   SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness)
       : plc_(plc),
         cosine_(portable::cosine(to_radians(sharp_angle + 1e-6))),
-        cosine_at_tips_(portable::cosine(to_radians(std::min(180.0, tip_to_sharp * sharp_angle)))) {
+        cosine_at_tips_(portable::cosine(to_radians(turn_at_tip(sharp_angle)))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
     segments_ = declared_segments(input, plc, plc::tolerance_of(plc, flatness));

@@ -215,6 +215,13 @@ TEST(Refine, ExtremelyThinWallsDoNotTakeForever) {
   EXPECT_LT(work_done.box_tree_nodes - nodes, 60'000'000u);
 }
 
+TEST(Refine, LongSegmentsSideBySideCostFewFlips) {
+  const std::uint64_t before = work_done.edges_flipped;
+  const Refined r = refined(plc_test::box({0, 0, 0}, {50, 0.25, 0.25}), 0.25);
+  EXPECT_GE(r.after.on_segments.size(), 700);
+  EXPECT_LE(work_done.edges_flipped - before, 10 * r.after.on_segments.size());  // in the order along them: 50
+}
+
 TEST(Refine, VerticesInsideFacetsGetEdgesThatFit) {
   InputPlc plc = unit_cube();
   plc.vertices.push_back({0.5, 0.02, 0});  // near an edge
