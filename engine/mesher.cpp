@@ -213,6 +213,31 @@ CheckedInput check_input(const InputPlc& input, const MeshOptions& options, doub
   return checked;
 }
 
+/// Gives the PLC the vertices of refinement.
+///
+/// \param least_size  of `RefineOptions`
+/// \return            all points: those of the PLC, then those on segments
+std::vector<Point3> refine_surface(const MeshOptions& options, double least_size, const Progress& progress,
+                                   StageCosts& costs, Tetrahedralization& t) {
+  const std::size_t vertices_before = t.plc.vertices.size();
+  refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
+    return refine::refine_plc(t.plc,
+                              {.edge_length = options.edge_length / t.plc.grid.unit,
+                               .grading = options.grading,
+                               .most_tetrahedra = options.thin_tetrahedra,
+                               .least_size = least_size},
+                              progress);
+  });
+  t.least_size = refined.least_size;
+  t.plc = std::move(refined.plc);
+  t.chains = std::move(refined.chains);
+  t.counts.refined_in_facets = t.plc.vertices.size() - vertices_before;
+  t.counts.refined_on_segments = refined.on_segments.size();
+  std::vector<Point3> points = t.plc.vertices;
+  points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
+  return points;
+}
+
 /// All stages but improvement.
 ///
 /// \param least_size  of `RefineOptions`
@@ -222,25 +247,9 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   CheckedInput checked = check_input(input, options, flatness, progress, costs);
   t.plc = std::move(checked.plc);
   std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
-  std::vector<Point3> points = t.plc.vertices;
-  if (options.refine_surface) {
-    refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
-      return refine::refine_plc(t.plc,
-                                {.edge_length = options.edge_length / t.plc.grid.unit,
-                                 .grading = options.grading,
-                                 .most_tetrahedra = options.thin_tetrahedra,
-                                 .least_size = least_size},
-                                progress);
-    });
-    t.least_size = refined.least_size;
-    t.plc = std::move(refined.plc);
-    t.chains = std::move(refined.chains);
-    t.counts.refined_in_facets = t.plc.vertices.size() - points.size();
-    t.counts.refined_on_segments = refined.on_segments.size();
-    points = t.plc.vertices;
-    points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
-  }
-  if (!delaunay) delaunay = tetrahedralize_vertices(points, options, progress, costs);
+  if (options.refine_surface)
+    delaunay =
+        tetrahedralize_vertices(refine_surface(options, least_size, progress, costs, t), options, progress, costs);
   if (!delaunay) delaunay::refuse_flat_points();
   protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
     return protection::protect_edges(t.plc, protection::unprotected(t.plc, *std::move(delaunay), std::move(t.chains)),
@@ -354,7 +363,9 @@ unsigned number_of_threads(const MeshOptions& options) {
 }
 
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  return with_threads(options.threads, [&] { return mesh_on_threads(input, options, progress); });
+  return with_file_in_errors(input.name, [&] {
+    return with_threads(options.threads, [&] { return mesh_on_threads(input, options, progress); });
+  });
 }
 
 }  // namespace ccdt

@@ -137,23 +137,21 @@ std::string how_measured(const results::Circumstances& how) {
          rounded(100 * how.confidence, 2) + "% intervals.";
 }
 
-std::string stages(const StageSeconds& s) {
-  const std::array<std::pair<const char*, double>, 11> all = {{{"plc", s.plc},
-                                                               {"refine", s.refine},
-                                                               {"protect", s.protect},
-                                                               {"facets", s.facets},
-                                                               {"lattice", s.lattice},
-                                                               {"delaunay", s.delaunay},
-                                                               {"face check", s.face_check},
-                                                               {"front", s.front},
-                                                               {"label", s.label},
-                                                               {"finish", s.finish},
-                                                               {"improve", s.improve}}};
-  constexpr double least_share = 0.01;  // of meshing; the other stages do not matter to a reader
+/// Of the remeshed surface and its mesh.
+double all_seconds(const bench::RunRecord& r) {
+  return r.remesh_seconds + r.seconds.mesh;
+}
+
+std::string stages(const bench::RunRecord& r) {
+  constexpr double least_share = 0.01;  // of all; the other stages do not matter to a reader
   std::string text;
-  for (const auto& [name, seconds] : all)
-    if (seconds >= least_share * s.mesh && seconds > 0)
-      text += (text.empty() ? "" : ", ") + (name + (" " + rounded(seconds, 2)));
+  const auto add = [&](std::string name, double seconds) {
+    if (seconds < least_share * all_seconds(r) || seconds == 0) return;
+    std::ranges::replace(name, '_', ' ');
+    text += (text.empty() ? "" : ", ") + name + " " + rounded(seconds, 2);
+  };
+  add("remesh", r.remesh_seconds);
+  for (const MeshStage& stage : mesh_stages) add(stage.name, r.seconds.*stage.seconds);
   return text.empty() ? "" : " (" + text + ")";
 }
 
@@ -361,7 +359,7 @@ std::string summarize(const bench::RunRecord& r) {
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
   text += refinement(c) + segments(c.segments) + protection(c) + lattice_cores(c);
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
-  text += "seconds     " + rounded(r.seconds.mesh) + stages(r.seconds) + ", peak memory " +
+  text += "seconds     " + rounded(all_seconds(r)) + stages(r) + ", peak memory " +
           results::mebibytes(r.peak_rss_bytes) + "\n";
   text += quality_lines(r.quality);
   text += improvement(c.improve);
@@ -370,7 +368,7 @@ std::string summarize(const bench::RunRecord& r) {
 }
 
 std::string in_one_line(const bench::RunRecord& r) {
-  return with_separators(r.counts.tetrahedra) + " tetrahedra in " + rounded(r.seconds.mesh) + " s, dihedral angles " +
+  return with_separators(r.counts.tetrahedra) + " tetrahedra in " + rounded(all_seconds(r)) + " s, dihedral angles " +
          rounded(r.quality.dihedral_degrees.min) + " to " + largest_angle(r.quality) + " degrees, worst r " +
          rounded(r.quality.r.max);
 }

@@ -65,6 +65,17 @@ void check_surface_options(const MeshCommand& command) {
                                "only ccdt refines a surface; use --surface remesh for other meshers");
 }
 
+/// A file that gives the vertices back exactly, so that the mesh can be verified against it.
+void check_surface_output(const std::filesystem::path& file) {
+  if (io::lower_ending(file) == ".stl")
+    throw OutputError("STL would round the vertices of the new surface to single precision",
+                      io::place_in(file.string()), "use one of .off .obj .ply .poly");
+  if (!io::is_plc_file(file))
+    throw OutputError("unknown file extension '" + file.extension().string() + "'", io::place_in(file.string()),
+                      "use one of .off .obj .ply .poly");
+  check_can_be_written(file);
+}
+
 void check_files(const MeshCommand& command) {
   if (!io::is_tet_mesh_file(command.output))
     throw OutputError("unknown file extension '" + std::filesystem::path(command.output).extension().string() + "'",
@@ -73,7 +84,7 @@ void check_files(const MeshCommand& command) {
   check_are_different(command.input, command.output);
   check_are_different(command.options.background.name, command.output);
   if (!command.surface_output.empty()) {
-    check_can_be_written(command.surface_output);
+    check_surface_output(command.surface_output);
     for (const std::string& other : {command.input, command.output, command.options.background.name})
       check_are_different(other, command.surface_output);
   }
@@ -160,7 +171,7 @@ std::string words_of(const bench::SurfaceLimit& limit) {
          results::rounded(bench::SurfaceLimit::bad_r) + " touch surface triangles with an angle below " +
          results::rounded(bench::SurfaceLimit::bad_angle) +
          " degrees (smallest: " + results::rounded(limit.least_angle) +
-         "); --surface refine puts even triangles on flat facets";
+         "); --surface refine puts even triangles on flat facets, --surface remesh on bent surfaces, too";
 }
 
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.

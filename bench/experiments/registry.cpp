@@ -112,9 +112,4 @@ std::span<const KnownExperiment> known_experiments() {
   return all;
 }
 
-const KnownExperiment* known_experiment(std::string_view name) {
-  const auto found = std::ranges::find(known_experiments(), name, &KnownExperiment::name);
-  return found == known_experiments().end() ? nullptr : &*found;
-}
-
 }  // namespace ccdt::experiments

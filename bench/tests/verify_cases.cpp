@@ -18,7 +18,10 @@ int left_and_right(int i, int, int) {
 
 std::string all_lines(const verify::Verification& verification) {
   std::string s;
-  for (const std::string& line : verify::describe(verification)) s += line + "\n";
+  for (const verify::Check& check : verification.checks) {
+    s += check.name + ": " + std::to_string(check.failed) + " of " + std::to_string(check.checked) + " failed\n";
+    for (const std::string& example : check.examples) s += "  " + example + "\n";
+  }
   return s;
 }
 

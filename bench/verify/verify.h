@@ -73,8 +73,4 @@ struct Verification {
 Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 
-/// A verification as lines for a terminal: one per check with its name and the numbers of checked and failed items,
-/// with the first failures below it; then the volumes and the verdict.
-std::vector<std::string> describe(const Verification& verification);
-
 }  // namespace ccdt::verify

@@ -56,4 +56,15 @@ class MeshError : public Error {
   using Error::Error;
 };
 
+/// Runs something whose errors concern a file: those that name none get its name.
+template <class Run>
+auto with_file_in_errors(const std::string& file, const Run& run) {
+  try {
+    return run();
+  } catch (Error& error) {
+    if (error.place().file.empty()) error.place().file = file;
+    throw;
+  }
+}
+
 }  // namespace ccdt

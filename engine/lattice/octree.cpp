@@ -250,8 +250,9 @@ class Builder {
     constexpr std::size_t most_nodes = std::size_t{1} << 31;
     const std::size_t first = tree_.nodes.size();
     if (first + 8 * parents > most_nodes + 8)
-      throw LimitError("the octree of the interior points needs more than 2^31 nodes", {},
-                       "use a greater edge length or a greater grading");
+      throw LimitError(
+          "the edge length is too short: the octree of the interior points would need more than 2^31 nodes", {},
+          "give a longer edge length or a greater grading");
     tree_.nodes.resize(first + 8 * parents);
     return static_cast<std::uint32_t>(first);
   }

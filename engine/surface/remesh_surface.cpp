@@ -23,6 +23,9 @@ namespace ccdt::surface {
 
 namespace {
 
+// Rounds of splits, collapses, flips and relaxation.
+constexpr int rounds_of_all = 8, rounds_near_places = 3;
+
 // If triangles cross, the edges there are halved at most this many times; then the old triangles stay, in a growing
 // neighborhood.
 constexpr int most_halvings = 8;
@@ -38,8 +41,6 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   if (!is_angle)
     throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place,
                      "give an angle in between, such as 30");
-  if (options.iterations < 1)
-    throw InputError("remeshing needs at least one iteration", place, "give a greater number, such as 8");
 }
 
 /// What must stay the same: the regions, in any order.
@@ -131,9 +132,9 @@ void improve_worst_triangles(WorkingMesh& m) {
 }
 
 /// The rounds of remeshing, and the improvement at their end.
-void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
-  for (int i = 0; i < iterations; ++i) {
-    report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(iterations));
+void remesh(WorkingMesh& m, int rounds, const Progress& progress) {
+  for (int i = 0; i < rounds; ++i) {
+    report(progress, "remesh", static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(rounds));
     find_wanted_lengths(m, i > 0);
     ++work_done.remesh_rounds;
     split_long_edges(m);
@@ -145,7 +146,7 @@ void remesh(WorkingMesh& m, int iterations, const Progress& progress) {
   relax_vertices(m);
   flip_edges_for_quality(m);
   improve_worst_triangles(m);
-  report(progress, "remesh", static_cast<std::uint64_t>(iterations), static_cast<std::uint64_t>(iterations));
+  report(progress, "remesh", static_cast<std::uint64_t>(rounds), static_cast<std::uint64_t>(rounds));
 }
 
 /// Places, in the units of the surface, where its triangles or segments meet in more than common vertices and edges, or
@@ -253,7 +254,6 @@ void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& plac
 /// Remeshes only near some places, with shorter edges.
 void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Progress& progress) {
   constexpr double edges_around = 6;
-  constexpr int rounds = 3;
   RawVector<Box> boxes;
   for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
   const BoxTree tree(std::move(boxes));
@@ -267,7 +267,7 @@ void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Pr
     m.face_is_frozen[static_cast<std::size_t>(f.idx())] = 1;
     for (const VertexHandle v : corners) m.at(v).is_frozen = true;
   }
-  remesh(m, rounds, progress);
+  remesh(m, rounds_near_places, progress);
   std::copy(frozen_faces.begin(), frozen_faces.end(), m.face_is_frozen.begin());
   for (std::size_t v = 0; v < vertices.size(); ++v) m.vertices[v].is_frozen = vertices[v].is_frozen;
 }
@@ -278,9 +278,7 @@ void halve_lengths(const std::vector<SizedPlace>& places, EdgeLengths& lengths) 
   lengths.limit(balls);
 }
 
-}  // namespace
-
-plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
+plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
   check_options(input, options);
   const plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
@@ -292,7 +290,7 @@ plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& op
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
     WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, thickness, frozen);
-    remesh(mesh, options.iterations, progress);
+    remesh(mesh, rounds_of_all, progress);
     for (int halving = 0;; ++halving) {
       note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
       plc::InputPlc result = to_plc(mesh, input);
@@ -308,6 +306,12 @@ plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& op
       remesh_near(mesh, places, progress);
     }
   }
+}
+
+}  // namespace
+
+plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
+  return with_file_in_errors(input.name, [&] { return remesh(input, options, progress); });
 }
 
 }  // namespace ccdt::surface

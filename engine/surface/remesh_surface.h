@@ -13,7 +13,6 @@ struct RemeshOptions {
   /// kept.
   double sharp_angle = 30;
 
-  int iterations = 8;      ///< rounds of split, collapse, flip and relaxation
   double flatness = 1e-8;  ///< see PlcOptions
 };
 
