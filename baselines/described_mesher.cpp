@@ -133,7 +133,7 @@ double call_program(const Description& description, const InputPlc& input, const
     throw MesherError(failure_kind_of_exit_code(code),
                       description.name + " ended with code " + std::to_string(code) +
                           (code > 128 && code < 192 ? ", by signal " + std::to_string(code - 128) : "") +
-                          "; its last words: " + last_lines(log),
+                          "; it printed: " + last_lines(log),
                       io::place_in(input.name), "try another mesher, or check the surface there");
   return ended.seconds;
 }
@@ -142,7 +142,7 @@ TetMesh read_output(const Description& description, const InputPlc& input, const
                     const std::filesystem::path& folder, const std::filesystem::path& log) {
   if (!std::filesystem::exists(folder / name))
     throw MesherError(
-        FailureKind::wrong, description.name + " wrote no file " + name + "; its last words: " + last_lines(log),
+        FailureKind::wrong, description.name + " wrote no file " + name + "; it printed: " + last_lines(log),
         io::place_in(input.name), "try another mesher, or correct /output in " + description.file.string());
   try {
     return io::read_tet_mesh(folder / name);
@@ -188,7 +188,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   clean_up(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
     throw MesherError(FailureKind::wrong,
-                      description.name + " made no tetrahedra inside; its last words: " + last_lines(log),
+                      description.name + " made no tetrahedra inside; it printed: " + last_lines(log),
                       io::place_in(input.name), "try another mesher, or check whether the surface is closed");
   run.result.counts = count_elements(given, run.result.mesh);
   return run;

@@ -49,7 +49,7 @@ FailureKind failure_kind_of_signal(int signal);
 /// The kind of failure for an exit code other than 0. Shells report a signal as 128 plus its number.
 FailureKind failure_kind_of_exit_code(int code);
 
-/// The program of a mesher crashed, or its output is not a mesh.
+/// Another mesher failed; `kind` says how.
 class MesherError : public MeshError {
  public:
   MesherError(FailureKind kind, const std::string& what, Place place, std::string remedy)

@@ -122,7 +122,7 @@ void check_members(const Json& schema, const Json& rule_of_value, const Json& va
       check_members(schema, *its_rule, member, at / name, file, kind);
     else if (value.is_object() && is_closed)
       fail_at_pointer(file, (at / name).to_string(), "there is no such member",
-                      suggestion(name, members_of(rule)) + kind.examples);
+                      suggestion(name, members_of(rule), "the members are ") + kind.examples);
   }
 }
 
@@ -169,14 +169,15 @@ std::string listed(const std::vector<std::string>& names) {
   return list;
 }
 
-std::string suggestion(std::string_view unknown, const std::vector<std::string>& known) {
+std::string suggestion(std::string_view unknown, const std::vector<std::string>& known,
+                       const std::string& before_list) {
   constexpr std::size_t most_edits = 2;
   const auto distance = [&](const std::string& name) { return edit_distance(unknown, name); };
   const auto nearest = std::ranges::min_element(known, {}, distance);
   std::string text;
   if (nearest != known.end() && distance(*nearest) <= most_edits && distance(*nearest) < nearest->size())
     text = "did you mean '" + *nearest + "'? ";
-  return text + "Known are " + listed(known);
+  return text + before_list + listed(known);
 }
 
 }  // namespace ccdt::baselines

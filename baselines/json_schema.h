@@ -27,7 +27,10 @@ nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const U
 /// "a, b, c"
 std::string listed(const std::vector<std::string>& names);
 
-/// The remedy for an unknown name: "did you mean 'b'? Known are a, b, c".
-std::string suggestion(std::string_view unknown, const std::vector<std::string>& known);
+/// The remedy for an unknown name: "did you mean 'b'? use one of a, b, c".
+///
+/// \param before_list  the words before the known names
+std::string suggestion(std::string_view unknown, const std::vector<std::string>& known,
+                       const std::string& before_list = "use one of ");
 
 }  // namespace ccdt::baselines

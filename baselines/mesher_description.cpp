@@ -31,7 +31,7 @@ void check_placeholders(const OrderedJson& part, const Pointer& at, const std::v
   if (!part.is_string()) return;
   for (const std::string& name : placeholders_in(part.get<std::string>()))
     if (std::ranges::find(known, name) == known.end())
-      fail(file, at, "there is no placeholder {" + name + "}", "known are " + listed(known));
+      fail(file, at, "there is no placeholder {" + name + "}", "use one of " + listed(known));
 }
 
 void check_all_placeholders(const OrderedJson& json, const std::string& file) {

@@ -41,7 +41,7 @@ const Solid& find_solid(std::string_view name) {
 void check_edge_length(const Solid& solid, double edge_length) {
   if (edge_length >= solid.finest && edge_length <= solid.coarsest) return;  // false for NaN
   std::ostringstream what, remedy;
-  what << "the edge length " << edge_length << " is too " << (edge_length < solid.finest ? "fine" : "coarse")
+  what << "the edge length " << edge_length << " is too " << (edge_length < solid.finest ? "short" : "long")
        << " for the solid " << solid.name;
   remedy << "choose one from " << solid.finest << " to " << solid.coarsest << " (default " << solid.default_edge_length
          << ")";

@@ -24,7 +24,7 @@ struct Solid {
 std::span<const Solid> solids();
 
 /// The solid of that name with triangles of about that edge length (units of the model; <= 0: its default).
-/// \throw InputError  no such solid (the known ones are listed), or an edge length that is too coarse or too fine for
+/// \throw InputError  no such solid (the known ones are listed), or an edge length that is too long or too short for
 /// it
 plc::InputPlc make_solid(std::string_view name, double edge_length);
 

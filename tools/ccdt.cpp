@@ -36,9 +36,10 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.failure_message([](const CLI::App* failed, const CLI::Error& error) { return usage_in_words(*failed, error); });
     app.footer(
-        "Exit codes: 0 done; 1 the result failed a check; 2 wrong usage; 3 invalid input, or a file cannot be read "
-        "or\nwritten; 4 a limit (time, memory, subdivision) was reached; 5 undecided.\n\nExample: mesh a part and "
-        "verify the mesh\n"
+        "Exit codes: 0 done; 1 no valid mesh was found, a result failed a check, a gate failed, or an internal error\n"
+        "occurred; 2 wrong usage; 3 invalid input, a file cannot be read or written, or results cannot be compared;\n"
+        "4 a limit (time, memory, subdivision) was reached; 5 undecided.\n\n"
+        "Example: mesh a part and verify the mesh\n"
         "  ccdt mesh part.stl -o part.vtu && ccdt verify part.stl part.vtu\n");
     add_model_command(app, exit_code);
     add_mesh_command(app, exit_code);

@@ -207,8 +207,8 @@ void check(const GateCommand& command) {
 
 constexpr const char* gate_footer =
     "Finds out whether a program is worse than another one, or than a recording. There are three layers:\n\n"
-    "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks, exit codes: any change of what\n"
-    "                must stay the same fails, more work fails, less work passes; compared with a recording\n"
+    "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks, exit codes: figures that must\n"
+    "                stay the same may not change; more work fails, less work passes; compared with a recording\n"
     "  instructions  what callgrind counts in each stage; compared with a recording of the same CPU model and "
     "libraries\n"
     "  time          base and head run in turns on this host; a time that was recorded earlier is never judged\n\n"

@@ -38,8 +38,8 @@ enum class Surface { keep, remesh, refine };
 
 constexpr auto names_of(Surface) {
   return std::to_array<NamedValue<Surface>>(
-      {{Surface::keep, "keep", "keep the triangles of the surface"},
-       {Surface::remesh, "remesh", "new ones of --edge-length"},
+      {{Surface::keep, "keep", "keep the triangles of the input"},
+       {Surface::remesh, "remesh", "make new triangles of --edge-length; sharp edges stay"},
        {Surface::refine, "refine",
         "make new triangles of --edge-length on the same flat facets and straight segments"}});
 }
@@ -132,7 +132,7 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
       if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
         notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
     } else if (use->only_none && value != "none") {
-      notes.push_back("--" + name + " was not used: " + chosen.name + " knows only none and its own way");
+      notes.push_back("--" + name + " was not used: " + chosen.name + " supports only 'none' and its own default");
     }
   }
   return notes;
@@ -308,7 +308,7 @@ void add_files(CLI::App& verb, MeshCommand& command) {
   verb.add_option("--surface-output", command.surface_output,
                   "write the remeshed surface to this file: .off .obj .ply .poly");
   verb.add_option("--report", command.report,
-                  "write a report of the run to this file, even if it fails (JSON, schema ccdt.run/1)");
+                  "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
 }
 
 void add_strategies(CLI::App& verb, MeshCommand& command) {

@@ -98,7 +98,7 @@ CLI::Validator known_mesher() {
 }
 
 void add_threads(CLI::App& verb, unsigned& threads) {
-  verb.add_option("--threads", threads, "the most threads that work at the same time; the result is the same")
+  verb.add_option("--threads", threads, "largest number of threads; the result does not depend on it")
       ->check(whole_number(1, 1024))  // starting more takes longer than meshing
       ->default_str("all cores");
 }

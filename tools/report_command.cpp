@@ -71,10 +71,9 @@ constexpr const char* report_footer =
     "columns:\n";
 
 constexpr const char* examples =
-    "where `counted` is yes, or no for a warm-up run, `file` the whole record, `seconds` those of meshing alone, "
-    "`verified`\n"
-    "and `kind` empty where the record does not say, and each option of the sweep has a column option_NAME. What is "
-    "not known is empty in CSV and null in JSON.\n\n"
+    "`counted`: no for a warm-up run. `file`: the whole record. `seconds`: meshing alone. `verified` and `kind` are "
+    "empty\nif the record does not say. Each option of the sweep has a column option_NAME. Unknown values are empty in "
+    "CSV\nand null in JSON.\n\n"
     "Example: measure one experiment again, then update the report\n"
     "  ccdt reproduce fig8 -o build/paper --scale paper && ccdt report build/paper\n"
     "Example: compare two folders; the report goes to new/comparison\n"

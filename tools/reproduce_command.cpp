@@ -199,7 +199,7 @@ ExitCode run_until_stopped(ReproduceCommand& command) {
 }
 
 std::string reproduce_footer() {
-  std::string text = "Experiments; without one, all but those in brackets:\n";
+  std::string text = "Experiments. If none is named, all run except those in brackets:\n";
   for (const experiments::KnownExperiment& e : experiments::known_experiments())
     text += list_line(e.name, e.is_usual ? e.what : "[" + e.what + "]");
   text += list_line(claims_name, "all experiments that test a claim of the paper") + "\nScales:\n";
@@ -228,7 +228,9 @@ void add_limits(CLI::App& verb, ReproduceCommand& command) {
 }
 
 void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
-  verb.add_option("--runs", command.options.runs, "number of counted runs of each case")
+  verb.add_option("--runs", command.options.runs,
+                  "least number of counted runs of each timed case (three if they take long); more follow until its "
+                  "interval is narrow enough")
       ->check(whole_number(5, 1000))
       ->capture_default_str();
   verb.add_option("--scale", command.options.scale,

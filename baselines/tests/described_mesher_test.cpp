@@ -110,11 +110,11 @@ TEST_F(ScriptMesher, TakesTheSecondsFromTheLogOrSaysThatItCannot) {
 
 TEST_F(ScriptMesher, ThatFailsIsQuoted) {
   script("echo first; echo 'facet 7 is bad' >&2; exit 4");
-  EXPECT_EQ(reason(), "mine ended with code 4; its last words: first | facet 7 is bad");
+  EXPECT_EQ(reason(), "mine ended with code 4; it printed: first | facet 7 is bad");
   script("kill -SEGV $$");
-  EXPECT_EQ(reason(), "mine ended with code 139, by signal 11; its last words: ");
+  EXPECT_EQ(reason(), "mine ended with code 139, by signal 11; it printed: ");
   script("echo done");
-  EXPECT_EQ(reason(), "mine wrote no file input.out.mesh; its last words: done");
+  EXPECT_EQ(reason(), "mine wrote no file input.out.mesh; it printed: done");
   script("echo nonsense > input.out.mesh");
   EXPECT_TRUE(reason().starts_with("what mine wrote cannot be read: input.out.mesh, line 1: ")) << reason();
   description_.command[0] = "no-such-mesher";

@@ -31,14 +31,13 @@ std::vector<std::string> definitions() {
       "Existence rests on edge protection: each grazeable edge is a chain of Delaunay edges.",
       "For each protected edge, an empty sphere through its ends is chosen. It keeps the edge Delaunay.",
       "A point inside one of these spheres could destroy the edge, and is left out.",
-      "Rule paper: no point in the smallest sphere of a face or subsegment, nor near to the surface.",
+      "Rule paper: no point in the smallest sphere of a face or subsegment, or near the surface.",
       "Near: within 0.55 edge lengths.",
       "Rule no spheres: the distance alone (--sphere-factor 0).",
       "Rule no distances: neither rule (--sphere-factor 0 --clearance 0.01).",
       "A case is one input at one density, with one lattice and one rule.",
-      "The smallest counterexample we know is a tetrahedron with a dent, five vertices, and one point below the dent.",
+      "The smallest known counterexample is a tetrahedron with a dent, five vertices, and one point below the dent.",
       "With that point, it has tetrahedralizations, but none is constrained Delaunay.",
-      "See engine/tests/interior_points_test.cpp.",
   };
 }
 

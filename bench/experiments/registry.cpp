@@ -91,7 +91,7 @@ std::vector<KnownExperiment> all_experiments() {
       {"termination", "Termination: does splitting at midpoints terminate?", "2",
        "midpoints and shells where segments meet at small angles", true, true, measure_termination},
       {"interior-points", "Interior points: do they never harm existence?", "3",
-       "do interior points never harm existence, as the paper says?", true, true, measure_interior_points},
+       "whether interior points can destroy a CDT, which the paper denies", true, true, measure_interior_points},
       {"quality", "Quality: our tetrahedra beside those of other meshers", "6",
        "all three models and your files, compared with other meshers", false, false,
        quality("quality", names_of_paper_models())},

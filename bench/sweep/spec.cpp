@@ -117,7 +117,7 @@ void check_model(const Reader& reader, const SweepInput& input, const Pointer& a
   }
   for (const double length : input.edge_lengths)
     if (length < solid->finest || length > solid->coarsest)
-      reader.fail(at / "edge_length", digits(length) + " is too " + (length < solid->finest ? "fine" : "coarse"),
+      reader.fail(at / "edge_length", digits(length) + " is too " + (length < solid->finest ? "short" : "long"),
                   input.model + " keeps its shape from " + digits(solid->finest) + " to " + digits(solid->coarsest));
 }
 

@@ -37,7 +37,7 @@ void check_is_file(const std::filesystem::path& file) {
     throw InputError("no such file", place, "check the path and the spelling of the name");
   if (error) throw InputError("cannot be opened: " + error.message(), place, "check the path and its permissions");
   if (std::filesystem::is_directory(status))
-    throw InputError("is a directory, not a file", place, "name a file in this directory");
+    throw InputError("this is a folder", place, "give the name of a file in it");
   if (!std::filesystem::is_regular_file(status))
     throw InputError("is not a regular file", place, "write the data to a file and name that file");
 }
@@ -56,7 +56,7 @@ FileBytes read_whole_file(const std::filesystem::path& file) {
   try {
     result.bytes.resize(size);
   } catch (const std::exception&) {
-    throw LimitError("a file of " + std::to_string(size) + " bytes does not fit into memory", place,
+    throw LimitError("out of memory: the file has " + std::to_string(size) + " bytes", place,
                      "use a machine with more memory or a coarser model");
   }
   if (const std::size_t got = std::fread(result.bytes.data(), 1, size, in.get()); got != size)
@@ -92,7 +92,7 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
   std::error_code ignored;
   const auto status = std::filesystem::status(target_, ignored);
   if (std::filesystem::is_directory(status))
-    throw OutputError("is a directory, not a file", place_in(target_.string()), "name a file in this directory");
+    throw OutputError("this is a folder", place_in(target_.string()), "give the name of a file in it");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw OutputError("is not a regular file and cannot be replaced", place_in(target_.string()),
                       "name an ordinary file");

@@ -25,13 +25,13 @@ struct FileBytes {
 
 bool is_there(const std::filesystem::path& file);
 
-/// \throw InputError  no such file, a directory, or not a regular file
+/// \throw InputError  no such file, a folder, or not a regular file
 void check_is_file(const std::filesystem::path& file);
 
 /// Reads a whole file.
 ///
-/// \throw InputError  no such file, a directory, not a regular file, empty, or unreadable
-/// \throw LimitError  it does not fit into memory
+/// \throw InputError  no such file, a folder, not a regular file, empty, or unreadable
+/// \throw LimitError  out of memory
 FileBytes read_whole_file(const std::filesystem::path& file);
 
 /// The extension of a file's name in lower case, with its dot.
@@ -93,7 +93,7 @@ class TextBuffer {
 /// renames it. Without `commit` the destructor removes it.
 class OutputFile {
  public:
-  /// \throw OutputError  the place is a directory, or cannot be written
+  /// \throw OutputError  the place is a folder, or cannot be written
   explicit OutputFile(std::filesystem::path target);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

@@ -13,7 +13,7 @@ bool is_plc_file(const std::filesystem::path& file);
 /// distinguished by content), .off, .obj, .ply (text and binary), .poly, .smesh, .node (TetGen), .mesh (Medit, text)
 /// and .meshb (Medit, binary).
 ///
-/// \throw InputError  no such file, a directory, unknown extension, empty, truncated, malformed, NaN or infinite
+/// \throw InputError  no such file, a folder, unknown extension, empty, truncated, malformed, NaN or infinite
 ///                    coordinates, index out of range, counts that contradict the size of the file; with file, line or
 ///                    byte, and a remedy
 plc::InputPlc read_plc(const std::filesystem::path& file);

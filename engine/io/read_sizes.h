@@ -15,7 +15,7 @@ namespace ccdt::io {
 ///
 /// \throw InputError  unknown extension, unreadable, no background beside it, a wrong number of vertices, not one
 ///                    scalar per vertex, or a size that is not a number > 0; with file and line
-/// \throw LimitError  it does not fit into memory
+/// \throw LimitError  out of memory
 lattice::BackgroundSizes read_sizes(const std::filesystem::path& file);
 
 }  // namespace ccdt::io

@@ -206,7 +206,7 @@ class FacetTriangulator {
     std::vector<Point3> seeds;
     for (const Point3& hole : facet_->holes) {
       if (!contains(world_box_, box_of(hole)))
-        fail("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
+        fail("the hole seed of a facet is outside the facet", {}, "move the seed into the hole, or remove it");
       carving.hole_seeds.push_back(VertexId(plc_.vertices.size() + seeds.size()));
       seeds.push_back(plc_.grid.snap(hole));
     }
@@ -223,7 +223,7 @@ class FacetTriangulator {
       fail("a facet has vertices at the same place, or all on one line, within the tolerance", vertices_,
            "remove this facet");
     if (!result.lost_seeds.empty())
-      fail("the seed of a hole in a facet is outside of it", {}, "move the seed into the hole, or remove it");
+      fail("the hole seed of a facet is outside the facet", {}, "move the seed into the hole, or remove it");
     planar::Triangulation& t = result.triangulation;
     if (t.triangles.empty())
       fail("the outline of a facet is not closed, or its holes remove everything", vertices_,

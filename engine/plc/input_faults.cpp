@@ -110,7 +110,8 @@ void throw_open_surface(const Plc& plc, const EdgeTable& edges) {
   }
   throw_input_error(plc,
                     "the surface is open: it has " + std::to_string(edge_counts.size()) + " boundary loop" +
-                        (edge_counts.size() == 1 ? "" : "s") + ", of " + lengths + " edges; a point of each follows",
+                        (edge_counts.size() == 1 ? "" : "s") + ", of " + lengths +
+                        (lengths == "1" ? " edge" : " edges") + "; a point of each follows",
                     "close the holes, or merge vertices that should be one; an open surface inside a closed one must "
                     "be given as .poly, .smesh or .mesh",
                     points);

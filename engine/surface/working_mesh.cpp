@@ -56,8 +56,8 @@ void add_faces(WorkingMesh& m, const std::vector<char>& frozen) {
     if (m.mesh.add_face(corners[0], corners[1], corners[2]).is_valid()) continue;
     Place place;
     for (const std::uint32_t p : m.original.triangles[t]) place.points.push_back(as_array(m.original.points[p]));
-    throw MeshError("the surface cannot be remeshed: it is not a manifold around a facet, even between its features",
-                    place, "mesh the surface as it is");
+    throw MeshError("the surface cannot be remeshed: it is not a manifold at this facet", place,
+                    "mesh the surface as it is");
   }
   m.face_is_frozen = frozen;
 }

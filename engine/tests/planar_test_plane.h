@@ -21,7 +21,7 @@ struct IntegerPoint {
   auto operator<=>(const IntegerPoint&) const = default;
 };
 
-/// Points with integer coordinates (of at most 2^20, say) as a model of `PlanarPredicates`, written as plainly as
+/// Points with integer coordinates (of at most 2^20, say) as a model of `planar::Predicates`, written as plainly as
 /// possible. It counts its evaluations.
 struct IntegerPlane {
   std::vector<IntegerPoint> points;
