@@ -252,7 +252,7 @@ class Builder {
     if (first + 8 * parents > most_nodes + 8)
       throw LimitError(
           "the edge length is too short: the octree of the interior points would need more than 2^31 nodes", {},
-          "give a longer edge length or a greater grading");
+          "give a longer --edge-length or a greater --grading");
     tree_.nodes.resize(first + 8 * parents);
     return static_cast<std::uint32_t>(first);
   }

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <map>
 #include <random>
+#include <string>
 
+#include "engine/base/errors.h"
 #include "engine/base/hash_table.h"
 
 namespace ccdt {
@@ -34,6 +36,20 @@ TEST(HashTable, HoldsWhatAMapHoldsAfterRandomInsertionsAndRemovals) {
   std::map<std::uint32_t, int> all;
   table.for_each([&](std::uint32_t key, int value) { all[key] = value; });
   EXPECT_EQ(all, map);
+}
+
+TEST(Errors, GetTheNameOfTheFileUnlessTheyHaveOne) {
+  for (const std::string name : {"", "background.mesh"}) {
+    try {
+      with_file_in_errors("part.stl",
+                          [&]() -> int { throw LimitError("too many", {.file = name, .line = 7}, "fewer"); });
+      FAIL();
+    } catch (const LimitError& error) {
+      EXPECT_EQ(error.place().file, name.empty() ? "part.stl" : name);
+      EXPECT_EQ(error.place().line, 7);
+    }
+  }
+  EXPECT_EQ(with_file_in_errors("part.stl", [] { return 7; }), 7);
 }
 
 }  // namespace

@@ -76,6 +76,19 @@ TEST_F(Program, RemeshingNeedsAnEdgeLengthAndANewSurfaceNeedsRemeshing) {
   EXPECT_EQ(file_count(), 1u);
 }
 
+TEST_F(Program, ANewSurfaceIsWrittenOnlyWhereItsVerticesStayExact) {
+  write("cube.off", cube_off);
+  const std::string remesh = "mesh cube.off -o a.vtu --surface remesh --edge-length 0.3 --surface-output ";
+  for (const std::string file : {"even.stl", "even.STL", "even.xyz", "even"}) {
+    EXPECT_EQ(run(remesh + file).exit_code, 3) << file;
+    EXPECT_EQ(file_count(), 1u) << file;
+  }
+  for (const std::string file : {"even.off", "even.obj", "even.ply", "even.poly"}) {
+    EXPECT_EQ(run(remesh + file).exit_code, 0) << file;
+    EXPECT_EQ(run("verify " + file + " a.vtu").exit_code, 0) << file;
+  }
+}
+
 TEST_F(Program, OnlyCcdtRefinesASurface) {
   write("cube.off", cube_off);
   EXPECT_EQ(run("mesh cube.off -o a.vtu --surface refine --mesher tetgen").exit_code, 2);
