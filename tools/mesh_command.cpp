@@ -65,14 +65,16 @@ void check_surface_options(const MeshCommand& command) {
                                "only ccdt refines a surface; use --surface remesh for other meshers");
 }
 
-/// A file that gives the vertices back exactly, so that the mesh can be verified against it.
+/// Of files that give the vertices of a surface back exactly, so that its mesh can be verified against it.
+constexpr const char* surface_endings = ".off .obj .ply .poly";
+
 void check_surface_output(const std::filesystem::path& file) {
   if (io::lower_ending(file) == ".stl")
     throw OutputError("STL would round the vertices of the new surface to single precision",
-                      io::place_in(file.string()), "use one of .off .obj .ply .poly");
+                      io::place_in(file.string()), std::string("use one of ") + surface_endings);
   if (!io::is_plc_file(file))
     throw OutputError("unknown file extension '" + file.extension().string() + "'", io::place_in(file.string()),
-                      "use one of .off .obj .ply .poly");
+                      std::string("use one of ") + surface_endings);
   check_can_be_written(file);
 }
 
@@ -306,7 +308,7 @@ void add_files(CLI::App& verb, MeshCommand& command) {
       ->required();
   verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .node")->required();
   verb.add_option("--surface-output", command.surface_output,
-                  "write the remeshed surface to this file: .off .obj .ply .poly");
+                  std::string("write the remeshed surface to this file: ") + surface_endings);
   verb.add_option("--report", command.report,
                   "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
 }

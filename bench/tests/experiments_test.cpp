@@ -31,8 +31,12 @@ TEST(Experiments, MakeEdgesLongerForFewerTetrahedra) {
 
 TEST(Registry, NamesEveryExperimentOnceAndGivesItsNameToTheResult) {
   std::set<std::string> names;
-  for (const experiments::KnownExperiment& known : experiments::known_experiments())
+  for (const experiments::KnownExperiment& known : experiments::known_experiments()) {
     EXPECT_TRUE(names.insert(known.name).second) << known.name;
+    if (known.name == "fig8") {
+      EXPECT_EQ(known.section, "6, Fig. 8");
+    }
+  }
   EXPECT_TRUE(names.contains("fig8"));
 }
 

@@ -458,7 +458,8 @@ RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const P
     const double excess = tetrahedra_of_triangle * (static_cast<double>(refiner.triangle_count()) - even_triangles) /
                           options.most_tetrahedra;
     const bool is_near = excess <= most_excess && (least == 0 || excess >= least_excess);
-    if (is_near || tries == most_tries || least == options.edge_length) {
+    const bool is_highest = least == options.edge_length;  // which leaves no thin place
+    if (is_near || is_highest || tries == most_tries) {
       RefinedPlc result = std::move(refiner).take();
       result.least_size = least;
       return result;

@@ -20,12 +20,11 @@ namespace ccdt::surface {
 
 namespace {
 
-// A tip is a vertex where a triangle turns by more than this from the mean of all, in degrees, and by more than at the
-// sharpest edge that is none.
-constexpr double least_turn_at_tip = 30;
-
+// At a tip, a triangle turns by more than this from the mean of all, in degrees. Where two triangles meet at an edge
+// that is just not sharp, each turns by half of the sharp angle.
 double turn_at_tip(double sharp_angle) {
-  return std::max(least_turn_at_tip, sharp_angle / 2);
+  constexpr double least = 30;
+  return std::max(least, sharp_angle / 2);
 }
 
 using SegmentMarkers = std::unordered_map<std::uint64_t, int>;  // by edge key

@@ -46,8 +46,8 @@ struct OriginalSurface {
                                                          ///< and below?
   std::vector<std::uint32_t> wedge_points;
   std::vector<std::uint32_t> wedge_patches;
-  std::vector<Point3> wedge_normals;  ///< of length one: mean over the wedge, weighted by angles; zero at a tip, as of
-                                      ///< a cone, where the surface has none
+  std::vector<Point3> wedge_normals;  ///< of length one: mean over the wedge, weighted by angles; zero at a tip, such
+                                      ///< as that of a cone, where the surface has no normal
   std::vector<FeatureEdge> features;
   std::vector<char> is_listed_alone;  ///< by point: the input lists it, but no facet or segment uses it
 };
