@@ -30,16 +30,6 @@ class SharedUnionFind {
     return i;
   }
 
-  /// The same for two sets that no other thread finds or joins.
-  /// \return  the representative of both
-  std::uint32_t join_own(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    if (i < j) std::swap(i, j);
-    at(i).store(j, std::memory_order_relaxed);
-    return j;
-  }
-
   /// Of each i. A parent is never greater than its child, so most are found in one step.
   RawVector<std::uint32_t> take_representatives() && {
     parallel_for(parent_.size(), grain, [&](std::size_t i) {
@@ -49,14 +39,19 @@ class SharedUnionFind {
     return std::move(parent_);
   }
 
-  void join(std::uint32_t i, std::uint32_t j) {
+  /// \return  the representative of both, unless another thread joins them with a third set
+  std::uint32_t join(std::uint32_t i, std::uint32_t j) {
     for (;;) {
       i = find(i);
       j = find(j);
-      if (i == j) return;
       if (i < j) std::swap(i, j);
+      if (is_alone_) {  // no branch depends on the sets: it would be mispredicted
+        at(i).store(j, std::memory_order_relaxed);
+        return j;
+      }
+      if (i == j) return i;
       std::uint32_t expected = i;  // no thread has joined it with another in the meantime
-      if (at(i).compare_exchange_strong(expected, j, std::memory_order_relaxed)) return;
+      if (at(i).compare_exchange_strong(expected, j, std::memory_order_relaxed)) return j;
     }
   }
 
@@ -67,6 +62,7 @@ class SharedUnionFind {
   static constexpr std::size_t grain = 4096;  ///< of loops on several threads
 
   RawVector<std::uint32_t> parent_;
+  const bool is_alone_ = thread_count() == 1;  ///< one thread alone does not pay for atomic joins
 };
 
 }  // namespace ccdt

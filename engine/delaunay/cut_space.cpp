@@ -35,9 +35,8 @@ void SpaceCut::cut(std::span<std::array<double, 3>> places, std::uint32_t parts)
 }
 
 std::uint32_t SpaceCut::part_of(const Point3& p) const {
-  const std::array place = {dot(basis_[0], p), dot(basis_[1], p), dot(basis_[2], p)};
   std::uint32_t i = 0;
-  while (nodes_[i].axis < 3) i = place[nodes_[i].axis] < nodes_[i].at ? i + 1 : nodes_[i].after;
+  while (nodes_[i].axis < 3) i = dot(basis_[nodes_[i].axis], p) < nodes_[i].at ? i + 1 : nodes_[i].after;
   return nodes_[i].after;
 }
 

@@ -162,28 +162,31 @@ std::size_t CellComplex::bytes() const {
          segments_.bytes() + face_table_.bytes();
 }
 
-void CellComplex::open_hull(const Change& change) {
-  open_.clear();
-  // The old cells are few: comparing a neighbor with all of them costs less than marks in another array.
+void CellComplex::find_cavity(const Change& change, Cavity& cavity) const {
+  cavity.faces.clear(), cavity.left_vertices.clear();
+  // The old and new cells are few: comparing with all of them costs less than marks in another array.
   const auto is_old = [&](std::uint32_t cell) {
     return std::ranges::find(change.old_cells, cell) != change.old_cells.end();
   };
+  const auto stays = [&](std::uint32_t v) {
+    return std::ranges::any_of(change.new_cells, [&](const NewCell& cell) {
+      return std::ranges::find(cell.vertices, v) != cell.vertices.end();
+    });
+  };
   for (const std::uint32_t c : change.old_cells) {
     for (std::uint32_t f = 0; f < 4; ++f) {
+      if (!stays(cells_[c].vertices[f])) cavity.left_vertices.push_back(cells_[c].vertices[f]);
       const std::uint32_t outside = cells_[c].neighbors[f];
       if (outside != no_neighbor && is_old(cell_of(outside))) continue;
-      open_.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
+      cavity.faces.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
     }
   }
 }
 
-void CellComplex::free_cells(const std::vector<std::uint32_t>& cells) {
-  for (const std::uint32_t c : cells) {
-    for (const std::uint32_t v : cells_[c].vertices) cell_at_[v] = no_neighbor;
-    cells_[c].vertices[0] = ghost_vertex;
-    ++generations_[c];
-    free_.push_back(c);
-  }
+bool CellComplex::has_changed_beyond(const Cavity& cavity, std::uint64_t since) const {
+  return std::ranges::any_of(cavity.faces, [&](const Cavity::Face& face) {
+    return std::ranges::all_of(face.key, [&](std::uint32_t v) { return changed_at_[v] > since; });
+  });
 }
 
 std::uint32_t CellComplex::take_place() {
@@ -202,21 +205,22 @@ std::uint32_t CellComplex::take_place() {
 }
 
 /// Joins a face of a new cell to the one that waits for it, or lets it wait.
-void CellComplex::connect(std::uint32_t code, const std::vector<FaceChange>& faces) {
+void CellComplex::connect(std::uint32_t code, const std::vector<FaceChange>& new_walls,
+                          std::vector<Cavity::Face>& open) {
   const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
-  const bool becomes_wall = !faces.empty() && is_new_wall(faces, key);
-  for (OpenFace& face : open_) {
+  const bool becomes_wall = !new_walls.empty() && is_new_wall(new_walls, key);
+  for (Cavity::Face& face : open) {
     if (!is_same_key(face.key, key)) continue;
     cells_[cell_of(code)].neighbors[face_of(code)] = face.code;
     if (face.code != no_neighbor) cells_[cell_of(face.code)].neighbors[face_of(face.code)] = code;
     if (face.is_wall || becomes_wall) set_wall(code);
-    face = open_.back();
-    open_.pop_back();
+    face = open.back();
+    open.pop_back();
     return;
   }
   cells_[cell_of(code)].neighbors[face_of(code)] = no_neighbor;
   if (becomes_wall) set_wall(code);
-  open_.push_back({key, code, becomes_wall});
+  open.push_back({key, code, becomes_wall});
 }
 
 void CellComplex::change_faces(const std::vector<FaceChange>& changes) {
@@ -234,43 +238,59 @@ void CellComplex::merge_segment(const SegmentMerge& merge) {
   merged_[merge.vertex] = true;
 }
 
-void CellComplex::apply(const Change& change, std::vector<std::uint32_t>& made) {
+void CellComplex::announce(Change& change, const Cavity& cavity, std::vector<std::uint32_t>& places) {
   if (change.new_vertex) {
+    for (NewCell& cell : change.new_cells) cell.vertices[3] = static_cast<std::uint32_t>(points_.size());
     points_.push_back(*change.new_vertex);
     cell_at_.push_back(no_neighbor);
     changed_at_.push_back(0);
   }
+  free_.insert(free_.end(), change.old_cells.begin(), change.old_cells.end());
+  ++change_count_;
+  places.clear();
+  for (const NewCell& cell : change.new_cells) {
+    places.push_back(take_place());
+    for (const std::uint32_t v : cell.vertices) cell_at_[v] = places.back(), changed_at_[v] = change_count_;
+  }
+  for (const std::uint32_t v : cavity.left_vertices) cell_at_[v] = no_neighbor;
+  // A later change may take the other places before this one's cavity is filled.
+  const std::size_t unused = std::max(change.old_cells.size(), places.size()) - places.size();
+  for (const std::uint32_t c : std::span(free_).last(unused)) cells_[c].vertices[0] = ghost_vertex;
+}
+
+void CellComplex::fill_cavity(const Change& change, std::span<const std::uint32_t> places, Cavity& cavity) {
   work_done.cells_destroyed += change.old_cells.size();
   work_done.cells_created += change.new_cells.size();
-  open_hull(change);
-  free_cells(change.old_cells);
-  made.clear();
-  for (const NewCell& cell : change.new_cells) {
-    const std::uint32_t c = take_place();
-    made.push_back(c);
+  for (const std::uint32_t c : change.old_cells) ++generations_[c];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const NewCell& cell = change.new_cells[i];
+    const std::uint32_t c = places[i];
     cells_[c].vertices = cell.vertices;
     walls_[c] = 0;
     regions_[c] = cell.region;
     qualities_[c] = cell.quality;
-    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.faces);
-    for (const std::uint32_t v : cell.vertices) cell_at_[v] = c;
+    for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.faces, cavity.faces);
   }
   // A change on a boundary facet leaves faces open: its old triangles, which are gone, and the new ones, which are
   // walls already.
-  change_faces(change.faces);
+  if (!change.faces.empty()) change_faces(change.faces);
   if (change.merge) merge_segment(*change.merge);
+}
+
+void CellComplex::apply(Change& change, std::vector<std::uint32_t>& made) {
+  find_cavity(change, cavity_);
+  announce(change, cavity_, made);
+  fill_cavity(change, made, cavity_);
+}
+
+void CellComplex::announce_move(std::span<const std::uint32_t> corners) {
   ++change_count_;
-  for (const NewCell& cell : change.new_cells)
-    for (const std::uint32_t v : cell.vertices) changed_at_[v] = change_count_;
+  for (const std::uint32_t v : corners) changed_at_[v] = change_count_;
 }
 
 void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star) {
   points_[v] = place;
-  ++change_count_;
-  for (const std::uint32_t c : star) {
-    qualities_[c] = quality_of(cells_[c].vertices);
-    for (const std::uint32_t corner : cells_[c].vertices) changed_at_[corner] = change_count_;
-  }
+  for (const std::uint32_t c : star) qualities_[c] = quality_of(cells_[c].vertices);
 }
 
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {

@@ -47,6 +47,21 @@ struct Change {
   std::optional<SegmentMerge> merge;
 
   void clear();
+  /// Does it leave the faces on facets and the segments alone?
+  bool keeps_surface() const { return faces.empty() && !merge; }
+};
+
+/// The space of the old cells of a change.
+struct Cavity {
+  /// A face that waits for the cell on its other side.
+  struct Face {
+    FaceKey key;
+    std::uint32_t code;  ///< of the existing cell; `no_neighbor`: none, the face is on the boundary
+    bool is_wall;
+  };
+
+  std::vector<Face> faces;
+  std::vector<std::uint32_t> left_vertices;  ///< of old cells, but of no new one
 };
 
 /// Marks of visited cells, for consecutive searches through a complex.
@@ -145,7 +160,24 @@ class CellComplex {
 
   /// Applies a change whose cells are all positive. Interior vertices without new cells are removed.
   /// \param made  the new cells
-  void apply(const Change& change, std::vector<std::uint32_t>& made);
+  void apply(Change& change, std::vector<std::uint32_t>& made);
+
+  // The parts of `apply`. Several cavities can be found at the same time. Changes are announced in order. Several
+  // announced ones can be made at the same time if they leave the surface alone and no two cavities have a common face.
+
+  void find_cavity(const Change& change, Cavity& cavity) const;
+  /// Chooses places for the new cells, and notes the change at its vertices. The new vertex gets its number: another one
+  /// than planned if vertices have been inserted since.
+  void announce(Change& change, const Cavity& cavity, std::vector<std::uint32_t>& places);
+  /// \param cavity  is used up
+  void fill_cavity(const Change& change, std::span<const std::uint32_t> places, Cavity& cavity);
+  /// May a later change than this one have replaced the cell beyond a face of the cavity?
+  bool has_changed_beyond(const Cavity& cavity, std::uint64_t since) const;
+
+  // The parts of a move. Several announced ones can be made at the same time if no two stars have a common cell.
+
+  /// \param corners  of all cells around the vertex, in any order, some repeatedly
+  void announce_move(std::span<const std::uint32_t> corners);
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
@@ -156,21 +188,12 @@ class CellComplex {
   std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
  private:
-  /// A face that waits for the cell on its other side.
-  struct OpenFace {
-    FaceKey key;
-    std::uint32_t code;  ///< of the existing cell; `no_neighbor`: none, the face is on the boundary
-    bool is_wall;
-  };
-
   void join_open_faces();
   void find_walls();
   void find_last_cells();
-  void open_hull(const Change& change);
-  void free_cells(const std::vector<std::uint32_t>& cells);
   std::uint32_t take_place();
   void set_wall(std::uint32_t code);
-  void connect(std::uint32_t code, const std::vector<FaceChange>& faces);
+  void connect(std::uint32_t code, const std::vector<FaceChange>& new_walls, std::vector<Cavity::Face>& open);
   void change_faces(const std::vector<FaceChange>& changes);
   void merge_segment(const SegmentMerge& merge);
 
@@ -198,7 +221,7 @@ class CellComplex {
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> facet_of_face_;
 
-  std::vector<OpenFace> open_;  // working memory of `apply`
+  Cavity cavity_;  // working memory of `apply`
 };
 
 }  // namespace ccdt::improve

@@ -45,6 +45,11 @@ double StepFinder::quality_after(const Step& step, const std::array<std::uint32_
 void StepFinder::find(std::uint32_t cell, bool has_moved, Effort effort, Step& step) {
   step.kind = Step::Kind::none;
   step.far_vertices.clear();
+  find_any(cell, has_moved, effort, step);
+  if (step.kind == Step::Kind::change) x_.find_cavity(step.change, step.cavity);
+}
+
+void StepFinder::find_any(std::uint32_t cell, bool has_moved, Effort effort, Step& step) {
   if (!has_moved && improvement_ != Improvement::smooth && find_swap(cell, step)) return;
   if (!has_moved && improvement_ != Improvement::swap && find_moves(cell, effort, step)) return;
   if (improvement_ != Improvement::all || effort != Effort::greatest) return;
@@ -127,6 +132,9 @@ bool StepFinder::can_move(std::uint32_t vertex, Effort effort, Step& step) {
   move.place = x_.point(vertex);
   if (!(move_apex(star_.faces, x_.goal(), freedom, worst, scratch_.move, move.place) > worst)) return false;
   move.star.swap(star_.cells);
+  move.corners.clear();
+  for (const std::uint32_t c : move.star)
+    move.corners.insert(move.corners.end(), x_.cell(c).vertices.begin(), x_.cell(c).vertices.end());
   return true;
 }
 

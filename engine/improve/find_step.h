@@ -17,7 +17,8 @@ enum class Effort { usual, greatest };
 struct Move {
   std::uint32_t vertex = 0;
   Point3 place;
-  std::vector<std::uint32_t> star;  ///< the cells around it
+  std::vector<std::uint32_t> star;     ///< the cells around it
+  std::vector<std::uint32_t> corners;  ///< of these, some repeatedly
 };
 
 /// What improves a bad cell next.
@@ -28,6 +29,7 @@ struct Step {
 
   // A change.
   Change change;                                  ///< all new cells are positive
+  Cavity cavity;                                  ///< of the change
   std::uint64_t ImproveCounts::*count = nullptr;  ///< where it counts
 
   // Moves of vertices of the cell, one after the other.
@@ -57,6 +59,7 @@ class StepFinder {
   void find(std::uint32_t cell, bool has_moved, Effort effort, Step& step);
 
  private:
+  void find_any(std::uint32_t cell, bool has_moved, Effort effort, Step& step);
   bool find_swap(std::uint32_t cell, Step& step);
   bool find_moves(std::uint32_t cell, Effort effort, Step& step);
   bool find_collapse(std::uint32_t cell, Step& step);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <iterator>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -54,6 +55,10 @@ struct Trial {
 struct Attempt {
   Step step;
   Work work;
+  bool waits = false;                      ///< something around it has changed since the window was filled
+  std::uint64_t next_change = 0;           ///< the number of the change or move that follows the step
+  std::vector<std::uint32_t> new_cells;    ///< of its change
+  std::vector<std::uint32_t> worse_cells;  ///< that its moves made bad
 };
 
 /// How many cells are tried together: enough for many threads, few enough that most do not disturb each other.
@@ -95,7 +100,8 @@ class Improver {
   }
 
  private:
-  bool is_bad(std::uint32_t cell) const { return !(x_.quality(cell) >= goal_quality(x_.goal())); }
+  bool is_good(double quality) const { return quality >= goal_quality(x_.goal()); }
+  bool is_bad(std::uint32_t cell) const { return !is_good(x_.quality(cell)); }
   bool is_stale(const BadCell& bad) const {
     return x_.generation(bad.cell) != bad.generation || x_.is_dead(bad.cell) || !is_bad(bad.cell);
   }
@@ -208,32 +214,58 @@ class Improver {
   /// step is found in the complex as it was before the window, and several threads can find them.
   void try_window(Effort effort) {
     const std::uint64_t before = x_.change_count();
-    const auto is_disturbed = [&](std::uint32_t v) { return x_.changed_at(v) > before; };
-    const bool is_shared = finders_.size() > 1 && window_.size() >= least_shared;
-    if (is_shared) find_steps(effort);
-    for (std::size_t i = 0; i < window_.size(); ++i) {
-      auto& [bad, near] = window_[i];
-      if (is_stale(bad)) continue;
-      Attempt& attempt = attempts_[is_shared ? i : 0];
-      bool waits = std::ranges::any_of(near, is_disturbed);
-      if (!waits && !is_shared) find_step(finders_[0], bad, effort, attempt);
-      waits = waits || std::ranges::any_of(attempt.step.far_vertices, is_disturbed);
-      if (waits) {
-        waiting_.push_back(bad);
-        continue;
+    if (finders_.size() > 1 && window_.size() >= least_shared) return try_together(effort, before);
+    Attempt& attempt = attempts_[0];
+    for (auto& [bad, near] : window_) {
+      attempt.waits = have_changed(near, before);
+      if (!attempt.waits) {
+        find_step(finders_[0], bad, effort, attempt);
+        attempt.waits = have_changed(attempt.step.far_vertices, before);
       }
-      work_done += attempt.work;
-      make_step(bad, attempt.step, effort);
+      if (!attempt.waits) {
+        announce(attempt);
+        make_step(attempt);
+      }
+      conclude(bad, attempt, effort);
     }
+  }
+
+  /// The same on all threads.
+  void try_together(Effort effort, std::uint64_t before) {
+    find_steps(effort);
+    for (std::uint32_t i = 0; i < window_.size(); ++i) {
+      Attempt& attempt = attempts_[i];
+      Step& step = attempt.step;
+      attempt.waits = have_changed(window_[i].near, before) || have_changed(step.far_vertices, before);
+      if (attempt.waits) continue;
+      const bool is_change = step.kind == Step::Kind::change;
+      if (is_change && x_.has_changed_beyond(step.cavity, before)) {
+        make_announced_steps();
+        x_.find_cavity(step.change, step.cavity);
+      }
+      announce(attempt);
+      if (is_change && !step.change.keeps_surface())
+        make_step(attempt);
+      else
+        announced_.push_back(i);
+    }
+    make_announced_steps();
+    for (std::size_t i = 0; i < window_.size(); ++i) conclude(window_[i].bad, attempts_[i], effort);
+  }
+
+  bool have_changed(std::span<const std::uint32_t> vertices, std::uint64_t since) const {
+    return std::ranges::any_of(vertices, [&](std::uint32_t v) { return x_.changed_at(v) > since; });
   }
 
   void find_steps(Effort effort) {
     attempts_.resize(window_length);
+    finder_of_.resize(window_length);
     std::atomic<std::size_t> next = 0;
     parallel_for(finders_.size(), 1, [&](std::size_t f) {
       for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < window_.size();
            i = next.fetch_add(1, std::memory_order_relaxed)) {
         find_step(finders_[f], window_[i].bad, effort, attempts_[i]);
+        finder_of_[i] = static_cast<std::uint32_t>(f);
       }
     });
   }
@@ -244,15 +276,65 @@ class Improver {
     finder.find(bad.cell, bad.has_moved, effort, attempt.step);
   }
 
-  void make_step(BadCell& bad, Step& step, Effort effort) {
+  /// Each thread makes those that it found: it has their cells at hand.
+  void make_announced_steps() {
+    if (announced_.size() < least_shared) {
+      for (const std::uint32_t i : announced_) make_step(attempts_[i]);
+    } else {
+      parallel_for(finders_.size(), 1, [&](std::size_t f) {
+        for (const std::uint32_t i : announced_)
+          if (finder_of_[i] == f) make_step(attempts_[i]);
+      });
+    }
+    announced_.clear();
+  }
+
+  /// Does what must be done in the order of the steps.
+  void announce(Attempt& attempt) {
+    Step& step = attempt.step;
+    if (step.kind == Step::Kind::change) x_.announce(step.change, step.cavity, attempt.new_cells);
+    if (step.kind == Step::Kind::moves)
+      for (std::size_t i = 0; i < step.move_count; ++i) x_.announce_move(step.moves[i].corners);
+    attempt.next_change = x_.change_count() + 1;
+  }
+
+  /// Does the rest.
+  void make_step(Attempt& attempt) {
+    Step& step = attempt.step;
+    work_done += attempt.work;
+    if (step.kind == Step::Kind::change) x_.fill_cavity(step.change, attempt.new_cells, step.cavity);
+    if (step.kind != Step::Kind::moves) return;
+    attempt.worse_cells.clear();
+    for (std::size_t i = 0; i < step.move_count; ++i) move(step.moves[i], attempt.worse_cells);
+    work_done.vertices_moved += step.move_count;
+  }
+
+  /// \param worse  gets the cells that were good before
+  void move(const Move& move, std::vector<std::uint32_t>& worse) {
+    const auto first = static_cast<std::ptrdiff_t>(worse.size());
+    std::ranges::copy_if(move.star, std::back_inserter(worse), [&](std::uint32_t c) { return !is_bad(c); });
+    x_.move_vertex(move.vertex, move.place, move.star);
+    worse.erase(std::remove_if(worse.begin() + first, worse.end(), [&](std::uint32_t c) { return !is_bad(c); }),
+                worse.end());
+  }
+
+  /// Counts what was done, and decides when the cell and those that became bad are tried again.
+  void conclude(BadCell& bad, const Attempt& attempt, Effort effort) {
+    const Step& step = attempt.step;
+    if (attempt.waits) {
+      waiting_.push_back(bad);
+      return;
+    }
     if (step.kind == Step::Kind::change) {
       ++(counts_.*step.count);
       counts_.facet_flips += !step.change.faces.empty();
-      apply(step.change);
+      for (std::size_t i = 0; i < attempt.new_cells.size(); ++i)
+        if (!is_good(step.change.new_cells[i].quality)) add_bad(attempt.new_cells[i], found_);
       return;
     }
     if (step.kind == Step::Kind::moves) {
-      for (std::size_t i = 0; i < step.move_count; ++i) move(step.moves[i]);
+      counts_.moved_vertices += step.move_count;
+      for (const std::uint32_t c : attempt.worse_cells) add_bad(c, found_);
       if (!is_bad(bad.cell)) return;
       if (effort == Effort::greatest && improvement_ == Improvement::all) {
         bad.has_moved = true;
@@ -260,27 +342,10 @@ class Improver {
         return;
       }
     }
-    bad.tried_at = x_.change_count() + 1;
+    bad.tried_at = attempt.next_change;
     ++bad.tries;
     bad.has_moved = false;
     found_.push_back(bad);
-  }
-
-  void apply(Change& change) {
-    // Others may have been inserted since the change was planned.
-    if (change.new_vertex)
-      for (NewCell& cell : change.new_cells) cell.vertices[3] = static_cast<std::uint32_t>(x_.vertex_count());
-    x_.apply(change, new_cells_);
-    for (const std::uint32_t c : new_cells_) add_bad(c, found_);
-  }
-
-  void move(const Move& move) {
-    good_cells_.clear();
-    std::ranges::copy_if(move.star, std::back_inserter(good_cells_), [&](std::uint32_t c) { return !is_bad(c); });
-    x_.move_vertex(move.vertex, move.place, move.star);
-    ++counts_.moved_vertices;
-    ++work_done.vertices_moved;
-    for (const std::uint32_t c : good_cells_) add_bad(c, found_);
   }
 
   CellComplex& x_;
@@ -299,8 +364,10 @@ class Improver {
   // Working memory.
   std::vector<StepFinder> finders_;  ///< one for each thread
   std::vector<Attempt> attempts_;
+  std::vector<std::uint32_t> finder_of_;  ///< by attempt
+  std::vector<std::uint32_t> announced_;  ///< attempts whose steps are not yet made
   std::vector<BadCell> returning_;
-  std::vector<std::uint32_t> new_cells_, good_cells_;
+  std::vector<std::uint32_t> new_cells_;
 };
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include "engine/label/label_cells.h"
 
+#include <algorithm>
 #include <atomic>
 #include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/shared_union_find.h"
 
 namespace ccdt::label {
@@ -17,7 +19,7 @@ namespace {
 constexpr std::size_t grain = 4096;  // of loops on several threads
 
 /// Eight bits per cell: the separating faces, set on both sides, and above them those that are open on this side.
-using FaceBits = std::vector<std::uint8_t>;
+using FaceBits = RawVector<std::uint8_t>;
 
 CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint32_t cell) {
   Place place;
@@ -31,7 +33,10 @@ CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint3
 
 FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
                     const std::vector<std::uint32_t>& wall_codes) {
-  FaceBits bits(d.cells.size(), 0);
+  FaceBits bits(d.cells.size());
+  parallel_ranges(bits.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::fill(bits.data() + begin, bits.data() + end, std::uint8_t{0});
+  });
   const auto mark = [&](std::uint32_t code, unsigned what) {
     const auto bit = static_cast<std::uint8_t>(what << face_of(code));
     std::atomic_ref(bits[cell_of(code)]).fetch_or(bit, std::memory_order_relaxed);
@@ -52,28 +57,16 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
 /// would jump around.
 SharedUnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   SharedUnionFind parts(d.cells.size());
-  // The cells of a run are joined by one thread; joins between runs come later.
-  using Pair = std::array<std::uint32_t, 2>;
-  constexpr std::size_t runs_of_thread = 8;
-  std::vector<std::vector<Pair>> waiting(thread_count() == 1 ? 1 : runs_of_thread * thread_count());
-  parallel_for(waiting.size(), 1, [&](std::size_t run) {
-    const auto begin = static_cast<std::uint32_t>(d.cells.size() * run / waiting.size());
-    const auto end = static_cast<std::uint32_t>(d.cells.size() * (run + 1) / waiting.size());
-    for (std::uint32_t cell = begin; cell < end; ++cell) {
-      if (d.is_dead(cell)) continue;
-      std::uint32_t first = cell;
-      for (std::uint32_t f = 0; f < 4; ++f) {
-        const std::uint32_t neighbor = cell_of(d.cells[cell].neighbors[f]);
-        if (neighbor >= cell || (bits[cell] >> f & 1u)) continue;
-        if (neighbor >= begin)
-          first = parts.join_own(first, neighbor);
-        else
-          waiting[run].push_back({cell, neighbor});
-      }
+  parallel_for(d.cells.size(), grain, [&](std::size_t i) {
+    const auto cell = static_cast<std::uint32_t>(i);
+    if (d.is_dead(cell)) return;
+    const auto neighbors = d.cells[i].neighbors;
+    const std::uint8_t walls = bits[i];
+    std::uint32_t part = cell;
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const std::uint32_t neighbor = cell_of(neighbors[f]);
+      if (neighbor < cell && (walls >> f & 1u) == 0) part = parts.join(part, neighbor);
     }
-  });
-  parallel_for(waiting.size(), 1, [&](std::size_t run) {
-    for (const auto& [cell, neighbor] : waiting[run]) parts.join(cell, neighbor);
   });
   return parts;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/improve/find_step.h"
+#include "engine/base/parallel.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"
 
@@ -196,6 +197,38 @@ TEST(Improving, IsDeterministic) {
     EXPECT_TRUE(points_of(x) == points_of(y));
     EXPECT_TRUE(cells_of(x) == cells_of(y));
   });
+}
+
+/// In a cube where most cells are bad, many steps of a window are next to each other, or exchange faces on facets.
+TEST(Improving, MakesTheSameStepsTogetherAndInTurn) {
+  improve::ImproveOptions options{.target_dihedral = 45, .target_r = 1.5};
+  std::uint64_t facet_flips = 0, insertions = 0, collapses = 0;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Cube cube = cube_of(6, 0.49, seed);
+    const improve::QualityGoal goal = improve::goal_of(options);
+    const improve::CellComplex start = complex_of(cube.model, goal);
+    for (const auto boundary : {improve::BoundaryRule::keep, improve::BoundaryRule::slide}) {
+      options.boundary = boundary;
+      const Case c{cube, options};
+      improve::CellComplex in_turn = start;
+      const improve::ImproveCounts counts =
+          with_threads(1, [&] { return improve::improve_cells(in_turn, c.freedom(), options); });
+      facet_flips += counts.facet_flips;
+      insertions += counts.inserted_vertices;
+      collapses += counts.collapsed_edges;
+      for (const unsigned threads : {2u, 3u, 8u}) {
+        improve::CellComplex together = start;
+        with_threads(threads, [&] { return improve::improve_cells(together, c.freedom(), options); });
+        expect_consistent(together);
+        EXPECT_TRUE(points_of(in_turn) == points_of(together)) << threads << " threads";
+        EXPECT_TRUE(cells_of(in_turn) == cells_of(together)) << threads << " threads";
+        EXPECT_EQ(in_turn.change_count(), together.change_count());
+      }
+    }
+  }
+  EXPECT_GT(facet_flips, 0u);
+  EXPECT_GT(insertions, 0u);
+  EXPECT_GT(collapses, 0u);
 }
 
 TEST(Improving, LeavesNoSwapsOnceItFindsNone) {

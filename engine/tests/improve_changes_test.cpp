@@ -138,6 +138,35 @@ TEST(Changes, RingThatGivesWayToMoreTetrahedraCountsAsARemovedEdge) {
   EXPECT_EQ(counts.removed_faces, 0u);
 }
 
+/// Two rings with a common triangle, and one far away.
+TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
+  Model model = ring_of(3);
+  // The triangle 1 2 3 is a face of the second ring, around the edge from 5 to 1.
+  model.points.insert(model.points.end(), {{-20, 300, 900}, {400, 400, 1500}});
+  model.cells.insert(model.cells.end(), {{5, 1, 2, 3}, {5, 1, 3, 6}, {5, 1, 6, 2}});
+  const auto offset = static_cast<std::uint32_t>(model.points.size());
+  const Model far = ring_of(3);
+  for (const Point3& p : far.points) model.points.push_back({p.x + 10000, p.y, p.z});
+  for (const Tetrahedron& t : far.cells)
+    model.cells.push_back({t[0] + offset, t[1] + offset, t[2] + offset, t[3] + offset});
+  improve::CellComplex x = complex_of(model, by_shape);
+  improve::Change change, neighbor, distant;
+  ASSERT_TRUE(plan_removal(x, 0, 1, change));
+  neighbor.old_cells = {3, 4, 5};
+  distant.old_cells = {6, 7, 8};
+  improve::Cavity cavity, beside, apart;
+  x.find_cavity(change, cavity);
+  x.find_cavity(neighbor, beside);
+  x.find_cavity(distant, apart);
+  EXPECT_FALSE(x.has_changed_beyond(beside, x.change_count()));
+  std::vector<std::uint32_t> places;
+  const std::uint64_t before = x.change_count();
+  x.announce(change, cavity, places);
+  EXPECT_TRUE(x.has_changed_beyond(beside, before));
+  EXPECT_FALSE(x.has_changed_beyond(beside, x.change_count()));
+  EXPECT_FALSE(x.has_changed_beyond(apart, before));
+}
+
 TEST(Changes, LongerRingIsLeftAlone) {
   improve::CellComplex x = complex_of(ring_of(improve::longest_ring + 1), by_shape);
   // Not for lack of something better: of all triangles of the ring, none is smaller than one that cuts off a corner.

@@ -150,7 +150,7 @@ std::vector<Point3> points_of(const improve::CellComplex& x) {
   return points;
 }
 
-std::vector<std::uint32_t> apply_change(improve::CellComplex& x, const improve::Change& change) {
+std::vector<std::uint32_t> apply_change(improve::CellComplex& x, improve::Change change) {
   std::vector<std::uint32_t> made;
   x.apply(change, made);
   return made;

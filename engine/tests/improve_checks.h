@@ -32,7 +32,7 @@ struct Model {
 std::vector<Point3> points_of(const improve::CellComplex& complex);
 
 /// \return the new cells
-std::vector<std::uint32_t> apply_change(improve::CellComplex& complex, const improve::Change& change);
+std::vector<std::uint32_t> apply_change(improve::CellComplex& complex, improve::Change change);
 
 /// The tetrahedra of a mesh as cells without neighbors.
 LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh);
