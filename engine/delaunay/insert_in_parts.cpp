@@ -40,7 +40,7 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
     const std::size_t parts = std::min<std::size_t>(thread_count(), those.size() / least_part);
     if (parts < 2 || (p > 0 && those.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
     cut(those, static_cast<std::uint32_t>(parts), bases[p]);
-    const auto left = pass(those, p == 0, shared);
+    const auto left = pass(those, p, shared);
     waiting.resize(with_lower_rank);
     waiting.insert(waiting.end(), left.begin(), left.end());
     with_lower_rank = 0;
@@ -69,7 +69,7 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   });
 }
 
-std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, bool is_first,
+std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, std::size_t number,
                                                  SharedProgress& progress) {
   std::vector<std::vector<std::uint32_t>> of_part(start_.size());
   for (const std::uint32_t v : vertices) of_part[part_[v]].push_back(v);
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
   done_parts_ = 0;
   parallel_for(start_.size(), 1, [&](std::size_t part) {
-    of_part[part] = insert_part(static_cast<Part>(part), of_part[part], is_first, pool, progress);
+    of_part[part] = insert_part(static_cast<Part>(part), of_part[part], number, pool, progress);
   });
   d_.cells.resize(std::min(pool.next.load(), pool.end));
   for (const std::uint32_t c : unused_) {
@@ -100,15 +100,15 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
 
 /// \return  the vertices that wait
 std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<const std::uint32_t> vertices,
-                                                        bool is_first, CellPool& pool, SharedProgress& progress) {
+                                                        std::size_t number, CellPool& pool, SharedProgress& progress) {
   std::uint32_t last = start_[part];
   if (last == no_cell) return {vertices.begin(), vertices.end()};
   Insertion insertion(d_, marks_, {part_, part}, pool);
-  const Ties ties = is_first ? Ties::greatest_rank : Ties::any_rank;
+  const Ties ties = number == 0 ? Ties::greatest_rank : Ties::any_rank;
   // Parts do not take the same time. When half of them are done, the next pass divides what is left of the others. A
   // part that begins only then, because no thread was free before, is not stopped.
   const auto are_half_done = [&] { return 2 * done_parts_.load(std::memory_order_relaxed) >= start_.size(); };
-  const bool may_stop = is_first && !are_half_done();
+  const bool may_stop = number + 1 < bases.size() && !are_half_done();
   std::vector<std::uint32_t> waiting;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (may_stop && are_half_done()) {
@@ -124,7 +124,8 @@ std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<con
       waiting.push_back(vertices[i]);
     }
   }
-  ++done_parts_;
+  // A part may also be done early because most of its vertices wait.
+  if (4 * waiting.size() < vertices.size()) ++done_parts_;
   const std::lock_guard lock(mutex_);
   unused_.insert(unused_.end(), insertion.unused_places().begin(), insertion.unused_places().end());
   return waiting;

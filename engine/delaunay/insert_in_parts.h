@@ -44,8 +44,9 @@ class PartedInsertion {
   using Part = InsertionParts::Part;
 
   void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
-  std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, bool is_first, SharedProgress& progress);
-  std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, bool is_first,
+  std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, std::size_t number,
+                                  SharedProgress& progress);
+  std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, std::size_t number,
                                          CellPool& pool, SharedProgress& progress);
 
   Delaunay& d_;

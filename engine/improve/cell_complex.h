@@ -166,8 +166,8 @@ class CellComplex {
   // announced ones can be made at the same time if they leave the surface alone and no two cavities have a common face.
 
   void find_cavity(const Change& change, Cavity& cavity) const;
-  /// Chooses places for the new cells, and notes the change at its vertices. The new vertex gets its number: another one
-  /// than planned if vertices have been inserted since.
+  /// Chooses places for the new cells, and notes the change at its vertices. The new vertex gets its number: another
+  /// one than planned if vertices have been inserted since.
   void announce(Change& change, const Cavity& cavity, std::vector<std::uint32_t>& places);
   /// \param cavity  is used up
   void fill_cavity(const Change& change, std::span<const std::uint32_t> places, Cavity& cavity);

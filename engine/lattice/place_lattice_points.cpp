@@ -35,8 +35,9 @@ double volume_inside(const DomainSurface& surface) {
 
 /// Checked before memory is allocated. The lattice is nowhere coarser than the greatest target.
 void check_number(const DomainSurface& surface, const SizeField& size) {
-  const double largest = size.largest(),
-               points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
+  const double largest = size.largest();
+  if (largest == HUGE_VAL) return;
+  const double points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
   if (points > plc::most_vertices) plc::throw_too_many_vertices(points);
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/improve/find_step.h"
 #include "engine/base/parallel.h"
+#include "engine/improve/find_step.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/tests/improve_checks.h"
 
