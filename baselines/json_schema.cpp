@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -10,6 +9,7 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
+#include "baselines/guess.h"
 #include "engine/io/files.h"
 
 namespace ccdt::baselines {
@@ -17,21 +17,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Pointer = Json::json_pointer;
-
-/// The number of letters to change, add or remove to turn one word into the other (Levenshtein 1966).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 bool has_type(const Json& rule, const Json& value) {
   const std::string type = rule.value("type", "");
@@ -171,13 +156,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string suggestion(std::string_view unknown, const std::vector<std::string>& known,
                        const std::string& before_list) {
-  constexpr std::size_t most_edits = 2;
-  const auto distance = [&](const std::string& name) { return edit_distance(unknown, name); };
-  const auto nearest = std::ranges::min_element(known, {}, distance);
-  std::string text;
-  if (nearest != known.end() && distance(*nearest) <= most_edits && distance(*nearest) < nearest->size())
-    text = "did you mean '" + *nearest + "'? ";
-  return text + before_list + listed(known);
+  return guess(unknown, known) + before_list + listed(known);
 }
 
 }  // namespace ccdt::baselines

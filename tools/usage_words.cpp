@@ -2,36 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <numeric>
-#include <string_view>
-#include <utility>
 #include <vector>
+
+#include "baselines/guess.h"
 
 namespace ccdt::tools {
 namespace {
-
-/// The number of letters to insert, remove or replace (Levenshtein).
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
-}
-
-/// "did you mean X? ", with the name that is most like the word; empty if none is.
-std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-  const std::string* best = nullptr;
-  std::size_t least = word.size() / 3 + 1;
-  for (const std::string& name : names)
-    if (const std::size_t d = distance(word, name); d < least) least = d, best = &name;
-  return best != nullptr ? "did you mean " + *best + "? " : "";
-}
 
 std::string wrong_verb(const CLI::App& app) {
   const std::string remedy = "`ccdt --help` lists the verbs";
@@ -39,7 +15,7 @@ std::string wrong_verb(const CLI::App& app) {
   if (words.empty()) return "ccdt: the verb is missing\n  " + remedy;
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-  return "ccdt: there is no verb '" + words.front() + "'\n  " + suggestion(words.front(), verbs) + remedy;
+  return "ccdt: there is no verb '" + words.front() + "'\n  " + baselines::guess(words.front(), verbs) + remedy;
 }
 
 std::string unexpected_word(const CLI::App& verb, const std::string& remedy) {
@@ -50,7 +26,7 @@ std::string unexpected_word(const CLI::App& verb, const std::string& remedy) {
   std::vector<std::string> names;
   for (const CLI::Option* known : verb.get_options())
     for (const std::string& long_name : known->get_lnames()) names.push_back("--" + long_name);
-  return "ccdt: unknown option " + name + "\n  " + suggestion(name, names) + remedy;
+  return "ccdt: unknown option " + name + "\n  " + baselines::guess(name, names) + remedy;
 }
 
 }  // namespace

@@ -87,13 +87,6 @@ std::string call_slurm(std::vector<std::string> command) {
                    "nothing was submitted; repeat the command when Slurm answers");
 }
 
-/// The text as one quoted word of a shell script.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 /// A unique name that people recognize.
 std::string new_name(const std::filesystem::path& folder) {
   std::random_device random;
@@ -114,15 +107,13 @@ std::string minutes_for(std::span<const Chunk> chunks, double longest_run) {
 
 /// The script of each task. Its arguments are the numbers of the chunks.
 std::string script(const std::filesystem::path& folder, const SlurmOptions& options) {
-  std::string text =
-      "#!/bin/sh\n"
-      "# Runs one chunk of a sweep; the arguments are the numbers of all chunks.\n"
-      "shift \"$SLURM_ARRAY_TASK_ID\"\n"
-      "exec " +
-      quoted(std::filesystem::absolute(options.program).string()) + " sweep " +
-      quoted(std::filesystem::absolute(folder).string()) + " --chunk \"$1\"";
-  for (const std::string& word : options.options) text += " " + quoted(word);
-  return text + "\n";
+  const std::vector<std::string> sweep = {std::filesystem::absolute(options.program).string(), "sweep",
+                                          std::filesystem::absolute(folder).string()};
+  return "#!/bin/sh\n"
+         "# Runs one chunk of a sweep; the arguments are the numbers of all chunks.\n"
+         "shift \"$SLURM_ARRAY_TASK_ID\"\n"
+         "exec " +
+         baselines::command_line(sweep) + " --chunk \"$1\" " + baselines::command_line(options.options) + "\n";
 }
 
 std::vector<std::string> command_of(const std::filesystem::path& folder, const SlurmJob& job,
