@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/io/formats.h"
+#include "engine/io/read_lines.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
@@ -15,25 +16,28 @@ bool starts_with_letter(std::string_view word) {
 
 void read_vertices(TextScanner& in, std::vector<Point3>& vertices) {
   const std::size_t count = in.count("number of vertices", 8);
-  vertices.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t first = vertices.size();
+  vertices.resize(first + count);
+  read_lines(in, count, [&](TextScanner& line, std::size_t i) {
     const Item vertex{"vertex", i};
-    vertices.push_back(in.point(vertex));
-    in.integer(vertex);  // its reference
-  }
+    vertices[first + i] = line.point(vertex);
+    line.integer(vertex);  // its reference
+  });
 }
 
 /// \param item  the first element
 template <std::size_t Corners>
-void read_elements(TextScanner& in, Item item, std::size_t vertices,
+void read_elements(TextScanner& in, const Item& item, std::size_t vertices,
                    std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& references) {
   const std::size_t count = in.count("number of elements", 2 * Corners + 2);
-  elements.reserve(count);
-  references.reserve(count);
-  for (std::size_t i = 0; i < count; ++i, ++item.number) {
-    elements.push_back(in.indices<Corners>(item, 1, vertices));
-    references.push_back(in.attribute(item));
-  }
+  const std::size_t first = elements.size();
+  elements.resize(first + count);
+  references.resize(first + count);
+  read_lines(in, count, [&](TextScanner& line, std::size_t i) {
+    const Item element{item.kind, item.number + static_cast<std::int64_t>(i)};
+    elements[first + i] = line.indices<Corners>(element, 1, vertices);
+    references[first + i] = line.attribute(element);
+  });
 }
 
 /// \param with_tetrahedra  false: they are skipped, like every section that is not listed above

@@ -1,4 +1,5 @@
 #include "engine/io/formats.h"
+#include "engine/io/read_lines.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
@@ -27,6 +28,28 @@ void read_keyword(TextScanner& in) {
   }
 }
 
+/// "corners c1 c2 ... [color]" for each.
+void read_facets(TextScanner& in, std::size_t count, plc::InputPlc& plc) {
+  plc.triangles.resize(count);
+  const auto read_triangle = [&](TextScanner& line, std::size_t i) {
+    const Item facet{"facet", i};
+    line.expect_integer(facet, 3, "");
+    plc.triangles[i] = line.indices<3>(facet, 0, plc.vertices.size());
+    line.skip_line();
+  };
+  if (read_lines_together(in, count, read_triangle)) return;
+  plc.triangles.clear();
+  std::vector<std::uint32_t> corners;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Item facet{"facet", i};
+    corners.resize(in.count(facet, 2));
+    if (corners.empty()) in.fail(facet, "it has no corners");
+    for (std::uint32_t& corner : corners) corner = in.index(facet, 0, plc.vertices.size());
+    in.skip_line();
+    add_facet(plc, corners, 0, i);
+  }
+}
+
 }  // namespace
 
 plc::InputPlc read_off(const FileBytes& file) {
@@ -35,21 +58,12 @@ plc::InputPlc read_off(const FileBytes& file) {
   read_keyword(in);
   const std::size_t vertices = in.count({"number of vertices"}, 6), faces = in.count({"number of facets"}, 4);
   in.skip_line();  // the number of edges, which may be missing and is not used
-  plc.vertices.reserve(vertices);
-  plc.triangles.reserve(faces);
-  for (std::size_t i = 0; i < vertices; ++i) {
-    plc.vertices.push_back(in.point({"vertex", i}));
-    in.skip_line();
-  }
-  std::vector<std::uint32_t> corners;
-  for (std::size_t i = 0; i < faces; ++i) {
-    const Item facet{"facet", i};
-    corners.resize(in.count(facet, 2));
-    if (corners.empty()) in.fail(facet, "it has no corners");
-    for (std::uint32_t& corner : corners) corner = in.index(facet, 0, vertices);
-    in.skip_line();  // a color
-    add_facet(plc, corners, 0, i);
-  }
+  plc.vertices.resize(vertices);
+  read_lines(in, vertices, [&](TextScanner& line, std::size_t i) {
+    plc.vertices[i] = line.point({"vertex", i});
+    line.skip_line();
+  });
+  read_facets(in, faces, plc);
   if (!in.at_end()) {
     const Item end{"end of the file"};
     const std::string_view found = in.word(end);

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "engine/io/formats.h"
+#include "engine/io/read_lines.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
@@ -20,19 +21,24 @@ TetgenNodes read_nodes(TextScanner& in) {
   const std::size_t count = in.count("number of vertices", 8);
   if (!in.at_line_end()) in.expect_integer("dimension", 3, "give points in three dimensions");
   in.skip_line();  // the numbers of attributes and markers after each point; both are skipped with the line
-  nodes.vertices.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  if (count == 0) return nodes;
+  const Item first_vertex{"vertex", 0};
+  TextScanner ahead = in;
+  nodes.first = ahead.integer(first_vertex);
+  if (nodes.first != 0 && nodes.first != 1)
+    ahead.fail(first_vertex, "the first vertex has the number " + std::to_string(nodes.first),
+               "number the vertices from 0 or 1");
+  nodes.vertices.resize(count);
+  read_lines(in, count, [&](TextScanner& line, std::size_t i) {
     const Item vertex{"vertex", i};
-    const std::int64_t number = in.integer(vertex);
-    if (i == 0) nodes.first = number;
-    if (nodes.first != 0 && nodes.first != 1)
-      in.fail(vertex, "the first vertex has the number " + std::to_string(number), "number the vertices from 0 or 1");
-    if (const std::int64_t expected = nodes.first + vertex.number; number != expected)
-      in.fail(vertex, "its number is " + std::to_string(number) + ", but " + std::to_string(expected) + " was expected",
-              "number the vertices without gaps");
-    nodes.vertices.push_back(in.point(vertex));
-    in.skip_line();
-  }
+    const std::int64_t number = line.integer(vertex), expected = nodes.first + vertex.number;
+    if (number != expected)
+      line.fail(vertex,
+                "its number is " + std::to_string(number) + ", but " + std::to_string(expected) + " was expected",
+                "number the vertices without gaps");
+    nodes.vertices[i] = line.point(vertex);
+    line.skip_line();
+  });
   return nodes;
 }
 
@@ -139,15 +145,15 @@ void read_elements(const FileBytes& file, std::string_view kind, const TetgenNod
     in.expect_integer("corners of a tetrahedron", 4, "write linear tetrahedra", "they are");
   const bool has_attribute = !in.at_line_end() && in.integer("number of attributes") != 0;
   in.skip_line();
-  elements.reserve(count);
-  attributes.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  elements.resize(count);
+  attributes.resize(count);
+  read_lines(in, count, [&](TextScanner& line, std::size_t i) {
     const Item item{kind, i};
-    in.integer(item);
-    elements.push_back(in.indices<Corners>(item, nodes.first, nodes.vertices.size()));
-    attributes.push_back(has_attribute && !in.at_line_end() ? in.attribute(item) : 0);
-    in.skip_line();  // adjacent tetrahedra, more attributes
-  }
+    line.integer(item);
+    elements[i] = line.indices<Corners>(item, nodes.first, nodes.vertices.size());
+    attributes[i] = has_attribute && !line.at_line_end() ? line.attribute(item) : 0;
+    line.skip_line();  // adjacent tetrahedra, more attributes
+  });
 }
 
 void write_nodes(const std::vector<Point3>& vertices, OutputFile& out) {

@@ -79,6 +79,8 @@ class TextScanner {
   std::size_t position() const { return position_; }
   void move_to(std::size_t position) { position_ = word_begin_ = std::min(position, end_); }
   std::size_t remaining() const { return end_ - position_; }
+  std::string_view rest() const { return text_.substr(position_, remaining()); }
+  char line_end() const { return line_end_; }
   [[noreturn]] void fail(const Item& item, const std::string& what, const std::string& remedy = malformed_remedy) const;
   [[noreturn]] void fail_truncated(const Item& item) const;
 
