@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -87,6 +88,14 @@ template <class Work>
 void parallel_for(std::size_t count, std::size_t grain, const Work& work) {
   parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
+  });
+}
+
+/// Sets all items to this value, on several threads.
+template <class Item>
+void parallel_fill(std::span<Item> items, const Item& value) {
+  parallel_ranges(items.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    std::ranges::fill(items.subspan(begin, end - begin), value);
   });
 }
 

@@ -77,9 +77,7 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
   d_.cells.resize(old + room);
   marks_.cells.resize(old + room);
-  parallel_ranges(old, 1 << 16, [&](std::size_t begin, std::size_t end) {
-    std::fill_n(marks_.cells.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, InsertionMarks::Cell::unseen);
-  });
+  parallel_fill(std::span(marks_.cells).first(old), InsertionMarks::Cell::unseen);
   CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
   done_parts_ = 0;
   parallel_for(start_.size(), 1, [&](std::size_t part) {
@@ -124,7 +122,7 @@ std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<con
       waiting.push_back(vertices[i]);
     }
   }
-  // A part may also be done early because most of its vertices wait.
+  // A part may also be done early because many of its vertices wait.
   if (4 * waiting.size() < vertices.size()) ++done_parts_;
   const std::lock_guard lock(mutex_);
   unused_.insert(unused_.end(), insertion.unused_places().begin(), insertion.unused_places().end());

@@ -44,6 +44,7 @@ class PartedInsertion {
   using Part = InsertionParts::Part;
 
   void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
+  /// \param number  of the pass, from 0
   std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, std::size_t number,
                                   SharedProgress& progress);
   std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, std::size_t number,

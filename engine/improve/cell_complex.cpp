@@ -163,7 +163,7 @@ std::size_t CellComplex::bytes() const {
 }
 
 void CellComplex::find_cavity(const Change& change, Cavity& cavity) const {
-  cavity.faces.clear(), cavity.left_vertices.clear();
+  cavity.faces.clear(), cavity.lost_vertices.clear();
   // The old and new cells are few: comparing with all of them costs less than marks in another array.
   const auto is_old = [&](std::uint32_t cell) {
     return std::ranges::find(change.old_cells, cell) != change.old_cells.end();
@@ -175,7 +175,7 @@ void CellComplex::find_cavity(const Change& change, Cavity& cavity) const {
   };
   for (const std::uint32_t c : change.old_cells) {
     for (std::uint32_t f = 0; f < 4; ++f) {
-      if (!stays(cells_[c].vertices[f])) cavity.left_vertices.push_back(cells_[c].vertices[f]);
+      if (!stays(cells_[c].vertices[f])) cavity.lost_vertices.push_back(cells_[c].vertices[f]);
       const std::uint32_t outside = cells_[c].neighbors[f];
       if (outside != no_neighbor && is_old(cell_of(outside))) continue;
       cavity.faces.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
@@ -252,7 +252,7 @@ void CellComplex::announce(Change& change, const Cavity& cavity, std::vector<std
     places.push_back(take_place());
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = places.back(), changed_at_[v] = change_count_;
   }
-  for (const std::uint32_t v : cavity.left_vertices) cell_at_[v] = no_neighbor;
+  for (const std::uint32_t v : cavity.lost_vertices) cell_at_[v] = no_neighbor;
   // A later change may take the other places before this one's cavity is filled.
   const std::size_t unused = std::max(change.old_cells.size(), places.size()) - places.size();
   for (const std::uint32_t c : std::span(free_).last(unused)) cells_[c].vertices[0] = ghost_vertex;

@@ -61,7 +61,7 @@ struct Cavity {
   };
 
   std::vector<Face> faces;
-  std::vector<std::uint32_t> left_vertices;  ///< of old cells, but of no new one
+  std::vector<std::uint32_t> lost_vertices;  ///< of old cells, but of no new one
 };
 
 /// Marks of visited cells, for consecutive searches through a complex.

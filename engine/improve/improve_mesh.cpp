@@ -328,6 +328,7 @@ class Improver {
     if (step.kind == Step::Kind::change) {
       ++(counts_.*step.count);
       counts_.facet_flips += !step.change.faces.empty();
+      // The qualities are asked of the change, whose memory is at hand.
       for (std::size_t i = 0; i < attempt.new_cells.size(); ++i)
         if (!is_good(step.change.new_cells[i].quality)) add_bad(attempt.new_cells[i], found_);
       return;

@@ -26,8 +26,7 @@ std::vector<LineBlock> cut_lines(std::string_view text, char line_end, std::size
 /// Reads items on several threads if each is on a line of its own.
 ///
 /// \param in    before the line of the first item; then after that of the last
-/// \param read  `read(in, i)` reads item i, or its whole line. It is called in any order, and may be called for some
-///              items without success.
+/// \param read  `read(in, i)` reads item i, or its whole line. The calls are in any order, and some may fail.
 /// \return  false: nothing was read. There are few items or one thread, or some line is not as expected.
 template <class Read>
 bool read_lines_together(TextScanner& in, std::size_t count, const Read& read) {

@@ -1,6 +1,5 @@
 #include "engine/label/label_cells.h"
 
-#include <algorithm>
 #include <atomic>
 #include <span>
 #include <utility>
@@ -34,9 +33,7 @@ CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint3
 FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
                     const std::vector<std::uint32_t>& wall_codes) {
   FaceBits bits(d.cells.size());
-  parallel_ranges(bits.size(), grain, [&](std::size_t begin, std::size_t end) {
-    std::fill(bits.data() + begin, bits.data() + end, std::uint8_t{0});
-  });
+  parallel_fill(std::span(bits), std::uint8_t{0});
   const auto mark = [&](std::uint32_t code, unsigned what) {
     const auto bit = static_cast<std::uint8_t>(what << face_of(code));
     std::atomic_ref(bits[cell_of(code)]).fetch_or(bit, std::memory_order_relaxed);
@@ -103,7 +100,7 @@ CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const s
   const FaceBits bits = mark_walls(d, open, wall_codes);
   const RawVector<std::uint32_t> part_of = join_cells(d, bits).take_representatives();
   RawVector<RegionId> region(d.cells.size());
-  parallel_for(region.size(), grain, [&](std::size_t cell) { region[cell] = RegionId(); });
+  parallel_fill(std::span(region), RegionId());
   for (const front::FrontFace& face : open) {
     RegionId& its = region[part_of[cell_of(face.code)]];
     if (!its.is_none() && its != face.region) return stuck_at(plc, d, cell_of(face.code));

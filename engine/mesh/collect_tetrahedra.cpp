@@ -168,10 +168,8 @@ LargeVector<Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<Ce
   constexpr std::uint32_t not_in_mesh = delaunay::no_cell;
   RawVector<std::uint32_t> tetrahedron_of(cell_count);
   RawVector<std::uint8_t> arrangements(cell_count);
-  parallel_ranges(cell_count, grain, [&](std::size_t begin, std::size_t end) {
-    std::fill(tetrahedron_of.data() + begin, tetrahedron_of.data() + end, not_in_mesh);
-    std::fill(arrangements.data() + begin, arrangements.data() + end, std::uint8_t{0});
-  });
+  parallel_fill(std::span(tetrahedron_of), not_in_mesh);
+  parallel_fill(std::span(arrangements), std::uint8_t{0});
   parallel_for(count, grain, [&](std::size_t i) {
     if (sources[i] < cell_count) tetrahedron_of[sources[i]] = static_cast<std::uint32_t>(i);
   });

@@ -199,7 +199,7 @@ TEST(Improving, IsDeterministic) {
   });
 }
 
-/// In a cube where most cells are bad, many steps of a window are next to each other, or exchange faces on facets.
+/// Most cells are bad, so that windows are full. Some steps exchange faces on facets.
 TEST(Improving, MakesTheSameStepsTogetherAndInTurn) {
   improve::ImproveOptions options{.target_dihedral = 45, .target_r = 1.5};
   std::uint64_t facet_flips = 0, insertions = 0, collapses = 0;

@@ -138,11 +138,11 @@ TEST(Changes, RingThatGivesWayToMoreTetrahedraCountsAsARemovedEdge) {
   EXPECT_EQ(counts.removed_faces, 0u);
 }
 
-/// Two rings with a common triangle, and one far away.
+/// Two rings with a common triangle, and one far away. Both edges are planned to be removed at the same time.
 TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   Model model = ring_of(3);
-  // The triangle 1 2 3 is a face of the second ring, around the edge from 5 to 1.
-  model.points.insert(model.points.end(), {{-20, 300, 900}, {400, 400, 1500}});
+  // The second ring, 2, 3 and 6, is around the edge from 1 to 5; 1 2 3 is the common triangle.
+  model.points.insert(model.points.end(), {{134, 232, -1000}, {150, 260, 0}});
   model.cells.insert(model.cells.end(), {{5, 1, 2, 3}, {5, 1, 3, 6}, {5, 1, 6, 2}});
   const auto offset = static_cast<std::uint32_t>(model.points.size());
   const Model far = ring_of(3);
@@ -150,9 +150,10 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   for (const Tetrahedron& t : far.cells)
     model.cells.push_back({t[0] + offset, t[1] + offset, t[2] + offset, t[3] + offset});
   improve::CellComplex x = complex_of(model, by_shape);
+  const Invariants before = invariants_of(x);
   improve::Change change, neighbor, distant;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
-  neighbor.old_cells = {3, 4, 5};
+  ASSERT_TRUE(improve::plan_edge_removal(x, 3, edge_of_cell(x, 3, 1, 5), x.quality(3), neighbor));
   distant.old_cells = {6, 7, 8};
   improve::Cavity cavity, beside, apart;
   x.find_cavity(change, cavity);
@@ -160,11 +161,25 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   x.find_cavity(distant, apart);
   EXPECT_FALSE(x.has_changed_beyond(beside, x.change_count()));
   std::vector<std::uint32_t> places;
-  const std::uint64_t before = x.change_count();
+  const std::uint64_t since = x.change_count();
   x.announce(change, cavity, places);
-  EXPECT_TRUE(x.has_changed_beyond(beside, before));
+  EXPECT_TRUE(x.has_changed_beyond(beside, since));
   EXPECT_FALSE(x.has_changed_beyond(beside, x.change_count()));
-  EXPECT_FALSE(x.has_changed_beyond(apart, before));
+  EXPECT_FALSE(x.has_changed_beyond(apart, since));
+
+  x.fill_cavity(change, places, cavity);
+  improve::Cavity again;
+  x.find_cavity(neighbor, again);
+  const auto codes_of = [](const improve::Cavity& its) {
+    std::set<std::uint32_t> codes;
+    for (const improve::Cavity::Face& face : its.faces) codes.insert(face.code);
+    return codes;
+  };
+  EXPECT_TRUE(codes_of(again) != codes_of(beside));
+  x.announce(neighbor, again, places);
+  x.fill_cavity(neighbor, places, again);
+  expect_consistent(x);
+  EXPECT_TRUE(invariants_of(x) == before);
 }
 
 TEST(Changes, LongerRingIsLeftAlone) {
