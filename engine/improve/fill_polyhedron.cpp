@@ -142,8 +142,20 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
   return true;
 }
 
+/// Is there a vertex that makes a good tetrahedron with a face? The least quality is often that of the best one on a
+/// face that must stay. Then no search succeeds.
+bool PolyhedronFiller::has_apex(const Triangle& t) const {
+  const auto n = static_cast<Corner>(vertices_.size());
+  for (Corner v = 0; v < n; ++v)
+    if (!is_corner(t, v) &&
+        cell_quality(x_.goal(), points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > least_)
+      return true;
+  return false;
+}
+
 /// Searches from the whole polyhedron.
 bool PolyhedronFiller::search() {
+  if (!std::ranges::all_of(hull_, [&](const Triangle& t) { return has_apex(t); })) return false;
   sides_.find(points_);
   find_free_edges();
   front_.clear(), saved_front_.clear();

@@ -53,6 +53,7 @@ class PolyhedronFiller {
   bool join_to_vertex();
   double quality_from(Corner v, double least) const;
   bool keeps_all_faces(Corner v) const;
+  bool has_apex(const Triangle& t) const;
   bool search();
   bool search_on();
   bool is_blocked(const Triangle& base, Corner apex) const;

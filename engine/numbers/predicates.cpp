@@ -47,13 +47,40 @@ Differences<n> shifted_differences(const std::array<const Point3*, n>& points, c
   return result;
 }
 
-/// Determinant of three rows; `Minor` holds 2 * bits + 1 bits, `Result` 3 * bits + 3.
+/// x = 2^64 * rest(x) + low_digit(x).
+constexpr std::uint64_t low_digit(Int128 x) {
+  return static_cast<std::uint64_t>(x);
+}
+
+constexpr Int128 rest(Int128 x) {
+  return x >> 64;  // rounds down
+}
+
+/// The cross product of the first two of three rows. `Minor` holds 2 * bits + 1 bits.
+template <class Minor>
+std::array<Minor, 3> first_minors(const std::array<std::array<std::int64_t, 3>, 3>& m) {
+  return {Minor(m[0][1]) * m[1][2] - Minor(m[0][2]) * m[1][1], Minor(m[0][2]) * m[1][0] - Minor(m[0][0]) * m[1][2],
+          Minor(m[0][0]) * m[1][1] - Minor(m[0][1]) * m[1][0]};
+}
+
+/// Determinant of three rows; `Result` holds 3 * bits + 3 bits.
 template <class Minor, class Result>
 Result determinant3(const std::array<std::array<std::int64_t, 3>, 3>& m) {
-  const Minor x = Minor(m[0][1]) * m[1][2] - Minor(m[0][2]) * m[1][1];
-  const Minor y = Minor(m[0][2]) * m[1][0] - Minor(m[0][0]) * m[1][2];
-  const Minor z = Minor(m[0][0]) * m[1][1] - Minor(m[0][1]) * m[1][0];
+  const auto [x, y, z] = first_minors<Minor>(m);
   return Result(x) * m[2][0] + Result(y) * m[2][1] + Result(z) * m[2][2];
+}
+
+/// Its sign for up to 60 bits: the products of 128 and 64 bits are added up in two digits.
+int determinant3_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 3>& m) {
+  const std::array<Int128, 3> minor = first_minors<Int128>(m);
+  Int128 first = 0, second = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    first += Int128(low_digit(minor[i])) * m[2][i];
+    second += rest(minor[i]) * m[2][i];
+  }
+  second += rest(first);
+  if (second != 0) return sign_of(second);
+  return low_digit(first) != 0 ? 1 : 0;
 }
 
 /// The heights of four rows, that is, their squared lengths, and the volumes by which the insphere determinant
@@ -88,8 +115,6 @@ int insphere_sign(const std::array<std::array<std::int64_t, 3>, 4>& m) {
 
 /// The same for up to 40 bits: the products of two numbers of 128 bits are added up in three digits of 64.
 int insphere_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 4>& m) {
-  const auto low_digit = [](Int128 x) { return static_cast<std::uint64_t>(x); };
-  const auto rest = [](Int128 x) { return x >> 64; };  // rounds down: x = 2^64 * rest + low digit
   const InsphereTerms<Int128, Int128> terms(m);
   Int128 first = 0, second = 0, third = 0;
   for (int i = 0; i < 4; ++i) {
@@ -161,7 +186,7 @@ int orient3d_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
                         : sign_of(determinant3<Int128, Int128>(m.row));
   }
   count_wide_evaluation();
-  return sign_of(determinant3<WideInt<256>, WideInt<256>>(m.row));
+  return determinant3_sign_in_digits(m.row);
 }
 
 int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) {

@@ -154,5 +154,28 @@ TEST(PolyhedronFiller, FillsMostRandomStars) {
   EXPECT_GT(filled, 150);
 }
 
+/// The quality of the best tetrahedron on a face, for the face where that is least.
+double best_on_worst_face(const improve::CellComplex& x) {
+  double least = 1;
+  for (const auto& [a, b, c] : hull_of(x)) {
+    double best = 0;
+    for (std::uint32_t v = 0; v + 1 < x.vertex_count(); ++v)
+      if (v != a && v != b && v != c) best = std::max(best, x.quality_of({a, b, c, v}));
+    least = std::min(least, best);
+  }
+  return least;
+}
+
+// With its corners in another order, the same tetrahedron may look better by a rounding.
+TEST(PolyhedronFiller, DoesNotTakeARoundingForAnImprovement) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const improve::CellComplex x = complex_of(random_star(random), {improve::Objective::r, 1, 1});
+    improve::PolyhedronFiller filler(x);
+    std::vector<improve::NewCell> cells;
+    EXPECT_FALSE(filler.fill(hull_of(x), 7, best_on_worst_face(x), cells));
+  }
+}
+
 }  // namespace
 }  // namespace ccdt
