@@ -85,10 +85,20 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
     face_table_.reserve(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) face_table_.insert(key_of(faces_[f]), f);
   };
-  parallel_for(2, 1, [&](std::size_t i) { i == 0 ? list_segments() : list_faces(); });
+  parallel_for(3, 1, [&](std::size_t i) { i == 0 ? list_segments() : i == 1 ? list_faces() : find_facet_normals(); });
   join_open_faces();
   find_walls();
   find_last_cells();
+}
+
+/// The normal of a single face may point anywhere: a needle that is flat only within the tolerance.
+void CellComplex::find_facet_normals() {
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const auto& [a, b, c] = faces_[f];
+    if (facet_of_face_[f] >= facet_normals_.size()) facet_normals_.resize(facet_of_face_[f] + std::size_t{1});
+    Point3& normal = facet_normals_[facet_of_face_[f]];
+    normal = normal + area_vector({points_[a], points_[b], points_[c]});
+  }
 }
 
 /// Gives each vertex the last of its cells.
@@ -158,7 +168,7 @@ bool CellComplex::all_positive(const Change& change) const {
 
 std::size_t CellComplex::bytes() const {
   return bytes_of(points_, cell_at_, changed_at_, cells_, walls_, regions_, qualities_, generations_, free_, faces_,
-                  facet_of_face_) +
+                  facet_of_face_, facet_normals_) +
          segments_.bytes() + face_table_.bytes();
 }
 

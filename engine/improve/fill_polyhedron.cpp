@@ -147,8 +147,7 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
 bool PolyhedronFiller::has_apex(const Triangle& t) const {
   const auto n = static_cast<Corner>(vertices_.size());
   for (Corner v = 0; v < n; ++v)
-    if (!is_corner(t, v) &&
-        cell_quality(x_.goal(), points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > least_)
+    if (!is_corner(t, v) && cell_quality(x_.goal(), points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > least_)
       return true;
   return false;
 }

@@ -179,9 +179,8 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   if (!find_other_side(x, ring, other) || !add_ring(x, ring, least, change)) return false;
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
   change.faces = {with_corner(x, *face, b, last), with_corner(x, *next, a, first)};
-  const auto& [p, q, r] = x.faces()[*face];
-  const Point3 axis = axis_above(x.point(p), x.point(q), x.point(r));
-  return std::ranges::all_of(change.faces, [&](const FaceChange& f) { return is_upright(x, f.corners, axis); });
+  const Point3 axis = axis_above(x, *face);
+  return std::ranges::all_of(change.faces, [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, axis); });
 }
 
 /// The largest number of cells on one side of the removed faces.
