@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/base/work.h"
 #include "engine/delaunay/options.h"
@@ -48,11 +49,11 @@ struct MeshOptions {
   double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
   bool refine_surface = false;   ///< give facets and segments vertices for even triangles; see `refine::refine_plc`
   double thin_tetrahedra = 2e6;  ///< about how many thin places of a refined surface may lead to
-  double edge_length = 0;    ///< target edge length in the units of the input; 0: as the surface has it, or, if that
-                             ///< is refined, a fortieth of the diagonal of the bounding box
-  double grading = 0.5;      ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  double flatness = 1e-8;    ///< see PlcOptions
-  double sphere_factor = 1;  ///< see LatticeOptions
+  double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it, or, if that
+                           ///< is refined, a fortieth of the diagonal of the bounding box
+  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
+  double flatness = usual_flatness;             ///< see PlcOptions
+  double sphere_factor = 1;                     ///< see LatticeOptions
   double clearance = lattice::usual_clearance;  ///< see LatticeOptions
   unsigned threads = 0;                         ///< that work at the same time; 0: one for each core. Same mesh.
   ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`

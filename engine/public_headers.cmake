@@ -3,6 +3,7 @@
 set(public_headers
   base/enum_names.h
   base/errors.h
+  base/flatness.h
   base/point.h
   base/portable_math.h
   base/progress.h

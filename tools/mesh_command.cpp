@@ -377,8 +377,10 @@ void add_numbers(CLI::App& verb, MeshOptions& options) {
   verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size of the paper's uniform grids")
       ->check(number_between(0.1, 100))
       ->capture_default_str();
-  verb.add_option("--flatness", options.flatness,
-                  "tolerance for triangles in one plane to be one facet, as a fraction of the bounding box")
+  verb.add_option(
+          "--flatness", options.flatness,
+          "tolerance for triangles in one plane to be one facet, as a fraction of the bounding box; the default is "
+          "larger for coordinates rounded to single precision")
       ->check(non_negative_number())
       ->capture_default_str();
 }

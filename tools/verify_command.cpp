@@ -72,8 +72,10 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("verify", "check exactly that a mesh, made by any mesher, is right for its input");
   verb->add_option("INPUT", command->input, "surface or PLC that was meshed")->required();
   verb->add_option("MESH", command->mesh, "mesh to check: .vtu .msh .msh4 .mesh .meshb .node")->required();
-  verb->add_option("--flatness", command->options.flatness,
-                   "tolerance for flat facets and equal positions, as a fraction of the bounding box")
+  verb->add_option(
+          "--flatness", command->options.flatness,
+          "tolerance for flat facets and equal positions, as a fraction of the bounding box; the default is larger "
+          "for coordinates rounded to single precision")
       ->check(non_negative_number())
       ->capture_default_str();
   add_choice(*verb, "--constrained-delaunay", command->options.delaunay,

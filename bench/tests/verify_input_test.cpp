@@ -29,6 +29,19 @@ TEST(Verify, GridsAreRightWithEitherDiagonalAndRotated) {
     }
 }
 
+TEST(Verify, FlatFacetsMayBeBentByRoundingToSinglePrecision) {
+  const Transform far_away = [](const Point3& p) {
+    const Point3 q = rotated(p) + Point3{1000, -1000, 300};
+    const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    return Point3{rounded(q.x), rounded(q.y), rounded(q.z)};
+  };
+  for (const bool turned : {false, true}) {
+    const MeshedInput m = make_grid_mesh({4, 4, 4}, everywhere, turned, far_away);
+    expect_ok(m);
+    EXPECT_EQ(verify::verify(m.input, m.mesh, {.flatness = 1.01 * usual_flatness}).ok(), !turned);
+  }
+}
+
 TEST(Verify, APolygonThatRunsRoundSeveralTimesIsOneFacet) {
   MeshedInput m = cube_in_five();
   for (const bool there_and_back : {false, true}) {

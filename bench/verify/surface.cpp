@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/verify/exact.h"
+#include "engine/base/flatness.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/sort_in_runs.h"
@@ -319,7 +320,8 @@ Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
   const double box = input.vertices.empty() ? 0 : std::max({extent.x, extent.y, extent.z});
   // A mesher may measure flatness against the next power of two above the box, and on both sides of a plane that is not
   // ours.
-  return {box, 0.1 * flatness * box, 4 * flatness * box, 4 * flatness * box};
+  const double flat = 4 * flatness_for(input.vertices, flatness) * box;
+  return {box, 0.1 * flatness * box, flat, flat};
 }
 
 Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/enum_names.h"
+#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
@@ -16,7 +17,7 @@ struct VerifyOptions {
   /// The tolerance of flatness, as a fraction of the input's bounding box. Four times this counts as flat, because a
   /// mesher may measure against another plane and the next power of two. If exact coordinates do not match, a tenth of
   /// it counts as the same place. If facets do not match, smaller tolerances are tried as well.
-  double flatness = 1e-8;
+  double flatness = usual_flatness;
   /// Must every unconstrained inner face be locally Delaunay? `claimed`: if the mesh claims it.
   enum class Delaunay { claimed, yes, no } delaunay = Delaunay::claimed;
   /// What may have happened to the input's vertices inside flat facets and straight chains of edges or segments?

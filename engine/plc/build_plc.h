@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
@@ -11,8 +12,8 @@
 namespace ccdt::plc {
 
 struct PlcOptions {
-  double flatness = 1e-8;  ///< tolerance for the vertices of a patch to be in one plane, so that it is one facet; as a
-                           ///< fraction of the box
+  double flatness = usual_flatness;  ///< tolerance for the vertices of a patch to be in one plane, so that it is one
+                                     ///< facet; as a fraction of the box. See `flatness_for`
 };
 
 /// The input on the grid, as triangles and segments that may still cross each other.

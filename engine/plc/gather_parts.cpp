@@ -11,6 +11,7 @@
 
 #include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
+#include "engine/base/flatness.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/sort_in_runs.h"
@@ -320,7 +321,7 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
 double tolerance_of(const Plc& plc, double flatness) {
   const Box box = bounding_box(plc.vertices);
   const Point3 size = box.high - box.low;
-  return flatness * std::max({size.x, size.y, size.z});
+  return flatness_for(plc.world, flatness) * std::max({size.x, size.y, size.z});
 }
 
 TriangleSet gather_triangles(const InputPlc& input, const Plc& plc) {

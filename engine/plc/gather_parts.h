@@ -16,7 +16,7 @@ namespace ccdt::plc {
 /// \throw InputError  a coordinate that is not finite, with the number of its vertex
 void snap_vertices(const InputPlc& input, Plc& plc);
 
-/// Converts a tolerance from a fraction of the bounding box to grid units.
+/// Converts a tolerance, adapted to the vertices (`flatness_for`), from a fraction of the bounding box to grid units.
 double tolerance_of(const Plc& plc, double flatness);
 
 /// The triangles of the input, without its polygon facets.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/plc/input.h"
 
@@ -13,7 +14,7 @@ struct RemeshOptions {
   /// kept.
   double sharp_angle = 30;
 
-  double flatness = 1e-8;  ///< see PlcOptions
+  double flatness = usual_flatness;  ///< see PlcOptions
 };
 
 /// Replaces the triangles of a surface by nearly equilateral ones with edges of nearly one length: in rounds of edge

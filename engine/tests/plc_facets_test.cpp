@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
 #include <utility>
 
+#include "engine/base/flatness.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/plc_test_solids.h"
 
@@ -55,6 +57,32 @@ TEST(PlcFacets, OrientationOfTheInputDoesNotMatter) {
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 12u);
   EXPECT_NEAR(inside_volume(plc), 1.0, 1e-12);
+}
+
+Point3 rounded_to_single(const Point3& p) {
+  const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  return {rounded(p.x), rounded(p.y), rounded(p.z)};
+}
+
+TEST(PlcFacets, RotatedCubeInSinglePrecisionHasSixFacets) {
+  for (const double distance : {0, 10, 1000}) {
+    plc::InputPlc cube = rotated(rotation(0.3, 0.7, -0.2, 0.55), gridded_cube(8));
+    for (Point3& p : cube.vertices) p = rounded_to_single(p + Point3{distance, -distance, 0});
+    const plc::Plc plc = plc::build_plc(cube);
+    expect_valid(plc);
+    EXPECT_EQ(plc.facets.size(), 6u) << distance;
+    EXPECT_GT(plc::build_plc(cube, {1.01 * usual_flatness}).facets.size(), 6u) << "the tolerance that was asked for";
+  }
+}
+
+TEST(Flatness, OnlyTheUsualToleranceIsRaisedAndOnlyForRoundedCoordinates) {
+  const std::vector<Point3> whole = {{0, 0, 0}, {1000000, 3, 0}, {5, 7, 12}}, twice = {{0, 0, 0}, {0.1, 0, 0}};
+  const std::vector<Point3> single = {{0, 0, 0}, rounded_to_single({0.1, 0, 0})};
+  EXPECT_EQ(flatness_for(whole, usual_flatness), usual_flatness);
+  EXPECT_EQ(flatness_for(twice, usual_flatness), usual_flatness);
+  EXPECT_EQ(flatness_for(std::vector<Point3>{{HUGE_VAL, 0, 0}}, usual_flatness), usual_flatness);
+  EXPECT_DOUBLE_EQ(flatness_for(single, usual_flatness), 0x1p-22);
+  for (const double asked : {0.0, 1e-9, 1e-7}) EXPECT_EQ(flatness_for(single, asked), asked);
 }
 
 TEST(PlcFacets, GriddedCubeHasSixFacets) {

@@ -1,0 +1,49 @@
+#include "engine/base/flatness.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "engine/base/box.h"
+
+namespace ccdt {
+namespace {
+
+/// How far a vertex may be from the plane of its facet, in roundings of the largest coordinate. A vertex moves by less
+/// than the square root of three of them; so do those that the plane is fitted to.
+constexpr double most_roundings = 4;
+
+bool is_single(double x) {
+  return std::fabs(x) <= std::numeric_limits<float>::max() && static_cast<double>(static_cast<float>(x)) == x;
+}
+
+/// For a number of single precision.
+bool uses_last_bit(double x) {
+  return (std::bit_cast<std::uint32_t>(static_cast<float>(x)) & 1) != 0;
+}
+
+/// Are the coordinates numbers of single precision, and have some been rounded to it? Numbers that need fewer bits,
+/// like integers, are probably meant.
+bool are_rounded_to_single(std::span<const Point3> points) {
+  const auto all = [](const Point3& p, const auto& holds) { return holds(p.x) && holds(p.y) && holds(p.z); };
+  const auto any = [](const Point3& p, const auto& holds) { return holds(p.x) || holds(p.y) || holds(p.z); };
+  return std::ranges::all_of(points, [&](const Point3& p) { return all(p, is_single); }) &&
+         std::ranges::any_of(points, [&](const Point3& p) { return any(p, uses_last_bit); });
+}
+
+}  // namespace
+
+double flatness_for(std::span<const Point3> points, double tolerance) {
+  if (tolerance != usual_flatness || !are_rounded_to_single(points)) return tolerance;
+  const auto [low, high] = bounding_box(points);
+  const Point3 size = high - low;
+  const double extent = std::max({size.x, size.y, size.z});
+  const double largest = std::max(
+      {std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x), std::fabs(high.y), std::fabs(high.z)});
+  constexpr double rounding = 0x1p-24;
+  return extent > 0 ? std::max(tolerance, most_roundings * rounding * largest / extent) : tolerance;
+}
+
+}  // namespace ccdt
