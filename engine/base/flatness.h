@@ -13,7 +13,8 @@ inline constexpr double usual_flatness = 1e-8;
 /// raised where the coordinates have been rounded to single precision, as in a binary STL: that bends flat facets that
 /// are not parallel to an axis. Any other tolerance stays as it is.
 ///
-/// \param points  in the units of the input
+/// \param points     in the units of the input
+/// \param tolerance  what was asked for, as such a fraction
 double flatness_for(std::span<const Point3> points, double tolerance);
 
 }  // namespace ccdt

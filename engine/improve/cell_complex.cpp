@@ -10,6 +10,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_buckets.h"
 #include "engine/numbers/predicates.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt::improve {
 
@@ -85,19 +86,24 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
     face_table_.reserve(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) face_table_.insert(key_of(faces_[f]), f);
   };
-  parallel_for(3, 1, [&](std::size_t i) { i == 0 ? list_segments() : i == 1 ? list_faces() : find_facet_normals(); });
+  parallel_for(3, 1, [&](std::size_t i) { i == 0 ? list_segments() : i == 1 ? list_faces() : find_facet_axes(); });
   join_open_faces();
   find_walls();
   find_last_cells();
 }
 
 /// The normal of a single face may point anywhere: a needle that is flat only within the tolerance.
-void CellComplex::find_facet_normals() {
+void CellComplex::find_facet_axes() {
+  if (faces_.empty()) return;
+  std::vector<Point3> normals(*std::ranges::max_element(facet_of_face_) + std::size_t{1});
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const auto& [a, b, c] = faces_[f];
-    if (facet_of_face_[f] >= facet_normals_.size()) facet_normals_.resize(facet_of_face_[f] + std::size_t{1});
-    Point3& normal = facet_normals_[facet_of_face_[f]];
+    Point3& normal = normals[facet_of_face_[f]];
     normal = normal + area_vector({points_[a], points_[b], points_[c]});
+  }
+  for (const Point3& normal : normals) {
+    const int axis = plc::dominant_axis(normal);
+    facet_axes_.push_back(static_cast<std::int8_t>(as_array(normal)[axis] < 0 ? -axis - 1 : axis + 1));
   }
 }
 
@@ -168,7 +174,7 @@ bool CellComplex::all_positive(const Change& change) const {
 
 std::size_t CellComplex::bytes() const {
   return bytes_of(points_, cell_at_, changed_at_, cells_, walls_, regions_, qualities_, generations_, free_, faces_,
-                  facet_of_face_, facet_normals_) +
+                  facet_of_face_, facet_axes_) +
          segments_.bytes() + face_table_.bytes();
 }
 

@@ -134,8 +134,8 @@ class CellComplex {
   /// The faces on facets, and the facet of each.
   const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
   const std::vector<std::uint32_t>& facet_of_face() const { return facet_of_face_; }
-  /// The area vector of a facet.
-  const Point3& normal_of_facet(std::uint32_t facet) const { return facet_normals_[facet]; }
+  /// The axis closest to the normal of a facet, on its upper side: 1, 2 or 3, or -1, -2 or -3.
+  int axis_of_facet(std::uint32_t facet) const { return facet_axes_[facet]; }
   /// The number of the face with these corners; none if it is not on a facet.
   std::optional<std::uint32_t> find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const std::uint32_t* const face = face_table_.find(face_key(a, b, c));
@@ -191,7 +191,7 @@ class CellComplex {
 
  private:
   void join_open_faces();
-  void find_facet_normals();
+  void find_facet_axes();
   void find_walls();
   void find_last_cells();
   std::uint32_t take_place();
@@ -223,7 +223,7 @@ class CellComplex {
   HashTable<FaceKey, std::uint32_t> face_table_;  // places in `faces_`
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> facet_of_face_;
-  std::vector<Point3> facet_normals_;
+  std::vector<std::int8_t> facet_axes_;
 
   Cavity cavity_;  // working memory of `apply`
 };

@@ -1,18 +1,22 @@
 #include "engine/improve/upright_faces.h"
 
-#include <cmath>
+#include <cstdlib>
 
 #include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::improve {
 
 Point3 axis_above(const CellComplex& x, std::uint32_t face) {
-  const Point3& normal = x.normal_of_facet(x.facet_of_face()[face]);
-  std::array<double, 3> axis{};
-  const int longest = plc::dominant_axis(normal);
-  axis[longest] = std::copysign(1, as_array(normal)[longest]);
-  return {axis[0], axis[1], axis[2]};
+  const int axis = x.axis_of_facet(x.facet_of_face()[face]);
+  const double up = axis > 0 ? 1 : -1;
+  switch (std::abs(axis)) {
+    case 1:
+      return {up, 0, 0};
+    case 2:
+      return {0, up, 0};
+    default:
+      return {0, 0, up};
+  }
 }
 
 bool is_new_and_upright(const CellComplex& x, const std::array<std::uint32_t, 3>& corners, const Point3& axis) {

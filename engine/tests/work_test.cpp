@@ -238,7 +238,7 @@ improve.cells_created 59
 improve.cells_destroyed 77
 improve.changes_tried 220
 improve.quality_evaluations 1022
-improve.peak_bytes 18882
+improve.peak_bytes 18744
 )");
 }
 
@@ -384,7 +384,7 @@ improve.moves_tried 178
 improve.vertices_moved 48
 improve.ascent_steps 196
 improve.quality_evaluations 23069
-improve.peak_bytes 21973
+improve.peak_bytes 21835
 )");
 }
 
