@@ -157,8 +157,12 @@ class Front {
   /// The remaining front: faces of the PLC and its own.
   FrontResult finish() {
     result_.open.reserve(static_cast<std::size_t>(std::ranges::count(plc_open_, 1)) + faces_.size());
-    for (std::size_t side = 0; side < plc_open_.size(); ++side)
-      if (plc_open_[side]) result_.open.push_back(state_of(in_, side));
+    for (std::size_t side = 0; side < plc_open_.size(); ++side) {
+      if (!plc_open_[side]) continue;
+      result_.open.push_back(state_of(in_, side));
+      if (result_.open.back().code == no_neighbor && !result_.stuck)
+        fail(face_of_side(side), "a face of the front was not found in the tetrahedralization");
+    }
     note_bytes(bytes_of(plc_open_, undelaunay_, result_.tetrahedra, result_.regions, result_.open) + faces_.bytes() +
                owners_.bytes() + doubts_.bytes() + bytes_of(cavities_) + finder_bytes_);
     faces_.for_each([&](const OrientedFace&, const State& state) {
@@ -201,16 +205,20 @@ class Front {
                           "the facets near these points are almost but not quite flat: try another --flatness");
   }
 
+  OrientedFace face_of_side(std::size_t side) const {
+    const auto& t = in_.facets.triangles[side / 2];
+    return {t[0], t[side % 2 == above ? 1 : 2], t[side % 2 == above ? 2 : 1]};
+  }
+
   template <class Finder>
   void add_plc_faces(const Finder& finder) {
     const std::vector<std::uint32_t> triangles = finder.triangles();
     faces_.reserve(2 * triangles.size());
     for (const std::uint32_t i : triangles) {
-      const auto& t = in_.facets.triangles[i];
       const std::uint32_t cavity = finder.cavity_of_triangle(i);
       for (const Side side : {above, below}) {
-        const OrientedFace face(t[0], t[side == above ? 1 : 2], t[side == above ? 2 : 1]);
         const auto number = static_cast<std::uint32_t>(2 * i + side);
+        const OrientedFace face = face_of_side(number);
         faces_.insert(face, {state_of(in_, number), cavity, number});
         if (plc_open_[number] && in_.codes[i] == no_neighbor) undelaunay_.push_back(face);
       }

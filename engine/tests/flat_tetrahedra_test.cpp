@@ -1,6 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+#include <random>
+
+#include "engine/base/errors.h"
 #include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
 
 // Tetrahedra of almost no volume, with all vertices on a facet that is flat only within the tolerance.
 
@@ -27,6 +33,32 @@ TEST(FlatTetrahedra, WithAFaceOnAnotherFacetAreNotRemoved) {
   const MeshResult result = mesh_plc(input, options);
   EXPECT_EQ(result.mesh.tetrahedra.size(), 2u);
   expect_verified(input, result.mesh);
+}
+
+/// A plate whose vertices are moved by up to a third of its height.
+InputPlc rough_plate(double height, std::mt19937& random) {
+  std::uniform_real_distribution<double> part(-height / 3, height / 3);
+  std::map<std::array<double, 3>, Point3> moved;
+  return mapped(gridded_plate(2, height), [&](const Point3& p) {
+    const auto found = moved.find(as_array(p));
+    if (found != moved.end()) return found->second;
+    return moved[as_array(p)] = p + Point3{part(random), part(random), part(random)};
+  });
+}
+
+// Both sides of the plate may get the same triangle, which the front then has twice.
+TEST(FlatTetrahedra, OfAPlateThinnerThanTheToleranceDoNotConfuseTheFront) {
+  std::mt19937 random(1);
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  options.flatness = 2e-6;
+  for (int i = 0; i < 20; ++i) {
+    try {
+      mesh_plc(rough_plate(3e-8, random), options);
+    } catch (const ccdt::Error& error) {
+      EXPECT_FALSE(error.place().points.empty());
+    }
+  }
 }
 
 }  // namespace
