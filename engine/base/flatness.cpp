@@ -11,9 +11,9 @@
 namespace ccdt {
 namespace {
 
-/// How far a vertex may be from the plane of its facet, in roundings of the largest coordinate. A vertex moves by less
-/// than the square root of three of them; so do those that the plane is fitted to.
-constexpr double most_roundings = 4;
+/// How far a vertex may be from the plane of its facet, in roundings of the largest coordinate: it moves by at most the
+/// square root of three of them. With four, parts with walls as thin as that were not verified.
+constexpr double most_roundings = 2;
 
 bool is_single(double x) {
   return std::fabs(x) <= std::numeric_limits<float>::max() && static_cast<double>(static_cast<float>(x)) == x;

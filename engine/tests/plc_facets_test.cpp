@@ -81,7 +81,7 @@ TEST(Flatness, OnlyTheUsualToleranceIsRaisedAndOnlyForRoundedCoordinates) {
   EXPECT_EQ(flatness_for(whole, usual_flatness), usual_flatness);
   EXPECT_EQ(flatness_for(twice, usual_flatness), usual_flatness);
   EXPECT_EQ(flatness_for(std::vector<Point3>{{HUGE_VAL, 0, 0}}, usual_flatness), usual_flatness);
-  EXPECT_DOUBLE_EQ(flatness_for(single, usual_flatness), 0x1p-22);
+  EXPECT_DOUBLE_EQ(flatness_for(single, usual_flatness), 0x1p-23);
   for (const double asked : {0.0, 1e-9, 1e-7}) EXPECT_EQ(flatness_for(single, asked), asked);
 }
 
