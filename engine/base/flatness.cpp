@@ -12,7 +12,7 @@ namespace ccdt {
 namespace {
 
 /// How far a vertex may be from the plane of its facet, in roundings of the largest coordinate: it moves by at most the
-/// square root of three of them. With four, parts with walls as thin as that were not verified.
+/// square root of three of them. Four would join facets across walls that thin.
 constexpr double most_roundings = 2;
 
 bool is_single(double x) {
