@@ -11,6 +11,7 @@
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
+#include "engine/facets/touching_faces.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/count_segments.h"
 #include "engine/front/find_delaunay_faces.h"
@@ -25,6 +26,7 @@
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
+#include "engine/retry/remedies.h"
 
 namespace ccdt {
 namespace {
@@ -114,7 +116,8 @@ struct Tetrahedralization {
   std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
   double least_size = 0;                     ///< that refinement of the surface found affordable
   MeshCounts counts;
-  std::optional<MeshError> stuck;
+  std::optional<front::Stuck> stuck;
+  facets::FacetMesh facets;  ///< if stuck
 };
 
 std::size_t first_steiner_vertex(const Tetrahedralization& t) {
@@ -127,11 +130,42 @@ bool improves(const MeshOptions& options, const Tetrahedralization& t) {
   return removes || improvement_of(options) != Improvement::none;
 }
 
+/// Facets that are flat only within the tolerance may touch each other, or a segment beside them.
+std::optional<front::Stuck> check_apart(const plc::Plc& plc, const protection::SegmentChains& chains,
+                                        const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
+  std::vector<std::uint32_t> touching = facets::find_touching_faces(plc, chains, facets);
+  if (touching.empty()) return std::nullopt;
+  Place place{.file = plc.name};
+  for (const VertexId v : facets.triangles[touching.front()])
+    place.points.push_back(as_array(plc.grid.to_world(delaunay.point(v))));
+  return front::Stuck{MeshError("a facet touches another one", place,
+                                "the facets near these points are almost but not quite flat: try another --flatness"),
+                      std::move(touching)};
+}
+
+/// The front with the strategies that were asked for. Where a facet is flat only within the tolerance, one strategy may
+/// get stuck and another one not. So if it is stuck, the usual ones decide: the mesh does not depend on the strategy.
+///
+/// \param codes  become `no_neighbor` if the front has made all faces
+front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay,
+                           const MeshOptions& options, const Progress& progress, std::vector<std::uint32_t>& codes) {
+  const front::FrontOptions usual{.locator = locate::LocatorKind::cavity};
+  if (options.face_protection && options.locator == usual.locator)
+    return front::advance_front({plc, facets, codes, delaunay}, usual, progress);
+  std::vector<std::uint32_t> used = codes;
+  if (!options.face_protection) std::ranges::fill(used, delaunay::no_neighbor);
+  front::FrontResult front = front::advance_front(
+      {plc, facets, used, delaunay}, {options.locator, options.grid_scale, options.face_protection}, progress);
+  if (front.stuck) return front::advance_front({plc, facets, codes, delaunay}, usual, progress);
+  codes = std::move(used);
+  return front;
+}
+
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
 /// enclose.
 ///
 /// \param delaunay  loses its cells
-void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const MeshOptions& options,
+void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
     std::vector<std::uint32_t> found = front::find_delaunay_faces(facets.triangles, delaunay);
@@ -143,12 +177,12 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const Mes
   // Only for the report, so it is not the work of a stage.
   t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, delaunay);
   t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, delaunay::no_neighbor));
-  if (!options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
 
-  const front::FrontResult front = measured(costs, mesh_stage::front, [&] {
-    return front::advance_front({t.plc, facets, codes, delaunay},
-                                {options.locator, options.grid_scale, options.face_protection}, progress);
-  });
+  t.stuck = measured(costs, mesh_stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
+  if (t.stuck) return;
+
+  const front::FrontResult front =
+      measured(costs, mesh_stage::front, [&] { return advance(t.plc, facets, delaunay, options, progress, codes); });
   t.stuck = front.stuck;
   if (t.stuck) return;
   t.counts.front_tetrahedra = front.tetrahedra.size();
@@ -165,8 +199,9 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh facets, const Mes
   if (t.stuck) return;
   t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); });
   if (t.stuck) return;
-  t.facet_of_face = measured(costs, mesh_stage::finish,
-                             [&] { return mesh::finish_mesh(t.plc, t.chains, std::move(facets), collected); });
+  t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
+    return mesh::finish_mesh(t.plc, t.chains, delaunay, std::move(facets), collected);
+  });
   if (improves(options, t))
     t.cells = measured(costs, mesh_stage::improve,
                        [&] { return mesh::join_tetrahedra(collected, std::move(delaunay.cells)); });
@@ -195,10 +230,10 @@ struct CheckedInput {
   std::optional<delaunay::Delaunay> delaunay;
 };
 
-CheckedInput check_input(const InputPlc& input, const MeshOptions& options, double flatness, const Progress& progress,
-                         StageCosts& costs) {
-  plc::UncheckedPlc gathered =
-      measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, {flatness}, progress); });
+CheckedInput check_input(const InputPlc& input, const MeshOptions& options, const plc::Strictness& strictness,
+                         const Progress& progress, StageCosts& costs) {
+  const plc::PlcOptions flat{options.flatness, strictness};
+  plc::UncheckedPlc gathered = measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, flat, progress); });
   CheckedInput checked;
   std::vector<std::uint8_t> is_doubtful;  // faces of a tetrahedralization do not cross each other
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
@@ -209,7 +244,7 @@ CheckedInput check_input(const InputPlc& input, const MeshOptions& options, doub
       return front::find_undelaunay_triangles(gathered.triangles.corners, *checked.delaunay);
     });
   checked.plc = measured(costs, mesh_stage::plc,
-                         [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, {flatness}, progress); });
+                         [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, flat, progress); });
   return checked;
 }
 
@@ -241,10 +276,10 @@ std::vector<Point3> refine_surface(const MeshOptions& options, double least_size
 /// All stages but improvement.
 ///
 /// \param least_size  of `RefineOptions`
-Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, double flatness, double least_size,
-                                  const Progress& progress, StageCosts& costs) {
+Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, const retry::Remedies& remedies,
+                                  double least_size, const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
-  CheckedInput checked = check_input(input, options, flatness, progress, costs);
+  CheckedInput checked = check_input(input, options, remedies.strictness, progress, costs);
   t.plc = std::move(checked.plc);
   std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
   if (options.refine_surface)
@@ -252,8 +287,11 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
         tetrahedralize_vertices(refine_surface(options, least_size, progress, costs, t), options, progress, costs);
   if (!delaunay) delaunay::refuse_flat_points();
   protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
-    return protection::protect_edges(t.plc, protection::unprotected(t.plc, *std::move(delaunay), std::move(t.chains)),
-                                     options.protection, progress);
+    return retry::split_pieces(
+        t.plc,
+        protection::protect_edges(t.plc, protection::unprotected(t.plc, *std::move(delaunay), std::move(t.chains)),
+                                  options.protection, progress),
+        remedies, options.protection, progress);
   });
   const auto count_steiner_vertices = [&] {
     t.first_interior = surface.delaunay.vertices.size();
@@ -287,7 +325,8 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   });
   t.counts.interior_vertices = all.vertices.size() - t.first_interior;
 
-  constrain(all, std::move(facets), options, progress, costs, t);
+  constrain(all, facets, options, progress, costs, t);
+  if (t.stuck) t.facets = std::move(facets);
   t.points = points_of(all);
   return t;
 }
@@ -299,9 +338,6 @@ double edge_length_of(const MeshOptions& options, const InputPlc& input) {
   const double usual = options.refine_surface ? longest / 40 : 0;
   return options.edge_length == 0 ? usual : std::min(options.edge_length, longest);
 }
-
-/// The smallest tolerance that is tried before 0.
-constexpr double least_flatness = 2e-11;
 
 }  // namespace
 
@@ -318,15 +354,11 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   MeshOptions used = options;
   used.edge_length = edge_length_of(options, flat);
   if (used.refine_surface) plc::check_edges_of_surface(flat, used.edge_length);
-  Tetrahedralization t = tetrahedralize(flat, used, used.flatness, 0, progress, costs);
-  // The front gets stuck only at a facet that is flat within the tolerance but not exactly: the theorem on protected
-  // edges holds for exact facets. A smaller tolerance costs more Steiner vertices. With tolerance 0, the
-  // tetrahedralization exists.
-  for (double flatness = used.flatness; t.stuck && flatness != 0;) {
-    flatness = flatness > least_flatness ? flatness / 10 : 0;
-    t = tetrahedralize(flat, used, flatness, t.least_size, progress, costs);
-  }
-  if (t.stuck) throw MeshError(*t.stuck);
+  retry::Remedies remedies;
+  Tetrahedralization t = tetrahedralize(flat, used, remedies, 0, progress, costs);
+  while (t.stuck && retry::add_remedy({t.plc, t.chains, t.facets, t.points, t.stuck->faces}, remedies))
+    t = tetrahedralize(flat, used, remedies, t.least_size, progress, costs);
+  if (t.stuck) throw MeshError(t.stuck->error);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);

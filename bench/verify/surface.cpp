@@ -320,8 +320,9 @@ Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
   const double box = input.vertices.empty() ? 0 : std::max({extent.x, extent.y, extent.z});
   // A mesher may measure flatness against the next power of two above the box, and on both sides of a plane that is not
   // ours.
-  const double flat = 4 * flatness_for(input.vertices, flatness) * box;
-  return {box, 0.1 * flatness * box, flat, flat};
+  constexpr double slack = 4;
+  const double flat = slack * flatness_for(input.vertices, flatness) * box;
+  return {box, 0.1 * flatness * box, flat, slack * flatness * box};
 }
 
 Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness) {

@@ -36,7 +36,7 @@ class SimplexMap {
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
   SimplexMap() = default;
-  /// \param simplices  pairwise different; corners of any integer or index type
+  /// \param simplices  corners of any integer or index type; edges are pairwise different
   /// \param vertices   more than each corner
   template <class Id>
   SimplexMap(const std::vector<std::array<Id, N>>& simplices, std::size_t vertices)
@@ -66,12 +66,14 @@ class SimplexMap {
       if (entries_[i].others[0] == b) return entries_[i].index;
     return none;
   }
-  /// The index of the triangle in the given list; `none` if it is not there.
+  /// The index of the triangle in the given list, the least one of equal triangles; `none` if it is not there.
   std::uint32_t find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
     const FaceKey key = face_key(a, b, c);
+    std::uint32_t found = none;
     for (std::uint32_t i = first_[key[0]]; i < first_[key[0] + 1]; ++i)
-      if (entries_[i].others[0] == key[1] && entries_[i].others[1] == key[2]) return entries_[i].index;
-    return none;
+      if (entries_[i].others[0] == key[1] && entries_[i].others[1] == key[2])
+        found = std::min(found, entries_[i].index);
+    return found;
   }
 
  private:

@@ -250,7 +250,8 @@ class FacetMesher {
           continue;
         const std::uint32_t apex = v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b ^ middle;
         const int turn = plane.orient(VertexId(a), VertexId(middle), VertexId(apex));
-        return turn * domain_side_ * numbers::orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) <= 0;
+        if (turn * domain_side_ * numbers::orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) > 0)
+          return false;
       }
     }
     return true;

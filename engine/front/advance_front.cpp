@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/box.h"
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index_lists.h"
@@ -85,9 +86,10 @@ class CavityFinder {
       }
     }
     if (cavity == no_cavity) return std::nullopt;
-    const locate::OctreeLocator& chamber = locator_.chamber(cavity, region);
-    const auto near = find_near_apex(chamber, facets_, d_, face, near_);
-    return search == Search::near ? near : find_apex(chamber, facets_, d_, face, near);
+    const locate::OctreeLocator* const chamber = locator_.chamber(cavity, region);
+    if (chamber == nullptr) return std::nullopt;
+    const auto near = find_near_apex(*chamber, facets_, d_, face, near_);
+    return search == Search::near ? near : find_apex(*chamber, facets_, d_, face, near);
   }
 
   Search first_search() const { return Search::near; }
@@ -148,9 +150,9 @@ class Front {
     first_search_ = finder.first_search();
     add_plc_faces(finder);
     finder_bytes_ = finder.bytes();
-    while (!undelaunay_.empty() && !result_.stuck) {
+    while (!undelaunay_.empty() && !is_over()) {
       fill_all(finder, progress);
-      if (!result_.stuck) take_back_swallowing(finder);
+      if (!is_over()) take_back_swallowing(finder);
     }
   }
 
@@ -160,9 +162,11 @@ class Front {
     for (std::size_t side = 0; side < plc_open_.size(); ++side) {
       if (!plc_open_[side]) continue;
       result_.open.push_back(state_of(in_, side));
-      if (result_.open.back().code == no_neighbor && !result_.stuck)
+      // Both sides of a plate may have the same triangle, of which the front knows only one.
+      if (result_.open.back().code == no_neighbor)
         fail(face_of_side(side), "a face of the front was not found in the tetrahedralization");
     }
+    list_stuck_faces();
     note_bytes(bytes_of(plc_open_, undelaunay_, result_.tetrahedra, result_.regions, result_.open) + faces_.bytes() +
                owners_.bytes() + doubts_.bytes() + bytes_of(cavities_) + finder_bytes_);
     faces_.for_each([&](const OrientedFace&, const State& state) {
@@ -196,13 +200,35 @@ class Front {
     return {base_of(t), {t[0], t[2], t[3]}, {t[2], t[1], t[3]}, {t[1], t[0], t[3]}};
   }
 
+  /// The front is stuck. To find the other places where that happens, it goes on without the face. If all vertices are
+  /// searched, or all faces made, that would take too long.
+  bool is_over() const { return result_.stuck && (first_search_ == Search::full || !face_protection_); }
+
   void fail(const OrientedFace& face, const char* what) {
+    Box box = empty_box;
+    const auto add = [&](std::uint32_t v) { box = hull(box, box_of(in_.delaunay.point(v))); };
+    std::ranges::for_each(face.corners, add);
+    for (const std::uint32_t tetrahedron : contradicted_) std::ranges::for_each(result_.tetrahedra[tetrahedron], add);
+    failed_.insert(face, {});
+    stuck_places_.push_back(box);
+    if (result_.stuck) return;
     Place place;
     place.file = in_.plc.name;
     for (const std::uint32_t v : face.corners)
       place.points.push_back(as_array(in_.plc.grid.to_world(in_.delaunay.point(v))));
-    result_.stuck.emplace(what, place,
-                          "the facets near these points are almost but not quite flat: try another --flatness");
+    result_.stuck.emplace(
+        MeshError(what, place, "the facets near these points are almost but not quite flat: try another --flatness"));
+  }
+
+  void list_stuck_faces() {
+    if (is_over()) return;
+    for (std::uint32_t i = 0; i < in_.codes.size() && !stuck_places_.empty(); ++i) {
+      if (in_.codes[i] != no_neighbor || in_.plc.facets[in_.facets.facet[i]].exactly_flat) continue;
+      const auto& [a, b, c] = in_.facets.triangles[i];
+      const Box box = bounding_box(std::array{in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)});
+      if (std::ranges::any_of(stuck_places_, [&](const Box& place) { return place.meets(box); }))
+        result_.stuck->faces.push_back(i);
+    }
   }
 
   OrientedFace face_of_side(std::size_t side) const {
@@ -251,11 +277,11 @@ class Front {
   template <class Finder>
   void fill_all(Finder& finder, const Progress& progress) {
     std::uint64_t done = 0;
-    while (!undelaunay_.empty() && !result_.stuck) {
+    while (!undelaunay_.empty() && !is_over()) {
       const OrientedFace face = undelaunay_.back();
       undelaunay_.pop_back();
       State state;
-      if (close(faces_.find(face), state)) fill(finder, face, state);
+      if (!failed_.contains(face) && close(faces_.find(face), state)) fill(finder, face, state);
       if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
     }
   }
@@ -264,9 +290,9 @@ class Front {
   template <class Finder>
   void take_back_swallowing(Finder& finder) {
     contradicted_ = find_swallowing(result_.tetrahedra, in_.facets, in_.delaunay);
-    if (contradicted_.empty()) return;
-    const OrientedFace first = base_of(result_.tetrahedra[contradicted_[0]]);
-    if (!take_back_contradicted(finder)) fail(first, "a tetrahedron of the front contains a vertex");
+    if (contradicted_.empty() || take_back_contradicted(finder)) return;
+    for (const std::uint32_t tetrahedron : std::exchange(contradicted_, {}))
+      fail(base_of(result_.tetrahedra[tetrahedron]), "a tetrahedron of the front contains a vertex");
   }
 
   /// Makes the tetrahedron above a face taken from the front, or removes what conflicts with it.
@@ -438,7 +464,9 @@ class Front {
   HashSet<OrientedFace, OrientedFaceTraits> doubts_;  // faces above which all vertices are tried
   std::vector<std::uint32_t> cavities_;               // of the tetrahedra
   std::vector<std::uint32_t> contradicted_;
-  std::uint64_t taken_back_ = 0;  // tetrahedra
+  HashSet<OrientedFace, OrientedFaceTraits> failed_;  // above which nothing fits
+  std::vector<Box> stuck_places_;                     // of these
+  std::uint64_t taken_back_ = 0;                      // tetrahedra
   FrontResult result_;
   std::size_t finder_bytes_ = 0;
 };

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/errors.h"
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
+#include "engine/front/stuck.h"
 #include "engine/locate/options.h"
 #include "engine/plc/plc.h"
 
@@ -29,9 +29,9 @@ struct FrontResult {
   std::vector<FrontFace> open;  ///< the Delaunay faces above which the domain is left to the labeling
   /// Undelaunay faces that have been in the front: those of the PLC (by their sides within the domain) and new ones.
   std::uint64_t undelaunay_faces = 0;
-  /// The front found no vertex for a face, or met itself: the vertices have no constrained Delaunay tetrahedralization,
-  /// because a facet that is flat only within the tolerance bends away from a line of sight. The rest is incomplete.
-  std::optional<MeshError> stuck = {};
+  /// The front found no vertex for a face, or met itself. The rest is incomplete. Only the `cavity` locator lists
+  /// the faces: those near the places that are missing and not exactly flat.
+  std::optional<Stuck> stuck = {};
 };
 
 /// The input of the front; all of it must outlive the stage.

@@ -10,7 +10,6 @@
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_buckets.h"
 #include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::improve {
 
@@ -92,7 +91,6 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
   find_last_cells();
 }
 
-/// The normal of a single face may point anywhere: a needle that is flat only within the tolerance.
 void CellComplex::find_facet_axes() {
   if (faces_.empty()) return;
   std::vector<Point3> normals(*std::ranges::max_element(facet_of_face_) + std::size_t{1});
@@ -101,10 +99,7 @@ void CellComplex::find_facet_axes() {
     Point3& normal = normals[facet_of_face_[f]];
     normal = normal + area_vector({points_[a], points_[b], points_[c]});
   }
-  for (const Point3& normal : normals) {
-    const int axis = plc::dominant_axis(normal);
-    facet_axes_.push_back(static_cast<std::int8_t>(as_array(normal)[axis] < 0 ? -axis - 1 : axis + 1));
-  }
+  for (const Point3& normal : normals) facet_axes_.push_back(facets::axis_along(normal));
 }
 
 /// Gives each vertex the last of its cells.

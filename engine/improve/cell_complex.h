@@ -10,6 +10,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_axis.h"
 #include "engine/improve/cell_quality.h"
 #include "engine/mesh/tet_mesh.h"
 
@@ -135,7 +136,7 @@ class CellComplex {
   const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
   const std::vector<std::uint32_t>& facet_of_face() const { return facet_of_face_; }
   /// The axis closest to the normal of a facet, on its upper side: 1, 2 or 3, or -1, -2 or -3.
-  int axis_of_facet(std::uint32_t facet) const { return facet_axes_[facet]; }
+  facets::FacetAxis axis_of_facet(std::uint32_t facet) const { return facet_axes_[facet]; }
   /// The number of the face with these corners; none if it is not on a facet.
   std::optional<std::uint32_t> find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const std::uint32_t* const face = face_table_.find(face_key(a, b, c));
@@ -223,7 +224,7 @@ class CellComplex {
   HashTable<FaceKey, std::uint32_t> face_table_;  // places in `faces_`
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> facet_of_face_;
-  std::vector<std::int8_t> facet_axes_;
+  std::vector<facets::FacetAxis> facet_axes_;
 
   Cavity cavity_;  // working memory of `apply`
 };

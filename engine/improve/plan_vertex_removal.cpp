@@ -6,7 +6,6 @@
 
 #include "engine/improve/smoothing.h"
 #include "engine/improve/topological_changes.h"
-#include "engine/improve/upright_faces.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
@@ -64,7 +63,7 @@ bool VertexRemoval::find_pages() {
 /// Follows the faces of one facet around the vertex, from one neighbor to the other.
 bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
   page.polygon = {faces_[first].from};
-  page.up = axis_above(x_, faces_[first].face);
+  page.facet = x_.facet_of_face()[faces_[first].face];
   for (const FaceAtVertex* face = &faces_[first];;) {
     page.faces.push_back(face->face);
     page.polygon.push_back(face->to);
@@ -83,7 +82,7 @@ bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Triangle t = {polygon[from], polygon[(from + i) % n], polygon[(from + i + 1) % n]};
     page.triangles.push_back(t);
-    if (!is_new_and_upright(x_, t, page.up) || is_in_star(t)) return false;
+    if (!is_new_and_upright(x_, t, page.facet) || is_in_star(t)) return false;
   }
   return true;
 }

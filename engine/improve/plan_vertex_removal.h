@@ -45,8 +45,8 @@ class VertexRemoval {
   struct Page {
     std::vector<std::uint32_t> faces;
     std::vector<std::uint32_t> polygon;  ///< without the vertex; the first and the last are the neighbors
-    Point3 up;                           ///< an axis on the upper side
-    std::vector<Triangle> triangles;     ///< instead of the faces
+    std::uint32_t facet;
+    std::vector<Triangle> triangles;  ///< instead of the faces
   };
 
   /// The space around the vertex between two pages.

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "engine/base/count_work.h"
-#include "engine/improve/upright_faces.h"
 
 namespace ccdt::improve {
 namespace {
@@ -179,8 +178,9 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   if (!find_other_side(x, ring, other) || !add_ring(x, ring, least, change)) return false;
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
   change.faces = {with_corner(x, *face, b, last), with_corner(x, *next, a, first)};
-  const Point3 axis = axis_above(x, *face);
-  return std::ranges::all_of(change.faces, [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, axis); });
+  const std::uint32_t facet = x.facet_of_face()[*face];
+  return std::ranges::all_of(change.faces,
+                             [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, facet); });
 }
 
 /// The largest number of cells on one side of the removed faces.
@@ -241,6 +241,11 @@ class SandwichedFaces {
 };
 
 }  // namespace
+
+bool is_new_and_upright(const CellComplex& x, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet) {
+  const auto& [a, b, c] = corners;
+  return !x.find_face(a, b, c) && facets::is_upright(x.point(a), x.point(b), x.point(c), x.axis_of_facet(facet));
+}
 
 double worst_of(const std::vector<NewCell>& cells) {
   double worst = infinity;

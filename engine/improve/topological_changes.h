@@ -34,6 +34,10 @@ double worst_of(const std::vector<NewCell>& cells);
 /// The longest ring of vertices around an edge to try.
 inline constexpr std::uint32_t longest_ring = 8;
 
+/// Exactly: is a triangle not yet a face, and upright on a facet? Positive cells alone do not keep new faces from
+/// folding over: a facet that is flat only within the tolerance has cells with all corners on it.
+bool is_new_and_upright(const CellComplex& complex, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet);
+
 /// Plans to remove an edge: the cells around it are replaced by the best of all triangulations of the ring of vertices
 /// around it, each of its triangles joined to both ends of the edge (Shewchuk 2002, "Two discrete optimization
 /// algorithms for the topological improvement of tetrahedral meshes"; the dynamic programming is Klincsek's). A ring of

@@ -25,9 +25,10 @@ CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint3
   place.file = plc.name;
   for (const std::uint32_t v : d.cells[cell].vertices)
     if (v != ghost_vertex) place.points.push_back(as_array(plc.grid.to_world(d.point(v))));
-  return {{},
-          MeshError("the front does not separate the inside from the outside", place,
-                    "the facets near these points are almost but not quite flat: try another --flatness")};
+  return {
+      {},
+      front::Stuck{MeshError("the front does not separate the inside from the outside", place,
+                             "the facets near these points are almost but not quite flat: try another --flatness")}};
 }
 
 FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,

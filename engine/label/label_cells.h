@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/errors.h"
 #include "engine/base/index.h"
 #include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
+#include "engine/front/stuck.h"
 
 namespace ccdt::label {
 
@@ -16,7 +16,7 @@ namespace ccdt::label {
 struct CellLabels {
   RawVector<RegionId> regions;  ///< by cell; none for cells outside and for those that the front has replaced
   /// Parts of different regions are connected: front and tetrahedralization do not fit. There are no regions then.
-  std::optional<MeshError> stuck = {};
+  std::optional<front::Stuck> stuck = {};
 };
 
 /// Labels the Delaunay cells of the domain with their region (paper, section 5.2, step 5): all that are connected to

@@ -267,8 +267,9 @@ CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facet
   }
 }
 
-const OctreeLocator& CavityLocator::chamber(std::uint32_t cavity, RegionId region) const {
-  return std::ranges::find(cavities_[cavity], region, &Chamber::region)->locator;
+const OctreeLocator* CavityLocator::chamber(std::uint32_t cavity, RegionId region) const {
+  const auto found = std::ranges::find(cavities_[cavity], region, &Chamber::region);
+  return found == cavities_[cavity].end() ? nullptr : &found->locator;
 }
 
 std::uint32_t CavityLocator::cavity_of_cell(std::uint32_t cell) const {

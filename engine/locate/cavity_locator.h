@@ -43,8 +43,9 @@ class CavityLocator {
   CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                 const delaunay::Delaunay& delaunay, delaunay::CellStar& star);
 
-  /// The vertices and faces of a cavity that a region of the domain has.
-  const OctreeLocator& chamber(std::uint32_t cavity, RegionId region) const;
+  /// The vertices and faces of a cavity that a region of the domain has. `nullptr` if it has none: only a front that is
+  /// stuck elsewhere comes there.
+  const OctreeLocator* chamber(std::uint32_t cavity, RegionId region) const;
   std::size_t cavity_count() const { return cavities_.size(); }
 
   std::size_t bytes() const {

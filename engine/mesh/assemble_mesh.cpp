@@ -12,6 +12,7 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
+#include "engine/facets/facet_axis.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::mesh {
@@ -46,12 +47,12 @@ bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
 /// Removes the tetrahedra of almost no volume that lie within a boundary facet, with all four vertices on it and two
 /// faces on the boundary; their other two faces become faces of the facet. Only facets that are flat within the
 /// tolerance, but not exactly, have such tetrahedra. A tetrahedron stays if its removal would remove a vertex or a
-/// segment from its facet, or put the facet onto another one.
+/// segment from its facet, fold the facet over, or put it onto another one.
 class FlatTetrahedronPeeler {
  public:
-  FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, facets::FacetMesh& facets,
-                        CollectedMesh& collected)
-      : plc_(plc), chains_(chains), facets_(facets), mesh_(collected.mesh), sources_(collected.sources) {}
+  FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains,
+                        const delaunay::Delaunay& delaunay, facets::FacetMesh& facets, CollectedMesh& collected)
+      : plc_(plc), chains_(chains), d_(delaunay), facets_(facets), mesh_(collected.mesh), sources_(collected.sources) {}
 
   void peel() {
     find_bent_facets();
@@ -100,12 +101,17 @@ class FlatTetrahedronPeeler {
   }
 
   void list_faces() {
+    std::vector<Point3> normals(plc_.facets.size());
     for (std::size_t i = 0; i < facets_.triangles.size(); ++i) {
+      const auto& t = facets_.triangles[i];
+      Point3& normal = normals[facets_.facet[i]];
+      normal = normal + area_vector({d_.point(t[0]), d_.point(t[1]), d_.point(t[2])});
       if (is_bent_boundary(plc_, plc_.facets[facets_.facet[i]]))
-        triangle_of_.set(key_of(facets_.triangles[i]), i);
+        triangle_of_.set(key_of(t), i);
       else
-        other_faces_.insert(key_of(facets_.triangles[i]));
+        other_faces_.insert(key_of(t));
     }
+    for (const Point3& normal : normals) axis_of_.push_back(facets::axis_along(normal));
     for (const auto& chain : chains_)
       for (std::size_t i = 0; i + 1 < chain.size(); ++i)
         segment_edges_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex));
@@ -140,6 +146,15 @@ class FlatTetrahedronPeeler {
     });
   }
 
+  /// The two of four corners that are not these.
+  static std::array<std::uint32_t, 2> other_corners(const std::array<std::uint32_t, 2>& corners) {
+    std::array<std::uint32_t, 2> others{};
+    std::size_t count = 0;
+    for (std::uint32_t c = 0; c < 4; ++c)
+      if (c != corners[0] && c != corners[1]) others[count++] = c;
+    return others;
+  }
+
   bool try_to_peel(const std::array<std::uint32_t, 4>& t) {
     std::array<std::uint32_t, 2> inner{};  // faces, by the corner opposite to them
     std::array<std::size_t, 2> triangles{};
@@ -154,23 +169,33 @@ class FlatTetrahedronPeeler {
         inner[inners++] = f;
     }
     if (outers != 2 || inners != 2 || facets_.facet[triangles[0]] != facets_.facet[triangles[1]]) return false;
-    // The outer faces meet in the edge between the corners that the inner faces are opposite to.
+    // The outer faces meet in the edge between the corners that the inner faces are opposite to, these in the other
+    // one.
+    const auto [p, q] = other_corners(inner);
     if (segment_edges_.contains(edge_key(t[inner[0]], t[inner[1]]))) return false;
-    const plc::Facet& facet = plc_.facets[facets_.facet[triangles[0]]];
-    for (const std::size_t i : triangles) triangle_of_.erase(triangle_of_.find(key_of(facets_.triangles[i])));
-    for (int i = 0; i < 2; ++i) {
+    if (segment_edges_.contains(edge_key(t[p], t[q]))) return false;
+    const FacetId facet = facets_.facet[triangles[0]];
+    std::array<std::array<VertexId, 3>, 2> uncovered;
+    for (std::size_t i = 0; i < 2; ++i) {
       // Face corners see the tetrahedron above them; the facet's triangles have the domain above or below.
-      const auto [a, b, c] = delaunay::corners_of_face(t, inner[i]);
-      std::array<VertexId, 3> corners{VertexId(a), VertexId(b), VertexId(c)};
-      if (plc_.regions[facet.above].inside) std::swap(corners[0], corners[1]);
-      facets_.triangles[triangles[i]] = corners;
-      triangle_of_.set(key_of(corners), triangles[i]);
+      auto [a, b, c] = delaunay::corners_of_face(t, inner[i]);
+      if (plc_.regions[plc_.facets[facet].above].inside) std::swap(a, b);
+      if (!facets::is_upright(d_.point(a), d_.point(b), d_.point(c), axis_of_[facet])) return false;
+      uncovered[i] = {VertexId(a), VertexId(b), VertexId(c)};
+      // The order of a cell's vertices depends on the strategy.
+      std::ranges::rotate(uncovered[i], std::ranges::min_element(uncovered[i]));
+    }
+    for (const std::size_t i : triangles) triangle_of_.erase(triangle_of_.find(key_of(facets_.triangles[i])));
+    for (std::size_t i = 0; i < 2; ++i) {
+      facets_.triangles[triangles[i]] = uncovered[i];
+      triangle_of_.set(key_of(uncovered[i]), triangles[i]);
     }
     return true;
   }
 
   const plc::Plc& plc_;
   const protection::SegmentChains& chains_;
+  const delaunay::Delaunay& d_;
   facets::FacetMesh& facets_;
   TetMesh& mesh_;
   RawVector<std::uint32_t>& sources_;
@@ -180,6 +205,7 @@ class FlatTetrahedronPeeler {
   HashTable<FaceKey, std::size_t> triangle_of_;  // of the bent facets
   HashSet<FaceKey> other_faces_;                 // of all other facets
   HashSet<std::uint64_t> segment_edges_;
+  std::vector<facets::FacetAxis> axis_of_;  // of each facet
 };
 
 /// \return the facet of each face
@@ -237,8 +263,8 @@ void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, Te
   }
 }
 
-std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
-                                     const front::FrontResult& front) {
+std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                        const delaunay::Delaunay& d, const front::FrontResult& front) {
   if (front.tetrahedra.empty() || std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return {};
   HashSet<FaceKey> constrained;
   for (const auto& t : facets.triangles) constrained.insert(key_of(t));
@@ -247,8 +273,9 @@ std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMes
     Place where{.file = plc.name};
     for (const std::uint32_t v : front.tetrahedra[place / 4])
       where.points.push_back(as_array(plc.grid.to_world(d.point(v))));
-    return MeshError("a tetrahedron of the front is not constrained Delaunay", where,
-                     "the facets near these points are almost but not quite flat: try another --flatness");
+    return front::Stuck{
+        MeshError("a tetrahedron of the front is not constrained Delaunay", where,
+                  "the facets near these points are almost but not quite flat: try another --flatness")};
   };
   for (std::uint32_t i = 0; i < 4 * front.tetrahedra.size(); ++i) {
     const auto [a, b, c] = delaunay::corners_of_face(front.tetrahedra[i / 4], i % 4);
@@ -261,7 +288,7 @@ std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMes
   }
   // The others are faces of Delaunay cells.
   delaunay::CellStar star(d);
-  std::optional<MeshError> found;
+  std::optional<front::Stuck> found;
   waiting.for_each([&](const FaceKey&, std::uint32_t i) {
     const auto [a, b, c] = delaunay::corners_of_face(front.tetrahedra[i / 4], i % 4);
     const std::uint32_t code = star.find_face(a, c, b);
@@ -272,8 +299,8 @@ std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMes
   return found;
 }
 
-std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d,
-                                      const TetMesh& mesh) {
+std::optional<front::Stuck> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                         const delaunay::Delaunay& d, const TetMesh& mesh) {
   const auto volumes = parallel_chunks(mesh.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end) {
     double volume = 0;
     for (; i < end; ++i) {
@@ -288,13 +315,14 @@ std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMe
   if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return {};
   Place place;
   place.file = plc.name;
-  return MeshError("the tetrahedra do not fill the domain", place,
-                   "some facets are almost but not quite flat: try another --flatness");
+  return front::Stuck{MeshError("the tetrahedra do not fill the domain", place,
+                                "some facets are almost but not quite flat: try another --flatness")};
 }
 
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                       facets::FacetMesh facets, CollectedMesh& collected) {
-  FlatTetrahedronPeeler(plc, chains, facets, collected).peel();
+                                       const delaunay::Delaunay& delaunay, facets::FacetMesh facets,
+                                       CollectedMesh& collected) {
+  FlatTetrahedronPeeler(plc, chains, delaunay, facets, collected).peel();
   collected.mesh.constrained_delaunay = true;
   return add_faces_and_edges(plc, chains, facets, collected.mesh);
 }

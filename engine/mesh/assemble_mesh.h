@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
+#include "engine/front/stuck.h"
 #include "engine/mesh/collect_tetrahedra.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
@@ -19,21 +19,22 @@ namespace ccdt::mesh {
 
 /// The error if the volume of the tetrahedra differs from that inside the facets. All cells are positive and share
 /// their faces; if the volume is right too, they fill the domain once, and there is no error.
-std::optional<MeshError> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                      const delaunay::Delaunay& delaunay, const TetMesh& mesh);
+std::optional<front::Stuck> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                         const delaunay::Delaunay& delaunay, const TetMesh& mesh);
 
 /// The error if the tetrahedra of the front are not constrained Delaunay: a face between two, or between one and a
 /// labeled cell, is not locally Delaunay. That is possible only if a facet is not exactly flat, so nothing is tested
 /// otherwise.
-std::optional<MeshError> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                     const delaunay::Delaunay& delaunay, const front::FrontResult& front);
+std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                        const delaunay::Delaunay& delaunay, const front::FrontResult& front);
 
 /// Completes the mesh except for its coordinates: removes the flat tetrahedra on its boundary, and adds the faces of
 /// the facets and the edges of the segments.
 ///
 /// \return the facet of each of the mesh's faces
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                       facets::FacetMesh facets, CollectedMesh& collected);
+                                       const delaunay::Delaunay& delaunay, facets::FacetMesh facets,
+                                       CollectedMesh& collected);
 
 /// Gives a mesh the edges of the segments, with their markers.
 void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, TetMesh& mesh);

@@ -134,17 +134,19 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
   Plc plc = std::move(gathered.plc);
   PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
   auto& [triangles, segments, edges, match, patches] = parts;
-  const double tolerance = tolerance_of(plc, options.flatness);
   auto [tree, close] = make_conforming(plc.vertices, is_doubtful, triangles);
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
 
   report(progress, stage, 2, steps_of_build);
-  patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
+  const std::vector<double> tolerances =
+      tolerances_of(plc.vertices, triangles.corners, options.strictness, tolerance_of(plc, options.flatness));
+  patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerances);
 
   report(progress, stage, 3, steps_of_build);
-  const auto covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges, 1);
+  const auto covering =
+      sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, std::ranges::min(tolerances), edges, 1);
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
   if (!match.loose.empty()) {

@@ -47,11 +47,11 @@ struct FittedPlane {
 class PatchFinder {
  public:
   PatchFinder(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
-              std::span<const std::uint32_t> segment_of, double tolerance)
+              std::span<const std::uint32_t> segment_of, std::span<const double> tolerances)
       : vertices_(vertices),
         triangles_(triangles),
         edges_(edges),
-        squared_tolerance_(tolerance * tolerance),
+        tolerances_(tolerances),
         normals_(triangles.size()),
         facet_of_(triangles.size(), none),
         turned_(triangles.size(), 0),
@@ -176,8 +176,10 @@ class PatchFinder {
   std::optional<bool> find_turn(std::uint32_t next, std::uint32_t e, bool runs, const Plane& plane) const {
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[next], a, b);
+    const auto around = edges_.around(e);
+    const double tolerance = std::min(tolerances_[around[0]], tolerances_[around[1]]);
     for (const VertexId v : {apex, a, b})
-      if (plane.squared_distance(vertices_[v]) > squared_tolerance_) return std::nullopt;
+      if (plane.squared_distance(vertices_[v]) > tolerance * tolerance) return std::nullopt;
     const bool turn = runs_along_edge(next, e) == runs;
     const int axis = dominant_axis(plane.normal);
     const double along = as_array(normals_[next])[axis] * as_array(plane.normal)[axis];  // signs are exact
@@ -187,7 +189,7 @@ class PatchFinder {
 
   bool is_within(std::uint32_t t, const Plane& plane) const {
     for (const Point3& p : corner_points(t))
-      if (plane.squared_distance(p) > squared_tolerance_) return false;
+      if (plane.squared_distance(p) > tolerances_[t] * tolerances_[t]) return false;
     return true;
   }
 
@@ -244,8 +246,8 @@ class PatchFinder {
   std::span<const Point3> vertices_;
   TriangleSet& triangles_;
   const EdgeTable& edges_;
-  double squared_tolerance_;
-  std::vector<Point3> normals_;  // as the input orients the triangles
+  std::span<const double> tolerances_;  // of the triangles
+  std::vector<Point3> normals_;         // as the input orients the triangles
   std::vector<std::uint32_t> facet_of_;
   std::vector<char> turned_;
   std::vector<std::uint32_t> round_of_;  // the last round of growing that reached the triangle
@@ -258,8 +260,8 @@ class PatchFinder {
 }  // namespace
 
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
-                         std::span<const std::uint32_t> segment_of, double tolerance) {
-  return PatchFinder(vertices, triangles, edges, segment_of, tolerance).find();
+                         std::span<const std::uint32_t> segment_of, std::span<const double> tolerances) {
+  return PatchFinder(vertices, triangles, edges, segment_of, tolerances).find();
 }
 
 }  // namespace ccdt::plc

@@ -30,8 +30,8 @@ struct FacetPatches {
 /// \param vertices    in grid units
 /// \param triangles   the corners of a triangle may be exchanged
 /// \param segment_of  of each edge: the segment of the input that it is, or `EdgeTable::none`
-/// \param tolerance   in grid units; all vertices of a patch are this near to one plane
+/// \param tolerances  of the triangles, in grid units; their vertices are this near to the plane of their patch
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
-                         std::span<const std::uint32_t> segment_of, double tolerance);
+                         std::span<const std::uint32_t> segment_of, std::span<const double> tolerances);
 
 }  // namespace ccdt::plc

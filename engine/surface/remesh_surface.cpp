@@ -165,7 +165,8 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
   const plc::SegmentSet segments = plc::gather_segments(surface, plc);
   const plc::SegmentMatch match = plc::match_segments(segments, edges);
   const double tolerance = plc::tolerance_of(plc, flatness);
-  const plc::FacetPatches facets = plc::find_facets(plc.vertices, triangles, edges, match.segment_of, tolerance);
+  const std::vector<double> tolerances(triangles.size(), tolerance);
+  const plc::FacetPatches facets = plc::find_facets(plc.vertices, triangles, edges, match.segment_of, tolerances);
   const auto add = [&](const plc::Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
   for (const plc::Overlap& o :
        plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges, most_places))

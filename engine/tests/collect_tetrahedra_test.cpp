@@ -34,7 +34,7 @@ std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& fro
                                   const std::vector<std::uint32_t>& codes) {
   const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes).regions;
   mesh::CollectedMesh collected = mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay);
-  const auto facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.facets, collected);
+  const auto facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.delaunay, s.facets, collected);
   const auto joined = mesh::join_tetrahedra(collected, s.delaunay.cells);
   std::vector<Point3> points;
   for (const auto& vertex : s.delaunay.vertices) points.push_back(vertex.point);

@@ -241,4 +241,15 @@ inline plc::InputPlc gridded_plate(std::uint32_t n, double height) {
   return mapped(gridded_cube(n), [height](const Point3& p) { return Point3{p.x, p.y, height * p.z}; });
 }
 
+/// A plate whose vertices are moved by up to a third of its height.
+inline plc::InputPlc rough_plate(double height, std::mt19937& random) {
+  std::uniform_real_distribution<double> part(-height / 3, height / 3);
+  std::map<std::array<double, 3>, Point3> moved;
+  return mapped(gridded_plate(2, height), [&](const Point3& p) {
+    const auto found = moved.find(as_array(p));
+    if (found != moved.end()) return found->second;
+    return moved[as_array(p)] = p + Point3{part(random), part(random), part(random)};
+  });
+}
+
 }  // namespace ccdt::mesh_test

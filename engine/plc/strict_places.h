@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/base/box.h"
+#include "engine/base/index.h"
+#include "engine/base/point.h"
+
+namespace ccdt::plc {
+
+/// A part of a facet that is flat only within the tolerance, in grid units.
+struct FacetPart {
+  Box box;
+  Point3 normal;  ///< of any length
+  Point3 point;   ///< of the facet
+};
+
+/// Which share of the tolerance the triangles there have.
+struct StrictPlace {
+  FacetPart part;
+  double share;
+};
+
+/// How much flatter than usual facets must be. Flatter facets are smaller: they have more segments, and these more
+/// Steiner vertices.
+struct Strictness {
+  double share = 1;  ///< of the tolerance, everywhere
+  std::vector<StrictPlace> places;
+};
+
+/// \param tolerance  in grid units
+/// \return  the tolerance of each triangle, in grid units
+std::vector<double> tolerances_of(std::span<const Point3> vertices, std::span<const std::array<VertexId, 3>> triangles,
+                                  const Strictness& strictness, double tolerance);
+
+/// Makes facets flatter in some parts; if one of these is exactly flat already, everywhere.
+///
+/// \param parts  none: the place is not known
+/// \return  false if all facets are exactly flat already
+bool tighten(std::span<const FacetPart> parts, Strictness& strictness);
+
+}  // namespace ccdt::plc

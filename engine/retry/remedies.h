@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/base/progress.h"
+#include "engine/facets/facet_mesh.h"
+#include "engine/plc/plc.h"
+#include "engine/plc/strict_places.h"
+#include "engine/protection/protect_edges.h"
+
+namespace ccdt::retry {
+
+/// A piece of a segment, by its place: ids of segments and Steiner vertices differ between two attempts.
+struct PieceToSplit {
+  std::array<VertexId, 2> segment;  ///< its ends
+  std::uint32_t from, to;           ///< fractions of the segment; see `protection::ChainVertex`
+
+  friend auto operator<=>(const PieceToSplit&, const PieceToSplit&) = default;
+};
+
+/// What the next attempt does differently, so that the vertices have a constrained Delaunay tetrahedralization where
+/// facets are flat only within the tolerance.
+struct Remedies {
+  plc::Strictness strictness;
+  std::vector<std::vector<PieceToSplit>> splits;                       ///< one list after the other
+  std::size_t fewest_faces = std::numeric_limits<std::size_t>::max();  ///< near the places where an attempt failed
+};
+
+/// An attempt that failed.
+struct FailedAttempt {
+  const plc::Plc& plc;
+  const protection::SegmentChains& chains;
+  const facets::FacetMesh& facets;
+  std::span<const Point3> points;        ///< of the vertices, in grid units
+  std::span<const std::uint32_t> faces;  ///< `front::Stuck`
+};
+
+/// Adds a remedy. As long as it helps, the segments at long faces are split: a shorter face bends less. Otherwise,
+/// facets become flatter: exact ones have no such places (Shewchuk 2002).
+///
+/// \return  false if there is none left
+bool add_remedy(const FailedAttempt& attempt, Remedies& remedies);
+
+/// Protects the segments again after each round of splits.
+protection::ProtectedDelaunay split_pieces(const plc::Plc& plc, protection::ProtectedDelaunay surface,
+                                           const Remedies& remedies, protection::Protection strategy,
+                                           const Progress& progress = {});
+
+}  // namespace ccdt::retry

@@ -1,0 +1,192 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "engine/base/errors.h"
+#include "engine/front/advance_front.h"
+#include "engine/front/find_delaunay_faces.h"
+#include "engine/plc/build_plc.h"
+#include "engine/plc/strict_places.h"
+#include "engine/retry/remedies.h"
+#include "engine/tests/mesh_checks.h"
+#include "engine/tests/mesh_test_solids.h"
+
+// What is tried when a facet that is flat only within the tolerance is in the way of the front.
+
+namespace ccdt {
+namespace {
+
+using namespace mesh_test;
+
+const plc::FacetPart bottom_left = {{{0, 0, 0}, {1, 1, 0}}, {0, 0, 2}, {0, 0, 0}};
+
+TEST(StrictPlaces, LowerTheToleranceOfTheTrianglesInThem) {
+  const std::vector<Point3> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}};
+  const std::vector<std::array<VertexId, 3>> triangles = {{VertexId(0), VertexId(1), VertexId(2)},   // there
+                                                          {VertexId(0), VertexId(1), VertexId(3)},   // beside
+                                                          {VertexId(4), VertexId(5), VertexId(6)}};  // far
+  plc::Strictness strictness;
+  EXPECT_EQ(plc::tolerances_of(vertices, triangles, strictness, 8), (std::vector<double>{8, 8, 8}));
+  strictness.places = {{bottom_left, 0.25}};
+  EXPECT_EQ(plc::tolerances_of(vertices, triangles, strictness, 0.25), (std::vector<double>{0.0625, 0.25, 0.25}));
+  strictness.share = 0.5;
+  EXPECT_EQ(plc::tolerances_of(vertices, triangles, strictness, 0.25), (std::vector<double>{0.0625, 0.125, 0.125}));
+}
+
+TEST(StrictPlaces, BecomeExactlyFlatAndThenTheRestToo) {
+  plc::Strictness strictness;
+  const std::vector<plc::FacetPart> parts = {bottom_left};
+  EXPECT_TRUE(plc::tighten(parts, strictness));
+  EXPECT_TRUE(plc::tighten(parts, strictness));
+  ASSERT_EQ(strictness.places.size(), 2u);
+  EXPECT_GT(strictness.places[0].share, 0);
+  EXPECT_EQ(strictness.places[1].share, 0);
+  EXPECT_EQ(strictness.share, 1);
+  double before = strictness.share;
+  while (plc::tighten(parts, strictness)) {
+    EXPECT_LT(strictness.share, before);
+    before = strictness.share;
+  }
+  EXPECT_EQ(strictness.share, 0);
+  EXPECT_EQ(strictness.places.size(), 2u);
+}
+
+TEST(StrictPlaces, ThatAreNotKnownAreEverywhere) {
+  plc::Strictness strictness;
+  EXPECT_TRUE(plc::tighten({}, strictness));
+  EXPECT_TRUE(strictness.places.empty());
+  EXPECT_LT(strictness.share, 1);
+}
+
+/// A long bar with a round edge. Every second edge along it has vertices of its own, so its sides are fans.
+InputPlc rounded_bar() {
+  std::vector<std::array<double, 2>> profile = {{0, 0}, {10, 0}};
+  for (int i = 0; i <= 9; ++i) {
+    const double angle = i * std::numbers::pi / 18;
+    profile.push_back({7 + 3 * std::cos(angle), 7 + 3 * std::sin(angle)});
+  }
+  profile.push_back({0, 10});
+  const auto corners = static_cast<std::uint32_t>(profile.size());
+  constexpr double length = 400;
+  constexpr std::uint32_t rows = 20;
+  InputPlc bar;
+  for (const double end : {0.0, length})
+    for (const auto& [x, y] : profile) bar.vertices.push_back({x, y, end});
+  std::vector<std::vector<std::uint32_t>> edges;
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    edges.push_back({c});
+    for (std::uint32_t i = 1; c % 2 == 1 && i < rows; ++i) {
+      edges.back().push_back(static_cast<std::uint32_t>(bar.vertices.size()));
+      bar.vertices.push_back({profile[c][0], profile[c][1], length * i / rows});
+    }
+    edges.back().push_back(c + corners);
+  }
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    const auto &one = edges[c], &other = edges[(c + 1) % corners];
+    for (std::size_t i = 0; i + 1 < one.size(); ++i) bar.triangles.push_back({one[i], other[0], one[i + 1]});
+    for (std::size_t i = 0; i + 1 < other.size(); ++i) bar.triangles.push_back({other[i], other[i + 1], one.back()});
+  }
+  for (std::uint32_t c = 1; c + 1 < corners; ++c) {
+    bar.triangles.push_back({0, c + 1, c});
+    bar.triangles.push_back({corners, corners + c, corners + c + 1});
+  }
+  return bar;
+}
+
+/// Far from the origin in single precision, so that no oblique facet is exactly flat.
+InputPlc rounded_to_single(const InputPlc& input) {
+  const auto single = [](double c) { return static_cast<double>(static_cast<float>(c)); };
+  return mapped(input, [&](const Point3& p) { return Point3{single(p.x - 1000), single(p.y), single(p.z + 100)}; });
+}
+
+TEST(Retry, MeshesRotatedBarsInSinglePrecision) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    const InputPlc input = rounded_to_single(rotated(random_rotation(random), rounded_bar()));
+    MeshOptions options;
+    options.lattice = Lattice::none;
+    const MeshResult result = mesh_plc(input, options);
+    expect_verified(input, result.mesh);
+    options.face_protection = false;
+    options.locator = locate::LocatorKind::octree;
+    expect_same_cells(result.mesh, mesh_plc(input, options).mesh);
+  }
+}
+
+/// A plate that is almost as thin as the tolerance, up to where its front gets stuck.
+class StuckPlate {
+ public:
+  explicit StuckPlate(std::mt19937& random) : input(rough_plate(1e-5, random)) {
+    plc = plc::build_plc(input, {.flatness = flatness});
+    auto surface = protection::protect_edges(plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)),
+                                             protection::Protection::shell);
+    chains = surface.chains;
+    facets = facets::triangulate_facets(plc, chains, surface.delaunay);
+    for (const auto& v : surface.delaunay.vertices) points.push_back(v.point);
+    const auto codes = front::find_delaunay_faces(facets.triangles, surface.delaunay);
+    front = front::advance_front({plc, facets, codes, surface.delaunay}, {.locator = locate::LocatorKind::cavity});
+  }
+  retry::FailedAttempt attempt() const { return {plc, chains, facets, points, front.stuck->faces}; }
+
+  static constexpr double flatness = 4e-6;
+  InputPlc input;
+  plc::Plc plc;
+  protection::SegmentChains chains;
+  facets::FacetMesh facets;
+  std::vector<Point3> points;
+  front::FrontResult front;
+};
+
+TEST(Retry, SplitsSegmentsAsLongAsFacesBecomeFewerAndThenDividesFacets) {
+  std::mt19937 random(1);
+  int tried = 0;
+  for (int i = 0; i < 30; ++i) {
+    try {
+      const StuckPlate plate(random);
+      if (!plate.front.stuck || plate.front.stuck->faces.empty()) continue;
+      for (const std::uint32_t face : plate.front.stuck->faces)
+        EXPECT_FALSE(plate.plc.facets[plate.facets.facet[face]].exactly_flat);
+      retry::Remedies remedies;
+      ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+      EXPECT_EQ(remedies.splits.size(), 1u);
+      EXPECT_TRUE(remedies.strictness.places.empty());
+      ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+      EXPECT_EQ(remedies.splits.size(), 1u);
+      EXPECT_EQ(remedies.strictness.places.size(), plate.front.stuck->faces.size());
+      ++tried;
+    } catch (const InputError&) {  // its facets cross
+    }
+  }
+  EXPECT_GT(tried, 5);
+}
+
+TEST(Retry, EndsWithTheSameMeshForAllStrategies) {
+  std::mt19937 random(1);
+  int meshed = 0;
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const InputPlc input = rough_plate(1e-5, random);
+    MeshOptions options;
+    options.lattice = Lattice::none;
+    options.flatness = StuckPlate::flatness;
+    options.improve.steiner = SteinerRule::keep;
+    try {
+      const MeshResult usual = mesh_plc(input, options);
+      for (const auto locator : {locate::LocatorKind::grid, locate::LocatorKind::octree}) {
+        options.locator = locator;
+        options.face_protection = locator == locate::LocatorKind::grid;
+        options.threads = 3;
+        expect_same_cells(usual.mesh, mesh_plc(input, options).mesh);
+      }
+      ++meshed;
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_GT(meshed, 10);
+}
+
+}  // namespace
+}  // namespace ccdt
