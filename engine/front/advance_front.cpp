@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "engine/base/box.h"
+#include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_apex.h"
 #include "engine/front/find_swallowed.h"
@@ -221,13 +223,15 @@ class Front {
   }
 
   void list_stuck_faces() {
-    if (is_over()) return;
-    for (std::uint32_t i = 0; i < in_.codes.size() && !stuck_places_.empty(); ++i) {
+    if (!result_.stuck || is_over()) return;
+    const BoxTree places(std::move(stuck_places_));
+    for (std::uint32_t i = 0; i < in_.codes.size(); ++i) {
       if (in_.codes[i] != no_neighbor || in_.plc.facets[in_.facets.facet[i]].exactly_flat) continue;
       const auto& [a, b, c] = in_.facets.triangles[i];
-      const Box box = bounding_box(std::array{in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)});
-      if (std::ranges::any_of(stuck_places_, [&](const Box& place) { return place.meets(box); }))
-        result_.stuck->faces.push_back(i);
+      const std::array corners = {in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)};
+      bool is_near = false;
+      places.for_each_meeting(bounding_box(corners), [&](std::uint32_t) { is_near = true; });
+      if (is_near) result_.stuck->faces.push_back(i);
     }
   }
 
@@ -465,7 +469,7 @@ class Front {
   std::vector<std::uint32_t> cavities_;               // of the tetrahedra
   std::vector<std::uint32_t> contradicted_;
   HashSet<OrientedFace, OrientedFaceTraits> failed_;  // above which nothing fits
-  std::vector<Box> stuck_places_;                     // of these
+  RawVector<Box> stuck_places_;                       // of these
   std::uint64_t taken_back_ = 0;                      // tetrahedra
   FrontResult result_;
   std::size_t finder_bytes_ = 0;

@@ -65,6 +65,8 @@ std::optional<protection::PieceEnds> find_ends(const std::vector<protection::Cha
 }  // namespace
 
 bool add_remedy(const FailedAttempt& attempt, Remedies& remedies) {
+  constexpr int most_local = 30;
+  if (++remedies.count > most_local) return plc::tighten({}, remedies.strictness);
   if (attempt.faces.size() < remedies.fewest_faces && !attempt.faces.empty()) {
     remedies.fewest_faces = attempt.faces.size();
     if (std::vector<PieceToSplit> pieces = find_long_pieces(attempt); !pieces.empty()) {

@@ -29,6 +29,7 @@ struct Remedies {
   plc::Strictness strictness;
   std::vector<std::vector<PieceToSplit>> splits;                       ///< one list after the other
   std::size_t fewest_faces = std::numeric_limits<std::size_t>::max();  ///< near the places where an attempt failed
+  int count = 0;                                                       ///< of remedies so far
 };
 
 /// An attempt that failed.
@@ -41,7 +42,8 @@ struct FailedAttempt {
 };
 
 /// Adds a remedy. As long as it helps, the segments at long faces are split: a shorter face bends less. Otherwise,
-/// facets become flatter: exact ones have no such places (Shewchuk 2002).
+/// facets become flatter: exact ones have no such places (Shewchuk 2002). If ever more places turn up, this happens
+/// everywhere.
 ///
 /// \return  false if there is none left
 bool add_remedy(const FailedAttempt& attempt, Remedies& remedies);
