@@ -96,7 +96,7 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
 
 Stages make_stages(const plc::InputPlc& input, const Density& density) {
   Stages s = mesh_in_stages(input, density, {});
-  if (s.front.stuck) s = mesh_in_stages(input, density, {.flatness = 0});  // as mesh_plc does
+  if (s.front.stuck) s = mesh_in_stages(input, density, {.flatness = 0});  // mesh_plc divides fewer facets
   if (s.front.stuck) throw MeshError(s.front.stuck->error);
   return s;
 }

@@ -8,21 +8,17 @@
 #include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
-#include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/front/find_apex.h"
+#include "engine/front/apex_finders.h"
 #include "engine/front/find_swallowed.h"
-#include "engine/locate/cavity_locator.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::front {
 namespace {
-
-constexpr std::uint32_t no_cavity = locate::CavityLocator::no_cavity;
 
 /// Hashes faces.
 struct OrientedFaceTraits {
@@ -34,81 +30,6 @@ struct OrientedFaceTraits {
     h *= 0xD6E8FEB86659FD93u;
     return static_cast<std::size_t>(h ^ h >> 32);
   }
-};
-
-/// The candidates for an apex: the vertices near the face, or all.
-enum class Search { near, full };
-
-/// Finds the apex above a face, with a locator of the whole model, so that there is only one cavity.
-template <class Locator>
-class WholeModelFinder {
- public:
-  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator)
-      : facets_(facets), d_(delaunay), locator_(locator) {}
-
-  /// \param region  above the face
-  /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
-  std::optional<std::uint32_t> find(const OrientedFace& face, RegionId /*region*/, Search /*all*/,
-                                    std::uint32_t& /*cavity*/) const {
-    return find_apex(locator_, facets_, d_, face);
-  }
-
-  Search first_search() const { return Search::full; }
-  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
-  std::size_t bytes() const { return locator_.bytes(); }
-
-  /// The triangles that the front can meet.
-  std::vector<std::uint32_t> triangles() const { return all_indices(facets_.triangles.size()); }
-
- private:
-  const facets::FacetMesh& facets_;
-  const delaunay::Delaunay& d_;
-  Locator locator_;
-};
-
-/// The same, cavity by cavity and region by region.
-class CavityFinder {
- public:
-  /// \param all_faces  may the front hold Delaunay faces, outside of the cavities too?
-  CavityFinder(const FrontInput& input, bool all_faces, delaunay::CellStar& star, NearVertices& near)
-      : facets_(input.facets),
-        d_(input.delaunay),
-        star_(star),
-        near_(near),
-        all_faces_(all_faces),
-        locator_(input.plc, input.facets, input.codes, input.delaunay, star) {}
-
-  std::optional<std::uint32_t> find(const OrientedFace& face, RegionId region, Search search, std::uint32_t& cavity) {
-    if (all_faces_) {
-      const auto& [a, b, c] = face.corners;
-      if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
-        cavity = locator_.cavity_of_cell(cell_of(code));
-        if (cavity == no_cavity && d_.is_ghost(cell_of(code))) return std::nullopt;
-        if (cavity == no_cavity) return d_.cells[cell_of(code)].vertices[face_of(code)];
-      }
-    }
-    if (cavity == no_cavity) return std::nullopt;
-    const locate::OctreeLocator* const chamber = locator_.chamber(cavity, region);
-    if (chamber == nullptr) return std::nullopt;
-    const auto near = find_near_apex(*chamber, facets_, d_, face, near_);
-    return search == Search::near ? near : find_apex(*chamber, facets_, d_, face, near);
-  }
-
-  Search first_search() const { return Search::near; }
-  std::uint32_t cavity_of_triangle(std::uint32_t triangle) const { return locator_.cavity_of_triangle(triangle); }
-  std::size_t bytes() const { return locator_.bytes() + near_.bytes(); }
-
-  std::vector<std::uint32_t> triangles() const {
-    return all_faces_ ? all_indices(facets_.triangles.size()) : locator_.triangles();
-  }
-
- private:
-  const facets::FacetMesh& facets_;
-  const delaunay::Delaunay& d_;
-  delaunay::CellStar& star_;
-  NearVertices& near_;
-  bool all_faces_;
-  locate::CavityLocator locator_;
 };
 
 enum Side : std::size_t { above = 0, below = 1 };

@@ -43,14 +43,20 @@ std::vector<PieceToSplit> find_long_pieces(const FailedAttempt& attempt) {
   return found;
 }
 
-plc::FacetPart part_at(const FailedAttempt& attempt, std::uint32_t face) {
-  plc::FacetPart part{empty_box, {}, attempt.points[attempt.facets.triangles[face][0]]};
-  for (const VertexId v : attempt.facets.triangles[face]) part.box = hull(part.box, box_of(attempt.points[v]));
-  for (const auto& [a, b, c] : attempt.plc.facets[attempt.facets.facet[face]].triangles) {
-    const Point3& p = attempt.points[a];
-    part.normal = part.normal + cross(attempt.points[b] - p, attempt.points[c] - p);
+std::vector<plc::FacetPart> parts_at_faces(const FailedAttempt& attempt) {
+  const auto& points = attempt.points;
+  std::vector<plc::FacetPart> parts;
+  HashTable<std::uint32_t, Point3> normals;  // of the facets
+  for (const std::uint32_t face : attempt.faces) {
+    const FacetId facet = attempt.facets.facet[face];
+    const auto [normal, is_new] = normals.insert(facet, {});
+    if (is_new)
+      for (const auto& [a, b, c] : attempt.plc.facets[facet].triangles)
+        *normal = *normal + cross(points[b] - points[a], points[c] - points[a]);
+    const auto& [a, b, c] = attempt.facets.triangles[face];
+    parts.push_back({bounding_box(std::array{points[a], points[b], points[c]}), *normal, points[a]});
   }
-  return part;
+  return parts;
 }
 
 /// The piece in the chain of a segment, if it is there.
@@ -74,9 +80,7 @@ bool add_remedy(const FailedAttempt& attempt, Remedies& remedies) {
       return true;
     }
   }
-  std::vector<plc::FacetPart> parts;
-  for (const std::uint32_t face : attempt.faces) parts.push_back(part_at(attempt, face));
-  return plc::tighten(parts, remedies.strictness);
+  return plc::tighten(parts_at_faces(attempt), remedies.strictness);
 }
 
 protection::ProtectedDelaunay split_pieces(const plc::Plc& plc, protection::ProtectedDelaunay surface,

@@ -116,7 +116,7 @@ TEST(Retry, MeshesRotatedBarsInSinglePrecision) {
   }
 }
 
-/// A plate that is almost as thin as the tolerance, up to where its front gets stuck.
+/// A plate hardly thicker than the tolerance, up to where its front gets stuck.
 class StuckPlate {
  public:
   explicit StuckPlate(std::mt19937& random) : input(rough_plate(1e-5, random)) {
