@@ -135,12 +135,11 @@ std::optional<front::Stuck> check_apart(const plc::Plc& plc, const protection::S
                                         const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
   std::vector<std::uint32_t> touching = facets::find_touching_faces(plc, chains, facets);
   if (touching.empty()) return std::nullopt;
-  Place place{.file = plc.name};
-  for (const VertexId v : facets.triangles[touching.front()])
-    place.points.push_back(as_array(plc.grid.to_world(delaunay.point(v))));
-  return front::Stuck{MeshError("a facet touches another one", place,
-                                "the facets near these points are almost but not quite flat: try another --flatness"),
-                      std::move(touching)};
+  const auto& [a, b, c] = facets.triangles[touching.front()];
+  front::Stuck stuck = front::stuck_near("a facet touches another one", plc,
+                                         std::array{delaunay.point(a), delaunay.point(b), delaunay.point(c)});
+  stuck.faces = std::move(touching);
+  return stuck;
 }
 
 /// The front with the strategies that were asked for. Where a facet is flat only within the tolerance, one strategy may

@@ -135,12 +135,9 @@ class Front {
     failed_.insert(face, {});
     stuck_places_.push_back(box);
     if (result_.stuck) return;
-    Place place;
-    place.file = in_.plc.name;
-    for (const std::uint32_t v : face.corners)
-      place.points.push_back(as_array(in_.plc.grid.to_world(in_.delaunay.point(v))));
-    result_.stuck.emplace(
-        MeshError(what, place, "the facets near these points are almost but not quite flat: try another --flatness"));
+    const auto& [a, b, c] = face.corners;
+    result_.stuck =
+        stuck_near(what, in_.plc, std::array{in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)});
   }
 
   void list_stuck_faces() {

@@ -21,14 +21,10 @@ constexpr std::size_t grain = 4096;  // of loops on several threads
 using FaceBits = RawVector<std::uint8_t>;
 
 CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint32_t cell) {
-  Place place;
-  place.file = plc.name;
+  std::vector<Point3> points;
   for (const std::uint32_t v : d.cells[cell].vertices)
-    if (v != ghost_vertex) place.points.push_back(as_array(plc.grid.to_world(d.point(v))));
-  return {
-      {},
-      front::Stuck{MeshError("the front does not separate the inside from the outside", place,
-                             "the facets near these points are almost but not quite flat: try another --flatness")}};
+    if (v != ghost_vertex) points.push_back(d.point(v));
+  return {{}, front::stuck_near("the front does not separate the inside from the outside", plc, points)};
 }
 
 FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,

@@ -270,12 +270,9 @@ std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::Facet
   for (const auto& t : facets.triangles) constrained.insert(key_of(t));
   HashTable<FaceKey, std::uint32_t> waiting;  // 4 * tetrahedron + corner opposite to the face
   const auto error = [&](std::uint32_t place) {
-    Place where{.file = plc.name};
-    for (const std::uint32_t v : front.tetrahedra[place / 4])
-      where.points.push_back(as_array(plc.grid.to_world(d.point(v))));
-    return front::Stuck{
-        MeshError("a tetrahedron of the front is not constrained Delaunay", where,
-                  "the facets near these points are almost but not quite flat: try another --flatness")};
+    const auto& [a, b, c, e] = front.tetrahedra[place / 4];
+    return front::stuck_near("a tetrahedron of the front is not constrained Delaunay", plc,
+                             std::array{d.point(a), d.point(b), d.point(c), d.point(e)});
   };
   for (std::uint32_t i = 0; i < 4 * front.tetrahedra.size(); ++i) {
     const auto [a, b, c] = delaunay::corners_of_face(front.tetrahedra[i / 4], i % 4);
@@ -313,10 +310,7 @@ std::optional<front::Stuck> check_volume(const plc::Plc& plc, const facets::Face
   const double filled = std::accumulate(volumes.begin(), volumes.end(), 0.0);
   const double wanted = volume_within(plc, facets, d);
   if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return {};
-  Place place;
-  place.file = plc.name;
-  return front::Stuck{MeshError("the tetrahedra do not fill the domain", place,
-                                "some facets are almost but not quite flat: try another --flatness")};
+  return front::stuck_near("the tetrahedra do not fill the domain", plc, {});
 }
 
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
