@@ -23,9 +23,11 @@
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/edge_length_bounds.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
+#include "engine/retry/divide_facets.h"
 #include "engine/retry/remedies.h"
 
 namespace ccdt {
@@ -160,6 +162,44 @@ front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets,
   return front;
 }
 
+/// The mesh of the space that the facets enclose.
+///
+/// \param delaunay  loses its cells
+/// \param codes     of the faces of the facets, see `front::FrontInput`
+/// \return  why there is none
+std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets,
+                                        std::vector<std::uint32_t> codes, const MeshOptions& options,
+                                        const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
+  const auto touching =
+      measured(costs, mesh_stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
+  if (touching) return touching;
+
+  const front::FrontResult front =
+      measured(costs, mesh_stage::front, [&] { return advance(t.plc, facets, delaunay, options, progress, codes); });
+  if (front.stuck) return front.stuck;
+  t.counts.front_tetrahedra = front.tetrahedra.size();
+  t.counts.front_faces = front.undelaunay_faces;
+
+  const label::CellLabels labels =
+      measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
+  if (labels.stuck) return labels.stuck;
+  mesh::CollectedMesh collected = measured(
+      costs, mesh_stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  const auto wrong = measured(costs, mesh_stage::finish, [&] {
+    const auto not_filled = mesh::check_volume(t.plc, facets, delaunay, collected.mesh);
+    return not_filled ? not_filled : mesh::check_front(t.plc, facets, delaunay, front);
+  });
+  if (wrong) return wrong;
+  t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
+    return mesh::finish_mesh(t.plc, t.chains, delaunay, std::move(facets), collected);
+  });
+  if (improves(options, t))
+    t.cells = measured(costs, mesh_stage::improve,
+                       [&] { return mesh::join_tetrahedra(collected, std::move(delaunay.cells)); });
+  t.mesh = std::move(collected.mesh);
+  return std::nullopt;
+}
+
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
 /// enclose.
 ///
@@ -175,36 +215,14 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const Me
   t.counts.faces = facets.triangles.size();
   // Only for the report, so it is not the work of a stage.
   t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, delaunay);
-  t.counts.undelaunay_faces = static_cast<std::uint64_t>(std::ranges::count(codes, delaunay::no_neighbor));
-
-  t.stuck = measured(costs, mesh_stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
-  if (t.stuck) return;
-
-  const front::FrontResult front =
-      measured(costs, mesh_stage::front, [&] { return advance(t.plc, facets, delaunay, options, progress, codes); });
-  t.stuck = front.stuck;
-  if (t.stuck) return;
-  t.counts.front_tetrahedra = front.tetrahedra.size();
-  t.counts.front_faces = front.undelaunay_faces;
-
-  const label::CellLabels labels =
-      measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
-  t.stuck = labels.stuck;
-  if (t.stuck) return;
-  mesh::CollectedMesh collected = measured(
-      costs, mesh_stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
-  t.stuck =
-      measured(costs, mesh_stage::finish, [&] { return mesh::check_volume(t.plc, facets, delaunay, collected.mesh); });
-  if (t.stuck) return;
-  t.stuck = measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); });
-  if (t.stuck) return;
-  t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
-    return mesh::finish_mesh(t.plc, t.chains, delaunay, std::move(facets), collected);
-  });
-  if (improves(options, t))
-    t.cells = measured(costs, mesh_stage::improve,
-                       [&] { return mesh::join_tetrahedra(collected, std::move(delaunay.cells)); });
-  t.mesh = std::move(collected.mesh);
+  std::vector<std::uint32_t> missing;
+  for (std::uint32_t i = 0; i < codes.size(); ++i)
+    if (codes[i] == delaunay::no_neighbor) missing.push_back(i);
+  t.counts.undelaunay_faces = missing.size();
+  t.stuck = fill_domain(delaunay, facets, std::move(codes), options, progress, costs, t);
+  if (!t.stuck) return;
+  if (t.stuck->faces.empty()) t.stuck->faces = std::move(missing);
+  t.facets = std::move(facets);
 }
 
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
@@ -281,6 +299,13 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   CheckedInput checked = check_input(input, options, remedies.strictness, progress, costs);
   t.plc = std::move(checked.plc);
   std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
+  if (!remedies.divided.empty()) {
+    if (!delaunay) delaunay = tetrahedralize_vertices(t.plc.vertices, options, progress, costs);
+    if (!delaunay) delaunay::refuse_flat_points();
+    measured(costs, mesh_stage::plc, [&] {
+      retry::divide_facets(*delaunay, remedies.divided, plc::tolerance_of(t.plc, options.flatness), t.plc);
+    });
+  }
   if (options.refine_surface)
     delaunay =
         tetrahedralize_vertices(refine_surface(options, least_size, progress, costs, t), options, progress, costs);
@@ -325,8 +350,25 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   t.counts.interior_vertices = all.vertices.size() - t.first_interior;
 
   constrain(all, facets, options, progress, costs, t);
-  if (t.stuck) t.facets = std::move(facets);
   t.points = points_of(all);
+  return t;
+}
+
+/// Tries remedies for as long as the vertices have no constrained Delaunay tetrahedralization.
+Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const MeshOptions& options,
+                                                const Progress& progress, StageCosts& costs) {
+  retry::Remedies remedies;
+  Tetrahedralization t = tetrahedralize(input, options, remedies, 0, progress, costs);
+  while (t.stuck) {
+    if (!retry::add_remedy({t.plc, t.chains, t.facets, t.points, t.stuck->faces}, remedies))
+      throw MeshError(t.stuck->error);
+    try {
+      t = tetrahedralize(input, options, remedies, t.least_size, progress, costs);
+    } catch (const LimitError&) {  // the new segments are too close to others
+      if (remedies.follow_input) throw;
+      remedies.follow_input = true;
+    }
+  }
   return t;
 }
 
@@ -353,11 +395,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   MeshOptions used = options;
   used.edge_length = edge_length_of(options, flat);
   if (used.refine_surface) plc::check_edges_of_surface(flat, used.edge_length);
-  retry::Remedies remedies;
-  Tetrahedralization t = tetrahedralize(flat, used, remedies, 0, progress, costs);
-  while (t.stuck && retry::add_remedy({t.plc, t.chains, t.facets, t.points, t.stuck->faces}, remedies))
-    t = tetrahedralize(flat, used, remedies, t.least_size, progress, costs);
-  if (t.stuck) throw MeshError(t.stuck->error);
+  Tetrahedralization t = tetrahedralize_with_remedies(flat, used, progress, costs);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,13 @@ struct Facet {
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
   RegionId above, below;
 };
+
+/// The normal of a facet, as long as twice its area.
+inline Point3 sum_of_normals(const Facet& facet, std::span<const Point3> points) {
+  Point3 sum;
+  for (const auto& [a, b, c] : facet.triangles) sum = sum + area_vector({points[a], points[b], points[c]});
+  return sum;
+}
 
 /// A part of space that the facets do not divide further. Region 0 is the one that reaches infinity.
 struct Region {

@@ -4,22 +4,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/base/box.h"
 #include "engine/base/box_tree.h"
 #include "engine/base/parallel.h"
 
 namespace ccdt::plc {
 namespace {
 
-/// Planes within a tenth of a right angle may be planes of the same facet before and after it was divided.
-bool are_nearly_parallel(const Point3& u, const Point3& v) {
-  const double cosine = dot(u, v) / std::sqrt(squared_length(u) * squared_length(v));
-  return std::fabs(cosine) > 0.99;
-}
-
 double share_in(const FacetPart& part, const Strictness& strictness) {
   double share = strictness.share;
+  const Box box = bounding_box(part.corners);
   for (const auto& [other, its_share] : strictness.places)
-    if (other.box.meets(part.box) && are_nearly_parallel(other.normal, part.normal)) share = std::min(share, its_share);
+    if (bounding_box(other.corners).meets(box) && have_close_normals(other, part)) share = std::min(share, its_share);
   return share;
 }
 
@@ -31,7 +27,7 @@ double next_share(double share, double least) {
 /// The vertices of a facet are within the tolerance of one plane on both sides, so those of its parts are within twice
 /// that of any parallel plane through one of them.
 bool is_in_plane(const Point3& p, const FacetPart& part, double tolerance) {
-  return std::fabs(dot(p - part.point, part.normal)) <= 2 * tolerance * std::sqrt(squared_length(part.normal));
+  return std::fabs(dot(p - part.corners[0], part.normal)) <= 2 * tolerance * std::sqrt(squared_length(part.normal));
 }
 
 }  // namespace
@@ -41,7 +37,7 @@ std::vector<double> tolerances_of(std::span<const Point3> vertices, std::span<co
   std::vector<double> tolerances(triangles.size(), strictness.share * tolerance);
   if (strictness.places.empty()) return tolerances;
   RawVector<Box> boxes(strictness.places.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = strictness.places[i].part.box;
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = bounding_box(strictness.places[i].part.corners);
   const BoxTree tree(std::move(boxes));
   parallel_for(triangles.size(), 4096, [&](std::size_t t) {
     const auto& [a, b, c] = triangles[t];

@@ -4,18 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/box.h"
 #include "engine/base/index.h"
 #include "engine/base/point.h"
+#include "engine/plc/facet_part.h"
 
 namespace ccdt::plc {
-
-/// A part of a facet that is flat only within the tolerance, in grid units.
-struct FacetPart {
-  Box box;
-  Point3 normal;  ///< of any length
-  Point3 point;   ///< of the facet
-};
 
 /// Which share of the tolerance the triangles there have.
 struct StrictPlace {

@@ -17,12 +17,6 @@ std::array<Point3, 3> corners_of(const std::array<VertexId, 3>& t, const std::ve
   return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
-Point3 mean_normal(const plc::Facet& facet, const std::vector<Point3>& points) {
-  Point3 sum;
-  for (const auto& t : facet.triangles) sum = sum + area_vector(corners_of(t, points));
-  return normalized(sum);
-}
-
 /// Puts an axis last, and the other two in the order that keeps the orientation.
 Point3 turned(const Point3& p, int axis) {
   if (axis == 0) return {p.y, p.z, p.x};
@@ -63,7 +57,7 @@ std::optional<Point3> nearest_in_plane(const plc::PlaneSteps& steps, const Point
 FacetPlane::FacetPlane(const plc::Facet& facet, const std::vector<Point3>& points)
     : points_(points),
       exactly_flat_(facet.exactly_flat),
-      normal_(mean_normal(facet, points)),
+      normal_(normalized(plc::sum_of_normals(facet, points))),
       axis_(plc::dominant_axis(normal_)) {
   if (exactly_flat_) {
     apex_ = points[facet.triangles[0][0]];

@@ -6,6 +6,7 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/retry/divide_facets.h"
 
 namespace ccdt::retry {
 namespace {
@@ -43,20 +44,32 @@ std::vector<PieceToSplit> find_long_pieces(const FailedAttempt& attempt) {
   return found;
 }
 
+/// The parts of facets that are not exactly flat.
 std::vector<plc::FacetPart> parts_at_faces(const FailedAttempt& attempt) {
   const auto& points = attempt.points;
   std::vector<plc::FacetPart> parts;
   HashTable<std::uint32_t, Point3> normals;  // of the facets
   for (const std::uint32_t face : attempt.faces) {
     const FacetId facet = attempt.facets.facet[face];
+    if (attempt.plc.facets[facet].exactly_flat) continue;
     const auto [normal, is_new] = normals.insert(facet, {});
-    if (is_new)
-      for (const auto& [a, b, c] : attempt.plc.facets[facet].triangles)
-        *normal = *normal + cross(points[b] - points[a], points[c] - points[a]);
+    if (is_new) *normal = plc::sum_of_normals(attempt.plc.facets[facet], points);
     const auto& [a, b, c] = attempt.facets.triangles[face];
-    parts.push_back({bounding_box(std::array{points[a], points[b], points[c]}), *normal, points[a]});
+    parts.push_back({{points[a], points[b], points[c]}, *normal});
   }
   return parts;
+}
+
+/// \return  false if all these parts are divided already
+bool divide(std::span<const plc::FacetPart> parts, std::vector<plc::FacetPart>& divided) {
+  const std::size_t before = divided.size();
+  const auto is_divided = [&](const plc::FacetPart& part) {
+    return std::ranges::any_of(std::span(divided).first(before),
+                               [&](const auto& other) { return overlap(part, other); });
+  };
+  for (const plc::FacetPart& part : parts)
+    if (!is_divided(part)) divided.push_back(part);
+  return divided.size() > before;
 }
 
 /// The piece in the chain of a segment, if it is there.
@@ -80,7 +93,11 @@ bool add_remedy(const FailedAttempt& attempt, Remedies& remedies) {
       return true;
     }
   }
-  return plc::tighten(parts_at_faces(attempt), remedies.strictness);
+  const std::vector<plc::FacetPart> parts = parts_at_faces(attempt);
+  if (!remedies.follow_input && divide(parts, remedies.divided)) return true;
+  remedies.follow_input = true;
+  remedies.divided.clear();
+  return plc::tighten(parts, remedies.strictness);
 }
 
 protection::ProtectedDelaunay split_pieces(const plc::Plc& plc, protection::ProtectedDelaunay surface,

@@ -9,6 +9,7 @@
 #include "engine/base/index.h"
 #include "engine/base/progress.h"
 #include "engine/facets/facet_mesh.h"
+#include "engine/plc/facet_part.h"
 #include "engine/plc/plc.h"
 #include "engine/plc/strict_places.h"
 #include "engine/protection/protect_edges.h"
@@ -26,8 +27,10 @@ struct PieceToSplit {
 /// What the next attempt does differently, so that the vertices have a constrained Delaunay tetrahedralization where
 /// facets are flat only within the tolerance.
 struct Remedies {
-  plc::Strictness strictness;
-  std::vector<std::vector<PieceToSplit>> splits;                       ///< one list after the other
+  std::vector<std::vector<PieceToSplit>> splits;  ///< one list after the other
+  std::vector<plc::FacetPart> divided;            ///< see `divide_facets`
+  bool follow_input = false;                      ///< facets are divided along the triangles of the input instead
+  plc::Strictness strictness;                     ///< which ones
   std::size_t fewest_faces = std::numeric_limits<std::size_t>::max();  ///< near the places where an attempt failed
   int count = 0;                                                       ///< of remedies so far
 };
@@ -41,9 +44,10 @@ struct FailedAttempt {
   std::span<const std::uint32_t> faces;  ///< `front::Stuck`
 };
 
-/// Adds a remedy. As long as it helps, the segments at long faces are split: a shorter face bends less. Otherwise,
-/// facets become flatter: exact ones have no such places (Shewchuk 2002). If ever more places turn up, this happens
-/// everywhere.
+/// Adds a remedy. As long as it helps, the segments at long faces are split: a shorter face bends less. Otherwise, the
+/// facets there are divided: exactly flat ones have no such places (Shewchuk 2002). They are divided along Delaunay
+/// triangles, because those of the input may be needles that nothing can protect. If that does not help, the triangles
+/// of the input are followed: facets become flatter, and if ever more places turn up, everywhere.
 ///
 /// \return  false if there is none left
 bool add_remedy(const FailedAttempt& attempt, Remedies& remedies);

@@ -1,14 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "engine/base/errors.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/plc/strict_places.h"
+#include "engine/retry/divide_facets.h"
 #include "engine/retry/remedies.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -20,7 +25,7 @@ namespace {
 
 using namespace mesh_test;
 
-const plc::FacetPart bottom_left = {{{0, 0, 0}, {1, 1, 0}}, {0, 0, 2}, {0, 0, 0}};
+const plc::FacetPart bottom_left = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {0, 0, 2}};
 
 TEST(StrictPlaces, LowerTheToleranceOfTheTrianglesInThem) {
   const std::vector<Point3> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}};
@@ -140,27 +145,91 @@ class StuckPlate {
   front::FrontResult front;
 };
 
-TEST(Retry, SplitsSegmentsAsLongAsFacesBecomeFewerAndThenDividesFacets) {
+/// The rough plates that get stuck at known places.
+template <class Check>
+void for_stuck_plates(const Check& check) {
   std::mt19937 random(1);
-  int tried = 0;
+  int checked = 0;
   for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE(i);
     try {
       const StuckPlate plate(random);
       if (!plate.front.stuck || plate.front.stuck->faces.empty()) continue;
-      for (const std::uint32_t face : plate.front.stuck->faces)
-        EXPECT_FALSE(plate.plc.facets[plate.facets.facet[face]].exactly_flat);
-      retry::Remedies remedies;
-      ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
-      EXPECT_EQ(remedies.splits.size(), 1u);
-      EXPECT_TRUE(remedies.strictness.places.empty());
-      ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
-      EXPECT_EQ(remedies.splits.size(), 1u);
-      EXPECT_EQ(remedies.strictness.places.size(), plate.front.stuck->faces.size());
-      ++tried;
+      check(plate);
+      ++checked;
     } catch (const InputError&) {  // its facets cross
     }
   }
-  EXPECT_GT(tried, 5);
+  EXPECT_GT(checked, 5);
+}
+
+TEST(Retry, SplitsSegmentsThenDividesFacetsAlongDelaunayTrianglesThenAlongThoseOfTheInput) {
+  for_stuck_plates([](const StuckPlate& plate) {
+    const std::size_t stuck_faces = plate.front.stuck->faces.size();
+    for (const std::uint32_t face : plate.front.stuck->faces)
+      EXPECT_FALSE(plate.plc.facets[plate.facets.facet[face]].exactly_flat);
+    retry::Remedies remedies;
+    ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    EXPECT_EQ(remedies.splits.size(), 1u);
+    EXPECT_TRUE(remedies.divided.empty());
+    ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    EXPECT_EQ(remedies.splits.size(), 1u);
+    EXPECT_EQ(remedies.divided.size(), stuck_faces);
+    EXPECT_FALSE(remedies.follow_input);
+    ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    EXPECT_TRUE(remedies.divided.empty());
+    EXPECT_TRUE(remedies.follow_input);
+    EXPECT_EQ(remedies.strictness.places.size(), stuck_faces);
+  });
+}
+
+TEST(DividedFacets, OverlapWhereTheyShareMoreThanAnEdge) {
+  const plc::FacetPart part = {{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}}, {0, 0, 1}};
+  const auto other = [](const std::array<Point3, 3>& corners, const Point3& normal) {
+    return plc::FacetPart{corners, normal};
+  };
+  EXPECT_TRUE(retry::overlap(part, part));
+  EXPECT_TRUE(retry::overlap(part, other({{{1, 1, 0.01}, {5, 1, 0}, {5, 5, 0}}}, {0, 0.01, 5})));
+  EXPECT_FALSE(retry::overlap(part, other({{{4, 0, 0}, {4, 4, 0}, {0, 4, 0}}}, {0, 0, 1})));   // beside it
+  EXPECT_FALSE(retry::overlap(part, other({{{1, 1, 0}, {1, 2, 0}, {2, 1, 0}}}, {0, 0, -1})));  // below it
+}
+
+using Triangles = std::vector<std::array<VertexId, 3>>;
+
+Triangles sorted(Triangles triangles) {
+  for (auto& t : triangles) std::ranges::sort(t);
+  std::ranges::sort(triangles);
+  return triangles;
+}
+
+TEST(DividedFacets, AreBoundedBySegmentsAndCoverThePlate) {
+  std::size_t added_facets = 0;
+  for_stuck_plates([&](const StuckPlate& plate) {
+    retry::Remedies remedies;
+    while (remedies.divided.empty()) ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    const auto delaunay = delaunay::build_delaunay(plate.plc.vertices);
+    plc::Plc divided = plate.plc;
+    retry::divide_facets(delaunay, remedies.divided, plc::tolerance_of(divided, StuckPlate::flatness), divided);
+    EXPECT_GE(divided.segments.size(), plate.plc.segments.size());
+    added_facets += divided.facets.size() - plate.plc.facets.size();
+
+    std::set<std::array<VertexId, 2>> segments;
+    for (const plc::Segment& s : divided.segments)
+      EXPECT_TRUE(segments.insert({std::min(s.ends[0], s.ends[1]), std::max(s.ends[0], s.ends[1])}).second);
+    for (const plc::Facet& facet : divided.facets) {
+      EXPECT_TRUE(facet.triangles.size() > 1 || facet.exactly_flat);
+      std::map<std::array<VertexId, 2>, int> uses;
+      for (const auto& t : facet.triangles)
+        for (std::size_t k = 0; k < 3; ++k) ++uses[{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])}];
+      for (const auto& [edge, count] : uses) EXPECT_TRUE(count == 2 || segments.contains(edge));
+    }
+    Triangles triangles;
+    for (const plc::Facet& facet : divided.facets)
+      triangles.insert(triangles.end(), facet.triangles.begin(), facet.triangles.end());
+    const auto chains = protection::unprotected(plate.plc, {}).chains;
+    EXPECT_EQ(sorted(triangles), sorted(facets::triangulate_facets(plate.plc, chains, delaunay).triangles));
+  });
+  EXPECT_GT(added_facets, 20u);
 }
 
 TEST(Retry, EndsWithTheSameMeshForAllStrategies) {
