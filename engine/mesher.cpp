@@ -170,7 +170,7 @@ front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets,
 std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets,
                                         std::vector<std::uint32_t> codes, const MeshOptions& options,
                                         const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
-  const auto touching =
+  auto touching =
       measured(costs, mesh_stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
   if (touching) return touching;
 
@@ -185,7 +185,7 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   if (labels.stuck) return labels.stuck;
   mesh::CollectedMesh collected = measured(
       costs, mesh_stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
-  const auto wrong = measured(costs, mesh_stage::finish, [&] {
+  auto wrong = measured(costs, mesh_stage::finish, [&] {
     const auto not_filled = mesh::check_volume(t.plc, facets, delaunay, collected.mesh);
     return not_filled ? not_filled : mesh::check_front(t.plc, facets, delaunay, front);
   });
