@@ -4,12 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "engine/base/box.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
-#include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/apex_finders.h"
 #include "engine/front/find_swallowed.h"
@@ -128,28 +125,24 @@ class Front {
   bool is_over() const { return result_.stuck && (first_search_ == Search::full || !face_protection_); }
 
   void fail(const OrientedFace& face, const char* what) {
-    Box box = empty_box;
-    const auto add = [&](std::uint32_t v) { box = hull(box, box_of(in_.delaunay.point(v))); };
+    const auto add = [&](std::uint32_t v) { stuck_vertices_.insert(v, {}); };
     std::ranges::for_each(face.corners, add);
     for (const std::uint32_t tetrahedron : contradicted_) std::ranges::for_each(result_.tetrahedra[tetrahedron], add);
     failed_.insert(face, {});
-    stuck_places_.push_back(box);
     if (result_.stuck) return;
     const auto& [a, b, c] = face.corners;
     result_.stuck =
         stuck_near(what, in_.plc, std::array{in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)});
   }
 
+  /// The missing faces that have a vertex where the front is stuck.
   void list_stuck_faces() {
     if (!result_.stuck || is_over()) return;
-    const BoxTree places(std::move(stuck_places_));
     for (std::uint32_t i = 0; i < in_.codes.size(); ++i) {
       if (in_.codes[i] != no_neighbor || in_.plc.facets[in_.facets.facet[i]].exactly_flat) continue;
-      const auto& [a, b, c] = in_.facets.triangles[i];
-      const std::array corners = {in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)};
-      bool is_near = false;
-      places.for_each_meeting(bounding_box(corners), [&](std::uint32_t) { is_near = true; });
-      if (is_near) result_.stuck->faces.push_back(i);
+      const auto& corners = in_.facets.triangles[i];
+      if (std::ranges::any_of(corners, [&](std::uint32_t v) { return stuck_vertices_.contains(v); }))
+        result_.stuck->faces.push_back(i);
     }
   }
 
@@ -387,7 +380,7 @@ class Front {
   std::vector<std::uint32_t> cavities_;               // of the tetrahedra
   std::vector<std::uint32_t> contradicted_;
   HashSet<OrientedFace, OrientedFaceTraits> failed_;  // above which nothing fits
-  RawVector<Box> stuck_places_;                       // of these
+  HashSet<std::uint32_t> stuck_vertices_;             // of these and of the tetrahedra that they contradict
   std::uint64_t taken_back_ = 0;                      // tetrahedra
   FrontResult result_;
   std::size_t finder_bytes_ = 0;
