@@ -135,7 +135,7 @@ bool improves(const MeshOptions& options, const Tetrahedralization& t) {
 /// Facets that are flat only within the tolerance may touch each other, or a segment beside them.
 std::optional<front::Stuck> check_apart(const plc::Plc& plc, const protection::SegmentChains& chains,
                                         const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
-  std::vector<std::uint32_t> touching = facets::find_touching_faces(plc, chains, facets);
+  std::vector<std::uint32_t> touching = facets::find_touching_faces(plc, chains, facets, delaunay.vertices.size());
   if (touching.empty()) return std::nullopt;
   const auto& [a, b, c] = facets.triangles[touching.front()];
   front::Stuck stuck = front::stuck_near("a facet touches another one", plc,
