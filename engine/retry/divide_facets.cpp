@@ -87,9 +87,10 @@ class FacetDivider {
     }
   }
 
-  /// The triangle in whose group this one is.
+  /// The triangle in whose group this one is. Two needles may have their longest edge in common.
   std::uint32_t leader(std::uint32_t i) const {
     constexpr int most_steps = 100;
+    std::uint32_t before = none;
     for (int steps = 0; steps < most_steps; ++steps) {
       const std::array<Point3, 3> p = corners_of(i);
       std::array<double, 3> lengths{};
@@ -98,7 +99,8 @@ class FacetDivider {
       const std::uint32_t next = across_[3 * i + longest];
       const bool is_needle = length(area_vector(p)) < least_height_ * lengths[longest];
       if (!is_needle || next == none) break;
-      i = next;
+      if (next == before) return std::min(i, next);
+      before = std::exchange(i, next);
     }
     return i;
   }
