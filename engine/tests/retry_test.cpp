@@ -211,6 +211,7 @@ TEST(DividedFacets, AreBoundedBySegmentsAndCoverThePlate) {
     plc::Plc divided = plate.plc;
     retry::divide_facets(delaunay, remedies.divided, plc::tolerance_of(divided, StuckPlate::flatness), divided);
     EXPECT_GE(divided.segments.size(), plate.plc.segments.size());
+    ASSERT_GE(divided.facets.size(), plate.plc.facets.size());
     added_facets += divided.facets.size() - plate.plc.facets.size();
 
     std::set<std::array<VertexId, 2>> segments;
@@ -229,7 +230,26 @@ TEST(DividedFacets, AreBoundedBySegmentsAndCoverThePlate) {
     const auto chains = protection::unprotected(plate.plc, {}).chains;
     EXPECT_EQ(sorted(triangles), sorted(facets::triangulate_facets(plate.plc, chains, delaunay).triangles));
   });
-  EXPECT_GT(added_facets, 10u);
+  EXPECT_GE(added_facets, 20u);
+}
+
+TEST(DividedFacets, HoldBothHalvesOfAStripThinnerThanTheTolerance) {
+  plc::Plc plc;
+  plc.vertices = {{0, 0, 0}, {1000, 0, 0}, {1000, 1, 0}, {0, 1, 0}, {1000, 1000, 0}, {0, 1000, 0}, {500, 500, -700}};
+  plc.regions = {{}, {.inside = true}};
+  const auto id = [](std::uint32_t v) { return VertexId(v); };
+  plc.facets.push_back(
+      {.triangles = {{id(0), id(1), id(2)}, {id(0), id(2), id(3)}, {id(3), id(2), id(4)}, {id(3), id(4), id(5)}},
+       .exactly_flat = false,
+       .above = RegionId(0),
+       .below = RegionId(1)});
+  constexpr std::array<std::uint32_t, 6> around = {0, 1, 2, 4, 5, 3};
+  for (std::size_t i = 0; i < 6; ++i) plc.segments.push_back({{id(around[i]), id(around[(i + 1) % 6])}});
+  const std::vector<plc::FacetPart> strip = {{{{{0, 0, 0}, {1000, 0, 0}, {1000, 1, 0}}}, {0, 0, 1}},
+                                             {{{{0, 0, 0}, {1000, 1, 0}, {0, 1, 0}}}, {0, 0, 1}}};
+  retry::divide_facets(delaunay::build_delaunay(plc.vertices), strip, 1, plc);
+  EXPECT_EQ(plc.facets.size(), 2u);    // the strip and the rest
+  EXPECT_EQ(plc.segments.size(), 7u);  // one between them, none between the halves
 }
 
 TEST(Retry, EndsWithTheSameMeshForAllStrategies) {
