@@ -76,8 +76,7 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   const std::size_t old = d_.cells.size(), chunk = CellPool::chunk;
   const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
   d_.cells.resize(old + room);
-  marks_.cells.resize(old + room);
-  parallel_fill(std::span(marks_.cells).first(old), InsertionMarks::Cell::unseen);
+  marks_.cells.resize(old + room, InsertionMarks::Cell::unknown);
   CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
   done_parts_ = 0;
   parallel_for(start_.size(), 1, [&](std::size_t part) {

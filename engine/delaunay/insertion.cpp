@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 #include "engine/base/count_work.h"
 #include "engine/numbers/predicates.h"
@@ -35,7 +34,7 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   const unsigned turn = turn_;
   const std::uint32_t first = reached_ = walk(p_, start);
   work_done.walk_steps += turn_ - turn;
-  if (mark_of(first) == Mark::shared) return false;
+  if (is_shared(first)) return false;
   for (const std::uint32_t corner : d_.cells[first].vertices) {
     if (corner != ghost_vertex && d_.point(corner) == p_) {
       twin_ = corner;
@@ -50,21 +49,9 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   return true;
 }
 
-/// The mark of a cell. Whether the cell is shared is found when it is first seen; several threads may do this at the
-/// same time for a shared cell.
-CCDT_ALWAYS_INLINE InsertionMarks::Cell Insertion::mark_of(std::uint32_t cell) {
-  const std::atomic_ref mark(marks_.cells[cell]);
-  Mark its = mark.load(std::memory_order_relaxed);
-  if (its == Mark::unseen) [[unlikely]] {
-    its = parts_.is_shared(d_.cells[cell]) ? Mark::shared : Mark::unknown;
-    mark.store(its, std::memory_order_relaxed);
-  }
-  return its;
-}
-
 /// Grows the cavity from its first cell across all faces to cells whose sphere contains the new vertex.
 ///
-/// \tparam in_part  may there be shared cells?
+/// \tparam in_part  may there be shared cells? These are not marked, since other threads see them, too.
 /// \return false if a shared cell is in the cavity
 template <bool in_part>
 CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
@@ -77,18 +64,18 @@ CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
     const Cell cell = cells[cavity_.slots[i]];
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
-      const Mark its = in_part ? mark_of(next) : mark[next];
-      if (its == Mark::conflict) continue;
-      if (its != Mark::outside) {
+      if (mark[next] == Mark::conflict) continue;
+      if (mark[next] != Mark::outside) {
+        const bool is_shared = in_part && parts_.is_shared_behind_own(cells[next], code);
         if (conflicts(cells[next])) {
-          if (in_part && its == Mark::shared) return false;
+          if (is_shared) return false;
           mark[next] = Mark::conflict;
           cavity_.add(next);
           // They exist by the time they are needed.
           for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
           continue;
         }
-        if (its == Mark::unknown) {
+        if (!is_shared) {
           mark[next] = Mark::outside;
           outside_.add(next);
         }
@@ -144,9 +131,9 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   std::uint32_t from = no_neighbor;
   while (true) {
-    const bool is_shared = pool_ != nullptr && mark_of(here) == Mark::shared;
     const Cell& cell = d_.cells[here];
     if (cell.vertices[3] == ghost_vertex) return here;
+    const bool is_shared = this->is_shared(here);
     std::uint32_t exit = 4;
     ++turn_;
     for (std::uint32_t k = 0; k < 4 && exit == 4; ++k) {
@@ -207,7 +194,6 @@ bool Insertion::has_room() {
     const std::uint32_t first = pool_->next.fetch_add(CellPool::chunk, std::memory_order_relaxed);
     if (first + CellPool::chunk > pool_->end) return false;
     for (std::uint32_t i = CellPool::chunk; i-- > 0;) places_from_pool_.push_back(first + i);
-    std::fill_n(marks_.cells.begin() + first, CellPool::chunk, Mark::unknown);
   }
   return true;
 }

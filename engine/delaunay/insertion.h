@@ -27,13 +27,7 @@ enum class Ties {
 
 /// Marks of an insertion at the cells and vertices that it visits; between two insertions, all have their first values.
 struct InsertionMarks {
-  enum class Cell : std::uint8_t {
-    unseen,  ///< not even known whether it is shared; only if others insert at the same time
-    unknown,
-    conflict,
-    outside,
-    shared  ///< with others that insert at the same time: it must stay
-  };
+  enum class Cell : std::uint8_t { unknown, conflict, outside };
   static constexpr std::uint8_t no_local = 0xFF;
 
   std::vector<Cell> cells;
@@ -52,6 +46,13 @@ struct InsertionParts {
     const auto& v = cell.vertices;
     const Part part = of_vertex[v[0]];
     return of_vertex[v[1]] != part || of_vertex[v[2]] != part || (v[3] != ghost_vertex && of_vertex[v[3]] != part);
+  }
+  /// Is the cell behind a face of an own cell shared?
+  ///
+  /// \param code  of the face in that cell
+  bool is_shared_behind_own(const Cell& cell, std::uint32_t code) const {
+    const std::uint32_t apex = cell.vertices[face_of(code)];
+    return apex != ghost_vertex && of_vertex[apex] != own;
   }
   /// Is the cell behind this face of a shared cell certain to be shared or of the own part? If not, another thread may
   /// be replacing it.
@@ -77,7 +78,7 @@ class Insertion {
   /// One of several that insert at the same time, each in its own part. It changes no shared cell, except for the codes
   /// of its own faces.
   ///
-  /// \param marks  of all cells and vertices, places of the pool included; those of cells are `unseen` at first
+  /// \param marks  of all cells and vertices, places of the pool included
   /// \param parts  of the vertices in the tetrahedralization
   Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool);
 
@@ -123,7 +124,7 @@ class Insertion {
     std::span<const T> items() const { return {slots.data(), size}; }
   };
 
-  Mark mark_of(std::uint32_t cell);
+  bool is_shared(std::uint32_t cell) const { return pool_ != nullptr && parts_.is_shared(d_.cells[cell]); }
   std::uint32_t walk(const Point3& p, std::uint32_t start);
   template <bool in_part>
   bool grow_cavity(std::uint32_t first);
