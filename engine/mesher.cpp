@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -72,9 +73,12 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
     const plc::Facet& facet = plc.facets[facets.facet[i]];
     triangles[i] = {facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside};
   });
-  std::vector<std::array<VertexId, 2>> subsegments;
-  for (const auto& chain : surface.chains)
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
+  using Edge = std::array<VertexId, 2>;
+  const auto subsegments = parallel_collect<Edge>(
+      surface.chains.size(), 4096, [&](std::size_t begin, std::size_t end, std::vector<Edge>& found) {
+        for (const auto& chain : std::span(surface.chains).subspan(begin, end - begin))
+          for (std::size_t i = 0; i + 1 < chain.size(); ++i) found.push_back({chain[i].vertex, chain[i + 1].vertex});
+      });
   const BackgroundSizes background = in_grid_units(options.background, plc.grid);
   const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
                                         options.grading,   options.sphere_factor,

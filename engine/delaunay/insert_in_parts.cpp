@@ -60,11 +60,18 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   const SpaceCut space(sample, parts, basis);
   start_ = std::vector<std::atomic<std::uint32_t>>(parts);
   for (auto& start : start_) start = no_cell;
+  // From a shared cell, a walk may not get anywhere.
+  const auto is_whole = [&](std::uint32_t cell, std::uint32_t part) {
+    return std::ranges::all_of(d_.cells[cell].vertices, [&](std::uint32_t v) {
+      return v == ghost_vertex || space.part_of(d_.point(v)) == part;
+    });
+  };
   parallel_for(vertices.back() + 1, 4096, [&](std::size_t v) {
     const DelaunayVertex& vertex = d_.vertices[v];
     const std::uint32_t part = space.part_of(vertex.point);
     part_[v] = static_cast<Part>(part);
-    if (vertex.cell != no_cell && start_[part].load(std::memory_order_relaxed) == no_cell)
+    if (vertex.cell != no_cell && start_[part].load(std::memory_order_relaxed) == no_cell &&
+        is_whole(vertex.cell, part))
       start_[part].store(vertex.cell, std::memory_order_relaxed);
   });
 }

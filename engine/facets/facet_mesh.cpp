@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -339,22 +340,42 @@ class FacetMesher {
   int domain_side_ = 1;  // of the current facet; +1: above
 };
 
+/// Calls `work(mesher, begin, end)` for chunks of 0 .. count, on several threads, in any order.
+template <class Work>
+void in_chunks(const FacetMesher& first, std::size_t count, const Work& work) {
+  std::vector<FacetMesher> meshers(std::min<std::size_t>(thread_count(), count / facets_a_chunk + 1), first);
+  std::atomic<std::size_t> next = 0;
+  parallel_for(meshers.size(), 1, [&](std::size_t m) {
+    for (std::size_t begin = next.fetch_add(facets_a_chunk); begin < count; begin = next.fetch_add(facets_a_chunk))
+      if (!work(meshers[m], begin, std::min(count, begin + facets_a_chunk))) return;
+  });
+}
+
+/// The faces of each facet follow one another.
+struct FacetFaces {
+  FacetId facet;
+  std::size_t begin, end;
+};
+
+std::vector<FacetFaces> faces_by_facet(const FacetMesh& facets) {
+  std::vector<FacetFaces> result;
+  for (std::size_t i = 0; i < facets.facet.size(); ++i) {
+    if (result.empty() || result.back().facet != facets.facet[i]) result.push_back({facets.facet[i], i, i});
+    ++result.back().end;
+  }
+  return result;
+}
+
 }  // namespace
 
 FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
                              const delaunay::Delaunay& delaunay, const Progress& progress) {
   const std::size_t count = plc.facets.size();
-  std::vector<FacetMesher> meshers(std::min<std::size_t>(thread_count(), count / facets_a_chunk + 1),
-                                   FacetMesher(plc, chains, delaunay));
   std::vector<FacetMesh> parts((count + facets_a_chunk - 1) / facets_a_chunk);
-  std::atomic<std::size_t> next = 0;
   SharedProgress shared(progress, "facets", 0, count);
-  parallel_for(meshers.size(), 1, [&](std::size_t m) {
-    for (std::size_t part = next++; part < parts.size(); part = next++) {
-      const std::size_t begin = part * facets_a_chunk, end = std::min(count, begin + facets_a_chunk);
-      for (std::size_t f = begin; f < end; ++f) meshers[m].triangulate(FacetId(f), parts[part]);
-      if (!shared.add(end - begin)) return;
-    }
+  in_chunks(FacetMesher(plc, chains, delaunay), count, [&](FacetMesher& mesher, std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) mesher.triangulate(FacetId(f), parts[begin / facets_a_chunk]);
+    return shared.add(end - begin);
   });
   FacetMesh result;
   for (const FacetMesh& part : parts) {
@@ -369,24 +390,31 @@ bool follow_interior_vertices(const plc::Plc& plc, const protection::SegmentChai
                               const delaunay::Delaunay& delaunay, const std::vector<std::uint32_t>& codes,
                               FacetMesh& facets) {
   if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return false;
-  FacetMesher mesher(plc, chains, delaunay);
+  FacetMesher first(plc, chains, delaunay);
+  const std::vector<FacetFaces> by_facet = faces_by_facet(facets);
+  std::vector<std::uint8_t> stays(by_facet.size());
+  in_chunks(first, by_facet.size(), [&](FacetMesher& mesher, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [id, from, to] = by_facet[i];
+      const plc::Facet& facet = plc.facets[id];
+      stays[i] = facet.exactly_flat || mesher.face_domain(facet, std::span(facets.triangles).subspan(from, to - from),
+                                                          std::span(codes).subspan(from, to - from));
+    }
+    return true;
+  });
+  if (std::ranges::all_of(stays, std::identity{})) return false;
   const FacetMesh old = std::move(facets);
   facets = {};
-  bool changed = false;
-  for (std::size_t first = 0, end = 0; first < old.facet.size(); first = end) {
-    const FacetId id = old.facet[first];
-    while (end < old.facet.size() && old.facet[end] == id) ++end;
-    const auto triangles = std::span(old.triangles).subspan(first, end - first);
-    const plc::Facet& facet = plc.facets[id];
-    if (facet.exactly_flat || mesher.face_domain(facet, triangles, std::span(codes).subspan(first, end - first))) {
-      facets.triangles.insert(facets.triangles.end(), triangles.begin(), triangles.end());
-      facets.facet.resize(facets.triangles.size(), id);
-    } else {
-      mesher.triangulate(id, facets);
-      changed = true;
+  for (std::size_t i = 0; i < by_facet.size(); ++i) {
+    const auto& [id, from, to] = by_facet[i];
+    if (stays[i] == 0) {
+      first.triangulate(id, facets);
+      continue;
     }
+    facets.triangles.insert(facets.triangles.end(), old.triangles.begin() + from, old.triangles.begin() + to);
+    facets.facet.resize(facets.triangles.size(), id);
   }
-  return changed;
+  return true;
 }
 
 }  // namespace ccdt::facets

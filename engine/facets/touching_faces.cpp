@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/hash_table.h"
+#include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 
 namespace ccdt::facets {
@@ -33,12 +34,15 @@ class BentVertices {
 };
 
 /// The segments, by the edges along them.
-HashTable<std::uint64_t, std::uint32_t> list_edges(const protection::SegmentChains& chains, const BentVertices& bent) {
+HashTable<std::uint64_t, std::uint32_t> list_edges(const plc::Plc& plc, const protection::SegmentChains& chains,
+                                                   const BentVertices& bent) {
   HashTable<std::uint64_t, std::uint32_t> segments;
-  for (std::uint32_t s = 0; s < chains.size(); ++s)
+  for (std::uint32_t s = 0; s < chains.size(); ++s) {
+    if (const auto [a, b] = plc.segments[s].ends; !bent.have(a, b)) continue;
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i)
       if (const VertexId a = chains[s][i].vertex, b = chains[s][i + 1].vertex; bent.have(a, b))
         segments.set(edge_key(a, b), s);
+  }
   return segments;
 }
 
@@ -65,8 +69,10 @@ std::vector<std::uint32_t> find_touching_faces(const plc::Plc& plc, const protec
   std::vector<std::uint32_t> touching;
   if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return touching;
   const BentVertices bent(plc, facets, vertices);
-  const HashSet<std::uint64_t> parts = segments_of_bent_facets(plc, bent);
-  const HashTable<std::uint64_t, std::uint32_t> segments = list_edges(chains, bent);
+  HashSet<std::uint64_t> parts;
+  HashTable<std::uint64_t, std::uint32_t> segments;
+  parallel_both([&] { parts = segments_of_bent_facets(plc, bent); },
+                [&] { segments = list_edges(plc, chains, bent); });
   HashTable<FaceKey, std::uint32_t> faces;
   for (std::uint32_t i = 0; i < facets.triangles.size(); ++i) {
     const FacetId facet = facets.facet[i];

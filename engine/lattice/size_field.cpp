@@ -249,7 +249,9 @@ SizeField::SizeField(const DomainSurface& surface, double edge_length, double gr
 
 void SizeField::sample(const DomainSurface& surface, double edge_length) {
   const std::size_t triangles = surface.triangles.size();
-  RawVector<SizeTree::Item> samples(triangles);
+  RawVector<SizeTree::Item> samples;
+  samples.reserve(triangles + surface.vertices.size());
+  samples.resize(triangles);
   const auto sample_at = [](const Point3& p, double size) { return SizeTree::Item{{p, p}, size, 0}; };
   RawVector<std::array<double, 3>> lengths(triangles);
   parallel_for(triangles, grain, [&](std::size_t t) {

@@ -36,9 +36,8 @@ std::vector<PieceEnds> protected_edges(const ProtectedDelaunay& p) {
 }
 
 RawVector<Box> boxes_of(std::span<const Point3> points) {
-  RawVector<Box> boxes;
-  boxes.reserve(points.size());
-  for (const Point3& p : points) boxes.push_back(box_of(p));
+  RawVector<Box> boxes(points.size());
+  parallel_for(points.size(), 4096, [&](std::size_t i) { boxes[i] = box_of(points[i]); });
   return boxes;
 }
 
