@@ -83,7 +83,7 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
   const std::size_t old = d_.cells.size(), chunk = CellPool::chunk;
   const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
   d_.cells.resize(old + room);
-  marks_.cells.resize(old + room, InsertionMarks::Cell::unknown);
+  marks_.in_cavity.resize(old + room, 0);
   CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
   done_parts_ = 0;
   parallel_for(start_.size(), 1, [&](std::size_t part) {
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
     d_.free_cells.push_back(c);
   }
   unused_.clear();
-  note_bytes(bytes_of(vertices, d_.vertices, d_.cells, d_.free_cells, part_, marks_.cells, marks_.local));
+  note_bytes(bytes_of(vertices, d_.vertices, d_.cells, d_.free_cells, part_, marks_.in_cavity, marks_.local));
   std::vector<std::uint32_t> waiting;
   for (const auto& of_one : of_part) waiting.insert(waiting.end(), of_one.begin(), of_one.end());
   std::ranges::sort(waiting);

@@ -28,7 +28,7 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   p_ = d_.point(v);
   twin_ = ghost_vertex;
   if (pool_ == nullptr) {
-    marks_.cells.resize(d_.cells.size(), Mark::unknown);
+    marks_.in_cavity.resize(d_.cells.size(), 0);
     if (marks_.local.size() < d_.vertices.size()) marks_.local.resize(d_.vertices.capacity(), no_local);
   }
   const unsigned turn = turn_;
@@ -42,8 +42,8 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
     }
   }
   if (!(pool_ == nullptr ? spread(first) : spread_in_part(first))) return false;
-  // Each cell of the cavity except the first, and each one around it, was tested once.
-  work_done.cells_tested += cavity_.size + outside_.size - 1;
+  // Each cell of the cavity except the first was tested once, and the cells around it at each face.
+  work_done.cells_tested += cavity_.size + border_.size - 1;
   work_done.largest_cavity = std::max<std::uint64_t>(work_done.largest_cavity, cavity_.size);
   ++work_done.insertions;
   return true;
@@ -56,31 +56,24 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
 template <bool in_part>
 CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
   const Cell* const cells = d_.cells.data();
-  Mark* const mark = marks_.cells.data();
+  std::uint8_t* const in_cavity = marks_.in_cavity.data();
   cavity_.add(first);
-  mark[first] = Mark::conflict;
+  in_cavity[first] = 1;
   for (std::size_t i = 0; i < cavity_.size; ++i) {
-    cavity_.reserve_more(4), outside_.reserve_more(4), border_.reserve_more(4);
+    cavity_.reserve_more(4), border_.reserve_more(4);
     const Cell cell = cells[cavity_.slots[i]];
     for (std::uint32_t f = 0; f < 4; ++f) {
       const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
-      if (mark[next] == Mark::conflict) continue;
-      if (mark[next] != Mark::outside) {
-        const bool is_shared = in_part && parts_.is_shared_behind_own(cells[next], code);
-        if (conflicts(cells[next])) {
-          if (is_shared) return false;
-          mark[next] = Mark::conflict;
-          cavity_.add(next);
-          // They exist by the time they are needed.
-          for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
-          continue;
-        }
-        if (!is_shared) {
-          mark[next] = Mark::outside;
-          outside_.add(next);
-        }
+      if (in_cavity[next] != 0) continue;
+      if (!conflicts(cells[next])) {
+        border_.add({corners_of_face(cell.vertices, f), code});
+        continue;
       }
-      border_.add({corners_of_face(cell.vertices, f), code});
+      if (in_part && parts_.is_shared_behind_own(cells[next], code)) return false;
+      in_cavity[next] = 1;
+      cavity_.add(next);
+      // They exist by the time they are needed.
+      for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
     }
   }
   return true;
@@ -95,16 +88,15 @@ CCDT_WIDE_LANES bool Insertion::spread_in_part(std::uint32_t first) {
 }
 
 void Insertion::discard_cavity() {
-  for (const std::uint32_t c : cavity_.items()) marks_.cells[c] = Mark::unknown;
-  for (const std::uint32_t c : outside_.items()) marks_.cells[c] = Mark::unknown;
-  cavity_.size = outside_.size = border_.size = 0;
+  for (const std::uint32_t c : cavity_.items()) marks_.in_cavity[c] = 0;
+  cavity_.size = border_.size = 0;
 }
 
 std::uint32_t Insertion::fill_cavity() {
   ++insertions_;
   choose_places();
-  number_border_vertices();
-  if (border_vertices_.size() <= table_side) {
+  // By Euler's formula, the border, a triangulated sphere, has half as many vertices as faces and two more.
+  if (border_.size / 2 + 2 <= table_side) {
     connect_by_table();
   } else {
     connect_by_search();
@@ -114,8 +106,6 @@ std::uint32_t Insertion::fill_cavity() {
   work_done.cells_destroyed += cavity_.size;
   const std::uint32_t some = places_[0];
   d_.vertices[v_].cell = some;
-  for (const std::uint32_t u : border_vertices_) local_of(u) = no_local;
-  border_vertices_.clear();
   for (std::size_t i = border_.size; i < cavity_.size; ++i) {
     d_.cells[cavity_.slots[i]].neighbors[0] = no_neighbor;
     free_cells().push_back(cavity_.slots[i]);
@@ -210,20 +200,8 @@ void Insertion::choose_places() {
   const std::size_t old = d_.cells.size(), more = border_.size - places_.size();
   if (more == 0) return;
   d_.cells.resize(old + more);
-  marks_.cells.resize(old + more, Mark::unknown);
+  marks_.in_cavity.resize(old + more, 0);
   for (std::size_t i = 0; i < more; ++i) places_.push_back(static_cast<std::uint32_t>(old + i));
-}
-
-void Insertion::number_border_vertices() {
-  for (std::size_t i = 0; i < border_.size; ++i) {
-    for (const std::uint32_t u : border_.slots[i].vertices) {
-      std::uint8_t& local = local_of(u);
-      if (local != no_local) continue;
-      if (border_vertices_.size() < no_local) local = static_cast<std::uint8_t>(border_vertices_.size());
-      border_vertices_.push_back(u);
-      if (u != ghost_vertex) d_.vertices[u].cell = places_[i];
-    }
-  }
 }
 
 /// Joins a face of the border to the new vertex.
@@ -255,11 +233,23 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
 void Insertion::connect_by_table() {
   std::uint64_t* const table = table_.data();
   const std::uint64_t stamp = insertions_ << 32;
+  std::array<std::uint32_t, table_side> vertices;
+  std::uint32_t numbered = 0;
+  const auto number = [&](std::uint32_t u, std::uint32_t cell) -> std::uint32_t {
+    std::uint8_t& local = local_of(u);
+    if (local == no_local) {
+      local = static_cast<std::uint8_t>(numbered);
+      vertices[numbered++] = u;
+      if (u != ghost_vertex) d_.vertices[u].cell = cell;
+    }
+    return local;
+  };
   for (std::size_t i = 0; i < border_.size; ++i) {
     const CavityFace& face = border_.slots[i];
     const std::uint32_t place = places_[i];
     const auto& opposite_faces = opposite[make_cell(face, place)];
-    const std::uint32_t local[3] = {local_of(face.vertices[0]), local_of(face.vertices[1]), local_of(face.vertices[2])};
+    const std::uint32_t local[3] = {number(face.vertices[0], place), number(face.vertices[1], place),
+                                    number(face.vertices[2], place)};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t from = local[k == 2 ? 0 : k + 1], to = local[k == 0 ? 2 : k - 1];
       const std::uint32_t here = face_code(place, opposite_faces[k]);
@@ -271,6 +261,7 @@ void Insertion::connect_by_table() {
       }
     }
   }
+  for (std::uint32_t i = 0; i < numbered; ++i) local_of(vertices[i]) = no_local;
 }
 
 /// The same for a cavity with more vertices than the table has rows.
@@ -280,6 +271,7 @@ void Insertion::connect_by_search() {
     const auto& v = border_.slots[i].vertices;
     const auto& opposite_faces = opposite[make_cell(border_.slots[i], places_[i])];
     for (std::uint32_t k = 0; k < 3; ++k) {
+      if (v[k] != ghost_vertex) d_.vertices[v[k]].cell = places_[i];
       const std::uint32_t from = v[k == 2 ? 0 : k + 1], to = v[k == 0 ? 2 : k - 1];
       const std::uint32_t here = face_code(places_[i], opposite_faces[k]);
       if (const std::uint32_t* other = waiting_.find(key(to, from))) {

@@ -27,11 +27,10 @@ enum class Ties {
 
 /// Marks of an insertion at the cells and vertices that it visits; between two insertions, all have their first values.
 struct InsertionMarks {
-  enum class Cell : std::uint8_t { unknown, conflict, outside };
   static constexpr std::uint8_t no_local = 0xFF;
 
-  std::vector<Cell> cells;
-  std::vector<std::uint8_t> local;  ///< by vertex: its number among those of the cavity's border; `no_local`: none
+  std::vector<std::uint8_t> in_cavity;  ///< by cell
+  std::vector<std::uint8_t> local;      ///< by vertex: its number among those of the cavity's border; `no_local`: none
 };
 
 /// The parts of space in which several insert at the same time.
@@ -94,9 +93,9 @@ class Insertion {
   std::uint32_t twin() const { return twin_; }
   /// The cell where the walk ended.
   std::uint32_t reached() const { return reached_; }
-  bool in_cavity(std::uint32_t cell) const { return marks_.cells[cell] == Mark::conflict; }
+  bool in_cavity(std::uint32_t cell) const { return marks_.in_cavity[cell] != 0; }
   /// The bytes of the marks of cells and vertices; the rest of the working memory is small.
-  std::size_t bytes() const { return bytes_of(marks_.cells) + d_.vertices.size() * sizeof(marks_.local[0]); }
+  std::size_t bytes() const { return bytes_of(marks_.in_cavity) + d_.vertices.size() * sizeof(marks_.local[0]); }
 
   /// Discards the cavity and changes nothing.
   void discard_cavity();
@@ -109,8 +108,6 @@ class Insertion {
   std::uint32_t fill_cavity();
 
  private:
-  using Mark = InsertionMarks::Cell;
-
   /// A list that is checked for space once before several additions.
   template <class T>
   struct List {
@@ -133,7 +130,6 @@ class Insertion {
   bool conflicts(const Cell& cell) const;
   bool conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const;
   bool ghost_conflicts(const Cell& ghost) const;
-  void number_border_vertices();
   void choose_places();
   std::uint32_t make_cell(const CavityFace& face, std::uint32_t place) const;
   void connect_by_table();
@@ -152,14 +148,13 @@ class Insertion {
   Ties ties_ = Ties::greatest_rank;
   Point3 p_;
   unsigned turn_ = 0;
-  List<std::uint32_t> cavity_, outside_;
+  List<std::uint32_t> cavity_;
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
   // Vertices of the border get small local numbers, so that its directed edges are places in a small table. An entry
   // holds the number of the insertion that wrote it, above a face code.
   static constexpr std::uint32_t table_side = 64;
   std::uint8_t local_of_ghost_ = InsertionMarks::no_local;
-  std::vector<std::uint32_t> border_vertices_;
   std::vector<std::uint64_t> table_;
   std::uint64_t insertions_ = 0;
   HashTable<std::uint64_t, std::uint32_t> waiting_;  ///< the same for large cavities: by directed edge, a face code
