@@ -13,6 +13,9 @@ namespace {
 /// nowhere); see the order of vertices in `make_cell`.
 constexpr std::uint8_t opposite[4][3] = {{3, 1, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 2}};
 
+/// The corners after and before the k-th one of a triangle.
+constexpr std::size_t after[3] = {1, 2, 0}, before[3] = {2, 0, 1};
+
 constexpr std::uint8_t no_local = InsertionMarks::no_local;
 
 }  // namespace
@@ -93,7 +96,6 @@ void Insertion::discard_cavity() {
 }
 
 std::uint32_t Insertion::fill_cavity() {
-  ++insertions_;
   choose_places();
   // By Euler's formula, the border, a triangulated sphere, has half as many vertices as faces and two more.
   if (border_.size / 2 + 2 <= table_side) {
@@ -229,39 +231,41 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
 }
 
 /// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
-/// pass in opposite directions: the first one leaves its code in the table, and the second one finds it.
+/// pass in opposite directions: each one leaves its code in the table, then each finds that of the other. (There are no
+/// branches that depend on the mesh.)
 void Insertion::connect_by_table() {
-  std::uint64_t* const table = table_.data();
-  const std::uint64_t stamp = insertions_ << 32;
-  std::array<std::uint32_t, table_side> vertices;
-  std::uint32_t numbered = 0;
-  const auto number = [&](std::uint32_t u, std::uint32_t cell) -> std::uint32_t {
-    std::uint8_t& local = local_of(u);
-    if (local == no_local) {
-      local = static_cast<std::uint8_t>(numbered);
-      vertices[numbered++] = u;
-      if (u != ghost_vertex) d_.vertices[u].cell = cell;
-    }
-    return local;
+  struct Corners {
+    std::array<std::uint8_t, 3> local;
+    std::uint8_t ghost;  ///< its position; 3: it is none of them
   };
+  std::array<Corners, 2 * table_side> corners;
+  std::array<std::uint32_t, table_side + 1> vertices;  // the last place is for what is no new vertex
+  std::size_t numbered = 0;
+  std::uint32_t* const table = table_.data();
   for (std::size_t i = 0; i < border_.size; ++i) {
     const CavityFace& face = border_.slots[i];
     const std::uint32_t place = places_[i];
-    const auto& opposite_faces = opposite[make_cell(face, place)];
-    const std::uint32_t local[3] = {number(face.vertices[0], place), number(face.vertices[1], place),
-                                    number(face.vertices[2], place)};
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = local[k == 2 ? 0 : k + 1], to = local[k == 0 ? 2 : k - 1];
-      const std::uint32_t here = face_code(place, opposite_faces[k]);
-      const std::uint64_t other = table[to * table_side + from];
-      if ((other & ~std::uint64_t{0xFFFFFFFF}) == stamp) {
-        join_faces(d_.cells, here, static_cast<std::uint32_t>(other));
-      } else {
-        table[from * table_side + to] = stamp | here;
-      }
+    corners[i].ghost = static_cast<std::uint8_t>(make_cell(face, place));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t u = face.vertices[k];
+      std::uint8_t& local = local_of(u);
+      const bool is_new = local == no_local;
+      vertices[numbered] = u;
+      corners[i].local[k] = local = is_new ? static_cast<std::uint8_t>(numbered) : local;
+      numbered += is_new;
+      if (u != ghost_vertex) d_.vertices[u].cell = place;
     }
+    for (std::size_t k = 0; k < 3; ++k)
+      table[corners[i].local[after[k]] * table_side + corners[i].local[before[k]]] =
+          face_code(place, opposite[corners[i].ghost][k]);
   }
-  for (std::uint32_t i = 0; i < numbered; ++i) local_of(vertices[i]) = no_local;
+  for (std::size_t i = 0; i < border_.size; ++i) {
+    auto& neighbors = d_.cells[places_[i]].neighbors;
+    const auto& [local, ghost] = corners[i];
+    for (std::size_t k = 0; k < 3; ++k)
+      neighbors[opposite[ghost][k]] = table[local[before[k]] * table_side + local[after[k]]];
+  }
+  for (std::size_t i = 0; i < numbered; ++i) local_of(vertices[i]) = no_local;
 }
 
 /// The same for a cavity with more vertices than the table has rows.
@@ -272,7 +276,7 @@ void Insertion::connect_by_search() {
     const auto& opposite_faces = opposite[make_cell(border_.slots[i], places_[i])];
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (v[k] != ghost_vertex) d_.vertices[v[k]].cell = places_[i];
-      const std::uint32_t from = v[k == 2 ? 0 : k + 1], to = v[k == 0 ? 2 : k - 1];
+      const std::uint32_t from = v[after[k]], to = v[before[k]];
       const std::uint32_t here = face_code(places_[i], opposite_faces[k]);
       if (const std::uint32_t* other = waiting_.find(key(to, from))) {
         join_faces(d_.cells, here, *other);

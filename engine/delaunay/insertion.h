@@ -151,12 +151,11 @@ class Insertion {
   List<std::uint32_t> cavity_;
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
-  // Vertices of the border get small local numbers, so that its directed edges are places in a small table. An entry
-  // holds the number of the insertion that wrote it, above a face code.
+  // Vertices of the border get small local numbers, so that its directed edges are places in a small table of face
+  // codes.
   static constexpr std::uint32_t table_side = 64;
   std::uint8_t local_of_ghost_ = InsertionMarks::no_local;
-  std::vector<std::uint64_t> table_;
-  std::uint64_t insertions_ = 0;
+  std::vector<std::uint32_t> table_;
   HashTable<std::uint64_t, std::uint32_t> waiting_;  ///< the same for large cavities: by directed edge, a face code
 };
 
