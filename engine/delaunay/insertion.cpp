@@ -60,26 +60,37 @@ template <bool in_part>
 CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
   const Cell* const cells = d_.cells.data();
   std::uint8_t* const in_cavity = marks_.in_cavity.data();
-  cavity_.add(first);
+  std::size_t size = 1, faces = 0;
+  bool is_own = true;
+  cavity_.slots[0] = first;
+  entries_[0] = 0;
   in_cavity[first] = 1;
-  for (std::size_t i = 0; i < cavity_.size; ++i) {
-    cavity_.reserve_more(4), border_.reserve_more(4);
+  for (std::size_t i = 0; i < size && is_own; ++i) {
+    make_room(cavity_.slots, size + 4), make_room(entries_, size + 4), make_room(border_.slots, faces + 4);
+    // They exist by the time they are needed.
+    if (i + 1 < size)
+      for (const std::uint32_t code : cells[cavity_.slots[i + 1]].neighbors) __builtin_prefetch(cells + cell_of(code));
     const Cell cell = cells[cavity_.slots[i]];
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
+    for (std::uint32_t k = i == 0 ? 0 : 1; k < 4; ++k) {
+      const std::uint32_t f = (entries_[i] + k) & 3, code = cell.neighbors[f], next = cell_of(code);
       if (in_cavity[next] != 0) continue;
-      if (!conflicts(cells[next])) {
-        border_.add({corners_of_face(cell.vertices, f), code});
-        continue;
+      const bool is_inside = conflicts(cells[next]);
+      const bool is_shared = in_part && parts_.is_shared_behind_own(cells[next], code);
+      if (is_shared && is_inside) {
+        is_own = false;
+        break;
       }
-      if (in_part && parts_.is_shared_behind_own(cells[next], code)) return false;
-      in_cavity[next] = 1;
-      cavity_.add(next);
-      // They exist by the time they are needed.
-      for (const std::uint32_t after : cells[next].neighbors) __builtin_prefetch(cells + cell_of(after));
+      // Whether it is inside is unpredictable, so there is no branch.
+      cavity_.slots[size] = next;
+      entries_[size] = face_of(code);
+      size += is_inside;
+      border_.slots[faces] = {corners_of_face(cell.vertices, f), code};
+      faces += !is_inside;
+      if (!is_shared) in_cavity[next] = is_inside;
     }
   }
-  return true;
+  cavity_.size = size, border_.size = faces;
+  return is_own;
 }
 
 CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {

@@ -108,18 +108,18 @@ class Insertion {
   std::uint32_t fill_cavity();
 
  private:
-  /// A list that is checked for space once before several additions.
+  /// A list with room for more items.
   template <class T>
   struct List {
     std::vector<T> slots = std::vector<T>(256);
     std::size_t size = 0;
 
-    void reserve_more(std::size_t more) {
-      if (size + more > slots.size()) slots.resize(2 * (size + more));
-    }
-    void add(const T& item) { slots[size++] = item; }
     std::span<const T> items() const { return {slots.data(), size}; }
   };
+  template <class T>
+  static void make_room(std::vector<T>& slots, std::size_t count) {
+    if (count > slots.size()) slots.resize(2 * count);
+  }
 
   bool is_shared(std::uint32_t cell) const { return pool_ != nullptr && parts_.is_shared(d_.cells[cell]); }
   std::uint32_t walk(const Point3& p, std::uint32_t start);
@@ -149,6 +149,7 @@ class Insertion {
   Point3 p_;
   unsigned turn_ = 0;
   List<std::uint32_t> cavity_;
+  std::vector<std::uint32_t> entries_ = {0};  ///< by cell of the cavity: its face through which it was reached
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
   // Vertices of the border get small local numbers, so that its directed edges are places in a small table of face
