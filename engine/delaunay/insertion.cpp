@@ -260,10 +260,10 @@ void Insertion::connect_by_table() {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t u = face.vertices[k];
       std::uint8_t& local = local_of(u);
-      const bool is_new = local == no_local;
       vertices[numbered] = u;
-      corners[i].local[k] = local = is_new ? static_cast<std::uint8_t>(numbered) : local;
-      numbered += is_new;
+      // `no_local` is greater than any number, and that of a vertex that has one is less than the next.
+      corners[i].local[k] = local = static_cast<std::uint8_t>(std::min<std::size_t>(local, numbered));
+      numbered += local == numbered;
       if (u != ghost_vertex) d_.vertices[u].cell = place;
     }
     for (std::size_t k = 0; k < 3; ++k)
