@@ -37,7 +37,8 @@ void sort_in_buckets(Items& items, const BucketOf& bucket_of, const Less& less =
     buckets = std::max(buckets, most);
   if (buckets > 4 * items.size()) return sort_in_runs(items, less);
 
-  const int shift = std::max(0, static_cast<int>(std::bit_width(buckets)) - static_cast<int>(std::bit_width(ranges - 1)));
+  const int shift =
+      std::max(0, static_cast<int>(std::bit_width(buckets)) - static_cast<int>(std::bit_width(ranges - 1)));
   const auto range_of = [&](std::size_t i) { return std::size_t{bucket_of(items[i])} >> shift; };
   std::vector<Places> places = chunks([&](std::size_t i, std::size_t end) {
     Places counts{};

@@ -133,7 +133,7 @@ void insert_core(const LatticeCore& core, Delaunay& d) {
   const std::vector<std::uint32_t> border = make_core_cells(core, d, first);
   Joiner(d, first, border).run();
   work_done.cells_created += core.cell_count;
-  note_bytes(bytes_of(d.vertices, d.cells, d.free_cells, core.sites.blocks, border));
+  note_bytes(bytes_of(d.vertices, d.cell_at, d.cells, d.free_cells, core.sites.blocks, border));
 }
 
 /// Among this many vertices one may be inserted although it is deep.

@@ -46,7 +46,7 @@ void make_first_cells(Delaunay& d) {
   d.cells.assign(5, {});
   work_done.cells_created += 5;
   d.cells[0].vertices = {0, 1, 2, 3};
-  for (const std::uint32_t v : d.cells[0].vertices) d.vertices[v].cell = 0;
+  for (const std::uint32_t v : d.cells[0].vertices) d.cell_at[v] = 0;
   for (std::uint32_t f = 0; f < 4; ++f) {
     // From outside, the face is seen with the opposite orientation.
     const auto& corner = face_corners[f];
@@ -68,8 +68,11 @@ void make_first_cells(Delaunay& d) {
 /// Converts places in the insertion order back to ids.
 void renumber(Delaunay& d, const std::vector<std::uint32_t>& order) {
   std::vector<DelaunayVertex> by_id(order.size());
-  parallel_for(order.size(), 4096, [&](std::size_t i) { by_id[order[i]] = d.vertices[i]; });
+  std::vector<std::uint32_t> cell_at(order.size());
+  parallel_for(order.size(), 4096,
+               [&](std::size_t i) { by_id[order[i]] = d.vertices[i], cell_at[order[i]] = d.cell_at[i]; });
   d.vertices = std::move(by_id);
+  d.cell_at = std::move(cell_at);
   parallel_for(d.cells.size(), 4096, [&](std::size_t c) {
     for (std::uint32_t& v : d.cells[c].vertices)
       if (v != ghost_vertex) v = order[v];
@@ -101,8 +104,9 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   const std::vector<std::uint32_t> order = insertion_order(points);
   Delaunay d;
   d.vertices.resize(points.size());
+  d.cell_at.resize(points.size(), no_cell);
   parallel_for(order.size(), 4096, [&](std::size_t i) {
-    d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i), no_cell};
+    d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i)};
   });
   make_first_cells(d);
   std::vector<std::uint32_t> others(d.vertices.size() - 4);
@@ -118,7 +122,7 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
     std::fill(seen_.begin(), seen_.end(), 0);
     search_ = 1;
   }
-  cells_.assign(1, d_.vertices[vertex].cell);
+  cells_.assign(1, d_.cell_at[vertex]);
   seen_[cells_[0]] = search_;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = d_.cells[cells_[i]];
@@ -137,7 +141,7 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
 // Walks toward b within the star of a. Like any walk toward a point in a Delaunay tetrahedralization, it ends. It ends
 // in the cell at a that contains the direction to b; if ab is an edge, it is an edge of that cell.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
-  std::uint32_t here = d.vertices[a].cell;
+  std::uint32_t here = d.cell_at[a];
   // The walk never leaves the hull, because b is inside.
   if (d.is_ghost(here)) here = cell_of(d.cells[here].neighbors[3]);
   const Point3& p = d.point(b);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -9,18 +10,24 @@
 #include "engine/base/index.h"
 #include "engine/base/progress.h"
 #include "engine/base/raw_vector.h"
+#include "engine/numbers/filters.h"
 
 namespace ccdt::delaunay {
 
 inline constexpr std::uint32_t no_cell = 0xFFFFFFFFu;
 
 /// A vertex of the tetrahedralization. Its rank, which is its place in the order of insertion, is fixed and decides
-/// ties.
-struct DelaunayVertex {
+/// ties. Nothing in it changes, so threads may load it as a whole.
+struct alignas(32) DelaunayVertex {
   Point3 point;
   std::uint32_t rank = 0;
-  std::uint32_t cell = 0;  ///< a cell with this vertex; `no_cell`: it waits to be inserted
 };
+
+/// The coordinates, and in the fourth lane anything.
+CCDT_ALWAYS_INLINE void load(const DelaunayVertex& v, numbers::Lanes& result) {
+  static_assert(sizeof v == sizeof result);
+  std::memcpy(&result, &v, sizeof result);
+}
 
 /// \return  `empty_box` if there are no vertices
 inline Box bounding_box(std::span<const DelaunayVertex> vertices) {
@@ -72,10 +79,20 @@ inline void join_faces(LargeVector<Cell>& cells, std::uint32_t a, std::uint32_t 
 /// structure: cells and vertices are indices into arrays. Cells whose place can be reused are dead.
 struct Delaunay {
   std::vector<DelaunayVertex> vertices;  ///< by id
+  std::vector<std::uint32_t> cell_at;    ///< by vertex: a cell with it; `no_cell`: it waits to be inserted
   LargeVector<Cell> cells;
   std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
   const Point3& point(std::uint32_t v) const { return vertices[v].point; }
+  /// Adds a vertex that waits to be inserted. Its rank is its id.
+  std::uint32_t add_vertex(const Point3& p) {
+    const auto v = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back({p, v});
+    cell_at.push_back(no_cell);
+    return v;
+  }
+  /// Takes back the last vertex that was added, which still waits.
+  void remove_last_vertex() { vertices.pop_back(), cell_at.pop_back(); }
   /// The code of the same face in the cell on its other side.
   std::uint32_t across(std::uint32_t code) const { return cells[cell_of(code)].neighbors[face_of(code)]; }
   bool is_dead(std::uint32_t cell) const { return cells[cell].neighbors[0] == no_neighbor; }

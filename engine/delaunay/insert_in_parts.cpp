@@ -67,12 +67,10 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
     });
   };
   parallel_for(vertices.back() + 1, 4096, [&](std::size_t v) {
-    const DelaunayVertex& vertex = d_.vertices[v];
-    const std::uint32_t part = space.part_of(vertex.point);
+    const std::uint32_t part = space.part_of(d_.point(static_cast<std::uint32_t>(v))), cell = d_.cell_at[v];
     part_[v] = static_cast<Part>(part);
-    if (vertex.cell != no_cell && start_[part].load(std::memory_order_relaxed) == no_cell &&
-        is_whole(vertex.cell, part))
-      start_[part].store(vertex.cell, std::memory_order_relaxed);
+    if (cell != no_cell && start_[part].load(std::memory_order_relaxed) == no_cell && is_whole(cell, part))
+      start_[part].store(cell, std::memory_order_relaxed);
   });
 }
 
@@ -95,7 +93,8 @@ std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> 
     d_.free_cells.push_back(c);
   }
   unused_.clear();
-  note_bytes(bytes_of(vertices, d_.vertices, d_.cells, d_.free_cells, part_, marks_.in_cavity, marks_.local));
+  note_bytes(
+      bytes_of(vertices, d_.vertices, d_.cell_at, d_.cells, d_.free_cells, part_, marks_.in_cavity, marks_.local));
   std::vector<std::uint32_t> waiting;
   for (const auto& of_one : of_part) waiting.insert(waiting.end(), of_one.begin(), of_one.end());
   std::ranges::sort(waiting);

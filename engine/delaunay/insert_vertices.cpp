@@ -18,13 +18,13 @@ namespace {
 void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties ties, std::size_t done,
                      std::size_t total, const Progress& progress) {
   Insertion insertion(d);
-  std::uint32_t last = d.vertices[0].cell;
+  std::uint32_t last = d.cell_at[0];
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     insertion.find_cavity(vertices[i], last, ties);
     last = insertion.fill_cavity();
     if ((i & 0xFFFF) == 0) report(progress, "delaunay", done + i, total);
   }
-  note_bytes(bytes_of(vertices, d.vertices, d.cells, d.free_cells) + insertion.bytes());
+  note_bytes(bytes_of(vertices, d.vertices, d.cell_at, d.cells, d.free_cells) + insertion.bytes());
 }
 
 /// About as many as there are, ghosts included.
@@ -85,8 +85,9 @@ std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> 
   std::vector<std::uint32_t> order = hilbert_order(points);
   const std::size_t first = d.vertices.size();
   d.vertices.resize(first + points.size());
+  d.cell_at.resize(first + points.size(), no_cell);
   parallel_for(points.size(), 4096, [&](std::size_t i) {
-    d.vertices[first + i] = {points[order[i]], static_cast<std::uint32_t>(first + i), no_cell};
+    d.vertices[first + i] = {points[order[i]], static_cast<std::uint32_t>(first + i)};
   });
   return order;
 }

@@ -118,7 +118,7 @@ std::uint32_t Insertion::fill_cavity() {
   work_done.cells_created += border_.size;
   work_done.cells_destroyed += cavity_.size;
   const std::uint32_t some = places_[0];
-  d_.vertices[v_].cell = some;
+  d_.cell_at[v_] = some;
   for (std::size_t i = border_.size; i < cavity_.size; ++i) {
     d_.cells[cavity_.slots[i]].neighbors[0] = no_neighbor;
     free_cells().push_back(cavity_.slots[i]);
@@ -156,8 +156,10 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
 CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
   if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
   const auto& v = cell.vertices;
-  const numbers::Sign sign =
-      numbers::insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
+  numbers::Lanes a, b, c, d, e;
+  load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
+  load(d_.vertices[v_], e);
+  const numbers::Sign sign = numbers::insphere_filter(a, b, c, d, e);
   if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
   if (sign == numbers::Sign::zero && ties_ == Ties::greatest_rank) return false;
   return conflicts_in_doubt(cell, sign);
@@ -264,7 +266,7 @@ void Insertion::connect_by_table() {
       // `no_local` is greater than any number, and that of a vertex that has one is less than the next.
       corners[i].local[k] = local = static_cast<std::uint8_t>(std::min<std::size_t>(local, numbered));
       numbered += local == numbered;
-      if (u != ghost_vertex) d_.vertices[u].cell = place;
+      if (u != ghost_vertex) d_.cell_at[u] = place;
     }
     for (std::size_t k = 0; k < 3; ++k)
       table[corners[i].local[after[k]] * table_side + corners[i].local[before[k]]] =
@@ -286,7 +288,7 @@ void Insertion::connect_by_search() {
     const auto& v = border_.slots[i].vertices;
     const auto& opposite_faces = opposite[make_cell(border_.slots[i], places_[i])];
     for (std::uint32_t k = 0; k < 3; ++k) {
-      if (v[k] != ghost_vertex) d_.vertices[v[k]].cell = places_[i];
+      if (v[k] != ghost_vertex) d_.cell_at[v[k]] = places_[i];
       const std::uint32_t from = v[after[k]], to = v[before[k]];
       const std::uint32_t here = face_code(places_[i], opposite_faces[k]);
       if (const std::uint32_t* other = waiting_.find(key(to, from))) {

@@ -320,12 +320,13 @@ Delaunay wrap_delaunay(std::vector<DelaunayVertex> vertices, double grid_scale, 
   if (!hull_face) refuse_flat_points();
   Delaunay d;
   d.vertices = std::move(vertices);
+  d.cell_at.resize(d.vertices.size(), no_cell);
   d.cells = Wrap(grid, progress).run(*hull_face);
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     for (std::uint32_t& v : d.cells[c].vertices) {
       if (v == ghost_vertex) continue;
       v = grid.vertices[v].id;
-      d.vertices[v].cell = c;
+      d.cell_at[v] = c;
     }
   }
   return d;

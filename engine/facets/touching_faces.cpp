@@ -71,8 +71,7 @@ std::vector<std::uint32_t> find_touching_faces(const plc::Plc& plc, const protec
   const BentVertices bent(plc, facets, vertices);
   HashSet<std::uint64_t> parts;
   HashTable<std::uint64_t, std::uint32_t> segments;
-  parallel_both([&] { parts = segments_of_bent_facets(plc, bent); },
-                [&] { segments = list_edges(plc, chains, bent); });
+  parallel_both([&] { parts = segments_of_bent_facets(plc, bent); }, [&] { segments = list_edges(plc, chains, bent); });
   HashTable<FaceKey, std::uint32_t> faces;
   for (std::uint32_t i = 0; i < facets.triangles.size(); ++i) {
     const FacetId facet = facets.facet[i];

@@ -155,8 +155,8 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
       }
     }
   });
-  note_bytes(bytes_of(delaunay.vertices, delaunay.cells, region_of_cell, buckets.ends, sources, mesh.tetrahedra,
-                      mesh.regions));
+  note_bytes(bytes_of(delaunay.vertices, delaunay.cell_at, delaunay.cells, region_of_cell, buckets.ends, sources,
+                      mesh.tetrahedra, mesh.regions));
   return collected;
 }
 

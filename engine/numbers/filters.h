@@ -108,11 +108,11 @@ CCDT_ALWAYS_INLINE Sign orient3d_filter(const Point3& a, const Point3& b, const 
 /// Sign of the insphere determinant (plus: e inside, for positively oriented abcd). The four lanes are a, b, c, d; with
 /// `next` the following lane, minors are formed of neighboring lanes (ab, bc, cd, da) and of opposite ones (ac, bd, ca,
 /// db).
-CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
-                                        const Point3& e) {
-  Lanes ra, rb, rc, rd, re;
-  filter::load(a, ra), filter::load(b, rb), filter::load(c, rc), filter::load(d, rd), filter::load(e, re);
-  ra -= re, rb -= re, rc -= re, rd -= re;
+///
+/// \param a,b,c,d,e  x, y, z, and anything
+CCDT_ALWAYS_INLINE Sign insphere_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
+                                        const Lanes& e) {
+  const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
   // Transpose: x of all four, y, z.
   const Lanes ab_low = __builtin_shufflevector(ra, rb, 0, 4, 2, 6),
               ab_high = __builtin_shufflevector(ra, rb, 1, 5, 3, 7);
@@ -150,6 +150,13 @@ CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const 
   if (filter::few_bits(bits, filter::larger(m[0], filter::larger(m[1], m[2])), 650.0))
     return det > 0 ? Sign::plus : det < 0 ? Sign::minus : Sign::zero;
   return Sign::unknown;
+}
+
+CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
+                                        const Point3& e) {
+  Lanes la, lb, lc, ld, le;
+  filter::load(a, la), filter::load(b, lb), filter::load(c, lc), filter::load(d, ld), filter::load(e, le);
+  return insphere_filter(la, lb, lc, ld, le);
 }
 
 /// Sign of the sum of orient3d(p, q, r, x) over x = a, b, c: that of the centroid. Never `zero`.

@@ -112,7 +112,8 @@ ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Pr
     protector.split_those_that_can_be(to_split);
     protector.protect(progress);
   }
-  note_bytes(bytes_of(start.delaunay.vertices, start.delaunay.cells, start.delaunay.free_cells));
+  note_bytes(
+      bytes_of(start.delaunay.vertices, start.delaunay.cell_at, start.delaunay.cells, start.delaunay.free_cells));
   return start;
 }
 

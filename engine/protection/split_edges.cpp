@@ -100,9 +100,8 @@ ChainVertex EdgeSplitter::split(const Subsegment& piece) {
   if (d_.vertices.size() > most_vertices_)
     refuse_further_splits(plc_, piece, "the edges have been split far more often than there are vertices");
   const std::uint32_t fraction = split_fraction(piece);
-  const auto id = static_cast<std::uint32_t>(d_.vertices.size());
-  d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), id, 0});
-  insertion_.find_cavity(id, d_.vertices[piece.from.vertex].cell);
+  const std::uint32_t id = d_.add_vertex(point_on_segment(plc_, piece.segment, fraction));
+  insertion_.find_cavity(id, d_.cell_at[piece.from.vertex]);
   destroyed_.clear();
   for (const std::uint32_t cell : insertion_.cavity_cells()) destroyed_.push_back(d_.cells[cell].vertices);
   insertion_.fill_cavity();
@@ -144,9 +143,8 @@ std::uint32_t EdgeSplitter::split_fraction(const Subsegment& piece) {
 /// The vertex around a point of the piece that sees the piece under the largest obtuse angle: the reason why the piece
 /// is missing. None if no vertex is in the diametral sphere.
 std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
-  const auto probe = static_cast<std::uint32_t>(d_.vertices.size());
-  d_.vertices.push_back({point_on_segment(plc_, piece.segment, fraction), probe, 0});
-  insertion_.find_cavity(probe, d_.vertices[piece.from.vertex].cell);
+  const std::uint32_t probe = d_.add_vertex(point_on_segment(plc_, piece.segment, fraction));
+  insertion_.find_cavity(probe, d_.cell_at[piece.from.vertex]);
   const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
   std::optional<std::uint32_t> worst;
   double least_cosine = 0;
@@ -162,7 +160,7 @@ std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& 
     }
   }
   insertion_.discard_cavity();
-  d_.vertices.pop_back();
+  d_.remove_last_vertex();
   return worst;
 }
 

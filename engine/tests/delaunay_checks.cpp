@@ -82,7 +82,7 @@ AssertionResult has_empty_sphere(const delaunay::Delaunay& d, std::uint32_t c) {
 }
 
 AssertionResult has_good_hint(const delaunay::Delaunay& d, std::uint32_t v) {
-  const std::uint32_t c = d.vertices[v].cell;
+  const std::uint32_t c = d.cell_at[v];
   if (c >= d.cells.size() || d.is_dead(c)) return AssertionFailure() << "vertex " << v << " names no living cell";
   const auto& corners = d.cells[c].vertices;
   if (std::find(corners.begin(), corners.end(), v) == corners.end())
@@ -150,13 +150,14 @@ AssertionResult has_empty_spheres(const delaunay::Delaunay& d) {
 
 AssertionResult are_equal(const delaunay::Delaunay& a, const delaunay::Delaunay& b) {
   const auto same_vertex = [](const delaunay::DelaunayVertex& v, const delaunay::DelaunayVertex& w) {
-    return v.point == w.point && v.rank == w.rank && v.cell == w.cell;
+    return v.point == w.point && v.rank == w.rank;
   };
   const auto same_cell = [](const delaunay::Cell& c, const delaunay::Cell& e) {
     return c.vertices == e.vertices && c.neighbors == e.neighbors;
   };
   if (!std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), same_vertex))
     return AssertionFailure() << "the vertices differ";
+  if (a.cell_at != b.cell_at) return AssertionFailure() << "the cells at vertices differ";
   if (!std::equal(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(), same_cell))
     return AssertionFailure() << "the cells differ";
   if (a.free_cells != b.free_cells) return AssertionFailure() << "the free cells differ";

@@ -13,12 +13,6 @@ namespace {
 using namespace test;
 
 /// Adds a vertex of the greatest rank, but does not insert it into the tetrahedralization yet.
-std::uint32_t add_vertex(delaunay::Delaunay& d, const Point3& p) {
-  const auto v = static_cast<std::uint32_t>(d.vertices.size());
-  d.vertices.push_back({p, v, 0});
-  return v;
-}
-
 std::uint32_t first_living_cell(const delaunay::Delaunay& d) {
   std::uint32_t c = 0;
   while (d.is_dead(c)) ++c;
@@ -38,7 +32,7 @@ delaunay::Delaunay build_in_two_steps(const std::vector<Point3>& points) {
   delaunay::Insertion insertion(d);
   std::uint32_t start = first_living_cell(d);
   for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
-    EXPECT_TRUE(insertion.find_cavity(add_vertex(d, points[i]), start));
+    EXPECT_TRUE(insertion.find_cavity(d.add_vertex(points[i]), start));
     start = insertion.fill_cavity();
   }
   return d;
@@ -74,8 +68,8 @@ TEST(Insertion, KeepsTheStructureConsistentAfterEachVertex) {
     delaunay::Delaunay d = delaunay::build_delaunay(std::span(set.points).first(given));
     delaunay::Insertion insertion(d);
     for (std::size_t i = given; i < set.points.size(); ++i) {
-      const std::uint32_t far = d.vertices[i % given].cell;
-      ASSERT_TRUE(insertion.find_cavity(add_vertex(d, set.points[i]), far)) << set.name;
+      const std::uint32_t far = d.cell_at[i % given];
+      ASSERT_TRUE(insertion.find_cavity(d.add_vertex(set.points[i]), far)) << set.name;
       insertion.fill_cavity();
       ASSERT_TRUE(is_consistent(d)) << set.name << ", vertex " << i;
       ASSERT_TRUE(has_empty_spheres(d)) << set.name << ", vertex " << i;
@@ -87,7 +81,7 @@ TEST(Insertion, FindsTheSameCavityFromEveryCell) {
   delaunay::Delaunay d = delaunay::build_delaunay(face_centered(2, 4));
   delaunay::Insertion insertion(d);
   for (const Point3& p : {Point3{1, 1, 1}, {3, 4, 5}, {-1, 2, 2}, {4, 4, 9}, {2, 1, 0}}) {
-    const std::uint32_t v = add_vertex(d, p);
+    const std::uint32_t v = d.add_vertex(p);
     std::set<std::uint32_t> expected;
     for (std::uint32_t start = 0; start < d.cells.size(); ++start) {
       if (d.is_dead(start)) continue;
@@ -99,7 +93,7 @@ TEST(Insertion, FindsTheSameCavityFromEveryCell) {
       EXPECT_EQ(cavity, expected);
       insertion.discard_cavity();
     }
-    d.vertices.pop_back();
+    d.remove_last_vertex();
   }
 }
 
@@ -132,21 +126,21 @@ TEST(Insertion, DiscardingACavityLeavesEverythingAsItWas) {
     const delaunay::Delaunay before = d;
     const std::uint32_t start = first_living_cell(d);
     for (const Point3& p : std::span(set.points).last(10)) {
-      const std::uint32_t v = add_vertex(d, p);
+      const std::uint32_t v = d.add_vertex(p);
       ASSERT_TRUE(insertion.find_cavity(v, start)) << set.name;
       EXPECT_FALSE(insertion.cavity_cells().empty());
       insertion.discard_cavity();
       EXPECT_TRUE(insertion.cavity_cells().empty() && insertion.cavity_faces().empty());
       for (std::uint32_t c = 0; c < d.cells.size(); ++c) ASSERT_FALSE(insertion.in_cavity(c));
-      d.vertices.pop_back();
+      d.remove_last_vertex();
       ASSERT_TRUE(are_equal(d, before)) << set.name;
     }
     // After discarded cavities, insertion works as if there had been none.
     delaunay::Delaunay fresh = before;
     delaunay::Insertion never_abandoned(fresh);
     for (const Point3& p : std::span(set.points).last(10)) {
-      ASSERT_TRUE(insertion.find_cavity(add_vertex(d, p), d.vertices[0].cell)) << set.name;
-      ASSERT_TRUE(never_abandoned.find_cavity(add_vertex(fresh, p), fresh.vertices[0].cell)) << set.name;
+      ASSERT_TRUE(insertion.find_cavity(d.add_vertex(p), d.cell_at[0])) << set.name;
+      ASSERT_TRUE(never_abandoned.find_cavity(fresh.add_vertex(p), fresh.cell_at[0])) << set.name;
       insertion.fill_cavity();
       never_abandoned.fill_cavity();
     }
@@ -161,10 +155,10 @@ TEST(Insertion, NamesTheVertexAtTheSamePlace) {
     delaunay::Insertion insertion(d);
     const delaunay::Delaunay before = d;
     for (std::uint32_t v = 0; v < set.points.size(); v += 7) {
-      const std::uint32_t copy = add_vertex(d, set.points[v]);
-      EXPECT_FALSE(insertion.find_cavity(copy, d.vertices[set.points.size() / 2].cell)) << set.name;
+      const std::uint32_t copy = d.add_vertex(set.points[v]);
+      EXPECT_FALSE(insertion.find_cavity(copy, d.cell_at[set.points.size() / 2])) << set.name;
       EXPECT_EQ(insertion.twin(), v) << set.name;
-      d.vertices.pop_back();
+      d.remove_last_vertex();
       ASSERT_TRUE(are_equal(d, before)) << set.name;
     }
   }
@@ -179,7 +173,7 @@ TEST(Insertion, FillsCavitiesOfManyVertices) {
     points.resize(n);
     delaunay::Delaunay d = delaunay::build_delaunay(points);
     delaunay::Insertion insertion(d);
-    const std::uint32_t center = add_vertex(d, {});
+    const std::uint32_t center = d.add_vertex({});
     ASSERT_TRUE(insertion.find_cavity(center, first_living_cell(d)));
     EXPECT_EQ(cavity_vertices(insertion).size(), n);
     insertion.fill_cavity();
@@ -196,7 +190,7 @@ TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
     points.resize(n);
     delaunay::Delaunay d = delaunay::build_delaunay(points);
     delaunay::Insertion insertion(d);
-    ASSERT_TRUE(insertion.find_cavity(add_vertex(d, {1000003, 1000, 10}), first_living_cell(d)));
+    ASSERT_TRUE(insertion.find_cavity(d.add_vertex({1000003, 1000, 10}), first_living_cell(d)));
     const auto border = cavity_vertices(insertion);
     EXPECT_TRUE(border.contains(delaunay::ghost_vertex));
     if (n == 500) {

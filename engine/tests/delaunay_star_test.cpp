@@ -56,8 +56,7 @@ std::vector<delaunay::Delaunay> samples() {
     delaunay::Delaunay d = delaunay::build_delaunay(std::span(set.points).first(set.points.size() / 2));
     delaunay::Insertion insertion(d);
     for (std::size_t i = d.vertices.size(); i < set.points.size(); ++i) {
-      d.vertices.push_back({set.points[i], static_cast<std::uint32_t>(i), 0});
-      insertion.find_cavity(static_cast<std::uint32_t>(i), d.vertices[0].cell);
+      insertion.find_cavity(d.add_vertex(set.points[i]), d.cell_at[0]);
       insertion.fill_cavity();
     }
     result.push_back(std::move(d));

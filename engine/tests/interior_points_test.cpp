@@ -290,7 +290,7 @@ void name_other_cells(delaunay::Delaunay& d, std::mt19937& random) {
   delaunay::CellStar star(d);
   for (std::uint32_t v = 0; v < d.vertices.size(); ++v) {
     const auto cells = star.around(v);
-    d.vertices[v].cell = cells[random() % cells.size()];
+    d.cell_at[v] = cells[random() % cells.size()];
   }
 }
 

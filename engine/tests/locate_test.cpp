@@ -30,7 +30,7 @@ struct Scene {
       const Point3 center{scale * part(random), scale * part(random), scale * part(random)};
       for (int i = 0; i < 3; ++i) {
         const Point3 p = center + (0.3 * scale) * Point3{part(random), part(random), part(random)};
-        vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0, 0});
+        vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0});
       }
       const auto n = static_cast<std::uint32_t>(vertices.size());
       triangles.push_back({VertexId(n - 3), VertexId(n - 2), VertexId(n - 1)});
@@ -149,7 +149,7 @@ TEST(OctreeLocator, OfSomeFindsTheseAlone) {
 
 TEST(OctreeLocator, HoldsManyVerticesInOnePlace) {
   Scene scene(30, false, 6);
-  for (std::uint32_t i = 0; i < 100; ++i) scene.vertices.push_back({{side + i % 3, 0, 0}, 0, 0});
+  for (std::uint32_t i = 0; i < 100; ++i) scene.vertices.push_back({{side + i % 3, 0, 0}, 0});
   expect_vertices_of_caps(scene, locate::OctreeLocator(scene.vertices, scene.triangles), 7);
 }
 
@@ -172,7 +172,7 @@ struct Stack : Scene {
       for (std::uint32_t i = 0; i < row * row; ++i) {
         const Point3 p =
             static_cast<double>(plate) * up + (1.0 / steps * (i % row)) * along + (1.0 / steps * (i / row)) * across;
-        vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0, 0});
+        vertices.push_back({{std::round(p.x), std::round(p.y), std::round(p.z)}, 0});
       }
       for (std::uint32_t i = 0; i < steps * steps; ++i) {
         const std::uint32_t v = plate * row * row + i / steps * row + i % steps;

@@ -81,7 +81,7 @@ void expect_sound(const delaunay::Delaunay& d) {
       ASSERT_EQ(d.across(d.cells[c].neighbors[f]), delaunay::face_code(c, f)) << "cell " << c;
   }
   for (std::uint32_t v = 0; v < d.vertices.size(); ++v)
-    ASSERT_TRUE(std::ranges::count(d.cells[d.vertices[v].cell].vertices, v) == 1) << "vertex " << v;
+    ASSERT_TRUE(std::ranges::count(d.cells[d.cell_at[v]].vertices, v) == 1) << "vertex " << v;
 }
 
 TEST(Threads, MakeOneDelaunayTetrahedralization) {

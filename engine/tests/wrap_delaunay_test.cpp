@@ -21,7 +21,7 @@ using namespace test;
 std::vector<delaunay::DelaunayVertex> with_ranks(const std::vector<Point3>& points,
                                                  const std::vector<std::uint32_t>& ranks) {
   std::vector<delaunay::DelaunayVertex> vertices;
-  for (std::size_t i = 0; i < points.size(); ++i) vertices.push_back({points[i], ranks[i], 0});
+  for (std::size_t i = 0; i < points.size(); ++i) vertices.push_back({points[i], ranks[i]});
   return vertices;
 }
 
@@ -166,8 +166,7 @@ delaunay::Delaunay insert_by_rank(const std::vector<delaunay::DelaunayVertex>& v
   delaunay::Insertion insertion(d);
   std::uint32_t start = 0;
   for (std::uint32_t i = 4; i < order.size(); ++i) {
-    d.vertices.push_back({vertices[order[i]].point, i, 0});
-    EXPECT_TRUE(insertion.find_cavity(i, start));
+    EXPECT_TRUE(insertion.find_cavity(d.add_vertex(vertices[order[i]].point), start));
     start = insertion.fill_cavity();
   }
   for (delaunay::Cell& cell : d.cells)
@@ -206,8 +205,7 @@ delaunay::Delaunay build_and_insert(const std::vector<Point3>& points, const Bui
   delaunay::Delaunay d = build({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2)});
   delaunay::Insertion insertion(d);
   for (std::size_t i = d.vertices.size(); i < points.size(); ++i) {
-    d.vertices.push_back({points[i], static_cast<std::uint32_t>(i), 0});
-    EXPECT_TRUE(insertion.find_cavity(static_cast<std::uint32_t>(i), d.vertices[i % (points.size() / 2)].cell));
+    EXPECT_TRUE(insertion.find_cavity(d.add_vertex(points[i]), d.cell_at[i % (points.size() / 2)]));
     insertion.fill_cavity();
   }
   return d;
