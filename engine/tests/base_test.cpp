@@ -1,12 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/base/hash_table.h"
+#include "engine/base/parallel.h"
+#include "engine/base/sort_in_buckets.h"
 
 namespace ccdt {
 namespace {
@@ -36,6 +41,26 @@ TEST(HashTable, HoldsWhatAMapHoldsAfterRandomInsertionsAndRemovals) {
   std::map<std::uint32_t, int> all;
   table.for_each([&](std::uint32_t key, int value) { all[key] = value; });
   EXPECT_EQ(all, map);
+}
+
+/// Few and many items, in few and many buckets, so that all of them are in one range, in some or in each.
+TEST(SortInBuckets, OrdersAsASortDoes) {
+  using Item = std::pair<std::uint32_t, std::uint32_t>;
+  std::mt19937 random(17);
+  for (const std::size_t count : {0, 1, 2, 1000, 40000, 150000}) {
+    for (const std::uint32_t buckets : {1u, 2u, 255u, 256u, 257u, 30000u, 2000000u}) {
+      std::vector<Item> items;
+      for (std::uint32_t i = 0; i < count; ++i) items.push_back({static_cast<std::uint32_t>(random() % buckets), i});
+      std::ranges::shuffle(items, random);
+      std::vector<Item> expected = items;
+      std::ranges::sort(expected);
+      for (const unsigned threads : {1u, 3u}) {
+        std::vector<Item> sorted = items;
+        with_threads(threads, [&] { sort_in_buckets(sorted, [](const Item& item) { return item.first; }); });
+        ASSERT_EQ(sorted, expected) << count << " items, " << buckets << " buckets, " << threads << " threads";
+      }
+    }
+  }
 }
 
 TEST(Errors, GetTheNameOfTheFileUnlessTheyHaveOne) {

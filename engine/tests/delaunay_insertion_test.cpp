@@ -101,7 +101,7 @@ TEST(Insertion, TheCavityIsClosedAndItsFacesLookAtTheNewVertex) {
   for (const NamedPoints& set : small_sets()) {
     delaunay::Delaunay d = delaunay::build_delaunay(std::span(set.points).first(set.points.size() - 1));
     delaunay::Insertion insertion(d);
-    ASSERT_TRUE(insertion.find_cavity(add_vertex(d, set.points.back()), first_living_cell(d))) << set.name;
+    ASSERT_TRUE(insertion.find_cavity(d.add_vertex(set.points.back()), first_living_cell(d))) << set.name;
     std::set<std::uint32_t> outside;
     for (const delaunay::CavityFace& face : insertion.cavity_faces()) {
       const delaunay::Cell& cell = d.cells[delaunay::cell_of(face.outside)];
