@@ -1,11 +1,12 @@
 #include "engine/base/morton.h"
 
 #include <algorithm>
-#include <boost/sort/spreadsort/integer_sort.hpp>
+#include <bit>
 #include <utility>
 
 #include "engine/base/box.h"
-#include "engine/base/sort_in_runs.h"
+#include "engine/base/parallel.h"
+#include "engine/base/sort_in_buckets.h"
 
 namespace ccdt {
 
@@ -15,14 +16,26 @@ bool less(const KeyedIndex& a, const KeyedIndex& b) {
   return a.key != b.key ? a.key < b.key : a.index < b.index;
 }
 
+/// How many bits the keys have.
+int bits_of_keys(const RawVector<KeyedIndex>& items) {
+  std::uint64_t all = 0;
+  for (const std::uint64_t some : parallel_chunks(items.size(), 1 << 16, [&](std::size_t i, std::size_t end) {
+         std::uint64_t bits = 0;
+         for (; i < end; ++i) bits |= items[i].key;
+         return bits;
+       }))
+    all |= some;
+  return std::bit_width(all);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> sorted_by_key(RawVector<KeyedIndex> items) {
-  const auto digits = [](const KeyedIndex& k, unsigned offset) { return k.key >> offset; };
-  const auto sort_run = [&](auto first, auto last) {
-    boost::sort::spreadsort::integer_sort(first, last, digits, less);
-  };
-  sort_in_runs(items, sort_run, less);
+  // At least as many buckets as items.
+  const int bits = std::bit_width(items.size());
+  const int shift = std::max(0, bits_of_keys(items) - bits);
+  sort_in_buckets(
+      items, [&](const KeyedIndex& item) { return static_cast<std::uint32_t>(item.key >> shift); }, less);
   std::vector<std::uint32_t> order(items.size());
   parallel_for(items.size(), 4096, [&](std::size_t i) { order[i] = items[i].index; });
   return order;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,63 +14,96 @@
 
 namespace ccdt {
 
+namespace bucket_sort {
+
+/// Items go to ranges of buckets first.
+inline constexpr std::size_t range_count = 256;
+inline constexpr std::size_t chunk_length = 1 << 15;        ///< of loops on several threads
+using Places = std::array<std::uint32_t, range_count + 1>;  ///< where each range begins, and the end
+
+/// One more than the greatest bucket.
+template <class Items, class BucketOf>
+std::size_t count_buckets(const Items& items, const BucketOf& bucket_of) {
+  const auto counts = parallel_chunks(items.size(), chunk_length, [&](std::size_t i, std::size_t end) {
+    std::size_t count = 0;
+    for (; i < end; ++i) count = std::max(count, std::size_t{bucket_of(items[i])} + 1);
+    return count;
+  });
+  return counts.empty() ? 0 : std::ranges::max(counts);
+}
+
+/// \param[out] places  where each chunk of the items begins in each range
+template <class Items, class RangeOf>
+Places find_places(const Items& items, const RangeOf& range_of, std::vector<Places>& places) {
+  places = parallel_chunks(items.size(), chunk_length, [&](std::size_t i, std::size_t end) {
+    Places counts{};
+    for (; i < end; ++i) ++counts[range_of(items[i])];
+    return counts;
+  });
+  Places first;
+  std::uint32_t size = 0;
+  for (std::size_t range = 0; range <= range_count; ++range) {
+    first[range] = size;
+    for (Places& of_chunk : places) size += std::exchange(of_chunk[range], size);
+  }
+  return first;
+}
+
+/// Puts the items from `first` to `last` into order, where they go to `sorted`.
+///
+/// \param bucket_of  of an item, counted from the first one of the range
+/// \param end_of     working memory: as many zeros as there are buckets in the range
+template <class Item, class BucketOf, class Less, class Items>
+void sort_range(const RawVector<Item>& items, std::uint32_t first, std::uint32_t last, const BucketOf& bucket_of,
+                const Less& less, std::vector<std::uint32_t>& end_of, Items& sorted) {
+  for (std::uint32_t i = first; i < last; ++i) ++end_of[bucket_of(items[i])];
+  std::uint32_t begin = first;
+  for (std::uint32_t& end : end_of) begin += std::exchange(end, begin);
+  // So far each entry is where the bucket begins. Each item moves it on, to where the bucket ends.
+  for (std::uint32_t i = first; i < last; ++i) sorted[end_of[bucket_of(items[i])]++] = items[i];
+  begin = first;
+  for (std::uint32_t& end : end_of) {
+    std::sort(sorted.begin() + begin, sorted.begin() + end, less);
+    begin = std::exchange(end, 0);
+  }
+}
+
+}  // namespace bucket_sort
+
 /// Sorts items by a small integer of each, their bucket, and then within each bucket, on several threads. That is fast
 /// if there are a few items in a bucket.
 ///
-/// All items go to 256 ranges of buckets first. Each thread counts and places its own, so that no two write to the same
+/// All items go to ranges of buckets first. Each thread counts and places its own, so that no two write to the same
 /// place, and then sorts whole ranges, which fit into its cache.
 ///
 /// \param bucket_of  of an item: the order of the buckets is part of the order of the items
 /// \param less       a strict order: no two items are alike, or it does not matter which one comes first
 template <class Items, class BucketOf, class Less = std::less<>>
 void sort_in_buckets(Items& items, const BucketOf& bucket_of, const Less& less = {}) {
-  constexpr std::size_t ranges = 256, chunk_length = 1 << 15;
-  using Places = std::array<std::uint32_t, ranges>;
-  const auto chunks = [&](const auto& work) { return parallel_chunks(items.size(), chunk_length, work); };
-  std::size_t buckets = 0;
-  for (const std::size_t most : chunks([&](std::size_t i, std::size_t end) {
-         std::size_t most_here = 0;
-         for (; i < end; ++i) most_here = std::max<std::size_t>(most_here, std::size_t{bucket_of(items[i])} + 1);
-         return most_here;
-       }))
-    buckets = std::max(buckets, most);
+  using namespace bucket_sort;
+  using Item = typename Items::value_type;
+  const std::size_t buckets = count_buckets(items, bucket_of);
   if (buckets > 4 * items.size()) return sort_in_runs(items, less);
 
-  const int shift =
-      std::max(0, static_cast<int>(std::bit_width(buckets)) - static_cast<int>(std::bit_width(ranges - 1)));
-  const auto range_of = [&](std::size_t i) { return std::size_t{bucket_of(items[i])} >> shift; };
-  std::vector<Places> places = chunks([&](std::size_t i, std::size_t end) {
-    Places counts{};
-    for (; i < end; ++i) ++counts[range_of(i)];
-    return counts;
-  });
-  std::array<std::uint32_t, ranges + 1> first{};
-  for (std::size_t range = 0, size = 0; range < ranges; ++range) {
-    first[range] = static_cast<std::uint32_t>(size);
-    for (Places& of_chunk : places) size += std::exchange(of_chunk[range], static_cast<std::uint32_t>(size));
-    first[range + 1] = static_cast<std::uint32_t>(size);
-  }
-  RawVector<typename Items::value_type> in_ranges(items.size());
+  int shift = 0;
+  while (buckets > range_count << shift) ++shift;
+  const auto range_of = [&](const Item& item) { return std::size_t{bucket_of(item)} >> shift; };
+  std::vector<Places> places;
+  const Places first = find_places(items, range_of, places);
+  // One thread alone would sort a range that has most of the items.
+  for (std::size_t range = 0; range < range_count; ++range)
+    if (first[range + 1] - first[range] > items.size() / 2) return sort_in_runs(items, less);
+
+  RawVector<Item> in_ranges(items.size());
   parallel_for(places.size(), 1, [&](std::size_t chunk) {
     const std::size_t end = std::min(items.size(), (chunk + 1) * chunk_length);
-    for (std::size_t i = chunk * chunk_length; i < end; ++i) in_ranges[places[chunk][range_of(i)]++] = items[i];
+    for (std::size_t i = chunk * chunk_length; i < end; ++i) in_ranges[places[chunk][range_of(items[i])]++] = items[i];
   });
-
-  parallel_ranges(ranges, 1, [&](std::size_t range, std::size_t last_range) {
-    std::vector<std::uint32_t> ends(std::size_t{1} << shift);
-    for (; range < last_range; ++range) {
-      const auto bucket_here = [&](std::size_t i) { return bucket_of(in_ranges[i]) - (range << shift); };
-      std::ranges::fill(ends, 0);
-      for (std::size_t i = first[range]; i < first[range + 1]; ++i) ++ends[bucket_here(i)];
-      std::uint32_t begin = first[range];
-      for (std::uint32_t& end : ends) begin += std::exchange(end, begin);
-      // So far each entry is where the bucket begins. Each item moves it on, to where the bucket ends.
-      for (std::size_t i = first[range]; i < first[range + 1]; ++i) items[ends[bucket_here(i)]++] = in_ranges[i];
-      begin = first[range];
-      for (const std::uint32_t end : ends) {
-        std::sort(items.begin() + begin, items.begin() + end, less);
-        begin = end;
-      }
+  parallel_ranges(range_count, 1, [&](std::size_t range, std::size_t end) {
+    std::vector<std::uint32_t> end_of(std::size_t{1} << shift, 0);
+    for (; range < end; ++range) {
+      const auto bucket_here = [&](const Item& item) { return bucket_of(item) - (range << shift); };
+      sort_range(in_ranges, first[range], first[range + 1], bucket_here, less, end_of, items);
     }
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <utility>
 
 #include "engine/base/box.h"
@@ -15,33 +16,37 @@ namespace {
 constexpr int bits_per_axis = 20;
 constexpr int round_shift = 3 * bits_per_axis;  // rounds above the 60 bits of the curve
 
-constexpr std::size_t lanes = 16;  ///< points that are computed at the same time
+constexpr std::size_t lanes = 8;  ///< points that are computed at the same time
 using Coordinates = std::array<std::array<std::uint32_t, lanes>, 3>;
+
+using NumberLanes = std::uint32_t __attribute__((vector_size(32)));
 
 /// Distances along the Hilbert curve of points of the cube [0, 2^bits)^3 (Skilling 2004: transpose form, then
 /// interleaved), without branches.
-CCDT_WIDE_LANES void hilbert_distances(Coordinates& x, std::array<std::uint64_t, lanes>& distances) {
+CCDT_WIDE_LANES void hilbert_distances(const Coordinates& coordinates, std::array<std::uint64_t, lanes>& distances) {
+  NumberLanes x, y, z;
+  std::memcpy(&x, &coordinates[0], sizeof x);
+  std::memcpy(&y, &coordinates[1], sizeof y);
+  std::memcpy(&z, &coordinates[2], sizeof z);
   for (int bit = bits_per_axis - 1; bit > 0; --bit) {
-    const std::uint32_t below = (1u << bit) - 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        // Inverts the lower bits of the first axis, or exchanges them with those of this axis.
-        const std::uint32_t is_set = 0u - (x[i][lane] >> bit & 1u);
-        const std::uint32_t exchanged = (x[0][lane] ^ x[i][lane]) & below & ~is_set;
-        x[0][lane] ^= exchanged | (below & is_set);
-        if (i > 0) x[i][lane] ^= exchanged;
-      }
-    }
+    // Inverts the lower bits of the first axis, or exchanges them with those of another axis.
+    const NumberLanes below = NumberLanes{} + ((1u << bit) - 1);
+    x ^= below & -(x >> bit & 1u);
+    const NumberLanes y_is_set = -(y >> bit & 1u), with_y = (x ^ y) & below & ~y_is_set;
+    x ^= with_y | (below & y_is_set);
+    y ^= with_y;
+    const NumberLanes z_is_set = -(z >> bit & 1u), with_z = (x ^ z) & below & ~z_is_set;
+    x ^= with_z | (below & z_is_set);
+    z ^= with_z;
   }
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    x[1][lane] ^= x[0][lane];
-    x[2][lane] ^= x[1][lane];
-    // Gray code: a bit is inverted for each higher one that is set.
-    std::uint32_t t = x[2][lane] >> 1;
-    for (int shift = 1; shift < bits_per_axis; shift *= 2) t ^= t >> shift;
-    for (std::size_t i = 0; i < 3; ++i) x[i][lane] ^= t;
-    distances[lane] = spread_bits(x[0][lane]) << 2 | spread_bits(x[1][lane]) << 1 | spread_bits(x[2][lane]);
-  }
+  y ^= x;
+  z ^= y;
+  // Gray code: a bit is inverted for each higher one that is set.
+  NumberLanes t = z >> 1;
+  for (int shift = 1; shift < bits_per_axis; shift *= 2) t ^= t >> shift;
+  x ^= t, y ^= t, z ^= t;
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    distances[lane] = spread_bits(x[lane]) << 2 | spread_bits(y[lane]) << 1 | spread_bits(z[lane]);
 }
 
 /// A well-mixed hash of an index: the random bits of the rounds, the same on every machine.

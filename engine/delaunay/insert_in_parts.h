@@ -16,12 +16,12 @@ namespace ccdt::delaunay {
 /// Inserts vertices on several threads, without locks (after Marot, Pellerin and Remacle 2019, "One machine, one
 /// minute, three billion tetrahedra", who cut along a space-filling curve).
 ///
-/// Planes cut space into parts. A cell belongs to a part if all its finite vertices do; otherwise it is shared, which
-/// is found when a thread first sees it. A thread inserts the vertices of one part. It removes only cells of its part,
-/// and all cells that it makes belong to its part too, because the border of its cavities has no other vertices. Shared
-/// cells stay: all threads may read their vertices, and each of their neighbor codes is written only by the one part
-/// that has the face. So a thread may walk through them, and back into its part. A vertex whose cavity would contain a
-/// shared cell waits, and is tried again with other parts.
+/// Planes cut space into parts. A cell belongs to a part if all its finite vertices do; otherwise it is shared. A
+/// thread inserts the vertices of one part. It removes only cells of its part, and all cells that it makes belong to
+/// its part too, because the border of its cavities has no other vertices. Shared cells stay: all threads may read
+/// their vertices, and each of their neighbor codes is written only by the one part that has the face. So a thread may
+/// walk through them, and back into its part. A vertex whose cavity would contain a shared cell waits, and is tried
+/// again with other parts.
 ///
 /// The Delaunay tetrahedralization is unique, so its cells do not depend on the parts or the threads. The order of the
 /// cells does.
