@@ -340,7 +340,8 @@ class FacetMesher {
   int domain_side_ = 1;  // of the current facet; +1: above
 };
 
-/// Calls `work(mesher, begin, end)` for chunks of 0 .. count, on several threads, in any order.
+/// Calls `work(mesher, begin, end)` for chunks of 0 .. count, on several threads, in any order. A thread ends when its
+/// call returns false.
 template <class Work>
 void in_chunks(const FacetMesher& first, std::size_t count, const Work& work) {
   std::vector<FacetMesher> meshers(std::min<std::size_t>(thread_count(), count / facets_a_chunk + 1), first);
