@@ -244,8 +244,8 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
 }
 
 /// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
-/// pass in opposite directions: each one leaves its code in the table, then each finds that of the other. (There are no
-/// branches that depend on the mesh.)
+/// pass in opposite directions: each one leaves its code in the table, then each finds that of the other. (No branch
+/// depends on which vertices and edges were met before, since that is unpredictable.)
 void Insertion::connect_by_table() {
   struct Corners {
     std::array<std::uint8_t, 3> local;
