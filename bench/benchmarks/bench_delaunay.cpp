@@ -85,7 +85,7 @@ struct Insert {
 struct Wrap {
   static constexpr const char* name = "wrap";
   static constexpr std::int64_t largest = 100000;  // beyond that, wrapping takes seconds
-  using Input = std::vector<delaunay::DelaunayVertex>;
+  using Input = delaunay::DelaunayVertices;
   using Result = delaunay::Delaunay;
 
   static Input prepare(const std::vector<Point3>& points) {

@@ -67,8 +67,8 @@ void make_first_cells(Delaunay& d) {
 
 /// Converts places in the insertion order back to ids.
 void renumber(Delaunay& d, const std::vector<std::uint32_t>& order) {
-  std::vector<DelaunayVertex> by_id(order.size());
-  std::vector<std::uint32_t> cell_at(order.size());
+  DelaunayVertices by_id(order.size());
+  RawVector<std::uint32_t> cell_at(order.size());
   parallel_for(order.size(), 4096,
                [&](std::size_t i) { by_id[order[i]] = d.vertices[i], cell_at[order[i]] = d.cell_at[i]; });
   d.vertices = std::move(by_id);
@@ -104,9 +104,10 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   const std::vector<std::uint32_t> order = insertion_order(points);
   Delaunay d;
   d.vertices.resize(points.size());
-  d.cell_at.resize(points.size(), no_cell);
+  d.cell_at.resize(points.size());
   parallel_for(order.size(), 4096, [&](std::size_t i) {
     d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i)};
+    d.cell_at[i] = no_cell;
   });
   make_first_cells(d);
   std::vector<std::uint32_t> others(d.vertices.size() - 4);

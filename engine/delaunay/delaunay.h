@@ -23,6 +23,8 @@ struct alignas(32) DelaunayVertex {
   std::uint32_t rank = 0;
 };
 
+using DelaunayVertices = RawVector<DelaunayVertex>;
+
 /// The coordinates, and in the fourth lane anything.
 CCDT_ALWAYS_INLINE void load(const DelaunayVertex& v, numbers::Lanes& result) {
   static_assert(sizeof v == sizeof result);
@@ -78,8 +80,8 @@ inline void join_faces(LargeVector<Cell>& cells, std::uint32_t a, std::uint32_t 
 /// The Delaunay tetrahedralization of points on the dyadic grid, unique by perturbation (predicates.h). A flat
 /// structure: cells and vertices are indices into arrays. Cells whose place can be reused are dead.
 struct Delaunay {
-  std::vector<DelaunayVertex> vertices;  ///< by id
-  std::vector<std::uint32_t> cell_at;    ///< by vertex: a cell with it; `no_cell`: it waits to be inserted
+  DelaunayVertices vertices;         ///< by id
+  RawVector<std::uint32_t> cell_at;  ///< by vertex: a cell with it; `no_cell`: it waits to be inserted
   LargeVector<Cell> cells;
   std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
@@ -129,7 +131,7 @@ std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points);
 /// \param grid_scale  factor of the paper's size of the grid's cells
 /// \return  without dead cells
 /// \throw MeshError  as build_delaunay
-Delaunay wrap_delaunay(std::vector<DelaunayVertex> vertices, double grid_scale = 1, const Progress& progress = {});
+Delaunay wrap_delaunay(DelaunayVertices vertices, double grid_scale = 1, const Progress& progress = {});
 
 /// Adds points as vertices, in the order of a Hilbert curve. Their ids, and their ranks too, follow the existing ones.
 /// They have no cells yet: those are made by `insert_vertices`, or all anew by `wrap_delaunay`.

@@ -5,6 +5,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/sort_in_runs.h"
 
 namespace ccdt::delaunay {
 namespace {
@@ -21,36 +22,42 @@ constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
 constexpr std::size_t sample_size = 4096;
 /// More than this many cells per new vertex are rare; then the rest of a part waits.
 constexpr std::size_t most_cells_of_vertex = 8;
+/// Places for cells are taken by so many parts of what a part needs, but not in chunks of more than a large page. In
+/// small chunks, several threads use a new page at the same time, and the system clears one for each of them.
+constexpr std::size_t chunks_of_part = 16, least_chunk = 512, most_chunk = 65536;
 constexpr std::size_t report_every = 4096;
+
+std::size_t chunk_of(std::size_t vertices, std::size_t parts) {
+  return std::clamp(most_cells_of_vertex * vertices / (parts * chunks_of_part), least_chunk, most_chunk);
+}
 
 }  // namespace
 
-PartedInsertion::PartedInsertion(Delaunay& d) : d_(d), part_(d.vertices.size()) {
+PartedInsertion::PartedInsertion(Delaunay& d, InsertionMarks& marks) : d_(d), part_(d.vertices.size()), marks_(marks) {
   marks_.local.resize(d.vertices.size(), InsertionMarks::no_local);
+  marks_.in_cavity.reserve(d.cells.capacity());
 }
 
 std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t> vertices,
                                                    std::vector<std::uint32_t> waiting, std::size_t done,
                                                    std::size_t total, const Progress& progress) {
   SharedProgress shared(progress, "delaunay", done, total);
-  waiting.insert(waiting.end(), vertices.begin(), vertices.end());
-  std::size_t with_lower_rank = waiting.size() - vertices.size();
+  std::span<const std::uint32_t> those = vertices;
   for (std::size_t p = 0; p < bases.size(); ++p) {
-    const auto those = std::span(waiting).subspan(with_lower_rank);
     const std::size_t parts = std::min<std::size_t>(thread_count(), those.size() / least_part);
     if (parts < 2 || (p > 0 && those.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
     cut(those, static_cast<std::uint32_t>(parts), bases[p]);
     const auto left = pass(those, p, shared);
-    waiting.resize(with_lower_rank);
+    if (p > 0) waiting.clear();
     waiting.insert(waiting.end(), left.begin(), left.end());
-    with_lower_rank = 0;
+    those = waiting;
   }
   return waiting;
 }
 
 std::size_t PartedInsertion::most_cells(std::size_t vertices) {
   // Those of the vertices that are in, and room for those that wait, which are few.
-  return (most_cells_of_vertex + 1) * vertices + 4 * thread_count() * CellPool::chunk;
+  return (most_cells_of_vertex + 1) * vertices + 4 * thread_count() * chunk_of(vertices, thread_count());
 }
 
 void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis) {
@@ -74,63 +81,80 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   });
 }
 
+/// Marks for all cells.
+void PartedInsertion::add_marks() {
+  const std::size_t old = std::min(marks_.in_cavity.size(), d_.cells.size());
+  marks_.in_cavity.resize(d_.cells.size());
+  parallel_fill(std::span(marks_.in_cavity).subspan(old), std::uint8_t{0});
+}
+
 std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, std::size_t number,
                                                  SharedProgress& progress) {
-  std::vector<std::vector<std::uint32_t>> of_part(start_.size());
-  for (const std::uint32_t v : vertices) of_part[part_[v]].push_back(v);
-  const std::size_t old = d_.cells.size(), chunk = CellPool::chunk;
-  const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * start_.size()) * chunk;
+  const std::size_t old = d_.cells.size(), parts = start_.size(), chunk = chunk_of(vertices.size(), parts);
+  const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * parts) * chunk;
   d_.cells.resize(old + room);
-  marks_.in_cavity.resize(old + room, 0);
-  CellPool pool{static_cast<std::uint32_t>(old), static_cast<std::uint32_t>(old + room)};
+  add_marks();
+  CellPool pool{static_cast<std::uint32_t>(chunk), static_cast<std::uint32_t>(old + room),
+                static_cast<std::uint32_t>(old)};
+  const std::vector<std::uint32_t> free = std::move(d_.free_cells);
+  d_.free_cells.clear();
   done_parts_ = 0;
-  parallel_for(start_.size(), 1, [&](std::size_t part) {
-    of_part[part] = insert_part(static_cast<Part>(part), of_part[part], number, pool, progress);
+  std::vector<std::vector<std::uint32_t>> waiting_of(parts);
+  parallel_for(parts, 1, [&](std::size_t part) {
+    const std::size_t begin = free.size() * part / parts, end = free.size() * (part + 1) / parts;
+    waiting_of[part] = insert_part(static_cast<Part>(part), vertices, number, pool,
+                                   std::span(free).subspan(begin, end - begin), progress);
   });
   d_.cells.resize(std::min(pool.next.load(), pool.end));
-  for (const std::uint32_t c : unused_) {
-    d_.cells[c] = {{}, {no_neighbor}};
-    d_.free_cells.push_back(c);
-  }
-  unused_.clear();
   note_bytes(
       bytes_of(vertices, d_.vertices, d_.cell_at, d_.cells, d_.free_cells, part_, marks_.in_cavity, marks_.local));
   std::vector<std::uint32_t> waiting;
-  for (const auto& of_one : of_part) waiting.insert(waiting.end(), of_one.begin(), of_one.end());
-  std::ranges::sort(waiting);
+  for (const auto& of_one : waiting_of) waiting.insert(waiting.end(), of_one.begin(), of_one.end());
+  sort_in_runs(waiting);
   return waiting;
 }
 
-/// \return  the vertices that wait
 std::vector<std::uint32_t> PartedInsertion::insert_part(Part part, std::span<const std::uint32_t> vertices,
-                                                        std::size_t number, CellPool& pool, SharedProgress& progress) {
+                                                        std::size_t number, CellPool& pool,
+                                                        std::span<const std::uint32_t> free, SharedProgress& progress) {
+  Insertion insertion(d_, marks_, {part_, part}, pool, free);
+  std::vector<std::uint32_t> waiting = insert_in_order(insertion, part, vertices, number, progress);
+  for (const std::uint32_t c : insertion.free_places()) d_.cells[c] = {{}, {no_neighbor}};
+  const std::lock_guard lock(mutex_);
+  d_.free_cells.insert(d_.free_cells.end(), insertion.free_places().begin(), insertion.free_places().end());
+  return waiting;
+}
+
+std::vector<std::uint32_t> PartedInsertion::insert_in_order(Insertion& insertion, Part part,
+                                                            std::span<const std::uint32_t> vertices, std::size_t number,
+                                                            SharedProgress& progress) {
   std::uint32_t last = start_[part];
-  if (last == no_cell) return {vertices.begin(), vertices.end()};
-  Insertion insertion(d_, marks_, {part_, part}, pool);
   const Ties ties = number == 0 ? Ties::greatest_rank : Ties::any_rank;
   // Parts do not take the same time. When half of them are done, the next pass divides what is left of the others. A
   // part that begins only then, because no thread was free before, is not stopped.
   const auto are_half_done = [&] { return 2 * done_parts_.load(std::memory_order_relaxed) >= start_.size(); };
   const bool may_stop = number + 1 < bases.size() && !are_half_done();
   std::vector<std::uint32_t> waiting;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (may_stop && are_half_done()) {
-      waiting.insert(waiting.end(), vertices.begin() + static_cast<std::ptrdiff_t>(i), vertices.end());
-      break;
+  std::size_t tried = 0;
+  bool is_stopped = last == no_cell;
+  for (const std::uint32_t v : vertices) {
+    if (part_[v] != part) continue;
+    is_stopped = is_stopped || (may_stop && are_half_done());
+    if (is_stopped) {
+      waiting.push_back(v);
+      continue;
     }
-    if (i % report_every == report_every - 1 && !progress.add(report_every)) break;
-    if (insertion.find_cavity(vertices[i], last, ties) && insertion.has_room()) {
+    if (++tried % report_every == 0 && !progress.add(report_every)) break;
+    if (insertion.find_cavity(v, insertion.cell_near(v, last), ties) && insertion.has_room()) {
       last = insertion.fill_cavity();
     } else {
       insertion.discard_cavity();
       last = insertion.reached();
-      waiting.push_back(vertices[i]);
+      waiting.push_back(v);
     }
   }
   // A part may also be done early because many of its vertices wait.
-  if (4 * waiting.size() < vertices.size()) ++done_parts_;
-  const std::lock_guard lock(mutex_);
-  unused_.insert(unused_.end(), insertion.unused_places().begin(), insertion.unused_places().end());
+  if (4 * waiting.size() < tried) ++done_parts_;
   return waiting;
 }
 

@@ -27,8 +27,8 @@ namespace ccdt::delaunay {
 /// cells does.
 class PartedInsertion {
  public:
-  /// \param d  with a list of all vertices; must outlive this
-  explicit PartedInsertion(Delaunay& d);
+  /// \param d  with a list of all vertices; must outlive this, and so must the marks
+  PartedInsertion(Delaunay& d, InsertionMarks& marks);
 
   /// \param vertices     in the order of their ranks, which are greater than those of all vertices that have cells
   /// \param waiting      what the call before returned; these vertices are tried again after the others
@@ -43,20 +43,23 @@ class PartedInsertion {
  private:
   using Part = InsertionParts::Part;
 
+  void add_marks();
   void cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis);
   /// \param number  of the pass, from 0
   std::vector<std::uint32_t> pass(std::span<const std::uint32_t> vertices, std::size_t number,
                                   SharedProgress& progress);
+  /// \return  the vertices that wait
   std::vector<std::uint32_t> insert_part(Part part, std::span<const std::uint32_t> vertices, std::size_t number,
-                                         CellPool& pool, SharedProgress& progress);
+                                         CellPool& pool, std::span<const std::uint32_t> free, SharedProgress& progress);
+  std::vector<std::uint32_t> insert_in_order(Insertion& insertion, Part part, std::span<const std::uint32_t> vertices,
+                                             std::size_t number, SharedProgress& progress);
 
   Delaunay& d_;
   std::vector<Part> part_;                         ///< by vertex
   std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell with a vertex of it; `no_cell`: none
-  InsertionMarks marks_;
+  InsertionMarks& marks_;
   std::atomic<std::size_t> done_parts_ = 0;  ///< of this pass
-  std::mutex mutex_;
-  std::vector<std::uint32_t> unused_;  ///< places for cells that a pass has left over; guarded by the mutex
+  std::mutex mutex_;                         ///< guards the list of dead cells during a pass
 };
 
 }  // namespace ccdt::delaunay

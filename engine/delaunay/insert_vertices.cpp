@@ -15,12 +15,12 @@ namespace {
 
 /// Inserts vertices one after the other.
 /// \param done, total  what to report of the whole stage
-void insert_in_order(Delaunay& d, std::span<const std::uint32_t> vertices, Ties ties, std::size_t done,
-                     std::size_t total, const Progress& progress) {
-  Insertion insertion(d);
+void insert_in_order(Delaunay& d, InsertionMarks& marks, std::span<const std::uint32_t> vertices, Ties ties,
+                     std::size_t done, std::size_t total, const Progress& progress) {
+  Insertion insertion(d, marks);
   std::uint32_t last = d.cell_at[0];
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    insertion.find_cavity(vertices[i], last, ties);
+    insertion.find_cavity(vertices[i], insertion.cell_near(vertices[i], last), ties);
     last = insertion.fill_cavity();
     if ((i & 0xFFFF) == 0) report(progress, "delaunay", done + i, total);
   }
@@ -59,35 +59,37 @@ std::size_t most_new_cells(std::size_t vertices) {
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {
   reserve_cells(d,
                 std::max(d.cells.size() + most_new_cells(vertices.size()), cells_of_surface_vertex * vertices.size()));
+  InsertionMarks marks;
   if (!are_several_worth_it(vertices.size())) {
-    insert_in_order(d, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
+    insert_in_order(d, marks, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
     return;
   }
   // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere. The
   // vertices of a surface around them do not count: the cells between these cross the whole inside, so all would wait.
   std::size_t first = vertices.size();
   while (first >= growth * least_first) first /= growth;
-  insert_in_order(d, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
-  PartedInsertion parted(d);
+  insert_in_order(d, marks, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
+  PartedInsertion parted(d, marks);
   std::vector<std::uint32_t> waiting;
   for (std::size_t begin = first, end = 0; begin < vertices.size(); begin = end) {
     end = 2 * growth * begin < vertices.size() ? growth * begin : vertices.size();
     waiting = parted.insert(vertices.subspan(begin, end - begin), std::move(waiting), begin, vertices.size(), progress);
     if (waiting.size() < (end - begin) / 4) continue;
     // Without them, the cells of the next round would be too large.
-    insert_in_order(d, waiting, Ties::any_rank, end - waiting.size(), vertices.size(), progress);
+    insert_in_order(d, marks, waiting, Ties::any_rank, end - waiting.size(), vertices.size(), progress);
     waiting.clear();
   }
-  insert_in_order(d, waiting, Ties::any_rank, vertices.size() - waiting.size(), vertices.size(), progress);
+  insert_in_order(d, marks, waiting, Ties::any_rank, vertices.size() - waiting.size(), vertices.size(), progress);
 }
 
 std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points) {
   std::vector<std::uint32_t> order = hilbert_order(points);
   const std::size_t first = d.vertices.size();
   d.vertices.resize(first + points.size());
-  d.cell_at.resize(first + points.size(), no_cell);
+  d.cell_at.resize(first + points.size());
   parallel_for(points.size(), 4096, [&](std::size_t i) {
     d.vertices[first + i] = {points[order[i]], static_cast<std::uint32_t>(first + i)};
+    d.cell_at[first + i] = no_cell;
   });
   return order;
 }

@@ -20,10 +20,19 @@ constexpr std::uint8_t no_local = InsertionMarks::no_local;
 
 }  // namespace
 
-Insertion::Insertion(Delaunay& delaunay) : d_(delaunay), marks_(own_marks_), table_(table_side * table_side) {}
+Insertion::Insertion(Delaunay& delaunay) : Insertion(delaunay, own_marks_) {}
 
-Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool)
-    : d_(delaunay), marks_(marks), parts_(parts), pool_(&pool), table_(table_side * table_side) {}
+Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks)
+    : d_(delaunay), marks_(marks), table_(table_side * table_side) {}
+
+Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool,
+                     std::span<const std::uint32_t> free)
+    : d_(delaunay),
+      marks_(marks),
+      parts_(parts),
+      pool_(&pool),
+      free_places_(free.begin(), free.end()),
+      table_(table_side * table_side) {}
 
 bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
   v_ = v;
@@ -35,7 +44,7 @@ bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
     if (marks_.local.size() < d_.vertices.size()) marks_.local.resize(d_.vertices.capacity(), no_local);
   }
   const unsigned turn = turn_;
-  const std::uint32_t first = reached_ = walk(p_, start);
+  const std::uint32_t first = reached_ = pool_ == nullptr ? walk<false>(p_, start) : walk<true>(p_, start);
   work_done.walk_steps += turn_ - turn;
   if (is_shared(first)) return false;
   for (const std::uint32_t corner : d_.cells[first].vertices) {
@@ -101,6 +110,12 @@ CCDT_WIDE_LANES bool Insertion::spread_in_part(std::uint32_t first) {
   return grow_cavity<true>(first);
 }
 
+std::uint32_t Insertion::cell_near(std::uint32_t v, std::uint32_t other) const {
+  if (v == 0 || (pool_ != nullptr && parts_.of_vertex[v - 1] != parts_.own)) return other;
+  const std::uint32_t cell = d_.cell_at[v - 1];
+  return cell == no_cell ? other : cell;
+}
+
 void Insertion::discard_cavity() {
   for (const std::uint32_t c : cavity_.items()) marks_.in_cavity[c] = 0;
   cavity_.size = border_.size = 0;
@@ -130,13 +145,16 @@ std::uint32_t Insertion::fill_cavity() {
 /// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell from
 /// where it would get to cells of another part. The first face to try changes from step to step, so that the walk does
 /// not favor a side.
+///
+/// \tparam in_part  may there be shared cells? A cell that is not shared is of the own part.
+template <bool in_part>
 std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   std::uint32_t from = no_neighbor;
+  bool is_shared = in_part && parts_.is_shared(d_.cells[here]);
   while (true) {
     const Cell& cell = d_.cells[here];
     if (cell.vertices[3] == ghost_vertex) return here;
-    const bool is_shared = this->is_shared(here);
     std::uint32_t exit = 4;
     ++turn_;
     for (std::uint32_t k = 0; k < 4 && exit == 4; ++k) {
@@ -148,7 +166,10 @@ std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
     }
     if (exit == 4) return here;
     from = face_code(here, exit);
-    here = cell_of(cell.neighbors[exit]);
+    const std::uint32_t code = cell.neighbors[exit];
+    here = cell_of(code);
+    if constexpr (in_part)
+      is_shared = is_shared ? parts_.is_shared(d_.cells[here]) : parts_.is_shared_behind_own(d_.cells[here], code);
   }
 }
 
@@ -195,10 +216,10 @@ bool Insertion::ghost_conflicts(const Cell& ghost) const {
 
 bool Insertion::has_room() {
   if (pool_ == nullptr) return true;
-  while (cavity_.size + places_from_pool_.size() < border_.size) {
-    const std::uint32_t first = pool_->next.fetch_add(CellPool::chunk, std::memory_order_relaxed);
-    if (first + CellPool::chunk > pool_->end) return false;
-    for (std::uint32_t i = CellPool::chunk; i-- > 0;) places_from_pool_.push_back(first + i);
+  while (cavity_.size + free_places_.size() < border_.size) {
+    const std::uint32_t first = pool_->next.fetch_add(pool_->chunk, std::memory_order_relaxed);
+    if (first + pool_->chunk > pool_->end) return false;
+    for (std::uint32_t i = pool_->chunk; i-- > 0;) free_places_.push_back(first + i);
   }
   return true;
 }

@@ -29,8 +29,8 @@ enum class Ties {
 struct InsertionMarks {
   static constexpr std::uint8_t no_local = 0xFF;
 
-  std::vector<std::uint8_t> in_cavity;  ///< by cell
-  std::vector<std::uint8_t> local;      ///< by vertex: its number among those of the cavity's border; `no_local`: none
+  RawVector<std::uint8_t> in_cavity;  ///< by cell
+  std::vector<std::uint8_t> local;    ///< by vertex: its number among those of the cavity's border; `no_local`: none
 };
 
 /// The parts of space in which several insert at the same time.
@@ -61,12 +61,11 @@ struct InsertionParts {
   }
 };
 
-/// Places for new cells, for several insertions at the same time.
+/// New places for cells, for several insertions at the same time.
 struct CellPool {
-  static constexpr std::uint32_t chunk = 512;
-
+  std::uint32_t chunk;              ///< how many places are taken at a time
+  std::uint32_t end;                ///< of all places
   std::atomic<std::uint32_t> next;  ///< the first place that is not taken
-  std::uint32_t end;
 };
 
 /// Inserts vertices into a tetrahedralization one by one, in three separate steps: find the cavity, examine it, fill
@@ -74,12 +73,16 @@ struct CellPool {
 class Insertion {
  public:
   explicit Insertion(Delaunay& delaunay);
+  /// \param marks  working memory to use instead of its own
+  Insertion(Delaunay& delaunay, InsertionMarks& marks);
   /// One of several that insert at the same time, each in its own part. It changes no shared cell, except for the codes
   /// of its own faces.
   ///
   /// \param marks  of all cells and vertices, places of the pool included
   /// \param parts  of the vertices in the tetrahedralization
-  Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool);
+  /// \param free   places of dead cells, to take before those of the pool
+  Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool,
+            std::span<const std::uint32_t> free);
 
   /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
   /// \param start  a cell to start the walk; the nearer, the faster
@@ -87,6 +90,11 @@ class Insertion {
   /// \return false if the tetrahedralization has a vertex at this point (`twin()` returns it), or if a shared
   ///         cell is in the way (`twin()` is none)
   bool find_cavity(std::uint32_t v, std::uint32_t start, Ties ties = Ties::greatest_rank);
+
+  /// Where to start the walk to a vertex: at the vertex before it, which is next to it on the Hilbert curve.
+  ///
+  /// \param other  a cell to start with if the vertex before it has no cells or is in another part
+  std::uint32_t cell_near(std::uint32_t v, std::uint32_t other) const;
 
   std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
   std::span<const CavityFace> cavity_faces() const { return border_.items(); }
@@ -99,8 +107,8 @@ class Insertion {
 
   /// Discards the cavity and changes nothing.
   void discard_cavity();
-  /// Places that were taken from the pool and are not in use.
-  std::span<const std::uint32_t> unused_places() const { return places_from_pool_; }
+  /// Places that one of several insertions has and does not use.
+  std::span<const std::uint32_t> free_places() const { return free_places_; }
   /// Is there room for the cells that will fill the cavity?
   bool has_room();
   /// Joins the new vertex to the border of the cavity, for which there must be room.
@@ -122,6 +130,7 @@ class Insertion {
   }
 
   bool is_shared(std::uint32_t cell) const { return pool_ != nullptr && parts_.is_shared(d_.cells[cell]); }
+  template <bool in_part>
   std::uint32_t walk(const Point3& p, std::uint32_t start);
   template <bool in_part>
   bool grow_cavity(std::uint32_t first);
@@ -135,7 +144,7 @@ class Insertion {
   void connect_by_table();
   void connect_by_search();
 
-  std::vector<std::uint32_t>& free_cells() { return pool_ == nullptr ? d_.free_cells : places_from_pool_; }
+  std::vector<std::uint32_t>& free_cells() { return pool_ == nullptr ? d_.free_cells : free_places_; }
   std::uint8_t& local_of(std::uint32_t v) { return v == ghost_vertex ? local_of_ghost_ : marks_.local[v]; }
 
   Delaunay& d_;
@@ -143,7 +152,7 @@ class Insertion {
   InsertionMarks& marks_;
   const InsertionParts parts_ = {};
   CellPool* const pool_ = nullptr;
-  std::vector<std::uint32_t> places_from_pool_;
+  std::vector<std::uint32_t> free_places_;  ///< with a pool
   std::uint32_t v_ = 0, twin_ = 0, reached_ = 0;
   Ties ties_ = Ties::greatest_rank;
   Point3 p_;

@@ -314,7 +314,7 @@ class Wrap {
 
 }  // namespace
 
-Delaunay wrap_delaunay(std::vector<DelaunayVertex> vertices, double grid_scale, const Progress& progress) {
+Delaunay wrap_delaunay(DelaunayVertices vertices, double grid_scale, const Progress& progress) {
   const VertexGrid grid = make_vertex_grid(vertices, grid_scale);
   const auto hull_face = HullWrapping(grid.vertices).face();
   if (!hull_face) refuse_flat_points();

@@ -22,6 +22,7 @@ namespace ccdt::facets {
 namespace {
 
 using Triangle = std::array<VertexId, 3>;
+using Vertices = std::span<const delaunay::DelaunayVertex>;
 
 /// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `planar::Predicates`).
 ///
@@ -30,10 +31,9 @@ using Triangle = std::array<VertexId, 3>;
 /// true distances and rounded to the grid, which gives points that are exactly in one plane.
 class FacetPlane {
  public:
-  FacetPlane(const std::vector<delaunay::DelaunayVertex>& vertices, const Point3& apex)
-      : vertices_(vertices), apex_(apex) {}
+  FacetPlane(Vertices vertices, const Point3& apex) : vertices_(vertices), apex_(apex) {}
   /// \param flattened  by vertex; only those of the facet are read
-  FacetPlane(const std::vector<delaunay::DelaunayVertex>& vertices, const std::vector<Point3>& flattened)
+  FacetPlane(Vertices vertices, const std::vector<Point3>& flattened)
       : vertices_(vertices), flattened_(&flattened), apex_{0, 0, 0x1p50} {}
 
   int orient(VertexId a, VertexId b, VertexId c) const { return numbers::orient3d(at(a), at(b), at(c), apex_); }
@@ -46,7 +46,7 @@ class FacetPlane {
  private:
   const Point3& at(VertexId v) const { return flattened_ ? (*flattened_)[v] : vertices_[v].point; }
 
-  const std::vector<delaunay::DelaunayVertex>& vertices_;
+  Vertices vertices_;
   const std::vector<Point3>* flattened_ = nullptr;
   Point3 apex_;
 };
@@ -57,7 +57,7 @@ class FacetPlane {
 class BentPlane {
  public:
   /// \param domain_side  +1: the domain is above the facet, -1: below
-  BentPlane(const FacetPlane& plane, const std::vector<delaunay::DelaunayVertex>& vertices, int domain_side)
+  BentPlane(const FacetPlane& plane, Vertices vertices, int domain_side)
       : plane_(plane), vertices_(vertices), domain_side_(domain_side) {}
 
   int orient(VertexId a, VertexId b, VertexId c) const { return plane_.orient(a, b, c); }
@@ -71,7 +71,7 @@ class BentPlane {
 
  private:
   const FacetPlane& plane_;
-  const std::vector<delaunay::DelaunayVertex>& vertices_;
+  Vertices vertices_;
   int domain_side_;
 };
 
@@ -82,7 +82,7 @@ struct FacetFrame {
   double scale;  ///< extent of the facet
 };
 
-FacetFrame frame_of(const plc::Facet& facet, const std::vector<delaunay::DelaunayVertex>& vertices) {
+FacetFrame frame_of(const plc::Facet& facet, Vertices vertices) {
   Point3 normal;
   const Point3& base = vertices[facet.triangles[0][0]].point;
   double scale = 1;
@@ -102,7 +102,7 @@ double power_of_two_above(double x) {
   return std::ldexp(fraction == 0.5 ? 0.5 : 1, exponent);
 }
 
-FacetPlane exact_plane(const plc::Facet& facet, const std::vector<delaunay::DelaunayVertex>& vertices) {
+FacetPlane exact_plane(const plc::Facet& facet, Vertices vertices) {
   const FacetFrame frame = frame_of(facet, vertices);
   const double up = power_of_two_above(frame.scale);
   Point3 apex = vertices[facet.triangles[0][0]].point;

@@ -211,7 +211,7 @@ delaunay.insphere_filter_failures 55
 delaunay.narrow_evaluations 132
 delaunay.exact_evaluations 132
 delaunay.insertions 59
-delaunay.walk_steps 230
+delaunay.walk_steps 225
 delaunay.cells_tested 1863
 delaunay.cells_created 1137
 delaunay.cells_destroyed 790

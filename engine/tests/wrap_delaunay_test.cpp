@@ -18,9 +18,8 @@ namespace {
 
 using namespace test;
 
-std::vector<delaunay::DelaunayVertex> with_ranks(const std::vector<Point3>& points,
-                                                 const std::vector<std::uint32_t>& ranks) {
-  std::vector<delaunay::DelaunayVertex> vertices;
+delaunay::DelaunayVertices with_ranks(const std::vector<Point3>& points, const std::vector<std::uint32_t>& ranks) {
+  delaunay::DelaunayVertices vertices;
   for (std::size_t i = 0; i < points.size(); ++i) vertices.push_back({points[i], ranks[i]});
   return vertices;
 }
@@ -155,7 +154,7 @@ TEST(WrapDelaunay, LeavesSpheresAndOuterHalfSpacesEmpty) {
 }
 
 /// Inserts the vertices in the order of their ranks; the first four are not in one plane.
-delaunay::Delaunay insert_by_rank(const std::vector<delaunay::DelaunayVertex>& vertices) {
+delaunay::Delaunay insert_by_rank(const delaunay::DelaunayVertices& vertices) {
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),
