@@ -196,8 +196,12 @@ class Clearing {
   }
 
   std::vector<std::uint8_t> clear() {
-    for (const Obstacle& o : obstacles_)
-      largest_squared_ball_radius_ = std::max(largest_squared_ball_radius_, o.squared_ball_radius);
+    for (const double largest : parallel_chunks(obstacles_.size(), 4096, [&](std::size_t i, std::size_t end) {
+           double of_these = -1;
+           for (; i < end; ++i) of_these = std::max(of_these, obstacles_[i].squared_ball_radius);
+           return of_these;
+         }))
+      largest_squared_ball_radius_ = std::max(largest_squared_ball_radius_, largest);
     std::vector<Subtree> subtrees;
     const std::size_t most_sites = thread_count() == 1 ? sites_.size() : sites_.size() / (8 * thread_count());
     divide({0, all_indices(obstacles_.size())}, most_sites, subtrees);

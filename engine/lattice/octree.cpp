@@ -4,6 +4,7 @@
 #include <bit>
 #include <boost/sort/spreadsort/integer_sort.hpp>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -128,8 +129,9 @@ Octree make_root(const DomainSurface& surface, const SizeField& size, Lattice ki
   const Point3 center = tree.bounds.center();
   tree.origin =
       Point3{on_lattice(center.x), on_lattice(center.y), on_lattice(center.z)} - 0.5 * Point3{side, side, side};
-  tree.nodes.emplace_back();
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) tree.triangles.push_back(t);
+  tree.nodes.push_back({});
+  tree.triangles.resize(surface.triangles.size());
+  std::iota(tree.triangles.begin(), tree.triangles.end(), 0u);
   tree.nodes[0].triangle_count = static_cast<std::uint32_t>(surface.triangles.size());
   if (surface.triangles.empty()) tree.nodes[0].place = NodePlace::outside;
   return tree;
@@ -221,7 +223,7 @@ class Builder {
     }
   }
 
-  using Triangles = std::vector<std::uint32_t>;
+  using Triangles = RawVector<std::uint32_t>;
 
   /// Splits nodes, whose children come in the same order.
   void split(std::span<const std::uint32_t> parents) {
@@ -237,12 +239,15 @@ class Builder {
       split_run(parents.subspan(begin, end - begin), first + static_cast<std::uint32_t>(8 * begin), triangles, lists);
       return triangles;
     });
-    for (std::size_t r = 0; r < runs.size(); ++r) {
+    std::vector<std::size_t> places;
+    std::size_t size = tree_.triangles.size();
+    for (const Triangles& triangles : runs) places.push_back(std::exchange(size, size + triangles.size()));
+    tree_.triangles.resize(size);
+    parallel_for(runs.size(), 1, [&](std::size_t r) {
       const std::size_t begin = first + 8 * length * r, end = std::min(begin + 8 * length, tree_.nodes.size());
-      for (std::size_t i = begin; i < end; ++i)
-        tree_.nodes[i].first_triangle += static_cast<std::uint32_t>(tree_.triangles.size());
-      tree_.triangles.insert(tree_.triangles.end(), runs[r].begin(), runs[r].end());
-    }
+      for (std::size_t i = begin; i < end; ++i) tree_.nodes[i].first_triangle += static_cast<std::uint32_t>(places[r]);
+      std::ranges::copy(runs[r], tree_.triangles.begin() + static_cast<std::ptrdiff_t>(places[r]));
+    });
   }
 
   /// \return  where the children of this many nodes begin
@@ -273,7 +278,7 @@ class Builder {
     tree_.nodes[parent_index].first_child = first_child;
     const std::uint32_t half = tree_.side(parent) / 2;
     for (std::uint32_t c = 0; c < 8; ++c) {
-      OctreeNode& child = tree_.nodes[first_child + c];
+      OctreeNode& child = tree_.nodes[first_child + c] = {};
       for (int k = 0; k < 3; ++k) child.corner[k] = parent.corner[k] + (c >> k & 1) * half;
       child.level = static_cast<std::uint8_t>(parent.level + 1);
       child.place = parent.place;

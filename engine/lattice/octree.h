@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/morton.h"
+#include "engine/base/raw_vector.h"
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
 #include "engine/lattice/size_field.h"
@@ -51,12 +52,12 @@ struct OctreeNode {
 /// An *octree unit* is half the side of the finest leaf that is possible, so every lattice point has whole octree
 /// units.
 struct Octree {
-  Point3 origin;                  ///< the least corner of the root, in grid units
-  double unit = 1;                ///< one octree unit in grid units; few significant bits, or a small multiple of such
-  unsigned depth = 0;             ///< level of the finest leaves that are possible
-  Box bounds;                     ///< of the surface
-  std::vector<OctreeNode> nodes;  ///< the root first
-  std::vector<std::uint32_t> triangles;  ///< those that touch a node, node by node
+  Point3 origin;                ///< the least corner of the root, in grid units
+  double unit = 1;              ///< one octree unit in grid units; few significant bits, or a small multiple of such
+  unsigned depth = 0;           ///< level of the finest leaves that are possible
+  Box bounds;                   ///< of the surface
+  RawVector<OctreeNode> nodes;  ///< the root first
+  RawVector<std::uint32_t> triangles;  ///< those that touch a node, node by node
 
   static constexpr unsigned bits = 21;  ///< of a coordinate within the root
 
