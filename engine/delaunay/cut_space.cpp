@@ -34,10 +34,4 @@ void SpaceCut::cut(std::span<std::array<double, 3>> places, std::uint32_t parts)
   cut({middle, places.end()}, parts - near_parts);
 }
 
-std::uint32_t SpaceCut::part_of(const Point3& p) const {
-  std::uint32_t i = 0;
-  while (nodes_[i].axis < 3) i = dot(basis_[nodes_[i].axis], p) < nodes_[i].at ? i + 1 : nodes_[i].after;
-  return nodes_[i].after;
-}
-
 }  // namespace ccdt::delaunay

@@ -21,7 +21,11 @@ class SpaceCut {
   SpaceCut(std::span<const Point3> points, std::uint32_t parts, const Basis& basis);
 
   /// \return  below the number of parts
-  std::uint32_t part_of(const Point3& p) const;
+  std::uint32_t part_of(const Point3& p) const {
+    const Node* node = nodes_.data();
+    while (node->axis < 3) node = dot(basis_[node->axis], p) < node->at ? node + 1 : nodes_.data() + node->after;
+    return node->after;
+  }
 
  private:
   /// A plane; or a part, if `axis` is 3.
