@@ -56,7 +56,8 @@ class PatchFinder {
         facet_of_(triangles.size(), none),
         turned_(triangles.size(), 0),
         round_of_(triangles.size(), 0),
-        may_cross_(edges.size()) {
+        may_cross_(edges.size()),
+        is_lonely_(triangles.size()) {
     parallel_for(triangles.size(), grain,
                  [&](std::size_t t) { normals_[t] = rounded_normal(corner_points(static_cast<std::uint32_t>(t))); });
     parallel_for(edges.size(), grain, [&](std::size_t e) {
@@ -64,16 +65,16 @@ class PatchFinder {
       may_cross_[e] =
           around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
     });
-    if (thread_count() > 1) find_lonely();
+    find_lonely();
   }
 
   FacetPatches find() {
-    std::vector<std::uint32_t> order = all_indices(triangles_.size());
-    std::vector<double> squared_area(triangles_.size());
-    parallel_for(order.size(), grain, [&](std::size_t t) { squared_area[t] = squared_length(normals_[t]); });
-    sort_in_runs(order, [&](std::uint32_t s, std::uint32_t t) {
-      return squared_area[s] != squared_area[t] ? squared_area[s] > squared_area[t] : s < t;
-    });
+    std::vector<std::uint32_t> order = parallel_collect<std::uint32_t>(
+        triangles_.size(), grain, [&](std::size_t t, std::size_t end, std::vector<std::uint32_t>& found) {
+          for (; t < end; ++t)
+            if (!is_lonely_[t]) found.push_back(static_cast<std::uint32_t>(t));
+        });
+    sort_in_runs(order, [&](std::uint32_t s, std::uint32_t t) { return precedes(s, t); });
 
     std::vector<std::uint32_t> seeds;
     for (const std::uint32_t seed : order) {
@@ -85,15 +86,25 @@ class PatchFinder {
       }
       seeds.push_back(seed);
     }
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      if (facet_of_[t] != none) continue;
+      facet_of_[t] = static_cast<std::uint32_t>(seeds.size());
+      seeds.push_back(t);
+    }
     return number_by_first_triangle(seeds);
   }
 
  private:
   std::array<Point3, 3> corner_points(std::uint32_t t) const { return points_of(vertices_, triangles_.corners[t]); }
 
-  // Most triangles of a curved surface are facets of their own. Several threads find them before patches grow.
+  // Patches of larger triangles grow first.
+  bool precedes(std::uint32_t s, std::uint32_t t) const {
+    const double area_of_s = squared_length(normals_[s]), area_of_t = squared_length(normals_[t]);
+    return area_of_s != area_of_t ? area_of_s > area_of_t : s < t;
+  }
+
+  // Most triangles of a curved surface are facets of their own. They are found before patches grow.
   void find_lonely() {
-    is_lonely_.resize(triangles_.size());
     parallel_for(triangles_.size(), grain, [&](std::size_t i) {
       const auto t = static_cast<std::uint32_t>(i);
       FittedPlane fitted;
@@ -108,10 +119,6 @@ class PatchFinder {
   // Stores the patch of the seed in `patch_`. It grows along a plane that is fitted on the way. If some vertex is too
   // far from the final plane, it grows again along that fixed plane.
   void find_patch(std::uint32_t seed) {
-    if (!is_lonely_.empty() && is_lonely_[seed]) {
-      patch_.assign(1, seed);
-      return;
-    }
     FittedPlane fitted;
     fitted.add(normals_[seed], corner_points(seed));
     grow(seed, fitted, true);
@@ -136,7 +143,7 @@ class PatchFinder {
       const std::uint32_t t = patch_[i];
       for (const std::uint32_t e : edges_.edges_of[t]) {
         const std::uint32_t next = neighbor_across(e, t);
-        if (next == none || !accept(next, e, t, plane)) continue;
+        if (next == none || (is_lonely_[next] && precedes(next, seed)) || !accept(next, e, t, plane)) continue;
         patch_.push_back(next);
         round_of_[next] = round_;
         if (!refit) continue;
@@ -252,7 +259,7 @@ class PatchFinder {
   std::vector<char> turned_;
   std::vector<std::uint32_t> round_of_;  // the last round of growing that reached the triangle
   std::vector<char> may_cross_;          // edges that a patch may grow over
-  std::vector<char> is_lonely_;          // no neighbor belongs to the patch of the triangle; empty if not known
+  std::vector<char> is_lonely_;          // no neighbor belongs to the patch of the triangle
   std::uint32_t round_ = 0;
   std::vector<std::uint32_t> patch_;
 };
