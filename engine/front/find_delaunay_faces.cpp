@@ -22,20 +22,23 @@ class FaceFilter {
   explicit FaceFilter(std::span<const std::array<VertexId, 3>> triangles)
       : bits_(std::bit_ceil(triangles.size() / 4 + 1)), shift_(58 - std::countr_zero(bits_.size())) {
     for (const auto& [a, b, c] : triangles) {
-      const std::uint64_t place = place_of(a, b, c);
+      const std::uint64_t place = place_of(odd(a) * odd(b) * odd(c));
       bits_[place / 64] |= std::uint64_t{1} << place % 64;
     }
   }
 
-  bool may_have(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const std::uint64_t place = place_of(a, b, c);
-    return (bits_[place / 64] >> place % 64 & 1) != 0;
+  /// A bit for each face of a cell that may be in the set.
+  unsigned faces_that_may_be(const std::array<std::uint32_t, 4>& v) const {
+    const std::uint64_t a = odd(v[0]), b = odd(v[1]), c = odd(v[2]), d = odd(v[3]);
+    return bit_of(b * c * d) | bit_of(a * c * d) << 1 | bit_of(a * b * d) << 2 | bit_of(a * b * c) << 3;
   }
 
  private:
-  std::uint64_t place_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const auto odd = [](std::uint32_t v) { return 2 * std::uint64_t{v} + 1; };
-    return odd(a) * odd(b) * odd(c) * 0x9E3779B97F4A7C15u >> shift_;
+  static std::uint64_t odd(std::uint32_t v) { return 2 * std::uint64_t{v} + 1; }
+  std::uint64_t place_of(std::uint64_t product) const { return product * 0x9E3779B97F4A7C15u >> shift_; }
+  unsigned bit_of(std::uint64_t product) const {
+    const std::uint64_t place = place_of(product);
+    return static_cast<unsigned>(bits_[place / 64] >> place % 64 & 1);
   }
 
   std::vector<std::uint64_t> bits_;  ///< a power of two of words, about 16 bits for each triangle
@@ -52,26 +55,30 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   FaceMap faces;
   FaceFilter filter;
   parallel_both([&] { faces = FaceMap(triangles, vertices); }, [&] { filter = FaceFilter(triangles); });
+  const auto look_up = [&](std::uint32_t c, std::uint32_t f) {
+    const delaunay::Cell& cell = delaunay.cells[c];
+    const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, f);
+    const std::uint32_t face = faces.find(p, q, r);
+    if (face == FaceMap::none) return;
+    // The cell is above the face if it sees the corners in their order.
+    const auto& t = triangles[face];
+    const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
+    codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
+  };
   // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
   parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);
-    const delaunay::Cell& cell = delaunay.cells[c];
-    const auto& v = cell.vertices;
-    const unsigned inner = (v[0] >= vertices) + (v[1] >= vertices) + (v[2] >= vertices) + (v[3] >= vertices);
-    if (inner > 1 || delaunay.is_dead(c)) return;
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      if (inner == 1 && v[f] < vertices) continue;
-      if (delaunay::face_code(c, f) > cell.neighbors[f]) continue;  // once a face
-      const auto [p, q, r] = delaunay::corners_of_face(v, f);
-      ++work_done.faces_tested;
-      if (!filter.may_have(p, q, r)) continue;
-      const std::uint32_t face = faces.find(p, q, r);
-      if (face == FaceMap::none) continue;
-      // The cell is above the face if it sees the corners in their order.
-      const auto& t = triangles[face];
-      const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
-      codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
+    const auto& [v, neighbors] = delaunay.cells[c];
+    unsigned inner = 0, once = 0;  // bits of corners without faces; of the faces that this cell tests, not its neighbor
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      inner |= unsigned{v[k] >= vertices} << k;
+      once |= unsigned{delaunay::face_code(c, k) < neighbors[k]} << k;
     }
+    if (std::popcount(inner) > 1 || delaunay.is_dead(c)) return;
+    const unsigned tested = (inner == 0 ? 0xFu : inner) & once;
+    work_done.faces_tested += static_cast<unsigned>(std::popcount(tested));
+    for (unsigned rest = tested & filter.faces_that_may_be(v); rest != 0; rest &= rest - 1)
+      look_up(c, static_cast<std::uint32_t>(std::countr_zero(rest)));
   });
   work_done.cells_visited += delaunay.cells.size() - delaunay.free_cells.size();
   note_bytes(bytes_of(codes, triangles));
