@@ -69,13 +69,12 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
     const auto c = static_cast<std::uint32_t>(i);
     const auto& [v, neighbors] = delaunay.cells[c];
-    unsigned inner = 0, once = 0;  // bits of corners without faces; of the faces that this cell tests, not its neighbor
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      inner |= unsigned{v[k] >= vertices} << k;
-      once |= unsigned{delaunay::face_code(c, k) < neighbors[k]} << k;
-    }
-    if (std::popcount(inner) > 1 || delaunay.is_dead(c)) return;
-    const unsigned tested = (inner == 0 ? 0xFu : inner) & once;
+    unsigned inner = 0;  // a bit for each corner without faces
+    for (std::uint32_t k = 0; k < 4; ++k) inner |= unsigned{v[k] >= vertices} << k;
+    if ((inner & (inner - 1)) != 0 || delaunay.is_dead(c)) return;
+    unsigned tested = 0;  // a bit for each face that this cell tests, not its neighbor
+    for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
+    if (inner != 0) tested &= inner;
     work_done.faces_tested += static_cast<unsigned>(std::popcount(tested));
     for (unsigned rest = tested & filter.faces_that_may_be(v); rest != 0; rest &= rest - 1)
       look_up(c, static_cast<std::uint32_t>(std::countr_zero(rest)));
