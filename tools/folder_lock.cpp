@@ -1,7 +1,6 @@
 #include "tools/folder_lock.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
@@ -34,7 +33,11 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   const std::string name = (folder / "lock").string();
   file_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, everyone_may_read);
   if (file_ < 0) throw OutputError("the folder cannot be written to", io::place_in(folder.string()), "choose another");
-  if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+  // A fork does not inherit this lock. Of a killed process, it would keep another kind for a moment.
+  struct flock whole = {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (fcntl(file_, F_SETLK, &whole) != 0) {
     const std::string other = holder(file_);
     close(file_);
     throw InputError(other + " is working in this folder", io::place_in(folder.string()),

@@ -5,6 +5,7 @@
 namespace ccdt::tools {
 
 /// Locks a folder against other processes as long as the object lives. The system unlocks it if the process is killed.
+/// Within one process, a second lock of the same folder is not refused.
 class FolderLock {
  public:
   /// \throw InputError   another process is working in the folder; names it
