@@ -22,8 +22,8 @@ constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
 constexpr std::size_t sample_size = 4096;
 /// More than this many cells per new vertex are rare; then the rest of a part waits.
 constexpr std::size_t most_cells_of_vertex = 8;
-/// Places for cells are taken by so many parts of what a part needs, but not in chunks of more than a large page. In
-/// small chunks, several threads use a new page at the same time, and the system clears one for each of them.
+/// A part takes a chunk of places at a time: a sixteenth of what it may need, but at most a large page. In small
+/// chunks, several threads would use a new page at the same time, and the system would clear one for each of them.
 constexpr std::size_t chunks_of_part = 16, least_chunk = 512, most_chunk = 65536;
 constexpr std::size_t report_every = 4096;
 
@@ -45,6 +45,7 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
   std::span<const std::uint32_t> those = vertices;
   for (std::size_t p = 0; p < bases.size(); ++p) {
     const std::size_t parts = std::min<std::size_t>(thread_count(), those.size() / least_part);
+    if (p == 0 && parts < 2) waiting.insert(waiting.end(), vertices.begin(), vertices.end());
     if (parts < 2 || (p > 0 && those.size() < d_.cells.size() / cells_per_waiting_vertex)) break;
     cut(those, static_cast<std::uint32_t>(parts), bases[p]);
     const auto left = pass(those, p, shared);

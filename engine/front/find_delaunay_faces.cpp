@@ -28,7 +28,7 @@ class FaceFilter {
   }
 
   /// A bit for each face of a cell that may be in the set.
-  unsigned faces_that_may_be(const std::array<std::uint32_t, 4>& v) const {
+  unsigned may_have_faces(const std::array<std::uint32_t, 4>& v) const {
     const std::uint64_t a = odd(v[0]), b = odd(v[1]), c = odd(v[2]), d = odd(v[3]);
     return bit_of(b * c * d) | bit_of(a * c * d) << 1 | bit_of(a * b * d) << 2 | bit_of(a * b * c) << 3;
   }
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
     for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
     if (inner != 0) tested &= inner;
     work_done.faces_tested += static_cast<unsigned>(std::popcount(tested));
-    for (unsigned rest = tested & filter.faces_that_may_be(v); rest != 0; rest &= rest - 1)
+    for (unsigned rest = tested & filter.may_have_faces(v); rest != 0; rest &= rest - 1)
       look_up(c, static_cast<std::uint32_t>(std::countr_zero(rest)));
   });
   work_done.cells_visited += delaunay.cells.size() - delaunay.free_cells.size();
