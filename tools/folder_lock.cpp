@@ -33,7 +33,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   const std::string name = (folder / "lock").string();
   file_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, everyone_may_read);
   if (file_ < 0) throw OutputError("the folder cannot be written to", io::place_in(folder.string()), "choose another");
-  // A fork does not inherit this lock. Of a killed process, it would keep another kind for a moment.
+  // Forks do not inherit this kind of lock. One made by flock would last until the forks of a killed process end, too.
   struct flock whole = {};
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;

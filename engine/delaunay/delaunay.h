@@ -23,6 +23,7 @@ struct alignas(32) DelaunayVertex {
   std::uint32_t rank = 0;
 };
 
+/// All threads set them up, so one does not clear them first.
 using DelaunayVertices = RawVector<DelaunayVertex>;
 
 /// The coordinates, and in the fourth lane anything.
