@@ -204,6 +204,14 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   return std::nullopt;
 }
 
+/// The faces of the facets in the tetrahedralization. Most facets are faces that the check of the input has found.
+std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                            const delaunay::Delaunay& delaunay) {
+  std::vector<std::uint32_t> earlier(facets.facet.size());
+  parallel_for(earlier.size(), 4096, [&](std::size_t i) { earlier[i] = plc.facets[facets.facet[i]].face; });
+  return front::find_delaunay_faces_again(facets.triangles, earlier, delaunay);
+}
+
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
 /// enclose.
 ///
@@ -211,9 +219,9 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
 void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
-    std::vector<std::uint32_t> found = front::find_delaunay_faces(facets.triangles, delaunay);
+    std::vector<std::uint32_t> found = find_faces_again(t.plc, facets, delaunay);
     if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
-      found = front::find_delaunay_faces(facets.triangles, delaunay);
+      found = find_faces_again(t.plc, facets, delaunay);
     return found;
   });
   t.counts.faces = facets.triangles.size();
@@ -256,16 +264,15 @@ CheckedInput check_input(const InputPlc& input, const MeshOptions& options, cons
   const plc::PlcOptions flat{options.flatness, strictness};
   plc::UncheckedPlc gathered = measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, flat, progress); });
   CheckedInput checked;
-  std::vector<std::uint8_t> is_doubtful;  // faces of a tetrahedralization do not cross each other
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
   if (!options.refine_surface)
     checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, options, progress, costs);
   if (checked.delaunay)
-    is_doubtful = measured(costs, mesh_stage::plc, [&] {
-      return front::find_undelaunay_triangles(gathered.triangles.corners, *checked.delaunay);
+    gathered.triangles.faces = measured(costs, mesh_stage::plc, [&] {
+      return front::find_delaunay_faces(gathered.triangles.corners, *checked.delaunay);
     });
-  checked.plc = measured(costs, mesh_stage::plc,
-                         [&] { return plc::check_plc(input, std::move(gathered), is_doubtful, flat, progress); });
+  checked.plc =
+      measured(costs, mesh_stage::plc, [&] { return plc::check_plc(input, std::move(gathered), flat, progress); });
   return checked;
 }
 

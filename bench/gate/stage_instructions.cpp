@@ -18,7 +18,7 @@ struct StageFunction {
 };
 
 constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::gather_plc", "plc"},
-                                                               {"ccdt::front::find_undelaunay_triangles", "plc"},
+                                                               {"ccdt::front::find_delaunay_faces", "plc"},
                                                                {"ccdt::plc::check_plc", "plc"},
                                                                {"ccdt::refine::refine_plc", "refine"},
                                                                {"ccdt::protection::unprotected", "protect"},
@@ -30,7 +30,7 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::gath
                                                                {"ccdt::delaunay::insert_points", "delaunay"},
                                                                {"ccdt::delaunay::wrap_delaunay", "delaunay"},
                                                                {"ccdt::cores::insert_points", "delaunay"},
-                                                               {"ccdt::front::find_delaunay_faces", "face_check"},
+                                                               {"ccdt::front::find_delaunay_faces_again", "face_check"},
                                                                {"ccdt::facets::follow_interior_vertices", "face_check"},
                                                                {"ccdt::front::advance_front", "front"},
                                                                {"ccdt::label::label_cells", "label"},

@@ -118,7 +118,14 @@ constexpr std::size_t facets_a_chunk = 1024;
 class FacetMesher {
  public:
   FacetMesher(const plc::Plc& plc, const protection::SegmentChains& chains, const delaunay::Delaunay& delaunay)
-      : plc_(plc), chains_(chains), d_(delaunay), star_(delaunay), in_facet_(delaunay.vertices.size(), 0) {
+      : plc_(plc),
+        chains_(chains),
+        d_(delaunay),
+        star_(delaunay),
+        is_split_(std::ranges::any_of(chains, [](const auto& chain) { return chain.size() != 2; })),
+        in_facet_(delaunay.vertices.size(), 0) {
+    const auto has_one_triangle = [](const plc::Facet& facet) { return facet.triangles.size() == 1; };
+    if (!is_split_ && std::ranges::all_of(plc.facets, has_one_triangle)) return;
     std::vector<std::array<VertexId, 2>> edges;
     edges.reserve(plc.segments.size());
     for (const plc::Segment& s : plc.segments) edges.push_back(s.ends);
@@ -160,6 +167,7 @@ class FacetMesher {
   };
 
   bool is_unsplit(const Triangle& t) const {
+    if (!is_split_) return true;
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t segment = segment_of_edge_->find(t[i], t[(i + 1) % 3]);
       if (segment != EdgeMap::none && chains_[segment].size() != 2) return false;
@@ -333,7 +341,8 @@ class FacetMesher {
   const protection::SegmentChains& chains_;
   const delaunay::Delaunay& d_;
   delaunay::CellStar star_;
-  std::shared_ptr<const EdgeMap> segment_of_edge_;  // shared with copies
+  bool is_split_;                                   // has any segment vertices between its ends?
+  std::shared_ptr<const EdgeMap> segment_of_edge_;  // shared with copies; none if no facet asks for its segments
   std::vector<Point3> flattened_;                   // by vertex, of the current facet
   std::vector<std::uint32_t> in_facet_;             // by vertex: the last facet in which it was seen, plus 1
   std::uint32_t here_ = 0;

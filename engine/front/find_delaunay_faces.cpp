@@ -45,6 +45,34 @@ class FaceFilter {
   int shift_ = 0;
 };
 
+/// The corners of a face as a cell sees them. Are they those of the triangle in its order, so that the cell is above
+/// it?
+bool sees_in_order(const std::array<std::uint32_t, 3>& face, const std::array<VertexId, 3>& t) {
+  const auto& [p, q, r] = face;
+  return (p == t[0] && q == t[1] && r == t[2]) || (q == t[0] && r == t[1] && p == t[2]) ||
+         (r == t[0] && p == t[1] && q == t[2]);
+}
+
+/// The code of the triangle in the cell above it if it is still the face with this code; `no_neighbor` if it is not.
+std::uint32_t confirm(std::uint32_t code, const std::array<VertexId, 3>& triangle, const delaunay::Delaunay& delaunay) {
+  const std::uint32_t c = delaunay::cell_of(code);
+  if (c >= delaunay.cells.size() || delaunay.is_dead(c)) return no_neighbor;
+  const auto [p, q, r] = delaunay::corners_of_face(delaunay.cells[c].vertices, delaunay::face_of(code));
+  if (sees_in_order({p, q, r}, triangle)) return code;
+  return sees_in_order({q, p, r}, triangle) ? delaunay.across(code) : no_neighbor;
+}
+
+std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>>& triangles,
+                                       const delaunay::Delaunay& delaunay) {
+  constexpr std::size_t cells_a_star = 64;  // that could be looked at instead of one star
+  if (triangles.size() > delaunay.cells.size() / cells_a_star) return find_delaunay_faces(triangles, delaunay);
+  delaunay::CellStar star(delaunay);
+  std::vector<std::uint32_t> codes;
+  for (const auto& [a, b, c] : triangles) codes.push_back(star.find_face(a, b, c));
+  work_done.faces_tested += triangles.size();
+  return codes;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
@@ -60,10 +88,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
     const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, f);
     const std::uint32_t face = faces.find(p, q, r);
     if (face == FaceMap::none) return;
-    // The cell is above the face if it sees the corners in their order.
-    const auto& t = triangles[face];
-    const bool is_above = (p == t[0] && q == t[1]) || (q == t[0] && r == t[1]) || (r == t[0] && p == t[1]);
-    codes[face] = is_above ? delaunay::face_code(c, f) : cell.neighbors[f];
+    codes[face] = sees_in_order({p, q, r}, triangles[face]) ? delaunay::face_code(c, f) : cell.neighbors[f];
   };
   // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
   parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
@@ -84,12 +109,23 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   return codes;
 }
 
-std::vector<std::uint8_t> find_undelaunay_triangles(const std::vector<std::array<VertexId, 3>>& triangles,
-                                                    const delaunay::Delaunay& delaunay) {
-  const std::vector<std::uint32_t> codes = find_delaunay_faces(triangles, delaunay);
-  std::vector<std::uint8_t> is_undelaunay(codes.size());
-  for (std::size_t t = 0; t < codes.size(); ++t) is_undelaunay[t] = codes[t] == delaunay::no_neighbor;
-  return is_undelaunay;
+std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::array<VertexId, 3>>& triangles,
+                                                     const std::vector<std::uint32_t>& earlier,
+                                                     const delaunay::Delaunay& delaunay) {
+  std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
+  parallel_for(triangles.size(), 4096, [&](std::size_t i) {
+    if (earlier[i] == no_neighbor) return;
+    codes[i] = confirm(earlier[i], triangles[i], delaunay);
+    ++work_done.faces_tested;
+  });
+  std::vector<std::array<VertexId, 3>> others;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (codes[i] == no_neighbor) others.push_back(triangles[i]);
+  const std::vector<std::uint32_t> found = find_others(others, delaunay);
+  auto next = found.begin();
+  for (std::uint32_t& code : codes)
+    if (code == no_neighbor) code = *next++;
+  return codes;
 }
 
 }  // namespace ccdt::front

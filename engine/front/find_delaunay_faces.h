@@ -16,8 +16,11 @@ namespace ccdt::front {
 std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
                                                const delaunay::Delaunay& delaunay);
 
-/// By triangle: is it no face of the tetrahedralization?
-std::vector<std::uint8_t> find_undelaunay_triangles(const std::vector<std::array<VertexId, 3>>& triangles,
-                                                    const delaunay::Delaunay& delaunay);
+/// The same, fast where triangles are still the faces that they were in an earlier state of the tetrahedralization.
+///
+/// \param earlier  by triangle: the code of that face in one of its two cells, or `no_neighbor`
+std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::array<VertexId, 3>>& triangles,
+                                                     const std::vector<std::uint32_t>& earlier,
+                                                     const delaunay::Delaunay& delaunay);
 
 }  // namespace ccdt::front

@@ -41,11 +41,20 @@ struct TriangleSearch {
   std::vector<TrianglePair> close;
 };
 
+// By triangle: is it not known to be a face of the complex? Empty: none is.
+std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
+  std::vector<std::uint8_t> is_doubtful;
+  if (std::ranges::all_of(triangles.faces, [](std::uint32_t face) { return face == no_face; })) return is_doubtful;
+  is_doubtful.reserve(triangles.size());
+  for (const std::uint32_t face : triangles.faces) is_doubtful.push_back(face == no_face);
+  return is_doubtful;
+}
+
 // Splits triangles at the vertices that are on them.
-TriangleSearch make_conforming(std::span<const Point3> vertices, std::span<const std::uint8_t> is_doubtful,
-                               TriangleSet& triangles) {
+TriangleSearch make_conforming(std::span<const Point3> vertices, TriangleSet& triangles) {
   TriangleSearch search;
   auto& [tree, close] = search;
+  const std::vector<std::uint8_t> is_doubtful = find_doubtful(triangles);
   if (!is_doubtful.empty() && std::ranges::find(is_doubtful, 1) == is_doubtful.end()) return search;
   tree.emplace(boxes_of(vertices, triangles));
   close = find_close_triangles(vertices, triangles, *tree, is_doubtful);
@@ -58,30 +67,43 @@ TriangleSearch make_conforming(std::span<const Point3> vertices, std::span<const
 
 // Is a sector of the domain of 180 degrees or more around the edge?
 bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
+  const auto around = parts.edges.sides_around(e);
+  const auto is_inside = [&](std::size_t i) { return map.regions[map.of_side[around[i]]].inside; };
+  if (around.size() == 1) return is_inside(0);
+  if (around.size() == 2) {
+    const Turn turn = parts.edges.turns[e];
+    return turn == Turn::exactly_180 ? is_inside(0) || is_inside(1) : is_inside(turn == Turn::above_180 ? 0 : 1);
+  }
   const auto [a, b] = parts.edges.ends[e];
-  const auto around = parts.edges.around(e);
+  const auto apex = [&](std::size_t i) {
+    return vertices[apex_over(parts.triangles.corners[triangle_of(around[i])], a, b)];
+  };
   for (std::size_t i = 0; i < around.size(); ++i) {
-    const VertexTriple& s = parts.triangles.corners[around[i]];
-    const VertexTriple& t = parts.triangles.corners[around[(i + 1) % around.size()]];
-    const RegionId sector = map.of(around[i], runs_along(s, a, b));
-    if (!map.regions[sector].inside) continue;
-    const Turn angle = around.size() == 1 ? Turn::above_180
-                                          : turn_about(vertices[a], vertices[b], vertices[apex_over(s, a, b)],
-                                                       vertices[apex_over(t, a, b)]);
-    if (angle == Turn::exactly_180 || angle == Turn::above_180) return true;
+    if (!is_inside(i)) continue;
+    const Turn turn = turn_about(vertices[a], vertices[b], apex(i), apex((i + 1) % around.size()));
+    if (turn == Turn::exactly_180 || turn == Turn::above_180) return true;
   }
   return false;
 }
 
 // The edges that do not lie within one facet, and the segments of the input that are not edges.
 std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map) {
-  std::vector<Segment> segments = parallel_collect<Segment>(
-      parts.edges.size(), 4096, [&](std::size_t begin, std::size_t end, std::vector<Segment>& found) {
+  std::vector<Segment> segments;
+  const auto& is_inner = parts.patches.is_inner_edge;
+  parallel_pack(
+      parts.edges.size(), 4096,
+      [&](std::size_t e, std::size_t end) {
+        return static_cast<std::size_t>(std::ranges::count(std::span(is_inner).subspan(e, end - e), 0));
+      },
+      [&](std::size_t count) { segments.resize(count); },
+      [&](std::size_t begin, std::size_t end, std::size_t next) {
         for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
-          if (parts.patches.is_inner_edge[e]) continue;
+          if (is_inner[e]) continue;
           const std::uint32_t s = parts.match.segment_of[e];
           const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
-          found.push_back({parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e)});
+          const bool has_face = std::ranges::any_of(
+              parts.edges.around(e), [&](std::uint32_t t) { return parts.triangles.faces[t] != no_face; });
+          segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e), has_face};
         }
       });
   for (std::size_t i = 0; i < map.of_loose.size(); ++i) {
@@ -104,6 +126,7 @@ std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatch
     facet.number = triangles.numbers[first];
     facet.above = map.of(first, true);
     facet.below = map.of(first, false);
+    if (members.size() == 1) facet.face = triangles.faces[first];
   });
   return facets;
 }
@@ -129,12 +152,11 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const 
   return gathered;
 }
 
-Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std::uint8_t> is_doubtful,
-              const PlcOptions& options, const Progress& progress) {
+Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options, const Progress& progress) {
   Plc plc = std::move(gathered.plc);
   PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
   auto& [triangles, segments, edges, match, patches] = parts;
-  auto [tree, close] = make_conforming(plc.vertices, is_doubtful, triangles);
+  auto [tree, close] = make_conforming(plc.vertices, triangles);
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
@@ -168,7 +190,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std:
 }
 
 Plc build_plc(const InputPlc& input, const PlcOptions& options, const Progress& progress) {
-  return check_plc(input, gather_plc(input, options, progress), {}, options, progress);
+  return check_plc(input, gather_plc(input, options, progress), options, progress);
 }
 
 }  // namespace ccdt::plc

@@ -21,7 +21,7 @@ struct PlcOptions {
 /// The input on the grid, as triangles and segments that may still cross each other.
 struct UncheckedPlc {
   Plc plc;                ///< without segments, facets and regions
-  TriangleSet triangles;  ///< with an area, pairwise different
+  TriangleSet triangles;  ///< with an area, pairwise different; their faces are not known
   SegmentSet segments;
 };
 
@@ -35,13 +35,12 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options = {}, c
 
 /// Finds facets, segments and regions, and checks that they form a piecewise linear complex.
 ///
-/// \param gathered     from the input with the same options
-/// \param is_doubtful  by triangle. The others are known to be faces of one simplicial complex that has all vertices,
-///                     such as their Delaunay tetrahedralization: they have nothing in common but corners and edges,
-///                     and no vertex is on one. So they are not tested with each other. Empty: all are doubtful.
+/// \param gathered    from the input with the same options. Triangles that are known to be faces of one simplicial
+///                    complex have nothing in common but corners and edges, and no vertex is on one. So they are not
+///                    tested with each other.
 /// \throw InputError  facets that cross or cover each other, an open surface, seeds outside; as `gather_plc`
-Plc check_plc(const InputPlc& input, UncheckedPlc gathered, std::span<const std::uint8_t> is_doubtful = {},
-              const PlcOptions& options = {}, const Progress& progress = {});
+Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options = {},
+              const Progress& progress = {});
 
 /// Both.
 Plc build_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/merge_sort.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
@@ -49,38 +49,57 @@ Point3 common_point(const Point3& a, const Point3& b, const Point3& c, const Poi
 }  // namespace
 
 EdgeTable make_edge_table(std::span<const VertexTriple> triangles) {
-  RawVector<AtEdge> slots(triangles.size() * 3);  // 3 * triangle + corner
-  parallel_for(slots.size(), chunk_length, [&](std::size_t i) {
-    const VertexTriple& t = triangles[i / 3];
-    slots[i] = {edge_key(t[i % 3], t[(i + 1) % 3]), static_cast<std::uint32_t>(i)};
+  std::uint32_t vertices = 0;
+  for (const VertexTriple& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  // The edges of triangles by their smaller ends: the greater end, then 3 * triangle + corner, and whether the triangle
+  // runs along the edge the other way.
+  std::vector<std::uint32_t> first(vertices + 2, 0);
+  RawVector<std::uint64_t> entries(3 * triangles.size());
+  const AddOne add_one;
+  const auto for_each_edge = [&](const auto& visit) {
+    parallel_for(triangles.size(), chunk_length, [&](std::size_t i) {
+      const VertexTriple& t = triangles[i];
+      for (std::uint32_t k = 0; k < 3; ++k) visit(i, k, t[k], t[k == 2 ? 0 : k + 1]);
+    });
+  };
+  for_each_edge([&](std::size_t, std::uint32_t, VertexId a, VertexId b) { add_one(first[2 + std::min(a, b)]); });
+  // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for_each_edge([&](std::size_t t, std::uint32_t k, VertexId a, VertexId b) {
+    entries[add_one(first[1 + std::min(a, b)])] =
+        std::uint64_t{std::max(a, b)} << 32 | (6 * t + 2 * k) | (a < b ? 0 : 1);
   });
-  sort_by_edge(slots);
-
-  const auto begins_edge = [&](std::size_t i) { return i == 0 || slots[i].edge != slots[i - 1].edge; };
+  const auto is_new = [&](std::uint32_t v, std::uint32_t i) {
+    return i == first[v] || entries[i] >> 32 != entries[i - 1] >> 32;
+  };
   EdgeTable table;
-  table.triangles.resize(slots.size());
+  table.sides.resize(entries.size());
   table.edges_of.resize(triangles.size());
   parallel_pack(
-      slots.size(), chunk_length,
-      [&](std::size_t i, std::size_t end) {
+      vertices, chunk_length,
+      [&](std::size_t v, std::size_t end) {
         std::size_t edges = 0;
-        for (; i < end; ++i) edges += begins_edge(i);
+        for (; v < end; ++v) {
+          std::sort(entries.begin() + first[v], entries.begin() + first[v + 1]);
+          for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) edges += is_new(v, i);
+        }
         return edges;
       },
       [&](std::size_t edges) {
         table.ends.resize(edges);
-        table.first.resize(edges + 1, static_cast<std::uint32_t>(slots.size()));
+        table.first.resize(edges + 1, static_cast<std::uint32_t>(entries.size()));
       },
-      [&](std::size_t i, std::size_t end, std::size_t next) {
-        for (; i < end; ++i) {
-          const auto [key, slot] = slots[i];
-          if (begins_edge(i)) {
-            table.ends[next] = {VertexId(key >> 32), VertexId(key & 0xFFFFFFFFu)};
-            table.first[next++] = static_cast<std::uint32_t>(i);
+      [&](std::size_t v, std::size_t end, std::size_t next) {
+        for (; v < end; ++v)
+          for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
+            if (is_new(v, i)) {
+              table.ends[next] = {VertexId(v), VertexId(entries[i] >> 32)};
+              table.first[next++] = i;
+            }
+            const auto slot = static_cast<std::uint32_t>(entries[i]) / 2;
+            table.sides[i] = side_of(slot / 3, entries[i] % 2 == 0);
+            table.edges_of[slot / 3][slot % 3] = static_cast<std::uint32_t>(next - 1);
           }
-          table.triangles[i] = slot / 3;
-          table.edges_of[slot / 3][slot % 3] = static_cast<std::uint32_t>(next - 1);
-        }
       });
   return table;
 }
@@ -104,6 +123,12 @@ SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges) 
   return match;
 }
 
+void note_turned(std::uint32_t triangle, EdgeTable& edges) {
+  for (const std::uint32_t e : edges.edges_of[triangle])
+    for (std::uint32_t& side : edges.sides_around(e))
+      if (triangle_of(side) == triangle) side = opposite_of(side);
+}
+
 Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const int sign = numbers::orient3d(a, b, c, d);
   if (sign > 0) return Turn::below_180;
@@ -115,11 +140,11 @@ std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const T
                                        const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges,
                                        std::size_t limit) {
   const auto sort_around = [&](std::uint32_t e, std::vector<Overlap>& covering) {
-    const std::span<std::uint32_t> around = edges.around(e);
+    const std::span<std::uint32_t> around = edges.sides_around(e);
     if (is_inner_edge[e] || around.size() < 2) return;
     const Point3 &a = vertices[edges.ends[e][0]], &b = vertices[edges.ends[e][1]];
-    const auto apex = [&](std::uint32_t t) -> const Point3& {
-      return vertices[apex_over(triangles.corners[t], edges.ends[e][0], edges.ends[e][1])];
+    const auto apex = [&](std::uint32_t side) -> const Point3& {
+      return vertices[apex_over(triangles.corners[triangle_of(side)], edges.ends[e][0], edges.ends[e][1])];
     };
     if (around.size() > 2) {
       const Point3& zero = apex(around[0]);
@@ -139,11 +164,14 @@ std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const T
       if (i == 1 && around.size() == 2) break;  // the same pair again
       const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
       const Point3 &c = apex(s), &d = apex(t);
-      if (!nearly_cover(a, b, c, d, tolerance) && turn_about(a, b, c, d) != Turn::zero) continue;
-      covering.push_back({Overlap::Between::covering_facets, s, t, common_point(a, b, c, d)});
+      const Turn turn = turn_about(a, b, c, d);
+      if (around.size() == 2) edges.turns[e] = turn;
+      if (turn != Turn::zero && !nearly_cover(a, b, c, d, tolerance)) continue;
+      covering.push_back({Overlap::Between::covering_facets, triangle_of(s), triangle_of(t), common_point(a, b, c, d)});
       if (covering.size() == limit) return;
     }
   };
+  edges.turns.resize(edges.size());
   std::vector<Overlap> covering = parallel_collect<Overlap>(
       edges.size(), chunk_length, [&](std::size_t begin, std::size_t end, std::vector<Overlap>& found) {
         for (std::size_t e = begin; e < end && found.size() < limit; ++e)

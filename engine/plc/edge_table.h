@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <vector>
 
 #include "engine/base/index.h"
 #include "engine/base/point.h"
+#include "engine/plc/plc.h"
 
 namespace ccdt::plc {
 
@@ -18,13 +20,18 @@ struct TriangleSet {
   std::vector<VertexTriple> corners;
   std::vector<int> markers;
   std::vector<std::uint32_t> numbers;  ///< number in the file of the triangle's facet
+  std::vector<std::uint32_t> faces;  ///< what the triangles are in a simplicial complex that has all vertices, such as
+                                     ///< their Delaunay tetrahedralization; `no_face`: not in it, or not known
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(corners.size()); }
-  void reserve(std::size_t count) { corners.reserve(count), markers.reserve(count), numbers.reserve(count); }
-  void add(const VertexTriple& c, int marker, std::uint32_t number) {
+  void reserve(std::size_t count) {
+    corners.reserve(count), markers.reserve(count), numbers.reserve(count), faces.reserve(count);
+  }
+  void add(const VertexTriple& c, int marker, std::uint32_t number, std::uint32_t face = no_face) {
     corners.push_back(c);
     markers.push_back(marker);
     numbers.push_back(number);
+    faces.push_back(face);
   }
 };
 
@@ -58,6 +65,23 @@ inline VertexId apex_over(const VertexTriple& t, VertexId a, VertexId b) {
   return t[0] != a && t[0] != b ? t[0] : t[1] != a && t[1] != b ? t[1] : t[2];
 }
 
+/// A side of a triangle: the one that its normal points to, or the other.
+constexpr std::uint32_t side_of(std::uint32_t triangle, bool above) {
+  return 2 * triangle + (above ? 0 : 1);
+}
+constexpr bool is_above(std::uint32_t side) {
+  return side % 2 == 0;
+}
+constexpr std::uint32_t triangle_of(std::uint32_t side) {
+  return side / 2;
+}
+constexpr std::uint32_t opposite_of(std::uint32_t side) {
+  return side ^ 1;
+}
+
+/// An angle, exactly classified.
+enum class Turn : std::uint8_t { zero, below_180, exactly_180, above_180 };
+
 /// Two triangles or segments that meet in more than common vertices and edges, and such a point in grid units.
 struct Overlap {
   enum class Between { facets, covering_facets, facet_and_segment, segments };
@@ -66,23 +90,29 @@ struct Overlap {
   Point3 where;
 };
 
-/// The edges of a set of triangles, sorted by their ends, each with the triangles around it. It does not depend on how
-/// the triangles are oriented.
+/// The edges of a set of triangles, sorted by their ends, each with the triangles around it.
+///
+/// Of each triangle, an edge knows the side that the next sector is on, counterclockwise about the edge from its
+/// smaller end to its greater. It is the upper side if the triangle runs along the edge that way.
 struct EdgeTable {
-  std::vector<std::array<VertexId, 2>> ends;  ///< of each edge, the smaller first
-  std::vector<std::uint32_t> first;           ///< triangles of edge e: triangles[first[e]] ... triangles[first[e+1]-1]
-  std::vector<std::uint32_t> triangles;       ///< increasing within an edge, until `sort_around_edges`
+  std::vector<std::array<VertexId, 2>> ends;           ///< of each edge, the smaller first
+  std::vector<std::uint32_t> first;                    ///< the sides of edge e: sides[first[e]] ... sides[first[e+1]-1]
+  std::vector<std::uint32_t> sides;                    ///< increasing within an edge, until `sort_around_edges`
   std::vector<std::array<std::uint32_t, 3>> edges_of;  ///< the three edges of each triangle, in no particular order
+  std::vector<Turn> turns;  ///< at an edge of two triangles that are not in one facet: the angle from the first to the
+                            ///< second, counterclockwise as above; by `sort_around_edges`
 
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(ends.size()); }
-  std::span<const std::uint32_t> around(std::uint32_t edge) const {
-    return {triangles.data() + first[edge], first[edge + 1] - first[edge]};
+  std::span<const std::uint32_t> sides_around(std::uint32_t edge) const {
+    return {sides.data() + first[edge], first[edge + 1] - first[edge]};
   }
-  std::span<std::uint32_t> around(std::uint32_t edge) {
-    return {triangles.data() + first[edge], first[edge + 1] - first[edge]};
+  std::span<std::uint32_t> sides_around(std::uint32_t edge) {
+    return {sides.data() + first[edge], first[edge + 1] - first[edge]};
   }
+  /// The triangles at an edge.
+  auto around(std::uint32_t edge) const { return sides_around(edge) | std::views::transform(triangle_of); }
   /// The edge between two vertices, or `none`.
   std::uint32_t find(VertexId a, VertexId b) const;
 };
@@ -97,13 +127,14 @@ struct SegmentMatch {
 
 SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges);
 
-/// The angle, exactly classified, by which one must turn about the axis a->b, counterclockwise seen from b, to come
-/// from c to d.
-enum class Turn { zero, below_180, exactly_180, above_180 };
+/// Corrects the table after two corners of the triangle were exchanged.
+void note_turned(std::uint32_t triangle, EdgeTable& edges);
+
+/// The angle by which one must turn about the axis a->b, counterclockwise seen from b, to come from c to d.
 Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// Sorts the triangles around each edge of three or more by angle, counterclockwise about the axis from its smaller end
-/// to its greater.
+/// to its greater, and finds the angle at edges of two.
 ///
 /// \param is_inner_edge  edges within one facet: they have two triangles and are skipped
 /// \param tolerance      in grid units; two facets on the same side of an edge and this near to each other cover each

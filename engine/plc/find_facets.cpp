@@ -1,6 +1,7 @@
 #include "engine/plc/find_facets.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -46,7 +47,7 @@ struct FittedPlane {
 
 class PatchFinder {
  public:
-  PatchFinder(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
+  PatchFinder(std::span<const Point3> vertices, TriangleSet& triangles, EdgeTable& edges,
               std::span<const std::uint32_t> segment_of, std::span<const double> tolerances)
       : vertices_(vertices),
         triangles_(triangles),
@@ -57,15 +58,16 @@ class PatchFinder {
         turned_(triangles.size(), 0),
         round_of_(triangles.size(), 0),
         may_cross_(edges.size()),
-        is_lonely_(triangles.size()) {
+        is_lonely_(triangles.size(), 1) {
     parallel_for(triangles.size(), grain,
                  [&](std::size_t t) { normals_[t] = rounded_normal(corner_points(static_cast<std::uint32_t>(t))); });
-    parallel_for(edges.size(), grain, [&](std::size_t e) {
-      const auto around = edges.around(static_cast<std::uint32_t>(e));
+    parallel_for(edges.size(), grain, [&](std::size_t i) {
+      const auto e = static_cast<std::uint32_t>(i);
+      const auto around = edges.around(e);
       may_cross_[e] =
           around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
+      if (may_cross_[e]) note_company(e);
     });
-    find_lonely();
   }
 
   FacetPatches find() {
@@ -82,7 +84,9 @@ class PatchFinder {
       find_patch(seed);
       for (const std::uint32_t t : patch_) {
         facet_of_[t] = static_cast<std::uint32_t>(seeds.size());
-        if (turned_[t]) std::swap(triangles_.corners[t][1], triangles_.corners[t][2]);
+        if (!turned_[t]) continue;
+        std::swap(triangles_.corners[t][1], triangles_.corners[t][2]);
+        note_turned(t, edges_);
       }
       seeds.push_back(seed);
     }
@@ -103,33 +107,30 @@ class PatchFinder {
     return area_of_s != area_of_t ? area_of_s > area_of_t : s < t;
   }
 
-  // Most triangles of a curved surface are facets of their own. They are found before patches grow.
-  void find_lonely() {
-    parallel_for(triangles_.size(), grain, [&](std::size_t i) {
-      const auto t = static_cast<std::uint32_t>(i);
-      FittedPlane fitted;
-      fitted.add(normals_[t], corner_points(t));
-      const Plane plane = fitted.plane();
-      is_lonely_[t] = std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
-        return may_cross_[e] && find_turn(across(e, t), e, runs_along_edge(t, e), plane);
-      });
-    });
+  FittedPlane plane_of(std::uint32_t t) const {
+    FittedPlane fitted;
+    fitted.add(normals_[t], corner_points(t));
+    return fitted;
+  }
+
+  // Most triangles of a curved surface are facets of their own. They are found before patches grow: those that would
+  // take in no neighbor.
+  void note_company(std::uint32_t e) {
+    const auto around = edges_.around(e);
+    for (const std::uint32_t t : around)
+      if (find_turn(across(e, t), e, runs_along_edge(t, e), plane_of(t).plane()))
+        std::atomic_ref(is_lonely_[t]).store(0, std::memory_order_relaxed);
   }
 
   // Stores the patch of the seed in `patch_`. It grows along a plane that is fitted on the way. If some vertex is too
   // far from the final plane, it grows again along that fixed plane.
   void find_patch(std::uint32_t seed) {
-    FittedPlane fitted;
-    fitted.add(normals_[seed], corner_points(seed));
+    FittedPlane fitted = plane_of(seed);
     grow(seed, fitted, true);
     if (patch_.size() <= 1) return;
     const Plane plane = centered(fitted.plane());
     if (all_within(plane)) return;
-    if (!is_within(seed, plane)) {
-      FittedPlane alone;
-      alone.add(normals_[seed], corner_points(seed));
-      fitted = alone;
-    }
+    if (!is_within(seed, plane)) fitted = plane_of(seed);
     grow(seed, fitted, false);
   }
 
@@ -165,10 +166,10 @@ class PatchFinder {
     return around[0] == t ? around[1] : around[0];
   }
 
-  // Does the triangle run along the edge from its smaller end to its greater?
+  // Does the triangle, of two, run along the edge from its smaller end to its greater?
   bool runs_along_edge(std::uint32_t t, std::uint32_t e) const {
-    const auto [a, b] = edges_.ends[e];
-    return runs_along(triangles_.corners[t], a, b);
+    const auto sides = edges_.sides_around(e);
+    return is_above(triangle_of(sides[0]) == t ? sides[0] : sides[1]);
   }
 
   // Is the neighbor in the plane and, when oriented like the triangle it was reached from, counterclockwise in the
@@ -252,7 +253,7 @@ class PatchFinder {
 
   std::span<const Point3> vertices_;
   TriangleSet& triangles_;
-  const EdgeTable& edges_;
+  EdgeTable& edges_;
   std::span<const double> tolerances_;  // of the triangles
   std::vector<Point3> normals_;         // as the input orients the triangles
   std::vector<std::uint32_t> facet_of_;
@@ -266,7 +267,7 @@ class PatchFinder {
 
 }  // namespace
 
-FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
+FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, EdgeTable& edges,
                          std::span<const std::uint32_t> segment_of, std::span<const double> tolerances) {
   return PatchFinder(vertices, triangles, edges, segment_of, tolerances).find();
 }

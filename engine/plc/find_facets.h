@@ -28,10 +28,11 @@ struct FacetPatches {
 /// its plane.
 ///
 /// \param vertices    in grid units
-/// \param triangles   the corners of a triangle may be exchanged
+/// \param triangles   two corners of a triangle may be exchanged
+/// \param edges       follow them
 /// \param segment_of  of each edge: the segment of the input that it is, or `EdgeTable::none`
 /// \param tolerances  of the triangles, in grid units; their vertices are this near to the plane of their patch
-FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, const EdgeTable& edges,
+FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, EdgeTable& edges,
                          std::span<const std::uint32_t> segment_of, std::span<const double> tolerances);
 
 }  // namespace ccdt::plc

@@ -19,7 +19,7 @@ namespace {
 
 using VeryWide = boost::multiprecision::int256_t;
 
-constexpr std::size_t edges_at_once = 4096;  // in loops on several threads
+constexpr std::size_t chunk_length = 4096;  // of loops on several threads
 
 IntegerPoint six_times(const Point3& p) {
   const IntegerPoint q = to_integers(p);
@@ -155,55 +155,43 @@ class VerticalRays {
   const std::optional<BoxTree>& tree_;
 };
 
-std::uint32_t side(std::uint32_t triangle, bool above) {
-  return 2 * triangle + (above ? 0 : 1);
-}
-
-// Counterclockwise about an edge from its smaller end to its greater, the sector that follows a triangle is on its
-// upper side if the triangle runs along the edge that way; the sector before it is on the other.
-void join_through_sectors(const TriangleSet& triangles, const EdgeTable& edges, const FacetPatches& facets,
-                          SharedUnionFind& sides) {
-  parallel_for(edges.size(), edges_at_once, [&](std::size_t i) {
-    const auto e = static_cast<std::uint32_t>(i);
-    const auto around = edges.around(e);
-    if (facets.is_inner_edge[e]) {  // oriented alike; a tiny fold between them does not matter
-      sides.join(side(around[0], true), side(around[1], true));
-      sides.join(side(around[0], false), side(around[1], false));
-      return;
-    }
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const std::uint32_t s = around[k], t = around[(k + 1) % around.size()];
-      const auto [a, b] = edges.ends[e];
-      sides.join(side(s, runs_along(triangles.corners[s], a, b)), side(t, !runs_along(triangles.corners[t], a, b)));
-    }
+// The sides that see each other through the sector between two triangles. Within a facet, a tiny fold between the two
+// does not matter.
+//
+// \return sets of sides, and after them infinity, alone
+SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& edges) {
+  SharedUnionFind sides(2 * std::size_t{triangles} + 1);
+  parallel_for(edges.size(), chunk_length, [&](std::size_t e) {
+    const auto around = edges.sides_around(static_cast<std::uint32_t>(e));
+    for (std::size_t k = 0; k < around.size(); ++k)
+      sides.join(around[k], opposite_of(around[k + 1 < around.size() ? k + 1 : 0]));
   });
+  return sides;
 }
 
-SharedUnionFind components_of(const TriangleSet& triangles, const EdgeTable& edges) {
-  SharedUnionFind components(triangles.size());
-  parallel_for(edges.size(), edges_at_once, [&](std::size_t i) {
-    const auto around = edges.around(static_cast<std::uint32_t>(i));
-    for (const std::uint32_t t : around) components.join(around[0], t);
+// Triangles that are connected by edges. Those around an edge see each other through its sectors.
+SharedUnionFind components_of(std::uint32_t triangles, SharedUnionFind& sides) {
+  SharedUnionFind components(triangles);
+  parallel_for(triangles, chunk_length, [&](std::size_t i) {
+    const auto t = static_cast<std::uint32_t>(i);
+    for (const bool above : {true, false}) components.join(t, triangle_of(sides.find(side_of(t, above))));
   });
   return components;
 }
 
 // One ray per component suffices: the sides of one component that see the same connected part of space are joined
 // already. So on the way from a component up to whatever encloses it, every crossed component joins its outermost side.
-RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, const EdgeTable& edges,
-                       const FacetPatches& facets, SharedUnionFind& components, const VerticalRays& rays) {
+RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, SharedUnionFind& sides,
+                       SharedUnionFind& components, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
-  SharedUnionFind sides(infinity + 1);
-  join_through_sectors(triangles, edges, facets, sides);
-
   std::vector<std::uint32_t> outer_side(triangles.size());  // of the first triangle of each component
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (components.find(t) != t) continue;
-    std::uint32_t left = side(t, rays.leaves_above(t));
+    std::uint32_t left = side_of(t, rays.leaves_above(t));
     outer_side[t] = left;
     for (const RayHit& hit : rays.shoot(sixfold_centroid(points_of(vertices, triangles.corners[t])), t)) {
-      sides.join(left, side(hit.triangle, hit.enters_above));
-      left = side(hit.triangle, !hit.enters_above);
+      sides.join(left, side_of(hit.triangle, hit.enters_above));
+      left = side_of(hit.triangle, !hit.enters_above);
       if (components.find(hit.triangle) == t) outer_side[t] = left;
     }
     sides.join(left, infinity);
@@ -224,7 +212,7 @@ RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> ver
   }
   map.around.resize(map.regions.size());
   for (std::uint32_t s = 0; s < infinity; ++s) {
-    const RegionId around = map.of_side[outer_side[components.find(s / 2)]];
+    const RegionId around = map.of_side[outer_side[components.find(triangle_of(s))]];
     if (map.of_side[s] != around) map.around[map.of_side[s]] = around;
   }
   return map;
@@ -290,13 +278,14 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
 }  // namespace
 
 RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::optional<BoxTree>& tree) {
-  SharedUnionFind components = components_of(parts.triangles, parts.edges);
+  SharedUnionFind sides = join_through_sectors(parts.triangles.size(), parts.edges);
+  SharedUnionFind components = components_of(parts.triangles.size(), sides);
   constexpr std::size_t few_rays = 3;
   std::size_t searches = 2 * (input.holes.size() + input.regions.size()) + parts.match.loose.size();
   for (std::uint32_t t = 0; t < parts.triangles.size(); ++t) searches += components.find(t) == t;
   if (!tree && searches > few_rays) tree.emplace(boxes_of(plc.vertices, parts.triangles));
   const VerticalRays rays(plc.vertices, parts.triangles, tree);
-  RegionMap map = divide_space(parts.triangles, plc.vertices, parts.edges, parts.patches, components, rays);
+  RegionMap map = divide_space(parts.triangles, plc.vertices, sides, components, rays);
   mark_inside(input, plc, parts.triangles, parts.edges, rays, map);
   for (const std::uint32_t s : parts.match.loose) {
     const auto [a, b] = parts.segments.ends[s];

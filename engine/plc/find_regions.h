@@ -23,14 +23,14 @@ struct PlcParts {
 
 /// The regions into which the triangles divide space.
 struct RegionMap {
-  /// Of each side of each triangle: entry 2t is the side that the normal points to, 2t+1 the other.
+  /// Of each `side_of` a triangle.
   std::vector<RegionId> of_side;
   std::vector<Region> regions;  ///< number 0 reaches infinity; the others follow in the order of their first side
   /// For each region except 0, the region that contains the connected facets enclosing it.
   std::vector<RegionId> around;
   std::vector<RegionId> of_loose;  ///< of each of `PlcParts::match.loose`: where the middle of the segment is
 
-  RegionId of(std::uint32_t triangle, bool above) const { return of_side[2 * triangle + (above ? 0 : 1)]; }
+  RegionId of(std::uint32_t triangle, bool above) const { return of_side[side_of(triangle, above)]; }
 };
 
 /// Finds the regions: joins the sides of triangles that see each other through the sectors around each edge, then, as

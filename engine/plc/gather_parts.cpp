@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
@@ -12,9 +11,9 @@
 #include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/base/flatness.h"
+#include "engine/base/morton.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/base/sort_in_runs.h"
 #include "engine/numbers/predicates.h"
 #include "engine/planar/triangulation.h"
 #include "engine/plc/bent_facets.h"
@@ -269,6 +268,29 @@ class FacetTriangulator {
   std::vector<planar::Edge> edges_;
 };
 
+// For each point the first one that is equal to it, in that order. Sorted by hash values, they are near each other.
+std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
+  RawVector<KeyedIndex> keyed(points.size());
+  parallel_for(points.size(), 4096, [&](std::size_t i) {
+    std::uint64_t hash = 0;
+    for (const std::int64_t x : to_integers(points[i])) {
+      hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
+      hash ^= hash >> 32;
+    }
+    keyed[i] = {hash, static_cast<std::uint32_t>(i)};
+  });
+  const std::vector<std::uint32_t> order = sorted_by_key(keyed);
+  std::vector<std::uint32_t> first_equal(points.size());
+  std::size_t begin = 0;  // of points with one hash value
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (keyed[order[k]].key != keyed[order[begin]].key) begin = k;
+    std::size_t same = begin;
+    while (points[order[same]] != points[order[k]]) ++same;
+    first_equal[order[k]] = order[same];
+  }
+  return first_equal;
+}
+
 }  // namespace
 
 void snap_vertices(const InputPlc& input, Plc& plc) {
@@ -286,24 +308,9 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
   });
   for (const double rounding : roundings) plc.largest_rounding = std::max(plc.largest_rounding, rounding);
 
-  // Equal points become neighbors in sorted order; the first of them in the input stands for all.
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  sort_in_runs(order, [&](std::uint32_t i, std::uint32_t j) {
-    const Point3 &a = snapped[i], &b = snapped[j];
-    if (a.x != b.x) return a.x < b.x;
-    if (a.y != b.y) return a.y < b.y;
-    if (a.z != b.z) return a.z < b.z;
-    return i < j;
-  });
-  std::vector<std::uint32_t> first_equal(count);
+  const std::vector<std::uint32_t> first_equal = find_first_equal(snapped);
   std::size_t different = 0;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const bool same = k > 0 && snapped[order[k]] == snapped[order[k - 1]];
-    different += !same;
-    first_equal[order[k]] = same ? first_equal[order[k - 1]] : order[k];
-  }
-
+  for (std::uint32_t i = 0; i < count; ++i) different += first_equal[i] == i;
   plc.vertex_of_input.resize(count);
   plc.vertices.reserve(different);
   plc.world.reserve(different);
@@ -415,7 +422,8 @@ bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<con
     parts.clear();
     for (; next != found.end() && next->first == t; ++next) inner.push_back(next->second);
     TriangleSplitter(vertices, triangles.corners[t]).split(triangles.corners[t], inner, parts);
-    for (const VertexTriple& part : parts) result.add(part, triangles.markers[t], triangles.numbers[t]);
+    const std::uint32_t face = parts.size() == 1 ? triangles.faces[t] : no_face;
+    for (const VertexTriple& part : parts) result.add(part, triangles.markers[t], triangles.numbers[t], face);
   }
   triangles = std::move(result);
   return true;

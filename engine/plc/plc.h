@@ -12,11 +12,15 @@
 
 namespace ccdt::plc {
 
+/// A triangle is no face of a simplicial complex, or that is not known.
+inline constexpr std::uint32_t no_face = 0xFFFFFFFFu;
+
 /// A segment of the PLC: a straight edge that the mesh must contain as a chain of edges.
 struct Segment {
   std::array<VertexId, 2> ends;
   int marker = 0;
   bool grazeable = false;  ///< a sector of the domain of 180 degrees or more is around it (Shewchuk 2002)
+  bool has_face = false;   ///< a triangle at it is known to be a face of the complex of `Facet::face`, so it is an edge
 };
 
 /// A facet: a maximal connected coplanar patch of input facets with one marker, bounded by segments.
@@ -30,6 +34,8 @@ struct Facet {
   int marker = 0;
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
   RegionId above, below;
+  std::uint32_t face = no_face;  ///< of a facet of one triangle: what the triangle is in a simplicial complex that has
+                                 ///< all vertices of the PLC, such as their Delaunay tetrahedralization
 };
 
 /// The normal of a facet, as long as twice its area.

@@ -14,12 +14,14 @@ namespace ccdt::protection {
 namespace {
 
 /// The pieces that are no edges, in the order of their segments. Most pieces are edges.
-std::vector<std::uint64_t> find_missing(const ProtectedDelaunay& state) {
+std::vector<std::uint64_t> find_missing(const plc::Plc& plc, const ProtectedDelaunay& state) {
+  const bool has_new_vertices = state.delaunay.vertices.size() != plc.vertices.size();
   return parallel_collect<std::uint64_t>(
       state.chains.size(), 1024, [&](std::size_t s, std::size_t end, std::vector<std::uint64_t>& missing) {
         for (; s < end; ++s) {
+          if (!state.must_be_chain[s] || (plc.segments[s].has_face && !has_new_vertices)) continue;
           const std::vector<ChainVertex>& chain = state.chains[s];
-          for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < chain.size(); ++i)
+          for (std::size_t i = 0; i + 1 < chain.size(); ++i)
             if (!has_edge(state.delaunay, chain[i].vertex, chain[i + 1].vertex))
               missing.push_back(edge_key(chain[i].vertex, chain[i + 1].vertex));
         }
@@ -106,7 +108,7 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress, std::span<const PieceEnds> to_split) {
   report(progress, "protect", 0, start.chains.size());
-  std::vector<std::uint64_t> missing = find_missing(start);
+  std::vector<std::uint64_t> missing = find_missing(plc, start);
   if (!missing.empty() || !to_split.empty()) {
     Protector protector(plc, strategy, std::move(missing), start);
     protector.split_those_that_can_be(to_split);

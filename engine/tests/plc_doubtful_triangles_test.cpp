@@ -62,22 +62,23 @@ plc::InputPlc random_input(std::mt19937& random) {
 
 struct Verdict {
   std::optional<plc::Plc> plc;
-  std::vector<long long> wrong_facets;
+  delaunay::Delaunay delaunay = {};  // of its vertices, if there is a proof
+  std::vector<long long> wrong_facets = {};
 };
 
 Verdict verdict_on(const plc::InputPlc& input, bool with_proof, std::size_t& proved) {
   try {
     plc::UncheckedPlc gathered = plc::gather_plc(input);
-    std::vector<std::uint8_t> is_doubtful;
+    delaunay::Delaunay delaunay;
     if (with_proof) {
-      const auto codes =
-          front::find_delaunay_faces(gathered.triangles.corners, delaunay::build_delaunay(gathered.plc.vertices));
-      for (const std::uint32_t code : codes) is_doubtful.push_back(code == delaunay::no_neighbor);
-      proved += static_cast<std::size_t>(std::ranges::count(is_doubtful, 0));
+      delaunay = delaunay::build_delaunay(gathered.plc.vertices);
+      std::vector<std::uint32_t>& faces = gathered.triangles.faces;
+      faces = front::find_delaunay_faces(gathered.triangles.corners, delaunay);
+      proved += faces.size() - static_cast<std::size_t>(std::ranges::count(faces, plc::no_face));
     }
-    return {plc::check_plc(input, std::move(gathered), is_doubtful), {}};
+    return {.plc = plc::check_plc(input, std::move(gathered)), .delaunay = std::move(delaunay)};
   } catch (const InputError& error) {
-    return {{}, error.place().facets};
+    return {.plc = {}, .wrong_facets = error.place().facets};
   }
 }
 
@@ -88,21 +89,42 @@ void expect_same(const plc::Plc& a, const plc::Plc& b) {
   for (std::size_t s = 0; s < a.segments.size(); ++s) EXPECT_EQ(a.segments[s].ends, b.segments[s].ends);
 }
 
+/// \return  how many segments are known to be edges
+std::size_t count_right_edges(const Verdict& verdict) {
+  std::size_t known = 0;
+  for (const plc::Segment& s : verdict.plc->segments) {
+    if (!s.has_face) continue;
+    EXPECT_TRUE(delaunay::has_edge(verdict.delaunay, s.ends[0], s.ends[1]));
+    ++known;
+  }
+  for (const plc::Facet& f : verdict.plc->facets) {
+    if (f.face == plc::no_face) continue;
+    const auto& [a, b, c] = f.triangles[0];
+    const std::uint32_t face = delaunay::CellStar(verdict.delaunay).find_face(a, b, c);
+    EXPECT_TRUE(f.face == face || f.face == verdict.delaunay.across(face));
+  }
+  return known;
+}
+
 TEST(PlcDoubtfulTriangles, AreAllThatNeedsATest) {
   std::mt19937 random(5);
-  std::size_t valid = 0, wrong = 0, proved = 0;
+  std::size_t valid = 0, wrong = 0, proved = 0, edges = 0;
   for (int i = 0; i < 2000; ++i) {
     const plc::InputPlc input = random_input(random);
     const Verdict all = verdict_on(input, false, proved), some = verdict_on(input, true, proved);
     ASSERT_EQ(all.plc.has_value(), some.plc.has_value()) << "input " << i;
     EXPECT_EQ(all.wrong_facets, some.wrong_facets) << "input " << i;
-    if (all.plc) expect_same(*all.plc, *some.plc);
+    if (all.plc) {
+      expect_same(*all.plc, *some.plc);
+      edges += count_right_edges(some);
+    }
     ++(all.plc ? valid : wrong);
   }
   // All three kinds of inputs are there.
   EXPECT_GT(valid, 200u);
   EXPECT_GT(wrong, 200u);
   EXPECT_GT(proved, 10000u);
+  EXPECT_GT(edges, 10000u);
 }
 
 }  // namespace

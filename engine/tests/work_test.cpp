@@ -270,7 +270,7 @@ protect.cells_tested 72
 protect.cells_created 26
 protect.cells_destroyed 13
 protect.largest_cavity 5
-protect.cells_visited 27
+protect.cells_visited 26
 protect.peak_bytes 1124
 )");
 }
