@@ -22,10 +22,8 @@ constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
 using FaceKey = std::array<std::uint32_t, 3>;
 
 constexpr FaceKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  if (a > b) std::swap(a, b);
-  if (b > c) std::swap(b, c);
-  if (a > b) std::swap(a, b);
-  return {a, b, c};
+  const std::uint32_t low = std::min(a, b), high = std::max(a, b);  // without branches
+  return {std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c)};
 }
 
 /// A fixed set of edges (N = 2) or triangles (N = 3), each found at its least vertex, in any order of its corners.
@@ -43,14 +41,11 @@ class SimplexMap {
       : first_(vertices + 2, 0), entries_(simplices.size()) {
     constexpr std::size_t grain = 4096;
     const AddOne add_one;
-    parallel_for(simplices.size(), grain,
-                 [&](std::size_t i) { add_one(first_[2 + *std::ranges::min_element(simplices[i])]); });
+    parallel_for(simplices.size(), grain, [&](std::size_t i) { add_one(first_[2 + sorted(simplices[i])[0]]); });
     // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     parallel_for(simplices.size(), grain, [&](std::size_t i) {
-      Corners corners;
-      std::ranges::copy(simplices[i], corners.begin());
-      std::ranges::sort(corners);
+      const Corners corners = sorted(simplices[i]);
       Entry& entry = entries_[add_one(first_[1 + corners[0]])];
       std::copy(corners.begin() + 1, corners.end(), entry.others.begin());
       entry.index = static_cast<std::uint32_t>(i);
@@ -77,6 +72,14 @@ class SimplexMap {
   }
 
  private:
+  template <class Id>
+  static Corners sorted(const std::array<Id, N>& c) {
+    if constexpr (N == 2)
+      return {std::min(c[0], c[1]), std::max(c[0], c[1])};
+    else
+      return face_key(c[0], c[1], c[2]);
+  }
+
   struct Entry {
     std::array<std::uint32_t, N - 1> others;  // greater than the least corner, increasing
     std::uint32_t index;

@@ -83,26 +83,38 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   FaceMap faces;
   FaceFilter filter;
   parallel_both([&] { faces = FaceMap(triangles, vertices); }, [&] { filter = FaceFilter(triangles); });
-  const auto look_up = [&](std::uint32_t c, std::uint32_t f) {
-    const delaunay::Cell& cell = delaunay.cells[c];
-    const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, f);
+  const auto look_up = [&](std::uint32_t code) {
+    const delaunay::Cell& cell = delaunay.cells[delaunay::cell_of(code)];
+    const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, delaunay::face_of(code));
     const std::uint32_t face = faces.find(p, q, r);
     if (face == FaceMap::none) return;
-    codes[face] = sees_in_order({p, q, r}, triangles[face]) ? delaunay::face_code(c, f) : cell.neighbors[f];
+    codes[face] = sees_in_order({p, q, r}, triangles[face]) ? code : cell.neighbors[delaunay::face_of(code)];
   };
   // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
-  parallel_for(delaunay.cells.size(), 4096, [&](std::size_t i) {
-    const auto c = static_cast<std::uint32_t>(i);
-    const auto& [v, neighbors] = delaunay.cells[c];
-    unsigned inner = 0;  // a bit for each corner without faces
-    for (std::uint32_t k = 0; k < 4; ++k) inner |= unsigned{v[k] >= vertices} << k;
-    if ((inner & (inner - 1)) != 0 || delaunay.is_dead(c)) return;
-    unsigned tested = 0;  // a bit for each face that this cell tests, not its neighbor
-    for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
-    if (inner != 0) tested &= inner;
-    work_done.faces_tested += static_cast<unsigned>(std::popcount(tested));
-    for (unsigned rest = tested & filter.may_have_faces(v); rest != 0; rest &= rest - 1)
-      look_up(c, static_cast<std::uint32_t>(std::countr_zero(rest)));
+  parallel_ranges(delaunay.cells.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    std::array<std::uint32_t, 256> candidates;
+    std::size_t count = 0;
+    const auto look_up_candidates = [&] {
+      for (std::size_t i = 0; i < count; ++i) look_up(candidates[i]);
+      count = 0;
+    };
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
+      const auto& [v, neighbors] = delaunay.cells[c];
+      unsigned inner = 0;  // a bit for each corner without faces
+      for (std::uint32_t k = 0; k < 4; ++k) inner |= unsigned{v[k] >= vertices} << k;
+      if ((inner & (inner - 1)) != 0 || delaunay.is_dead(c)) continue;
+      unsigned tested = 0;  // a bit for each face that this cell tests, not its neighbor
+      for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
+      if (inner != 0) tested &= inner;
+      const unsigned chosen = tested & filter.may_have_faces(v);
+      for (std::uint32_t f = 0; f < 4; ++f) {  // no branch for each face: it would be mispredicted
+        work_done.faces_tested += tested >> f & 1;
+        candidates[count] = delaunay::face_code(c, f);
+        count += chosen >> f & 1;
+      }
+      if (count + 4 > candidates.size()) look_up_candidates();
+    }
+    look_up_candidates();
   });
   work_done.cells_visited += delaunay.cells.size() - delaunay.free_cells.size();
   note_bytes(bytes_of(codes, triangles));

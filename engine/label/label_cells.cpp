@@ -1,6 +1,7 @@
 #include "engine/label/label_cells.h"
 
 #include <atomic>
+#include <bit>
 #include <span>
 #include <utility>
 
@@ -54,13 +55,12 @@ SharedUnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
   parallel_for(d.cells.size(), grain, [&](std::size_t i) {
     const auto cell = static_cast<std::uint32_t>(i);
     if (d.is_dead(cell)) return;
-    const auto neighbors = d.cells[i].neighbors;
-    const std::uint8_t walls = bits[i];
+    const auto& neighbors = d.cells[i].neighbors;
+    unsigned joined = 0;  // a bit for each face towards a smaller cell of the same part
+    for (std::uint32_t f = 0; f < 4; ++f) joined |= unsigned{cell_of(neighbors[f]) < cell} << f;
     std::uint32_t part = cell;
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t neighbor = cell_of(neighbors[f]);
-      if (neighbor < cell && (walls >> f & 1u) == 0) part = parts.join(part, neighbor);
-    }
+    for (joined &= ~unsigned{bits[i]}; joined != 0; joined &= joined - 1)
+      part = parts.join(part, cell_of(neighbors[std::countr_zero(joined)]));
   });
   return parts;
 }
