@@ -103,14 +103,15 @@ CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const s
     if (!its.is_none() && its != face.region) return stuck_at(plc, d, cell_of(face.code));
     its = face.region;
   }
+  // No wall divides the ghosts.
+  std::uint32_t ghost = 0;
+  while (d.is_dead(ghost) || !d.is_ghost(ghost)) ++ghost;
+  if (!region[part_of[ghost]].is_none()) return stuck_at(plc, d, ghost);
   // A part gets the region of its first cell, which stays the same.
-  std::atomic<std::uint32_t> stuck = no_neighbor;
   parallel_for(d.cells.size(), grain, [&](std::size_t i) {
     const auto cell = static_cast<std::uint32_t>(i), first = part_of[cell];
     if (first != cell) region[cell] = region[first];
-    if (!region[cell].is_none() && d.is_ghost(cell)) note_least(stuck, cell);
   });
-  if (stuck != no_neighbor) return stuck_at(plc, d, stuck);
   work_done.cells_visited += 2 * d.cells.size();
   note_bytes(bytes_of(bits, region, part_of));
   const std::uint32_t leak = find_leak(d, bits, wall_codes, region);
