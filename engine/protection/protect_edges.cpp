@@ -36,16 +36,16 @@ class Protector {
   Protector(const plc::Plc& plc, Protection strategy, std::vector<std::uint64_t> missing, ProtectedDelaunay& state)
       : state_(state), splitter_(plc, strategy, state.delaunay, state.chains), stack_(std::move(missing)) {
     for (std::uint32_t s = 0; s < state.chains.size(); ++s)
-      for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i) {
-        const Subsegment piece = {s, state.chains[s][i], state.chains[s][i + 1]};
-        pieces_.set(edge_key(piece.from.vertex, piece.to.vertex), piece);
-      }
+      for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i)
+        pieces_.push_back({s, state.chains[s][i], state.chains[s][i + 1]});
+    piece_of_.reserve(pieces_.size());
+    for (std::uint32_t p = 0; p < pieces_.size(); ++p) piece_of_.set(key_of(pieces_[p]), p);
   }
 
   void split_those_that_can_be(std::span<const PieceEnds> pieces) {
     for (const PieceEnds& ends : pieces) {
-      const Subsegment* piece = pieces_.find(edge_key(ends[0], ends[1]));
-      if (piece != nullptr && splitter_.can_split(*piece)) split(*piece);
+      const std::uint32_t* piece = piece_of_.find(edge_key(ends[0], ends[1]));
+      if (piece != nullptr && splitter_.can_split(pieces_[*piece])) split(pieces_[*piece]);
     }
   }
 
@@ -54,30 +54,34 @@ class Protector {
       if ((done & 0xFFF) == 0) report(progress, "protect", done, done + stack_.size());
       const std::uint64_t edge = stack_.back();
       stack_.pop_back();
-      const Subsegment* piece = pieces_.find(edge);
-      if (piece != nullptr && !has_edge(state_.delaunay, piece->from.vertex, piece->to.vertex)) split(*piece);
+      const std::uint32_t* place = piece_of_.find(edge);
+      if (place == nullptr) continue;
+      const Subsegment& piece = pieces_[*place];
+      if (!has_edge(state_.delaunay, piece.from.vertex, piece.to.vertex)) split(piece);
     }
     for (auto& chain : state_.chains) std::ranges::sort(chain, {}, &ChainVertex::fraction);
   }
 
  private:
+  static std::uint64_t key_of(const Subsegment& piece) { return edge_key(piece.from.vertex, piece.to.vertex); }
+
   void add(const Subsegment& piece) {
-    const std::uint64_t edge = edge_key(piece.from.vertex, piece.to.vertex);
-    pieces_.set(edge, piece);
-    stack_.push_back(edge);
+    piece_of_.set(key_of(piece), static_cast<std::uint32_t>(pieces_.size()));
+    pieces_.push_back(piece);
+    stack_.push_back(key_of(piece));
   }
 
   void split(const Subsegment piece) {
     const ChainVertex middle = splitter_.split(piece);
     state_.chains[piece.segment].push_back(middle);
-    pieces_.erase(pieces_.find(edge_key(piece.from.vertex, piece.to.vertex)));
+    piece_of_.erase(piece_of_.find(key_of(piece)));
     add({piece.segment, piece.from, middle});
     add({piece.segment, middle, piece.to});
     lost_.clear();
     for (const auto& v : splitter_.destroyed())
       for (int i = 1; i < 4; ++i)
         for (int j = 0; j < i; ++j)
-          if (const std::uint64_t edge = edge_key(v[i], v[j]); pieces_.find(edge) != nullptr) lost_.push_back(edge);
+          if (const std::uint64_t edge = edge_key(v[i], v[j]); piece_of_.contains(edge)) lost_.push_back(edge);
     // In an order that does not depend on that of the cells.
     std::ranges::sort(lost_);
     const auto repeated = std::ranges::unique(lost_);
@@ -86,9 +90,10 @@ class Protector {
 
   ProtectedDelaunay& state_;
   EdgeSplitter splitter_;
-  HashTable<std::uint64_t, Subsegment> pieces_;  // by their edges
-  std::vector<std::uint64_t> lost_;              // edges of cells that the last split has destroyed
-  std::vector<std::uint64_t> stack_;             // of edges; some may be split or exist by now
+  std::vector<Subsegment> pieces_;                    // also those that were split
+  HashTable<std::uint64_t, std::uint32_t> piece_of_;  // by their edges: those that were not
+  std::vector<std::uint64_t> lost_;                   // edges of cells that the last split has destroyed
+  std::vector<std::uint64_t> stack_;                  // of edges; some may be split or exist by now
 };
 
 }  // namespace
