@@ -39,7 +39,7 @@ class Protector {
       for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i)
         pieces_.push_back({s, state.chains[s][i], state.chains[s][i + 1]});
     piece_of_.reserve(pieces_.size());
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) piece_of_.set(key_of(pieces_[p]), p);
+    for (std::uint32_t p = 0; p < pieces_.size(); ++p) note(p);
   }
 
   void split_those_that_can_be(std::span<const PieceEnds> pieces) {
@@ -65,11 +65,26 @@ class Protector {
  private:
   static std::uint64_t key_of(const Subsegment& piece) { return edge_key(piece.from.vertex, piece.to.vertex); }
 
+  void note(std::uint32_t p) {
+    const std::uint32_t a = pieces_[p].from.vertex, b = pieces_[p].to.vertex;
+    piece_of_.set(edge_key(a, b), p);
+    other_ends_.resize(state_.delaunay.vertices.size(), 0);
+    other_ends_[a] |= bit_of(b);
+    other_ends_[b] |= bit_of(a);
+  }
+
   void add(const Subsegment& piece) {
-    piece_of_.set(key_of(piece), static_cast<std::uint32_t>(pieces_.size()));
     pieces_.push_back(piece);
+    note(static_cast<std::uint32_t>(pieces_.size() - 1));
     stack_.push_back(key_of(piece));
   }
+
+  /// Most edges are no pieces, and this shows it without looking them up.
+  bool may_be_piece(std::uint32_t a, std::uint32_t b) const {
+    return a != delaunay::ghost_vertex && b != delaunay::ghost_vertex && (other_ends_[a] & bit_of(b)) != 0 &&
+           (other_ends_[b] & bit_of(a)) != 0;
+  }
+  static std::uint64_t bit_of(std::uint32_t vertex) { return std::uint64_t{1} << vertex % 64; }
 
   void split(const Subsegment piece) {
     const ChainVertex middle = splitter_.split(piece);
@@ -81,7 +96,8 @@ class Protector {
     for (const auto& v : splitter_.destroyed())
       for (int i = 1; i < 4; ++i)
         for (int j = 0; j < i; ++j)
-          if (const std::uint64_t edge = edge_key(v[i], v[j]); piece_of_.contains(edge)) lost_.push_back(edge);
+          if (may_be_piece(v[i], v[j]) && piece_of_.contains(edge_key(v[i], v[j])))
+            lost_.push_back(edge_key(v[i], v[j]));
     // In an order that does not depend on that of the cells.
     std::ranges::sort(lost_);
     const auto repeated = std::ranges::unique(lost_);
@@ -92,6 +108,7 @@ class Protector {
   EdgeSplitter splitter_;
   std::vector<Subsegment> pieces_;                    // also those that were split
   HashTable<std::uint64_t, std::uint32_t> piece_of_;  // by their edges: those that were not
+  std::vector<std::uint64_t> other_ends_;             // by vertex: bits of the other ends of pieces there
   std::vector<std::uint64_t> lost_;                   // edges of cells that the last split has destroyed
   std::vector<std::uint64_t> stack_;                  // of edges; some may be split or exist by now
 };
