@@ -102,12 +102,13 @@ class PiercedCellSearch {
     std::uint32_t owner = none;  ///< the first that met the cell
   };
 
-  /// Finds the cells that missing face i meets, from those around one of its corners.
+  /// Finds the cells that missing face i meets, from the first of those around one of its corners.
   void flood(std::uint32_t i) {
     const auto& [a, b, c] = facets_.triangles[missing_[i]];
     const Triangle t = {a, b, c};
     stack_.clear();
-    for (const std::uint32_t cell : star_.around(a)) visit_cell(cell, i, t);
+    const auto star = star_.around(a);
+    for (auto cell = star.begin(); stack_.empty() && cell != star.end(); ++cell) visit_cell(*cell, i, t);
     while (!stack_.empty()) {
       const std::uint32_t cell = stack_.back();
       stack_.pop_back();
@@ -223,10 +224,12 @@ class RegionsOfDomain {
 CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                              const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // Delaunay faces that have no code yet
+  const bool all_are_searched =
+      std::ranges::all_of(codes, [](std::uint32_t code) { return code == delaunay::no_neighbor; });
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
     if (codes[i] != delaunay::no_neighbor) continue;
     const auto& [a, b, c] = facets.triangles[i];
-    const std::uint32_t code = star.find_face(a, b, c);
+    const std::uint32_t code = all_are_searched ? star.find_face(a, b, c) : delaunay::no_neighbor;
     if (code == delaunay::no_neighbor)
       missing_.push_back(i);
     else
