@@ -204,11 +204,19 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   return std::nullopt;
 }
 
-/// The faces of the facets in the tetrahedralization. Most facets are faces that the check of the input has found.
+/// The faces of the facets in the tetrahedralization. Most are triangles that the check of the input has found there.
 std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::FacetMesh& facets,
                                             const delaunay::Delaunay& delaunay) {
-  std::vector<std::uint32_t> earlier(facets.facet.size());
-  parallel_for(earlier.size(), 4096, [&](std::size_t i) { earlier[i] = plc.facets[facets.facet[i]].face; });
+  std::vector<std::uint32_t> earlier(facets.facet.size(), plc::no_face);
+  std::size_t next_triangle = 0;
+  auto face = earlier.begin();
+  for (std::size_t i = 0; face != earlier.end(); ++i) {
+    // Where a facet has other triangles now, some of these are those of others, or none.
+    const auto& triangles = plc.facets[i].triangles;
+    for (std::size_t k = 0; face != earlier.end() && facets.facet[face - earlier.begin()] == i; ++k, ++face)
+      if (k < triangles.size() && next_triangle + k < plc.faces.size()) *face = plc.faces[next_triangle + k];
+    next_triangle += triangles.size();
+  }
   return front::find_delaunay_faces_again(facets.triangles, earlier, delaunay);
 }
 

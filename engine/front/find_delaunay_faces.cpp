@@ -45,6 +45,19 @@ class FaceFilter {
   int shift_ = 0;
 };
 
+/// A bit for each face of a cell that this cell tests, not its neighbor.
+///
+/// \param vertices  ids from here on belong to vertices without faces
+unsigned faces_to_test(std::uint32_t c, std::uint32_t vertices, const delaunay::Delaunay& delaunay) {
+  const auto& [v, neighbors] = delaunay.cells[c];
+  unsigned inner = 0;  // a bit for each corner without faces
+  for (std::uint32_t k = 0; k < 4; ++k) inner |= unsigned{v[k] >= vertices} << k;
+  if ((inner & (inner - 1)) != 0 || delaunay.is_dead(c)) return 0;
+  unsigned tested = 0;
+  for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
+  return inner != 0 ? tested & inner : tested;
+}
+
 /// The corners of a face as a cell sees them. Are they those of the triangle in its order, so that the cell is above
 /// it?
 bool sees_in_order(const std::array<std::uint32_t, 3>& face, const std::array<VertexId, 3>& t) {
@@ -78,7 +91,7 @@ std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>
 std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
                                                const delaunay::Delaunay& delaunay) {
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
-  std::uint32_t vertices = 0;  // ids from here on belong to vertices without faces
+  std::uint32_t vertices = 0;
   for (const auto& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   FaceMap faces;
   FaceFilter filter;
@@ -99,14 +112,9 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
       count = 0;
     };
     for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
-      const auto& [v, neighbors] = delaunay.cells[c];
-      unsigned inner = 0;  // a bit for each corner without faces
-      for (std::uint32_t k = 0; k < 4; ++k) inner |= unsigned{v[k] >= vertices} << k;
-      if ((inner & (inner - 1)) != 0 || delaunay.is_dead(c)) continue;
-      unsigned tested = 0;  // a bit for each face that this cell tests, not its neighbor
-      for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
-      if (inner != 0) tested &= inner;
-      const unsigned chosen = tested & filter.may_have_faces(v);
+      const unsigned tested = faces_to_test(c, vertices, delaunay);
+      if (tested == 0) continue;
+      const unsigned chosen = tested & filter.may_have_faces(delaunay.cells[c].vertices);
       for (std::uint32_t f = 0; f < 4; ++f) {  // no branch for each face: it would be mispredicted
         work_done.faces_tested += tested >> f & 1;
         candidates[count] = delaunay::face_code(c, f);

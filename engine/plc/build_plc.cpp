@@ -126,7 +126,6 @@ std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatch
     facet.number = triangles.numbers[first];
     facet.above = map.of(first, true);
     facet.below = map.of(first, false);
-    if (members.size() == 1) facet.face = triangles.faces[first];
   });
   return facets;
 }
@@ -184,6 +183,8 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
              (tree ? tree->bytes() : 0));
   plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
+  plc.faces.reserve(triangles.size());
+  for (const std::uint32_t t : patches.members.items) plc.faces.push_back(triangles.faces[t]);
   plc.regions = std::move(map.regions);
   report(progress, stage, steps_of_build, steps_of_build);
   return plc;

@@ -10,7 +10,6 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_runs.h"
-#include "engine/numbers/predicates.h"
 #include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
@@ -234,8 +233,11 @@ class PatchFinder {
         group_indices(reference.size(), triangles_.size(), [&](std::size_t t) { return patches.facet_of[t]; });
     patches.exactly_flat.assign(reference.size(), 1);
     parallel_for(reference.size(), 16, [&](std::size_t facet) {
-      const auto [a, b, c] = corner_points(reference[facet]);
-      const auto is_in_plane = [&](const Point3& p) { return numbers::orient3d(a, b, c, p) == 0; };
+      if (patches.members.of(facet).size() == 1) return;
+      const std::array<Point3, 3> corners = corner_points(reference[facet]);
+      const WideVector normal = exact_normal(corners);
+      const IntegerPoint base = to_integers(corners[0]);
+      const auto is_in_plane = [&](const Point3& p) { return height_over(base, normal, to_integers(p)) == 0; };
       patches.exactly_flat[facet] = std::ranges::all_of(patches.members.of(facet), [&](std::uint32_t t) {
         return t == reference[facet] || std::ranges::all_of(corner_points(t), is_in_plane);
       });

@@ -78,11 +78,6 @@ Box box_above(const IntegerPoint& sixfold, bool upwards) {
   return box;
 }
 
-// The height of q above the plane through a, times the length of its normal.
-Wide height_over(const IntegerPoint& a, const WideVector& normal, const IntegerPoint& q) {
-  return normal[0] * (q[0] - a[0]) + normal[1] * (q[1] - a[1]) + normal[2] * (q[2] - a[2]);
-}
-
 // A triangle that a ray passes, and the side that it meets first.
 struct RayHit {
   std::uint32_t triangle;

@@ -35,6 +35,11 @@ inline WideVector exact_normal(const std::array<Point3, 3>& t) {
   return exact_normal(to_integers(t[0]), to_integers(t[1]), to_integers(t[2]));
 }
 
+/// The height of q above the plane through a, times the length of its normal.
+inline Wide height_over(const IntegerPoint& a, const WideVector& normal, const IntegerPoint& q) {
+  return normal[0] * (q[0] - a[0]) + normal[1] * (q[1] - a[1]) + normal[2] * (q[2] - a[2]);
+}
+
 /// The exact normal rounded to doubles; zero components stay zero and signs are exact.
 inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
   const WideVector n = exact_normal(t);

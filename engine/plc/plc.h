@@ -20,7 +20,7 @@ struct Segment {
   std::array<VertexId, 2> ends;
   int marker = 0;
   bool grazeable = false;  ///< a sector of the domain of 180 degrees or more is around it (Shewchuk 2002)
-  bool has_face = false;   ///< a triangle at it is known to be a face of the complex of `Facet::face`, so it is an edge
+  bool has_face = false;   ///< a triangle at it is one of `Plc::faces`, so it is an edge there
 };
 
 /// A facet: a maximal connected coplanar patch of input facets with one marker, bounded by segments.
@@ -34,8 +34,6 @@ struct Facet {
   int marker = 0;
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
   RegionId above, below;
-  std::uint32_t face = no_face;  ///< of a facet of one triangle: what the triangle is in a simplicial complex that has
-                                 ///< all vertices of the PLC, such as their Delaunay tetrahedralization
 };
 
 /// The normal of a facet, as long as twice its area.
@@ -64,6 +62,9 @@ struct Plc {
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex, its vertex
   std::vector<Segment> segments;
   std::vector<Facet> facets;
+  std::vector<std::uint32_t> faces;  ///< of the triangles of all facets, one after the other: what they are in a
+                                     ///< simplicial complex that has all vertices, such as their Delaunay
+                                     ///< tetrahedralization; or `no_face`
   std::vector<Region> regions;
   double largest_rounding = 0;  ///< largest change of a coordinate by the grid, in the units of the input
 };

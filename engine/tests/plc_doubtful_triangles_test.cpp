@@ -97,12 +97,15 @@ std::size_t count_right_edges(const Verdict& verdict) {
     EXPECT_TRUE(delaunay::has_edge(verdict.delaunay, s.ends[0], s.ends[1]));
     ++known;
   }
-  for (const plc::Facet& f : verdict.plc->facets) {
-    if (f.face == plc::no_face) continue;
-    const auto& [a, b, c] = f.triangles[0];
-    const std::uint32_t face = delaunay::CellStar(verdict.delaunay).find_face(a, b, c);
-    EXPECT_TRUE(f.face == face || f.face == verdict.delaunay.across(face));
-  }
+  auto face = verdict.plc->faces.begin();
+  for (const plc::Facet& f : verdict.plc->facets)
+    for (const auto& [a, b, c] : f.triangles) {
+      const std::uint32_t code = *face++;
+      if (code == plc::no_face) continue;
+      const std::uint32_t found = delaunay::CellStar(verdict.delaunay).find_face(a, b, c);
+      EXPECT_TRUE(code == found || code == verdict.delaunay.across(found));
+    }
+  EXPECT_EQ(face, verdict.plc->faces.end());
   return known;
 }
 
