@@ -208,15 +208,16 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
 std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::FacetMesh& facets,
                                             const delaunay::Delaunay& delaunay) {
   std::vector<std::uint32_t> earlier(facets.facet.size(), plc::no_face);
-  std::size_t next_triangle = 0;
-  auto face = earlier.begin();
-  for (std::size_t i = 0; face != earlier.end(); ++i) {
-    // Where a facet has other triangles now, some of these are those of others, or none.
-    const auto& triangles = plc.facets[i].triangles;
-    for (std::size_t k = 0; face != earlier.end() && facets.facet[face - earlier.begin()] == i; ++k, ++face)
-      if (k < triangles.size() && next_triangle + k < plc.faces.size()) *face = plc.faces[next_triangle + k];
-    next_triangle += triangles.size();
-  }
+  parallel_ranges(earlier.size(), 4096, [&](std::size_t i, std::size_t end) {
+    std::size_t first = i;  // of the facet
+    while (first > 0 && facets.facet[first - 1] == facets.facet[i]) --first;
+    for (; i < end; ++i) {
+      if (facets.facet[i] != facets.facet[first]) first = i;
+      // Where a facet has got other triangles, this is the face of another one.
+      const std::size_t face = plc.facets[facets.facet[i]].first_face + (i - first);
+      if (face < plc.faces.size()) earlier[i] = plc.faces[face];
+    }
+  });
   return front::find_delaunay_faces_again(facets.triangles, earlier, delaunay);
 }
 

@@ -138,13 +138,15 @@ std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::arra
     codes[i] = confirm(earlier[i], triangles[i], delaunay);
     ++work_done.faces_tested;
   });
-  std::vector<std::array<VertexId, 3>> others;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    if (codes[i] == no_neighbor) others.push_back(triangles[i]);
-  const std::vector<std::uint32_t> found = find_others(others, delaunay);
-  auto next = found.begin();
-  for (std::uint32_t& code : codes)
-    if (code == no_neighbor) code = *next++;
+  const auto others = parallel_collect<std::uint32_t>(
+      codes.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
+        for (; i < end; ++i)
+          if (codes[i] == no_neighbor) found.push_back(static_cast<std::uint32_t>(i));
+      });
+  std::vector<std::array<VertexId, 3>> their_corners(others.size());
+  parallel_for(others.size(), 4096, [&](std::size_t i) { their_corners[i] = triangles[others[i]]; });
+  const std::vector<std::uint32_t> found = find_others(their_corners, delaunay);
+  parallel_for(others.size(), 4096, [&](std::size_t i) { codes[others[i]] = found[i]; });
   return codes;
 }
 

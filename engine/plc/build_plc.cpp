@@ -45,8 +45,8 @@ struct TriangleSearch {
 std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
   std::vector<std::uint8_t> is_doubtful;
   if (std::ranges::all_of(triangles.faces, [](std::uint32_t face) { return face == no_face; })) return is_doubtful;
-  is_doubtful.reserve(triangles.size());
-  for (const std::uint32_t face : triangles.faces) is_doubtful.push_back(face == no_face);
+  is_doubtful.resize(triangles.size());
+  parallel_for(triangles.size(), 4096, [&](std::size_t t) { is_doubtful[t] = triangles.faces[t] == no_face; });
   return is_doubtful;
 }
 
@@ -126,6 +126,7 @@ std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatch
     facet.number = triangles.numbers[first];
     facet.above = map.of(first, true);
     facet.below = map.of(first, false);
+    facet.first_face = patches.members.first[f];
   });
   return facets;
 }
@@ -183,8 +184,9 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
              (tree ? tree->bytes() : 0));
   plc.segments = collect_segments(plc.vertices, parts, map);
   plc.facets = collect_facets(triangles, patches, map);
-  plc.faces.reserve(triangles.size());
-  for (const std::uint32_t t : patches.members.items) plc.faces.push_back(triangles.faces[t]);
+  plc.faces.resize(triangles.size());
+  parallel_for(plc.faces.size(), 4096,
+               [&](std::size_t i) { plc.faces[i] = triangles.faces[patches.members.items[i]]; });
   plc.regions = std::move(map.regions);
   report(progress, stage, steps_of_build, steps_of_build);
   return plc;

@@ -281,13 +281,17 @@ std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
   });
   const std::vector<std::uint32_t> order = sorted_by_key(keyed);
   std::vector<std::uint32_t> first_equal(points.size());
-  std::size_t begin = 0;  // of points with one hash value
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (keyed[order[k]].key != keyed[order[begin]].key) begin = k;
-    std::size_t same = begin;
-    while (points[order[same]] != points[order[k]]) ++same;
-    first_equal[order[k]] = order[same];
-  }
+  const auto is_new = [&](std::size_t k) { return k == 0 || keyed[order[k]].key != keyed[order[k - 1]].key; };
+  parallel_ranges(order.size(), 4096, [&](std::size_t k, std::size_t end) {
+    std::size_t first = k;  // of the points with this hash value
+    while (!is_new(first)) --first;
+    for (; k < end; ++k) {
+      if (is_new(k)) first = k;
+      std::size_t same = first;
+      while (points[order[same]] != points[order[k]]) ++same;
+      first_equal[order[k]] = order[same];
+    }
+  });
   return first_equal;
 }
 

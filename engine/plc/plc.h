@@ -34,6 +34,7 @@ struct Facet {
   int marker = 0;
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
   RegionId above, below;
+  std::uint32_t first_face = 0;  ///< the place of its first triangle in `Plc::faces`
 };
 
 /// The normal of a facet, as long as twice its area.
