@@ -213,9 +213,10 @@ std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::F
     while (first > 0 && facets.facet[first - 1] == facets.facet[i]) --first;
     for (; i < end; ++i) {
       if (facets.facet[i] != facets.facet[first]) first = i;
-      // Where a facet has got other triangles, this is the face of another one.
-      const std::size_t face = plc.facets[facets.facet[i]].first_face + (i - first);
-      if (face < plc.faces.size()) earlier[i] = plc.faces[face];
+      // Where a facet has got other triangles, this may be the face of another one.
+      const plc::Facet& facet = plc.facets[facets.facet[i]];
+      const std::size_t face = facet.first_face + (i - first);
+      if (i - first < facet.triangles.size() && face < plc.faces.size()) earlier[i] = plc.faces[face];
     }
   });
   return front::find_delaunay_faces_again(facets.triangles, earlier, delaunay);

@@ -1,12 +1,15 @@
 #include "engine/front/find_delaunay_faces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/simplex_map.h"
 
 namespace ccdt::front {
@@ -79,11 +82,49 @@ std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>
                                        const delaunay::Delaunay& delaunay) {
   constexpr std::size_t cells_a_star = 64;  // that could be looked at instead of one star
   if (triangles.size() > delaunay.cells.size() / cells_a_star) return find_delaunay_faces(triangles, delaunay);
+  const FaceMap first(triangles, delaunay.vertices.size());
   delaunay::CellStar star(delaunay);
-  std::vector<std::uint32_t> codes;
-  for (const auto& [a, b, c] : triangles) codes.push_back(star.find_face(a, b, c));
+  std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    if (first.find(a, b, c) == i) codes[i] = star.find_face(a, b, c);
+  }
   work_done.faces_tested += triangles.size();
   return codes;
+}
+
+/// Marks for faces of cells.
+class FaceMarks {
+ public:
+  explicit FaceMarks(const delaunay::Delaunay& delaunay) : d_(delaunay), marks_(delaunay.cells.size()) {
+    parallel_fill(std::span(marks_), std::uint8_t{0});
+  }
+  /// On several threads.
+  /// \return  was it set before?
+  bool set(std::uint32_t code) {
+    const std::uint32_t place = place_of(code);
+    const std::atomic_ref marks(marks_[delaunay::cell_of(place)]);
+    return (marks.fetch_or(bit_of(place), std::memory_order_relaxed) & bit_of(place)) != 0;
+  }
+  bool has(std::uint32_t code) const {
+    const std::uint32_t place = place_of(code);
+    return (marks_[delaunay::cell_of(place)] & bit_of(place)) != 0;
+  }
+
+ private:
+  std::uint32_t place_of(std::uint32_t code) const { return std::min(code, d_.across(code)); }
+  static std::uint8_t bit_of(std::uint32_t code) { return static_cast<std::uint8_t>(1u << delaunay::face_of(code)); }
+
+  const delaunay::Delaunay& d_;
+  RawVector<std::uint8_t> marks_;
+};
+
+/// Of the triangles with this code, or that of its other side, only the first keeps it.
+void keep_first(std::uint32_t code, const delaunay::Delaunay& delaunay, std::vector<std::uint32_t>& codes) {
+  const std::uint32_t other_side = delaunay.across(code);
+  bool is_first = true;
+  for (std::uint32_t& its : codes)
+    if ((its == code || its == other_side) && !std::exchange(is_first, false)) its = no_neighbor;
 }
 
 }  // namespace
@@ -133,11 +174,16 @@ std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::arra
                                                      const std::vector<std::uint32_t>& earlier,
                                                      const delaunay::Delaunay& delaunay) {
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
-  parallel_for(triangles.size(), 4096, [&](std::size_t i) {
-    if (earlier[i] == no_neighbor) return;
-    codes[i] = confirm(earlier[i], triangles[i], delaunay);
-    ++work_done.faces_tested;
-  });
+  FaceMarks is_confirmed(delaunay);
+  auto repeated = parallel_collect<std::uint32_t>(
+      triangles.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& again) {
+        for (; i < end; ++i) {
+          if (earlier[i] == no_neighbor) continue;
+          ++work_done.faces_tested;
+          codes[i] = confirm(earlier[i], triangles[i], delaunay);
+          if (codes[i] != no_neighbor && is_confirmed.set(codes[i])) again.push_back(codes[i]);
+        }
+      });
   const auto others = parallel_collect<std::uint32_t>(
       codes.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
         for (; i < end; ++i)
@@ -147,6 +193,14 @@ std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::arra
   parallel_for(others.size(), 4096, [&](std::size_t i) { their_corners[i] = triangles[others[i]]; });
   const std::vector<std::uint32_t> found = find_others(their_corners, delaunay);
   parallel_for(others.size(), 4096, [&](std::size_t i) { codes[others[i]] = found[i]; });
+  const auto known = parallel_collect<std::uint32_t>(
+      found.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& again) {
+        for (; i < end; ++i)
+          if (found[i] != no_neighbor && is_confirmed.has(found[i])) again.push_back(found[i]);
+      });
+  repeated.insert(repeated.end(), known.begin(), known.end());
+  for (const std::uint32_t code : repeated) keep_first(code, delaunay, codes);
+  note_bytes(bytes_of(codes, earlier, others, their_corners, found));
   return codes;
 }
 

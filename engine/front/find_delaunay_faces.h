@@ -10,9 +10,8 @@
 namespace ccdt::front {
 
 /// The face protection check (paper, section 5.2): for every triangle its code in the cell above it, if it is a face of
-/// the Delaunay tetrahedralization; `no_neighbor` if it is undelaunay.
-///
-/// \param triangles  pairwise different
+/// the Delaunay tetrahedralization; `no_neighbor` if it is undelaunay. Of triangles with the same corners, as both
+/// sides of a plate may have, only the first gets its code.
 std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
                                                const delaunay::Delaunay& delaunay);
 

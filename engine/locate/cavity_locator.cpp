@@ -224,12 +224,10 @@ class RegionsOfDomain {
 CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                              const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // Delaunay faces that have no code yet
-  const bool all_are_searched =
-      std::ranges::all_of(codes, [](std::uint32_t code) { return code == delaunay::no_neighbor; });
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
     if (codes[i] != delaunay::no_neighbor) continue;
     const auto& [a, b, c] = facets.triangles[i];
-    const std::uint32_t code = all_are_searched ? star.find_face(a, b, c) : delaunay::no_neighbor;
+    const std::uint32_t code = star.find_face(a, b, c);
     if (code == delaunay::no_neighbor)
       missing_.push_back(i);
     else
