@@ -78,6 +78,7 @@ std::uint32_t confirm(std::uint32_t code, const std::array<VertexId, 3>& triangl
   return sees_in_order({q, p, r}, triangle) ? delaunay.across(code) : no_neighbor;
 }
 
+/// As `find_delaunay_faces`, also fast if there are few triangles.
 std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>>& triangles,
                                        const delaunay::Delaunay& delaunay) {
   constexpr std::size_t cells_a_star = 64;  // that could be looked at instead of one star

@@ -46,53 +46,68 @@ Point3 common_point(const Point3& a, const Point3& b, const Point3& c, const Poi
   return middle + step * inwards;
 }
 
+/// The edges of triangles by their smaller ends: those of vertex v are entries[first[v]] ... entries[first[v+1]-1],
+/// sorted.
+struct TriangleEdges {
+  std::vector<std::uint32_t> first;
+  /// The greater end, then 3 * triangle + corner, then whether the triangle runs along the edge from the greater end.
+  RawVector<std::uint64_t> entries;
+
+  /// Is the edge in this place not the one before?
+  bool is_new(std::size_t v, std::uint32_t i) const {
+    return i == first[v] || entries[i] >> 32 != entries[i - 1] >> 32;
+  }
+};
+
+TriangleEdges gather_edges(std::span<const VertexTriple> triangles) {
+  std::uint32_t vertices = 0;
+  for (const VertexTriple& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  TriangleEdges edges;
+  auto& [first, entries] = edges;
+  first.assign(vertices + 2, 0);
+  entries.resize(3 * triangles.size());
+  const auto for_each = [&](const auto& visit) {
+    parallel_for(triangles.size(), chunk_length, [&](std::size_t i) {
+      const VertexTriple& t = triangles[i];
+      for (std::uint32_t k = 0; k < 3; ++k) visit(3 * i + k, t[k], t[k == 2 ? 0 : k + 1]);
+    });
+  };
+  const AddOne add_one;
+  for_each([&](std::size_t, VertexId a, VertexId b) { add_one(first[2 + std::min(a, b)]); });
+  // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for_each([&](std::size_t slot, VertexId a, VertexId b) {
+    entries[add_one(first[1 + std::min(a, b)])] = std::uint64_t{std::max(a, b)} << 32 | 2 * slot | (a < b ? 0 : 1);
+  });
+  parallel_for(vertices, chunk_length,
+               [&](std::size_t v) { std::sort(entries.begin() + first[v], entries.begin() + first[v + 1]); });
+  return edges;
+}
+
 }  // namespace
 
 EdgeTable make_edge_table(std::span<const VertexTriple> triangles) {
-  std::uint32_t vertices = 0;
-  for (const VertexTriple& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
-  // The edges of triangles by their smaller ends: the greater end, then 3 * triangle + corner, and whether the triangle
-  // runs along the edge the other way.
-  std::vector<std::uint32_t> first(vertices + 2, 0);
-  RawVector<std::uint64_t> entries(3 * triangles.size());
-  const AddOne add_one;
-  const auto for_each_edge = [&](const auto& visit) {
-    parallel_for(triangles.size(), chunk_length, [&](std::size_t i) {
-      const VertexTriple& t = triangles[i];
-      for (std::uint32_t k = 0; k < 3; ++k) visit(i, k, t[k], t[k == 2 ? 0 : k + 1]);
-    });
-  };
-  for_each_edge([&](std::size_t, std::uint32_t, VertexId a, VertexId b) { add_one(first[2 + std::min(a, b)]); });
-  // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for_each_edge([&](std::size_t t, std::uint32_t k, VertexId a, VertexId b) {
-    entries[add_one(first[1 + std::min(a, b)])] =
-        std::uint64_t{std::max(a, b)} << 32 | (6 * t + 2 * k) | (a < b ? 0 : 1);
-  });
-  const auto is_new = [&](std::uint32_t v, std::uint32_t i) {
-    return i == first[v] || entries[i] >> 32 != entries[i - 1] >> 32;
-  };
+  const TriangleEdges edges = gather_edges(triangles);
+  const auto& [first, entries] = edges;
   EdgeTable table;
   table.sides.resize(entries.size());
   table.edges_of.resize(triangles.size());
   parallel_pack(
-      vertices, chunk_length,
+      first.size() - 2, chunk_length,
       [&](std::size_t v, std::size_t end) {
-        std::size_t edges = 0;
-        for (; v < end; ++v) {
-          std::sort(entries.begin() + first[v], entries.begin() + first[v + 1]);
-          for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) edges += is_new(v, i);
-        }
-        return edges;
+        std::size_t count = 0;
+        for (; v < end; ++v)
+          for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) count += edges.is_new(v, i);
+        return count;
       },
-      [&](std::size_t edges) {
-        table.ends.resize(edges);
-        table.first.resize(edges + 1, static_cast<std::uint32_t>(entries.size()));
+      [&](std::size_t count) {
+        table.ends.resize(count);
+        table.first.resize(count + 1, static_cast<std::uint32_t>(entries.size()));
       },
       [&](std::size_t v, std::size_t end, std::size_t next) {
         for (; v < end; ++v)
           for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
-            if (is_new(v, i)) {
+            if (edges.is_new(v, i)) {
               table.ends[next] = {VertexId(v), VertexId(entries[i] >> 32)};
               table.first[next++] = i;
             }
