@@ -19,7 +19,7 @@ namespace {
 
 using VeryWide = boost::multiprecision::int256_t;
 
-constexpr std::size_t chunk_length = 4096;  // of loops on several threads
+constexpr std::size_t at_once = 4096;  // of loops on several threads
 
 IntegerPoint six_times(const Point3& p) {
   const IntegerPoint q = to_integers(p);
@@ -156,7 +156,7 @@ class VerticalRays {
 // \return sets of sides, and after them infinity, alone
 SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& edges) {
   SharedUnionFind sides(2 * std::size_t{triangles} + 1);
-  parallel_for(edges.size(), chunk_length, [&](std::size_t e) {
+  parallel_for(edges.size(), at_once, [&](std::size_t e) {
     const auto around = edges.sides_around(static_cast<std::uint32_t>(e));
     for (std::size_t k = 0; k < around.size(); ++k)
       sides.join(around[k], opposite_of(around[k + 1 < around.size() ? k + 1 : 0]));
@@ -167,7 +167,7 @@ SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& e
 // Triangles that are connected by edges. Those around an edge see each other through its sectors.
 SharedUnionFind components_of(std::uint32_t triangles, SharedUnionFind& sides) {
   SharedUnionFind components(triangles);
-  parallel_for(triangles, chunk_length, [&](std::size_t i) {
+  parallel_for(triangles, at_once, [&](std::size_t i) {
     const auto t = static_cast<std::uint32_t>(i);
     for (const bool above : {true, false}) components.join(t, triangle_of(sides.find(side_of(t, above))));
   });

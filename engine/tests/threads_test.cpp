@@ -6,10 +6,12 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <span>
 
 #include "engine/base/parallel.h"
 #include "engine/cores/split_by_rank.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/delaunay/insert_in_parts.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
 #include "engine/surface/remesh_surface.h"
@@ -97,6 +99,23 @@ TEST(Threads, MakeOneDelaunayTetrahedralization) {
 }
 
 // ---- Splits of cubes
+
+TEST(Threads, LeaveVerticesThatAreTooFewForParts) {
+  std::mt19937_64 random(2);
+  std::vector<Point3> points = random_points(random);
+  points.resize(600);
+  const std::size_t first = 400;
+  with_threads(2, [&] {
+    delaunay::Delaunay d = delaunay::build_delaunay(std::span(points).first(first));
+    delaunay::append_vertices(d, std::span(points).subspan(first));
+    std::vector<std::uint32_t> added(points.size() - first);
+    std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(first));
+    delaunay::InsertionMarks marks;
+    delaunay::PartedInsertion parted(d, marks);
+    EXPECT_EQ(parted.insert(added, {}, 0, added.size(), {}), added);
+    EXPECT_EQ(d.cell_at[first], delaunay::no_cell);
+  });
+}
 
 TEST(Threads, ShareOneTableOfTheSplitsOfCubes) {
   std::vector<std::array<std::uint32_t, 8>> orders;
