@@ -163,6 +163,19 @@ class AddOne {
   const bool is_alone_ = thread_count() == 1;
 };
 
+/// Sets bits in bytes in which all threads of the following loops set some. One thread alone does not pay for this.
+class SetBits {
+ public:
+  /// \return  the byte before
+  std::uint8_t operator()(std::uint8_t& byte, std::uint8_t bits) const {
+    if (is_alone_) return std::exchange(byte, static_cast<std::uint8_t>(byte | bits));
+    return std::atomic_ref(byte).fetch_or(bits, std::memory_order_relaxed);
+  }
+
+ private:
+  const bool is_alone_ = thread_count() == 1;
+};
+
 /// Fills a list to which each chunk of 0 .. count adds some items, on several threads, in the order of the chunks.
 ///
 /// \param count_in   `count_in(begin, end)`: how many items these indices add

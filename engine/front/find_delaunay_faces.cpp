@@ -1,7 +1,6 @@
 #include "engine/front/find_delaunay_faces.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <span>
@@ -104,8 +103,7 @@ class FaceMarks {
   /// \return  was it set before?
   bool set(std::uint32_t code) {
     const std::uint32_t place = place_of(code);
-    const std::atomic_ref marks(marks_[delaunay::cell_of(place)]);
-    return (marks.fetch_or(bit_of(place), std::memory_order_relaxed) & bit_of(place)) != 0;
+    return (set_bits_(marks_[delaunay::cell_of(place)], bit_of(place)) & bit_of(place)) != 0;
   }
   bool has(std::uint32_t code) const {
     const std::uint32_t place = place_of(code);
@@ -117,6 +115,7 @@ class FaceMarks {
   static std::uint8_t bit_of(std::uint32_t code) { return static_cast<std::uint8_t>(1u << delaunay::face_of(code)); }
 
   const delaunay::Delaunay& d_;
+  const SetBits set_bits_;
   RawVector<std::uint8_t> marks_;
 };
 

@@ -32,9 +32,9 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
                     const std::vector<std::uint32_t>& wall_codes) {
   FaceBits bits(d.cells.size());
   parallel_fill(std::span(bits), std::uint8_t{0});
+  const SetBits set_bits;
   const auto mark = [&](std::uint32_t code, unsigned what) {
-    const auto bit = static_cast<std::uint8_t>(what << face_of(code));
-    std::atomic_ref(bits[cell_of(code)]).fetch_or(bit, std::memory_order_relaxed);
+    set_bits(bits[cell_of(code)], static_cast<std::uint8_t>(what << face_of(code)));
   };
   parallel_for(wall_codes.size(), grain, [&](std::size_t i) {
     if (wall_codes[i] == no_neighbor) return;

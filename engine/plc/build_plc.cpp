@@ -41,7 +41,7 @@ struct TriangleSearch {
   std::vector<TrianglePair> close;
 };
 
-// By triangle: is it not known to be a face of the complex? Empty: none is.
+// By triangle: is it not known to be a face of the complex? Empty: no triangle is known to be one.
 std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
   std::vector<std::uint8_t> is_doubtful;
   if (std::ranges::all_of(triangles.faces, [](std::uint32_t face) { return face == no_face; })) return is_doubtful;
@@ -147,7 +147,6 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const 
   triangulate_polygons(input, plc, tolerance, triangles, segments);
   if (drop_triangles_without_area(plc.vertices, triangles) > 0 && triangles.size() == 0)
     throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
-  check_duplicate_triangles(plc, triangles);
   report(progress, stage, 1, steps_of_build);
   return gathered;
 }
@@ -156,6 +155,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
   Plc plc = std::move(gathered.plc);
   PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
   auto& [triangles, segments, edges, match, patches] = parts;
+  check_duplicate_triangles(plc, triangles);
   auto [tree, close] = make_conforming(plc.vertices, triangles);
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);

@@ -21,7 +21,8 @@ struct TriangleSet {
   std::vector<int> markers;
   std::vector<std::uint32_t> numbers;  ///< number in the file of the triangle's facet
   std::vector<std::uint32_t> faces;  ///< what the triangles are in a simplicial complex that has all vertices, such as
-                                     ///< their Delaunay tetrahedralization; `no_face`: not in it, or not known
+                                     ///< their Delaunay tetrahedralization; of two with the same corners, at most one
+                                     ///< is known. `no_face`: not in it, or not known
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(corners.size()); }
   void reserve(std::size_t count) {

@@ -32,6 +32,8 @@ void throw_input_error(const Plc& plc, const std::string& what, const std::strin
 }
 
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
+  // A face is that of one triangle.
+  if (std::ranges::find(triangles.faces, no_face) == triangles.faces.end()) return;
   using KeyedTriangle = std::pair<FaceKey, std::uint32_t>;
   std::vector<KeyedTriangle> sorted(triangles.size());
   parallel_for(sorted.size(), 4096, [&](std::size_t t) {

@@ -46,6 +46,11 @@ inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 inline bool has_no_area(const std::array<Point3, 3>& t) {
+  // Differences are exact, and the error of one of products is below 2^-52 of the sum of their magnitudes.
+  const auto is_certain = [](double p, double q) { return std::fabs(p - q) > 1e-15 * (std::fabs(p) + std::fabs(q)); };
+  const Point3 u = t[1] - t[0], v = t[2] - t[0];
+  if (is_certain(u.x * v.y, u.y * v.x) || is_certain(u.y * v.z, u.z * v.y) || is_certain(u.z * v.x, u.x * v.z))
+    return false;
   return rounded_normal(t) == Point3{};
 }
 
