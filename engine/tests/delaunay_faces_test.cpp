@@ -10,6 +10,7 @@
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_delaunay_faces.h"
+#include "engine/tests/delaunay_point_sets.h"
 
 // Triangles are found again as faces after vertices were added: the same codes as those of a search without any
 // knowledge of before.
@@ -18,16 +19,6 @@ namespace ccdt {
 namespace {
 
 using Triangle = std::array<VertexId, 3>;
-
-/// Points of a small grid, many of them cospherical and coplanar.
-std::vector<Point3> random_points(std::mt19937& random, std::size_t count) {
-  std::vector<Point3> points;
-  while (points.size() < count) {
-    const Point3 p{double(random() % 16), double(random() % 16), double(random() % 16)};
-    if (std::ranges::find(points, p) == points.end()) points.push_back(p);
-  }
-  return points;
-}
 
 /// Faces of the tetrahedralization, seen from any side, and as many triangles that are mostly none; some of them twice.
 std::vector<Triangle> some_triangles(const delaunay::Delaunay& d, std::size_t count, std::mt19937& random) {
@@ -67,7 +58,7 @@ TEST(DelaunayFaces, AreFoundAgainAfterVerticesWereAdded) {
   std::mt19937 random(17);
   std::size_t stayed = 0, changed = 0;
   for (int i = 0; i < 400; ++i) {
-    const std::vector<Point3> points = random_points(random, 150);
+    const std::vector<Point3> points = test::shuffled(test::simple_cubic(5), random());
     const std::size_t first = 100, added = random() % 8;
     delaunay::Delaunay d = delaunay::build_delaunay(std::span(points).first(first));
     // A few are searched in the stars of their vertices, many in all cells.
@@ -85,7 +76,7 @@ TEST(DelaunayFaces, AreFoundAgainAfterVerticesWereAdded) {
 
 TEST(DelaunayFaces, AreFoundAgainWhereTheCodesAreThoseOfOtherFaces) {
   std::mt19937 random(18);
-  const delaunay::Delaunay d = delaunay::build_delaunay(random_points(random, 200));
+  const delaunay::Delaunay d = delaunay::build_delaunay(test::shuffled(test::simple_cubic(5), random()));
   const std::vector<Triangle> triangles = some_triangles(d, 200, random);
   const std::vector<std::uint32_t> codes = front::find_delaunay_faces(triangles, d);
   std::vector<std::uint32_t> wrong = codes;
