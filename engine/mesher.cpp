@@ -277,6 +277,7 @@ CheckedInput check_input(const InputPlc& input, const MeshOptions& options, cons
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
   if (!options.refine_surface)
     checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, options, progress, costs);
+  static_assert(plc::no_face == delaunay::no_neighbor);
   if (checked.delaunay)
     gathered.triangles.faces = measured(costs, mesh_stage::plc, [&] {
       return front::find_delaunay_faces(gathered.triangles.corners, *checked.delaunay);

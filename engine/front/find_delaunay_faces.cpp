@@ -77,7 +77,7 @@ std::uint32_t confirm(std::uint32_t code, const std::array<VertexId, 3>& triangl
   return sees_in_order({q, p, r}, triangle) ? delaunay.across(code) : no_neighbor;
 }
 
-/// As `find_delaunay_faces`, also fast if there are few triangles.
+/// The same as `find_delaunay_faces`, but few triangles are searched in the stars of their vertices, not in all cells.
 std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>>& triangles,
                                        const delaunay::Delaunay& delaunay) {
   constexpr std::size_t cells_a_star = 64;  // that could be looked at instead of one star
@@ -99,7 +99,8 @@ class FaceMarks {
   explicit FaceMarks(const delaunay::Delaunay& delaunay) : d_(delaunay), marks_(delaunay.cells.size()) {
     parallel_fill(std::span(marks_), std::uint8_t{0});
   }
-  /// On several threads.
+  /// May be called on several threads.
+  ///
   /// \return  was it set before?
   bool set(std::uint32_t code) {
     const std::uint32_t place = place_of(code);

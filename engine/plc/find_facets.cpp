@@ -65,7 +65,7 @@ class PatchFinder {
       const auto around = edges.around(e);
       may_cross_[e] =
           around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
-      if (may_cross_[e]) note_company(e);
+      if (may_cross_[e]) mark_not_lonely(e);
     });
   }
 
@@ -112,9 +112,9 @@ class PatchFinder {
     return fitted;
   }
 
-  // Most triangles of a curved surface are facets of their own. They are found before patches grow: those that would
-  // take in no neighbor.
-  void note_company(std::uint32_t e) {
+  // Most triangles of a curved surface are facets of their own. They are found before patches grow. A triangle that
+  // would take in its neighbor at some edge is none of them.
+  void mark_not_lonely(std::uint32_t e) {
     const auto around = edges_.around(e);
     for (const std::uint32_t t : around)
       if (find_turn(across(e, t), e, runs_along_edge(t, e), plane_of(t).plane()))

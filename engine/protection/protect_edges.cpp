@@ -39,7 +39,7 @@ class Protector {
       for (std::size_t i = 0; state.must_be_chain[s] && i + 1 < state.chains[s].size(); ++i)
         pieces_.push_back({s, state.chains[s][i], state.chains[s][i + 1]});
     piece_of_.reserve(pieces_.size());
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) note(p);
+    for (std::uint32_t p = 0; p < pieces_.size(); ++p) index_piece(p);
   }
 
   void split_those_that_can_be(std::span<const PieceEnds> pieces) {
@@ -65,7 +65,7 @@ class Protector {
  private:
   static std::uint64_t key_of(const Subsegment& piece) { return edge_key(piece.from.vertex, piece.to.vertex); }
 
-  void note(std::uint32_t p) {
+  void index_piece(std::uint32_t p) {
     const std::uint32_t a = pieces_[p].from.vertex, b = pieces_[p].to.vertex;
     piece_of_.set(edge_key(a, b), p);
     other_ends_.resize(state_.delaunay.vertices.size(), 0);
@@ -75,11 +75,11 @@ class Protector {
 
   void add(const Subsegment& piece) {
     pieces_.push_back(piece);
-    note(static_cast<std::uint32_t>(pieces_.size() - 1));
+    index_piece(static_cast<std::uint32_t>(pieces_.size() - 1));
     stack_.push_back(key_of(piece));
   }
 
-  /// Most edges are no pieces, and this shows it without looking them up.
+  /// False for most edges that are no pieces, without looking them up.
   bool may_be_piece(std::uint32_t a, std::uint32_t b) const {
     return a != delaunay::ghost_vertex && b != delaunay::ghost_vertex && (other_ends_[a] & bit_of(b)) != 0 &&
            (other_ends_[b] & bit_of(a)) != 0;
