@@ -163,13 +163,16 @@ class AddOne {
   const bool is_alone_ = thread_count() == 1;
 };
 
-/// Sets bits in bytes in which all threads of the following loops set some. One thread alone does not pay for this.
+/// Sets bits in bytes in which all threads of the following loops set some. One thread alone does not pay for this, nor
+/// do bits that are set already.
 class SetBits {
  public:
   /// \return  the byte before
   std::uint8_t operator()(std::uint8_t& byte, std::uint8_t bits) const {
     if (is_alone_) return std::exchange(byte, static_cast<std::uint8_t>(byte | bits));
-    return std::atomic_ref(byte).fetch_or(bits, std::memory_order_relaxed);
+    const std::atomic_ref shared(byte);
+    const std::uint8_t before = shared.load(std::memory_order_relaxed);
+    return (before & bits) == bits ? before : shared.fetch_or(bits, std::memory_order_relaxed);
   }
 
  private:

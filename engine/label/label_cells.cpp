@@ -1,14 +1,15 @@
 #include "engine/label/label_cells.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
-#include <bit>
 #include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
+#include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/base/shared_union_find.h"
 
 namespace ccdt::label {
 
@@ -48,26 +49,79 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
   return bits;
 }
 
-/// The parts of the tetrahedralization between the walls. They grow in the order of the cells in memory; a flood fill
-/// would jump around.
-SharedUnionFind join_cells(const delaunay::Delaunay& d, const FaceBits& bits) {
-  SharedUnionFind parts(d.cells.size());
-  parallel_for(d.cells.size(), grain, [&](std::size_t i) {
-    const auto cell = static_cast<std::uint32_t>(i);
-    if (d.is_dead(cell)) return;
-    const auto& neighbors = d.cells[i].neighbors;
-    unsigned joined = 0;  // a bit for each face towards a smaller cell of the same part
-    for (std::uint32_t f = 0; f < 4; ++f) joined |= unsigned{cell_of(neighbors[f]) < cell} << f;
-    std::uint32_t part = cell;
-    for (joined &= ~unsigned{bits[i]}; joined != 0; joined &= joined - 1)
-      part = parts.join(part, cell_of(neighbors[std::countr_zero(joined)]));
-  });
-  return parts;
-}
+/// Labels the cells that are connected to some first ones, with their region.
+class RegionFlood {
+ public:
+  RegionFlood(const delaunay::Delaunay& d, const FaceBits& bits, RawVector<RegionId>& region)
+      : d_(d), bits_(bits), region_(region), is_reached_(d.cells.size()) {
+    parallel_fill(std::span(is_reached_), std::uint8_t{0});
+  }
 
-void note_least(std::atomic<std::uint32_t>& least, std::uint32_t i) {
-  std::uint32_t before = least.load(std::memory_order_relaxed);
-  while (i < before && !least.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
+  /// Each thread starts from a share of the first cells, which are in the order of memory, so that what it reaches is
+  /// close together.
+  void spread(std::span<const std::uint32_t> first, RegionId region) {
+    constexpr std::size_t least_share = 1024;
+    parallel_ranges(first.size(), std::max(first.size() / thread_count() + 1, least_share),
+                    [&](std::size_t begin, std::size_t end) {
+                      std::vector<std::uint32_t> cells, next;
+                      for (; begin < end; ++begin)
+                        if (reach(first[begin])) cells.push_back(first[begin]);
+                      for (; !cells.empty(); cells.swap(next)) {
+                        label(cells, region);
+                        next.clear();
+                        for (std::size_t i = 0; i < cells.size(); i += a_few) reach_neighbors(cells, i, next);
+                      }
+                    });
+  }
+
+  std::size_t bytes() const { return bytes_of(is_reached_); }
+
+ private:
+  /// Is it reached for the first time?
+  bool reach(std::uint32_t cell) { return set_bits_(is_reached_[cell], 1) == 0; }
+
+  void label(std::span<const std::uint32_t> cells, RegionId region) {
+    for (const std::uint32_t cell : cells) region_[cell] = region;
+    work_done.cells_visited += cells.size();
+  }
+
+  /// Adds what is reached from a few cells. It is unpredictable whether a neighbor is reached for the first time, so no
+  /// branch depends on it.
+  ///
+  /// \param i  the first of them
+  void reach_neighbors(std::span<const std::uint32_t> cells, std::size_t i, std::vector<std::uint32_t>& found) {
+    constexpr std::size_t ahead = 16;
+    std::array<std::uint32_t, 4 * a_few> reached;
+    std::size_t count = 0;
+    for (const std::size_t end = std::min(i + a_few, cells.size()); i < end; ++i) {
+      if (i + ahead < cells.size()) {
+        __builtin_prefetch(&d_.cells[cells[i + ahead]]);
+        __builtin_prefetch(&bits_[cells[i + ahead]]);
+      }
+      const std::uint32_t cell = cells[i];
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const bool is_wall = (bits_[cell] >> f & 1) != 0;
+        const std::uint32_t next = is_wall ? cell : cell_of(d_.cells[cell].neighbors[f]);
+        reached[count] = next;
+        count += reach(next);
+      }
+    }
+    found.insert(found.end(), reached.begin(), reached.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+
+  static constexpr std::size_t a_few = 64;
+
+  const delaunay::Delaunay& d_;
+  const FaceBits& bits_;
+  RawVector<RegionId>& region_;
+  RawVector<std::uint8_t> is_reached_;
+  const SetBits set_bits_;
+};
+
+void note_least(std::uint32_t& least, std::uint32_t i) {
+  const std::atomic_ref shared(least);
+  std::uint32_t before = shared.load(std::memory_order_relaxed);
+  while (i < before && !shared.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
   }
 }
 
@@ -80,7 +134,7 @@ std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const
     const std::uint32_t cell = cell_of(side);
     return !region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u);
   };
-  std::atomic<std::uint32_t> leak = no_neighbor;
+  std::uint32_t leak = no_neighbor;
   parallel_for(wall_codes.size(), grain, [&](std::size_t i) {
     const std::uint32_t code = wall_codes[i];
     if (code != no_neighbor && (leaks(code) || leaks(d.across(code)))) note_least(leak, static_cast<std::uint32_t>(i));
@@ -95,25 +149,30 @@ std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const
 CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
                        const std::vector<std::uint32_t>& wall_codes) {
   const FaceBits bits = mark_walls(d, open, wall_codes);
-  const RawVector<std::uint32_t> part_of = join_cells(d, bits).take_representatives();
   RawVector<RegionId> region(d.cells.size());
   parallel_fill(std::span(region), RegionId());
-  for (const front::FrontFace& face : open) {
-    RegionId& its = region[part_of[cell_of(face.code)]];
-    if (!its.is_none() && its != face.region) return stuck_at(plc, d, cell_of(face.code));
-    its = face.region;
+  parallel_for(open.size(), grain,
+               [&](std::size_t i) { note_least(region[cell_of(open[i].code)].value, open[i].region); });
+  const auto first = parallel_collect<std::uint32_t>(
+      d.cells.size(), grain, [&](std::size_t cell, std::size_t end, std::vector<std::uint32_t>& found) {
+        for (; cell < end; ++cell)
+          if (!region[cell].is_none()) found.push_back(static_cast<std::uint32_t>(cell));
+      });
+  const IndexLists first_of =
+      group_indices(plc.regions.size(), first.size(), [&](std::size_t i) { return region[first[i]]; });
+  RegionFlood flood(d, bits, region);
+  for (std::uint32_t r = 0; r < plc.regions.size(); ++r) {
+    std::vector<std::uint32_t> of_region;
+    for (const std::uint32_t i : first_of.of(r)) of_region.push_back(first[i]);
+    flood.spread(of_region, RegionId(r));
   }
+  note_bytes(bytes_of(bits, region, first) + flood.bytes());
+  for (const front::FrontFace& face : open)
+    if (region[cell_of(face.code)] != face.region) return stuck_at(plc, d, cell_of(face.code));
   // No wall divides the ghosts.
   std::uint32_t ghost = 0;
   while (d.is_dead(ghost) || !d.is_ghost(ghost)) ++ghost;
-  if (!region[part_of[ghost]].is_none()) return stuck_at(plc, d, ghost);
-  // A part gets the region of its first cell, which stays the same.
-  parallel_for(d.cells.size(), grain, [&](std::size_t i) {
-    const auto cell = static_cast<std::uint32_t>(i), first = part_of[cell];
-    if (first != cell) region[cell] = region[first];
-  });
-  work_done.cells_visited += 2 * d.cells.size();
-  note_bytes(bytes_of(bits, region, part_of));
+  if (!region[ghost].is_none()) return stuck_at(plc, d, ghost);
   const std::uint32_t leak = find_leak(d, bits, wall_codes, region);
   if (leak != no_neighbor) return stuck_at(plc, d, leak);
   return {std::move(region)};
