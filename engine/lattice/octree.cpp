@@ -5,7 +5,6 @@
 #include <boost/sort/spreadsort/integer_sort.hpp>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -14,6 +13,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/base/sort_in_runs.h"
 #include "engine/lattice/inside_test.h"
+#include "engine/numbers/filters.h"
 
 namespace ccdt::lattice {
 
@@ -58,52 +58,59 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
   return {};
 }
 
-/// Tests whether boxes of one size may touch a triangle: separating axes, with a margin for rounding.
-class TouchTest {
- public:
-  /// \param half  of the sides of the boxes
-  /// \param reach bound on the coordinates of corners relative to the centers of all tested boxes
-  TouchTest(const TrianglePoints& triangle, const Point3& half, double reach);
+/// The children of a node on the upper sides of its three middle planes, as bits.
+constexpr unsigned upper_children[] = {0xAA, 0xCC, 0xF0};
 
-  /// False only if the triangle and the box with this center are certainly apart though their bounding boxes overlap.
-  bool may_touch(const Point3& center) const {
-    const Point3 from_corner = center - corner_;
-    for (const Slab& slab : slabs_) {
-      const double along = dot(slab.axis, from_corner);
-      if (along < slab.low || along > slab.high) return false;
-    }
-    return true;
-  }
-
- private:
-  struct Slab {
-    Point3 axis;  // of any length
-    double low, high;
-  };
-  Point3 corner_;
-  std::array<Slab, 10> slabs_;
-};
-
-TouchTest::TouchTest(const TrianglePoints& triangle, const Point3& half, double reach) : corner_(triangle[0]) {
-  const Point3 ab = triangle[1] - triangle[0], bc = triangle[2] - triangle[1], ca = triangle[0] - triangle[2];
-  double longest = 0;
-  for (const Point3& edge : {ab, bc, ca})
-    for (const double c : as_array(edge)) longest = std::max(longest, std::abs(c));
+/// A bit for each child of a node; not set only if the child and the triangle are certainly apart, though their
+/// bounding boxes may overlap. Tests separating axes, with a margin for rounding: the cross products of edges and axes
+/// here (in three lanes, one for each edge), the triangle's normal below.
+///
+/// \param center  of the node
+/// \param half    of the sides of its children
+/// \param reach   bound on the coordinates of corners relative to the centers of all children
+CCDT_ALWAYS_INLINE unsigned children_touching(const TrianglePoints& triangle, const Point3& center, double half,
+                                              double reach) {
+  using numbers::Lanes, numbers::IntegerLanes;
+  const auto ab = as_array(triangle[1] - triangle[0]), bc = as_array(triangle[2] - triangle[1]),
+             ac = as_array(triangle[2] - triangle[0]), to_center = as_array(center - triangle[0]);
   // The boxes grow by a margin, so that rounding can only turn "apart" into "touching".
-  const auto grown = [&](double h) { return h * (1 + 1e-9) + 1e-12 * reach; };
-  const Point3 size{grown(half.x), grown(half.y), grown(half.z)};
-  std::size_t count = 0;
-  const auto add = [&](const Point3& axis, double slack) {
-    const double b = dot(axis, ab), c = -dot(axis, ca);
-    const double radius = size.x * std::abs(axis.x) + size.y * std::abs(axis.y) + size.z * std::abs(axis.z) + slack;
-    slabs_[count++] = {axis, std::min({0.0, b, c}) - radius, std::max({0.0, b, c}) + radius};
-  };
-  add(cross(ab, triangle[2] - triangle[0]), 1e-14 * longest * longest * reach);
-  for (const Point3& edge : {ab, bc, ca}) {
-    add({0, -edge.z, edge.y}, 0);
-    add({edge.z, 0, -edge.x}, 0);
-    add({-edge.y, edge.x, 0}, 0);
+  const double size = half * (1 + 1e-9) + 1e-12 * reach;
+  Lanes edge[3] = {}, magnitude[3] = {};
+  for (int k = 0; k < 3; ++k) {
+    edge[k] = Lanes{ab[k], bc[k], ac[k], 0};
+    numbers::filter::magnitude(edge[k], magnitude[k]);
   }
+  IntegerLanes apart = {};  // in each lane: the children that its edge shows to be apart
+  for (int k = 0; k < 3; ++k) {
+    const int p = (k + 1) % 3, q = (k + 2) % 3;
+    // Of the corners, along the axes; the first one is at 0.
+    const Lanes b = edge[p] * ab[q] - edge[q] * ab[p], c = edge[p] * ac[q] - edge[q] * ac[p];
+    const Lanes radius = size * (magnitude[p] + magnitude[q]), none = {};
+    Lanes low, high;
+    low = b < c ? b : c, high = b > c ? b : c;
+    low = (low < none ? low : none) - radius, high = (high > none ? high : none) + radius;
+    for (unsigned side = 0; side < 4; ++side) {
+      const double at_p = to_center[p] + ((side & 1) != 0 ? half : -half),
+                   at_q = to_center[q] + ((side & 2) != 0 ? half : -half);
+      const std::int64_t children = ((side & 1) != 0 ? upper_children[p] : 0xFF & ~upper_children[p]) &
+                                    ((side & 2) != 0 ? upper_children[q] : 0xFF & ~upper_children[q]);
+      const Lanes along = edge[p] * at_q - edge[q] * at_p;
+      apart |= ((along < low) | (along > high)) & children;
+    }
+  }
+  auto touching = static_cast<unsigned>(0xFF & ~(apart[0] | apart[1] | apart[2]));
+  const Point3 normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+  double longest = 0;
+  for (const Lanes& lanes : magnitude) longest = std::max({longest, lanes[0], lanes[1], lanes[2]});
+  const double radius =
+      size * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) + 1e-14 * longest * longest * reach;
+  for (unsigned c = 0; c < 8; ++c) {
+    const double along = normal.x * (to_center[0] + ((c & 1) != 0 ? half : -half)) +
+                         normal.y * (to_center[1] + ((c & 2) != 0 ? half : -half)) +
+                         normal.z * (to_center[2] + ((c & 4) != 0 ? half : -half));
+    touching &= ~(unsigned{std::abs(along) > radius} << c);
+  }
+  return touching;
 }
 
 /// A leaf is split when its side is more than this times the target.
@@ -318,30 +325,24 @@ class Builder {
   }
 
   /// Lists triangles of the parent for each child that they may touch.
-  void hand_down(std::span<const std::uint32_t> those, const std::array<Box, 8>& boxes,
-                 std::array<Triangles, 8>& lists) const {
+  CCDT_WIDE_LANES void hand_down(std::span<const std::uint32_t> those, const std::array<Box, 8>& boxes,
+                                 std::array<Triangles, 8>& lists) const {
     for (const std::uint32_t t : those) {
-      const Box& around = around_[t];
-      unsigned children = children_overlapping(boxes, around);
-      std::optional<TouchTest> touch;
-      for (; children != 0; children &= children - 1) {
-        const auto c = static_cast<std::uint32_t>(std::countr_zero(children));
-        if (!contains(boxes[c], around)) {
-          if (!touch) touch.emplace(touch_test(t, boxes));
-          if (!touch->may_touch(boxes[c].center())) continue;
-        }
-        lists[c].push_back(t);
-      }
+      unsigned children = children_overlapping(boxes, around_[t]);
+      // If it overlaps one alone, the triangle is in it, or beyond the node in part.
+      if (!std::has_single_bit(children) || !contains(boxes[std::countr_zero(children)], around_[t]))
+        children &= children_touching(t, boxes);
+      for (; children != 0; children &= children - 1) lists[std::countr_zero(children)].push_back(t);
     }
   }
 
-  /// A test of a triangle against the children of a node.
-  TouchTest touch_test(std::uint32_t t, const std::array<Box, 8>& boxes) const {
-    const Point3 center = boxes[0].high, side = boxes[0].high - boxes[0].low;
+  CCDT_ALWAYS_INLINE unsigned children_touching(std::uint32_t t, const std::array<Box, 8>& boxes) const {
+    const Point3 center = boxes[0].high;
+    const double half = 0.5 * (boxes[0].high.x - boxes[0].low.x);
     double reach = 0;
     for (const Point3& corner : {around_[t].low - center, around_[t].high - center})
       for (const double x : as_array(corner)) reach = std::max(reach, std::abs(x));
-    return {surface_.corners(t), 0.5 * side, reach + 0.5 * side.x};
+    return lattice::children_touching(surface_.corners(t), center, half, reach + half);
   }
 
   /// A bit for each child whose box overlaps another.
