@@ -87,27 +87,17 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   return lattice::place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
 }
 
-void keep_only(const std::vector<std::uint32_t>& those, lattice::LatticePoints& lattice) {
-  std::size_t kept = 0;
-  for (const std::uint32_t i : those) {
-    lattice.points[kept] = lattice.points[i];
-    lattice.levels[kept++] = lattice.levels[i];
-  }
-  lattice.points.resize(kept);
-  lattice.levels.resize(kept);
-}
-
 /// The Delaunay tetrahedralization of the surface's vertices and the points.
 delaunay::Delaunay add_points(const lattice::LatticePoints& lattice, delaunay::Delaunay d, const MeshOptions& options,
                               const Progress& progress, MeshCounts& counts) {
   if (options.delaunay == DelaunayMethod::wrap) {
-    append_vertices(d, lattice.points);
+    append_vertices(d, lattice.points, lattice.later_rounds);
     return delaunay::wrap_delaunay(std::move(d.vertices), options.grid_scale, progress);
   }
   if (options.delaunay == DelaunayMethod::core && lattice.share_in_one_level >= options.least_core)
     counts.core_tetrahedra = cores::insert_points(lattice, d, progress);
   else
-    insert_points(d, lattice.points, progress);
+    insert_points(d, lattice.points, lattice.later_rounds, progress);
   return d;
 }
 
@@ -357,7 +347,9 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     measured(costs, mesh_stage::lattice, [&] {
       lattice = place_points(t.plc, surface, facets, options, progress);
       t.counts.dropped_interior_vertices = lattice.points.size();
-      keep_only(protection::make_room(lattice.points, t.plc, options.protection, surface, progress), lattice);
+      const auto avoided =
+          options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
+      keep_only(protection::make_room(lattice.points, t.plc, options.protection, surface, avoided, progress), lattice);
       t.counts.dropped_interior_vertices -= lattice.points.size();
     });
   }

@@ -71,17 +71,16 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
       protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), protection::Protection::shell);
   s.facets = facets::triangulate_facets(s.plc, surface.chains, surface.delaunay);
   s.lattice = lattice_input(s.plc, surface, s.facets, density);
-  const auto points =
-      lattice::place_lattice_points({s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options)
-          .points;
-  std::vector<Point3> remaining;
-  for (const std::uint32_t i : protection::make_room(points, s.plc, protection::Protection::shell, surface))
-    remaining.push_back(points[i]);
+  lattice::LatticePoints points = lattice::place_lattice_points(
+      {s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options);
+  keep_only(
+      make_room(points.points, s.plc, protection::Protection::shell, surface, protection::Avoided::smallest_spheres),
+      points);
   s.first_interior = surface.delaunay.vertices.size();
   s.chains = std::move(surface.chains);
   s.facets = facets::triangulate_facets(s.plc, s.chains, surface.delaunay);  // edges may have been split
   s.delaunay = std::move(surface.delaunay);
-  insert_points(s.delaunay, remaining);
+  insert_points(s.delaunay, points.points, points.later_rounds);
   s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
   if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
     s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);

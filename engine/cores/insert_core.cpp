@@ -103,14 +103,12 @@ class Joiner {
 
   /// Several threads may reach the same neighbor; one of them gets it.
   void remove_neighbors(std::uint32_t c, std::vector<std::uint32_t>& found) {
+    const SetBits set_bits;
     const std::uint8_t walls = std::atomic_ref(walls_[c]).load(std::memory_order_relaxed);
     for (std::uint32_t f = 0; f < 4; ++f) {
       if ((walls >> f & 1) != 0) continue;
       const std::uint32_t next = cell_of(d_.cells[c].neighbors[f]);
-      const std::atomic_ref its(walls_[next]);
-      if ((its.load(std::memory_order_relaxed) & removed) == 0 &&
-          (its.fetch_or(removed, std::memory_order_relaxed) & removed) == 0)
-        found.push_back(next);
+      if ((set_bits(walls_[next], removed) & removed) == 0) found.push_back(next);
     }
   }
 
@@ -158,7 +156,7 @@ std::size_t insert_points(const lattice::LatticePoints& lattice, Delaunay& d, co
   others.reserve(d.vertices.size());
   for (const delaunay::DelaunayVertex& v : d.vertices) others.push_back(v.point);
   const auto first = static_cast<std::uint32_t>(d.vertices.size());
-  const std::vector<std::uint32_t> order = append_vertices(d, lattice.points);
+  const std::vector<std::uint32_t> order = append_vertices(d, lattice.points, lattice.later_rounds);
   RawVector<std::uint32_t> vertex(order.size());
   parallel_for(order.size(), 4096, [&](std::size_t i) { vertex[order[i]] = first + static_cast<std::uint32_t>(i); });
 

@@ -79,11 +79,10 @@ void renumber(Delaunay& d, const std::vector<std::uint32_t>& order) {
   });
 }
 
-/// The position of v among the vertices of the cell; 4 if it is not there.
+/// The position of v among the vertices of the cell; 4 if it is not there. It is unpredictable, so there is no branch.
 std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
-  std::uint32_t i = 0;
-  while (i < 4 && cell.vertices[i] != v) ++i;
-  return i;
+  const auto& u = cell.vertices;
+  return 4 - 4 * unsigned{u[0] == v} - 3 * unsigned{u[1] == v} - 2 * unsigned{u[2] == v} - unsigned{u[3] == v};
 }
 
 }  // namespace

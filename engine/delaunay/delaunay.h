@@ -137,14 +137,17 @@ Delaunay wrap_delaunay(DelaunayVertices vertices, double grid_scale = 1, const P
 /// Adds points as vertices, in the order of a Hilbert curve. Their ids, and their ranks too, follow the existing ones.
 /// They have no cells yet: those are made by `insert_vertices`, or all anew by `wrap_delaunay`.
 ///
-/// \param points  grid units
+/// \param points        grid units
+/// \param later_rounds  as for `hilbert_order`
 /// \return  by added vertex, the index of its point
-std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points);
+std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points,
+                                           std::span<const std::uint8_t> later_rounds = {});
 
 /// Adds points to the tetrahedralization, as `append_vertices` and `insert_vertices` do.
 ///
 /// \param points  grid units, pairwise different and different from the vertices
-void insert_points(Delaunay& d, std::span<const Point3> points, const Progress& progress = {});
+void insert_points(Delaunay& d, std::span<const Point3> points, std::span<const std::uint8_t> later_rounds = {},
+                   const Progress& progress = {});
 
 /// A cell that has the edge ab; `no_neighbor` if that is no edge of the tetrahedralization.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b);

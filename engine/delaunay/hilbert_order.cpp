@@ -49,29 +49,33 @@ CCDT_WIDE_LANES void hilbert_distances(const Coordinates& coordinates, std::arra
     distances[lane] = spread_bits(x[lane]) << 2 | spread_bits(y[lane]) << 1 | spread_bits(z[lane]);
 }
 
-/// A well-mixed hash of an index: the random bits of the rounds, the same on every machine.
-std::uint64_t random_bits(std::uint64_t i) {
-  i += 0x9E3779B97F4A7C15u;
-  i = (i ^ (i >> 30)) * 0xBF58476D1CE4E5B9u;
-  i = (i ^ (i >> 27)) * 0x94D049BB133111EBu;
-  return i ^ (i >> 31);
+/// Divides items along a curve into rounds: each has those between the items of the rounds before, three between two.
+std::vector<std::uint32_t> in_rounds(const std::vector<std::uint32_t>& along_curve) {
+  constexpr std::size_t growth = 4, most_in_first = 1000;
+  std::size_t step = 1;
+  while (along_curve.size() / step > most_in_first) step *= growth;
+  std::vector<std::uint32_t> result;
+  result.reserve(along_curve.size());
+  for (std::size_t i = 0; i < along_curve.size(); i += step) result.push_back(along_curve[i]);
+  for (std::size_t last = step; last > 1; last = step) {
+    step /= growth;
+    for (std::size_t i = 0; i < along_curve.size(); i += step)
+      if (i % last != 0) result.push_back(along_curve[i]);
+  }
+  return result;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
+std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points, std::span<const std::uint8_t> later_rounds) {
   const auto [low, high] = bounding_box(points);
   const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1.0});
   const double scale = ((1u << bits_per_axis) - 1) / extent;
 
-  // A round has eight times the points of the one before; small sets need none.
-  int rounds = 0;
-  for (std::size_t n = points.size(); n > 2000 && rounds < 6; n /= 8) ++rounds;
   RawVector<KeyedIndex> keyed(points.size());
   const auto round_of = [&](std::size_t i) {
-    std::uint64_t round = static_cast<std::uint64_t>(rounds);
-    for (std::uint64_t bits = random_bits(i); round > 0 && (bits & 7) == 0; bits >>= 3) --round;
-    return round;
+    constexpr std::uint64_t last = (std::uint64_t{1} << (64 - round_shift)) - 1;
+    return later_rounds.empty() ? last : last - std::min<std::uint64_t>(later_rounds[i], last);
   };
   parallel_ranges(points.size(), 4096, [&](std::size_t i, std::size_t end) {
     Coordinates cells{};
@@ -89,7 +93,8 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points) {
         keyed[i + lane] = {round_of(i + lane) << round_shift | distances[lane], static_cast<std::uint32_t>(i + lane)};
     }
   });
-  return sorted_by_key(std::move(keyed));
+  std::vector<std::uint32_t> sorted = sorted_by_key(std::move(keyed));
+  return later_rounds.empty() ? in_rounds(sorted) : sorted;
 }
 
 }  // namespace ccdt::delaunay

@@ -82,8 +82,9 @@ void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const
   insert_in_order(d, marks, waiting, Ties::any_rank, vertices.size() - waiting.size(), vertices.size(), progress);
 }
 
-std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points) {
-  std::vector<std::uint32_t> order = hilbert_order(points);
+std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> points,
+                                           std::span<const std::uint8_t> later_rounds) {
+  std::vector<std::uint32_t> order = hilbert_order(points, later_rounds);
   const std::size_t first = d.vertices.size();
   d.vertices.resize(first + points.size());
   d.cell_at.resize(first + points.size());
@@ -94,9 +95,10 @@ std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> 
   return order;
 }
 
-void insert_points(Delaunay& d, std::span<const Point3> points, const Progress& progress) {
+void insert_points(Delaunay& d, std::span<const Point3> points, std::span<const std::uint8_t> later_rounds,
+                   const Progress& progress) {
   const auto first = static_cast<std::uint32_t>(d.vertices.size());
-  append_vertices(d, points);
+  append_vertices(d, points, later_rounds);
   std::vector<std::uint32_t> added(points.size());
   std::iota(added.begin(), added.end(), first);
   insert_vertices(d, added, progress);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -99,6 +101,17 @@ inline Site site_at(const std::array<std::uint32_t, 3>& c) {
 
 inline std::array<std::uint32_t, 3> coordinates_of(Site site) {
   return coordinates_of_morton_code(site);
+}
+
+/// How many rounds follow that of a site if a lattice is inserted in rounds from coarse to fine. A simple cubic lattice
+/// with steps of 2^k octree units is in a face-centered one, that is in a simple cubic one with half the step, and so
+/// on; each begins a round. The points of the body-centered lattice with odd coordinates come last.
+///
+/// \param log_step  all sites around have coordinates with at least this many trailing zero bits
+constexpr std::uint8_t later_rounds(Site site, unsigned log_step) {
+  const unsigned zeros = static_cast<unsigned>(std::countr_zero(site)) / 3;
+  const bool even = std::popcount(site >> 3 * zeros & 7) % 2 == 0;
+  return static_cast<std::uint8_t>(2 * (zeros - std::min(zeros, log_step)) + (even ? 1 : 0));
 }
 
 /// The lattice points of all leaves that are not outside, each once, in Morton order, and strictly within the bounds of

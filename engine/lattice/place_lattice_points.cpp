@@ -110,7 +110,7 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
   const std::vector<std::uint8_t> stays = find_clear_sites(tree, surface, sites, options);
   report(progress, stage, 3, steps);
 
-  LatticePoints result{{}, {}, options.kind, tree.origin, tree.unit, tree.depth, share_in_one_level(tree)};
+  LatticePoints result{{}, {}, {}, options.kind, tree.origin, tree.unit, tree.depth, share_in_one_level(tree)};
   std::vector<std::uint8_t> levels(sites.size(), outside);
   parallel_for(sites.size(), 1024, [&](std::size_t i) {
     if (!stays[i]) return;
@@ -127,14 +127,28 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
       });
   result.points.resize(kept.size());
   result.levels.resize(kept.size());
+  result.later_rounds.resize(kept.size());
   parallel_for(kept.size(), 4096, [&](std::size_t i) {
     result.points[i] = tree.point(coordinates_of(sites[kept[i]]));
     result.levels[i] = levels[kept[i]];
+    result.later_rounds[i] = later_rounds(sites[kept[i]], tree.depth - levels[kept[i]]);
   });
   const auto vertices = static_cast<double>(surface.vertices.size() + result.points.size());
   if (vertices > plc::most_vertices) plc::throw_too_many_vertices(vertices);
   report(progress, stage, steps, steps);
   return result;
+}
+
+void keep_only(std::span<const std::uint32_t> those, LatticePoints& points) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : those) {
+    points.points[kept] = points.points[i];
+    points.levels[kept] = points.levels[i];
+    points.later_rounds[kept++] = points.later_rounds[i];
+  }
+  points.points.resize(kept);
+  points.levels.resize(kept);
+  points.later_rounds.resize(kept);
 }
 
 }  // namespace ccdt::lattice

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/progress.h"
@@ -10,8 +11,9 @@ namespace ccdt::lattice {
 
 /// Interior points, and their places in the lattices of an octree.
 struct LatticePoints {
-  std::vector<Point3> points;        ///< in grid units
-  std::vector<std::uint8_t> levels;  ///< of each point: the level of the leaf that holds it
+  std::vector<Point3> points;              ///< in grid units
+  std::vector<std::uint8_t> levels;        ///< of each point: the level of the leaf that holds it
+  std::vector<std::uint8_t> later_rounds;  ///< of each point: how many rounds of insertion follow its own
   Lattice kind = Lattice::none;
   Point3 origin;       ///< of the octree; a point is this plus whole octree units
   double unit = 1;     ///< one octree unit in grid units
@@ -39,5 +41,10 @@ struct LatticePoints {
 /// \throw LimitError  more points than vertex ids
 LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress = {});
+
+/// Leaves out all points but these.
+///
+/// \param those  indices, in increasing order
+void keep_only(std::span<const std::uint32_t> those, LatticePoints& points);
 
 }  // namespace ccdt::lattice

@@ -61,13 +61,14 @@ LongVector cross(const LongVector& a, const LongVector& b) {
 /// Finds the points that may harm an edge; keeps its working memory from one edge to the next.
 class HarmSearch {
  public:
-  HarmSearch(std::span<const Point3> points, const BoxTree& tree, const delaunay::Delaunay& d)
-      : points_(points), tree_(tree), d_(d) {}
+  HarmSearch(std::span<const Point3> points, const BoxTree& tree, const delaunay::Delaunay& d, Avoided avoided)
+      : points_(points), tree_(tree), d_(d), avoided_(avoided) {}
 
   /// \return  the points in the edge's sphere
   std::vector<std::uint32_t> find(const PieceEnds& edge) {
     gather_ring(d_, edge[0], edge[1], ring_);
     face_.make(d_, edge[0], edge[1], ring_);
+    if (avoided_ == Avoided::smallest_spheres && face_.smallest_ball_is_empty()) return {};
     std::optional<std::size_t> fewest;
     face_.visit_empty_balls([&](const Ball& ball) {
       inside_.clear();
@@ -147,6 +148,7 @@ class HarmSearch {
   std::span<const Point3> points_;
   const BoxTree& tree_;
   const delaunay::Delaunay& d_;
+  const Avoided avoided_;
   EdgeRing ring_;
   VoronoiFace face_;
   std::vector<std::uint32_t> inside_, best_;  ///< points in the ball of the moment; in the best one
@@ -155,10 +157,10 @@ class HarmSearch {
 /// The points that may harm each protected edge.
 std::vector<std::vector<std::uint32_t>> find_harmful(std::span<const Point3> points, const BoxTree& tree,
                                                      const std::vector<PieceEnds>& edges,
-                                                     const delaunay::Delaunay& delaunay) {
+                                                     const delaunay::Delaunay& delaunay, Avoided avoided) {
   std::vector<std::vector<std::uint32_t>> harmful(edges.size());
   parallel_ranges(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
-    HarmSearch search(points, tree, delaunay);
+    HarmSearch search(points, tree, delaunay, avoided);
     for (std::size_t i = begin; i < end; ++i) harmful[i] = search.find(edges[i]);
   });
   return harmful;
@@ -170,9 +172,9 @@ struct Harm {
   std::vector<std::vector<std::uint32_t>> points;  ///< that may harm each edge
   std::vector<std::uint32_t> edge_count;           ///< by point: the edges that it may harm
 
-  Harm(std::span<const Point3> all, const BoxTree& tree, const ProtectedDelaunay& surface)
+  Harm(std::span<const Point3> all, const BoxTree& tree, const ProtectedDelaunay& surface, Avoided avoided)
       : edges(protected_edges(surface)),
-        points(find_harmful(all, tree, edges, surface.delaunay)),
+        points(find_harmful(all, tree, edges, surface.delaunay, avoided)),
         edge_count(all.size()) {
     for (const auto& harmful : points)
       for (const std::uint32_t i : harmful) ++edge_count[i];
@@ -192,11 +194,12 @@ struct Harm {
   }
 };
 
-/// The points that harm no edge and are not where a vertex is.
-std::vector<std::uint32_t> harmless_points(const Harm& harm, const BoxTree& tree, const delaunay::Delaunay& delaunay) {
+/// The points that harm no edge and are not where one of these vertices is.
+std::vector<std::uint32_t> harmless_points(const Harm& harm, const BoxTree& tree,
+                                           std::span<const delaunay::DelaunayVertex> vertices) {
   std::vector<std::uint8_t> is_vertex(harm.edge_count.size(), false);
-  parallel_for(delaunay.vertices.size(), 1024, [&](std::size_t v) {
-    tree.for_each_meeting(box_of(delaunay.vertices[v].point), [&](std::uint32_t i) {
+  parallel_for(vertices.size(), 1024, [&](std::size_t v) {
+    tree.for_each_meeting(box_of(vertices[v].point), [&](std::uint32_t i) {
       std::atomic_ref(is_vertex[i]).store(true, std::memory_order_relaxed);
     });
   });
@@ -220,21 +223,22 @@ std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges,
 }  // namespace
 
 std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
-                                     ProtectedDelaunay& surface, const Progress& progress) {
+                                     ProtectedDelaunay& surface, Avoided avoided, const Progress& progress) {
   const BoxTree tree(boxes_of(points));
-  Harm harm(points, tree, surface);
+  const std::size_t first_in_the_way = avoided == Avoided::nothing ? 0 : surface.delaunay.vertices.size();
+  Harm harm(points, tree, surface, avoided);
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<PieceEnds> costly = harm.costly_edges();
     if (costly.empty()) break;
     std::optional<ProtectedDelaunay> split = with_split(costly, plc, strategy, surface, progress);
     if (!split) break;
-    Harm less(points, tree, *split);
+    Harm less(points, tree, *split, Avoided::nothing);
     const std::size_t splits = split->delaunay.vertices.size() - surface.delaunay.vertices.size();
     if (less.harmful_points() + points_per_split * splits > harm.harmful_points()) break;
     surface = std::move(*split);
     harm = std::move(less);
   }
-  return harmless_points(harm, tree, surface.delaunay);
+  return harmless_points(harm, tree, std::span(surface.delaunay.vertices).subspan(first_in_the_way));
 }
 
 }  // namespace ccdt::protection

@@ -8,6 +8,12 @@
 
 namespace ccdt::protection {
 
+/// What points keep away from already.
+enum class Avoided {
+  nothing,
+  smallest_spheres  ///< of all edges and triangles of the surface
+};
+
 /// Prepares a surface for the insertion of interior points: leaves out those that could destroy a protected edge, and
 /// splits the edges that would cost too many. All protected edges then stay Delaunay, whichever of the remaining points
 /// are inserted and in whatever order.
@@ -21,8 +27,9 @@ namespace ccdt::protection {
 ///
 /// \param points   in grid units
 /// \param surface  whose protected edges are all there; gains the vertices of the splits, and stays protected
+/// \param avoided  what the points are known to keep away from
 /// \return  the indices of the points that remain, in increasing order; none of them is where a vertex is
 std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
-                                     ProtectedDelaunay& surface, const Progress& progress = {});
+                                     ProtectedDelaunay& surface, Avoided avoided, const Progress& progress = {});
 
 }  // namespace ccdt::protection

@@ -27,6 +27,9 @@ class VoronoiFace {
   /// \param ring  of the edge ab
   void make(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, const EdgeRing& ring);
 
+  /// By a margin, as all that are visited.
+  bool smallest_ball_is_empty() const { return is_empty({}); }
+
   /// Calls visit(ball) for a few of the empty spheres, the smallest one first, until `visit` returns false. The balls
   /// are enlarged by much more than their rounding, so that a point that is not in one is outside of the true sphere.
   template <class Visit>

@@ -127,6 +127,31 @@ TEST(HilbertOrder, HoldsEachPointOnce) {
   }
 }
 
+TEST(HilbertOrder, FollowsTheRoundsThatItIsGiven) {
+  const auto points = random_points(3000, 33);
+  std::vector<std::uint8_t> later_rounds;
+  for (std::size_t i = 0; i < points.size(); ++i) later_rounds.push_back(static_cast<std::uint8_t>(i * i % 23));
+  const auto order = delaunay::hilbert_order(points, later_rounds);
+  ASSERT_EQ(std::set(order.begin(), order.end()).size(), points.size());
+  constexpr std::uint8_t first_of_all = 15;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    ASSERT_GE(std::min(later_rounds[order[i - 1]], first_of_all), std::min(later_rounds[order[i]], first_of_all));
+}
+
+/// The points of the first rounds are everywhere: no other point is far from all of them.
+TEST(HilbertOrder, SpreadsTheFirstPointsEvenly) {
+  const auto points = random_points(16000, 34);
+  const auto order = delaunay::hilbert_order(points);
+  constexpr std::size_t first = 1000;
+  double farthest = 0;
+  for (const Point3& p : points) {
+    double nearest = HUGE_VAL;
+    for (std::size_t i = 0; i < first; ++i) nearest = std::min(nearest, squared_length(points[order[i]] - p));
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LT(std::sqrt(farthest), 2.5 * 0x1p52 / std::cbrt(first));
+}
+
 /// Points in random order are half the extent apart; along the curve, by the spacing of a round's points.
 TEST(HilbertOrder, PutsNeighborsNextToEachOther) {
   const auto points = random_points(20000, 32);

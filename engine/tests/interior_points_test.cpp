@@ -103,7 +103,8 @@ struct Protected {
   /// \return  the points that remain
   std::vector<Point3> make_room(const std::vector<Point3>& points, Protection strategy) {
     std::vector<Point3> remaining;
-    for (const std::uint32_t i : protection::make_room(points, plc, strategy, surface)) remaining.push_back(points[i]);
+    for (const std::uint32_t i : protection::make_room(points, plc, strategy, surface, protection::Avoided::nothing))
+      remaining.push_back(points[i]);
     return remaining;
   }
   void expect_protected_after(const std::vector<Point3>& points) const {
@@ -304,11 +305,53 @@ TEST(InteriorPoints, ThatRemainDoNotDependOnTheOrderOfCells) {
       for (int repetition = 0; repetition < 5; ++repetition) {
         protection::ProtectedDelaunay surface = p.surface;
         name_other_cells(surface.delaunay, random);
-        results.insert(protection::make_room(points, p.plc, Protection::shell, surface));
+        results.insert(protection::make_room(points, p.plc, Protection::shell, surface, protection::Avoided::nothing));
       }
       EXPECT_EQ(results.size(), 1u) << count << " points";
     }
   }
+}
+
+/// The points of a lattice around the protected edges.
+std::vector<Point3> lattice_points(const Protected& p, lattice::Lattice kind) {
+  const facets::FacetMesh facets = facets::triangulate_facets(p.plc, p.surface.chains, p.delaunay);
+  std::vector<lattice::SurfaceTriangle> triangles;
+  for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+    const plc::Facet& facet = p.plc.facets[facets.facet[i]];
+    triangles.push_back({facets.triangles[i], p.plc.regions[facet.above].inside, p.plc.regions[facet.below].inside});
+  }
+  std::vector<std::array<VertexId, 2>> subsegments;
+  for (const auto& chain : p.surface.chains)
+    for (std::size_t k = 1; k < chain.size(); ++k) subsegments.push_back({chain[k - 1].vertex, chain[k].vertex});
+  std::vector<Point3> vertices;
+  for (const delaunay::DelaunayVertex& v : p.delaunay.vertices) vertices.push_back(v.point);
+  lattice::LatticeOptions options;
+  options.kind = kind;
+  options.clearance = 0;
+  const Box box = bounding_box(vertices);
+  options.edge_length = length(box.high - box.low) / 30;
+  return place_lattice_points({vertices, triangles, subsegments}, options).points;
+}
+
+TEST(InteriorPoints, OfALatticeRemainWhetherSmallestSpheresAreSearchedOrNot) {
+  std::mt19937 random(10);
+  std::size_t kept = 0, left_out = 0;
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    for (const InputPlc& input : inputs_with_protected_edges(random)) {
+      const Protected p(input, {});
+      for (const lattice::Lattice kind : {lattice::Lattice::fcc, lattice::Lattice::bcc, lattice::Lattice::sc}) {
+        const std::vector<Point3> points = lattice_points(p, kind);
+        protection::ProtectedDelaunay surface = p.surface, searched = p.surface;
+        const auto remain = make_room(points, p.plc, Protection::shell, surface, protection::Avoided::smallest_spheres);
+        ASSERT_EQ(remain, make_room(points, p.plc, Protection::shell, searched, protection::Avoided::nothing));
+        ASSERT_EQ(surface.delaunay.vertices.size(), searched.delaunay.vertices.size());
+        kept += remain.size();
+        left_out += points.size() - remain.size();
+      }
+    }
+  }
+  EXPECT_GT(kept, 1000u);
+  EXPECT_GT(left_out, 10u);
 }
 
 /// A segment with a vertex beside its middle, so that only large spheres through its ends do not contain the vertex.

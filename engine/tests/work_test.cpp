@@ -211,11 +211,11 @@ delaunay.insphere_filter_failures 55
 delaunay.narrow_evaluations 132
 delaunay.exact_evaluations 132
 delaunay.insertions 59
-delaunay.walk_steps 225
-delaunay.cells_tested 1863
-delaunay.cells_created 1137
-delaunay.cells_destroyed 790
-delaunay.largest_cavity 53
+delaunay.walk_steps 217
+delaunay.cells_tested 1811
+delaunay.cells_created 1111
+delaunay.cells_destroyed 764
+delaunay.largest_cavity 45
 delaunay.peak_bytes 13810
 face_check.orient3d_filter_failures 38
 face_check.narrow_evaluations 32
@@ -227,7 +227,7 @@ face_check.edges_flipped 5
 face_check.triangles_visited 261
 face_check.faces_tested 946
 face_check.peak_bytes 1984
-label.cells_visited 694
+label.cells_visited 174
 label.peak_bytes 19188
 finish.cells_visited 156
 finish.peak_bytes 5520
@@ -380,7 +380,7 @@ improve.changes_tried 1210
 improve.moves_tried 178
 improve.vertices_moved 48
 improve.ascent_steps 196
-improve.quality_evaluations 23069
+improve.quality_evaluations 23068
 improve.peak_bytes 21835
 )");
 }
