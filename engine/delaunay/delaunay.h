@@ -98,6 +98,12 @@ struct Delaunay {
   void remove_last_vertex() { vertices.pop_back(), cell_at.pop_back(); }
   /// The code of the same face in the cell on its other side.
   std::uint32_t across(std::uint32_t code) const { return cells[cell_of(code)].neighbors[face_of(code)]; }
+  /// Asks memory for the cell of one of the codes that follow the i-th, before it is needed. Codes may be
+  /// `no_neighbor`.
+  void prefetch_after(std::size_t i, std::span<const std::uint32_t> codes) const {
+    constexpr std::size_t ahead = 16;
+    if (i + ahead < codes.size()) __builtin_prefetch(cells.data() + cell_of(codes[i + ahead]));
+  }
   bool is_dead(std::uint32_t cell) const { return cells[cell].neighbors[0] == no_neighbor; }
   bool is_ghost(std::uint32_t cell) const { return cells[cell].vertices[3] == ghost_vertex; }
   bool is_finite(std::uint32_t cell) const { return !is_dead(cell) && !is_ghost(cell); }

@@ -392,8 +392,10 @@ FrontResult standing_front(const FrontInput& in) {
   const std::vector<std::uint8_t> is_within = sides_within(in);
   result.open = parallel_collect<FrontFace>(is_within.size(), grain,
                                             [&](std::size_t side, std::size_t end, std::vector<FrontFace>& open) {
-                                              for (; side < end; ++side)
+                                              for (; side < end; ++side) {
+                                                in.delaunay.prefetch_after(side / 2, in.codes);
                                                 if (is_within[side]) open.push_back(state_of(in, side));
+                                              }
                                             });
   return result;
 }

@@ -179,6 +179,7 @@ std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::arra
   auto repeated = parallel_collect<std::uint32_t>(
       triangles.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& again) {
         for (; i < end; ++i) {
+          delaunay.prefetch_after(i, earlier);
           if (earlier[i] == no_neighbor) continue;
           ++work_done.faces_tested;
           codes[i] = confirm(earlier[i], triangles[i], delaunay);

@@ -34,17 +34,20 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
   FaceBits bits(d.cells.size());
   parallel_fill(std::span(bits), std::uint8_t{0});
   const SetBits set_bits;
+  /// \return  was it a wall before?
   const auto mark = [&](std::uint32_t code, unsigned what) {
-    set_bits(bits[cell_of(code)], static_cast<std::uint8_t>(what << face_of(code)));
+    const std::uint8_t before = set_bits(bits[cell_of(code)], static_cast<std::uint8_t>(what << face_of(code)));
+    return (before >> face_of(code) & 1) != 0;
   };
   parallel_for(wall_codes.size(), grain, [&](std::size_t i) {
+    d.prefetch_after(i, wall_codes);
     if (wall_codes[i] == no_neighbor) return;
     mark(wall_codes[i], 0x01);
     mark(d.across(wall_codes[i]), 0x01);
   });
   parallel_for(open.size(), grain, [&](std::size_t i) {
-    mark(open[i].code, 0x11);
-    mark(d.across(open[i].code), 0x01);
+    // Nearly all are faces of the PLC, and marked on both sides.
+    if (!mark(open[i].code, 0x11)) mark(d.across(open[i].code), 0x01);
   });
   return bits;
 }
