@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "engine/base/errors.h"
 
@@ -148,11 +149,16 @@ std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& 
   const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
   std::optional<std::uint32_t> worst;
   double least_cosine = 0;
+  ++probe_;
+  last_probe_.resize(d_.vertices.size(), 0);
   for (const delaunay::CavityFace& face : insertion_.cavity_faces()) {
     for (const std::uint32_t v : face.vertices) {
       if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
+      if (std::exchange(last_probe_[v], probe_) == probe_) continue;
       const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
-      const double cosine = dot(to_a, to_b) / std::sqrt(squared_length(to_a) * squared_length(to_b));
+      const double product = dot(to_a, to_b);
+      if (product >= 0) continue;
+      const double cosine = product / std::sqrt(squared_length(to_a) * squared_length(to_b));
       // Of equal ones the least vertex, for any order of the cells.
       if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
       least_cosine = cosine;

@@ -58,6 +58,8 @@ class EdgeSplitter {
   std::vector<std::uint32_t> segment_of_;  ///< by vertex, without those of the PLC; none: not on a segment
   std::size_t most_vertices_;              ///< more would be far too many splits
   std::vector<std::array<std::uint32_t, 4>> destroyed_;
+  std::uint32_t probe_ = 0;                ///< counts the points for which cavities were searched
+  std::vector<std::uint32_t> last_probe_;  ///< by vertex: the last one whose cavity had it on its border
 };
 
 }  // namespace ccdt::protection
