@@ -132,6 +132,7 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
       if (seen_[next] == search_) continue;
       seen_[next] = search_;
       cells_.push_back(next);
+      __builtin_prefetch(&d_.cells[next]);
     }
   }
   work_done.cells_visited += cells_.size();
@@ -161,17 +162,25 @@ std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
   }
 }
 
-std::uint32_t CellStar::find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  for (const std::uint32_t here : around(a)) {
-    const Cell& cell = d_.cells[here];
-    const std::uint32_t i = place_of(cell, a), j = place_of(cell, b), k = place_of(cell, c);
-    if (j == 4 || k == 4) continue;
-    const std::uint32_t f = 6 - i - j - k;
-    const auto& corner = face_corners[f];
-    const bool above =
-        (corner[0] == i && corner[1] == j) || (corner[1] == i && corner[2] == j) || (corner[2] == i && corner[0] == j);
-    return above ? face_code(here, f) : cell.neighbors[f];
-  }
+// Walks around the edge ab from one of its cells to the next.
+std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const std::uint32_t first = find_edge(d, a, b);
+  if (first == no_neighbor) return no_neighbor;
+  std::uint32_t here = first, exit = 0;
+  while (d.cells[first].vertices[exit] == a || d.cells[first].vertices[exit] == b) ++exit;
+  do {
+    ++work_done.cells_visited;
+    const Cell& cell = d.cells[here];
+    const std::uint32_t i = place_of(cell, a), j = place_of(cell, b), k = 6 - i - j - exit, v = cell.vertices[k];
+    if (v == c) {
+      const auto& corner = face_corners[exit];
+      const bool above = (corner[0] == i && corner[1] == j) || (corner[1] == i && corner[2] == j) ||
+                         (corner[2] == i && corner[0] == j);
+      return above ? face_code(here, exit) : cell.neighbors[exit];
+    }
+    here = cell_of(cell.neighbors[exit]);
+    exit = place_of(d.cells[here], v);
+  } while (here != first);
   return no_neighbor;
 }
 

@@ -163,6 +163,10 @@ inline bool has_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
   return find_edge(d, a, b) != no_neighbor;
 }
 
+/// The code of the face abc in the cell above it (from where abc is counterclockwise); `no_neighbor` if it is not a
+/// face.
+std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
 /// Visits the cells around vertices. It owns the marks for this, so create it once and use it often.
 class CellStar {
  public:
@@ -170,10 +174,6 @@ class CellStar {
 
   /// All cells, finite and ghost, that have the vertex; valid until the next call.
   std::span<const std::uint32_t> around(std::uint32_t vertex);
-
-  /// The code of the face abc in the cell above it (from where abc is counterclockwise); `no_neighbor` if it is not a
-  /// face.
-  std::uint32_t find_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
  private:
   const Delaunay& d_;

@@ -323,7 +323,7 @@ class FacetMesher {
   void take_faces_on_domain_side(const plc::Facet& facet, const FacetPlane& plane, planar::Triangulation& t) {
     const std::vector<VertexId> vertices = enter(facet, t.triangles);
     const auto is_right = [&](const Triangle& triangle) {
-      const std::uint32_t code = star_.find_face(triangle[0], triangle[1], triangle[2]);
+      const std::uint32_t code = delaunay::find_face(d_, triangle[0], triangle[1], triangle[2]);
       return code != delaunay::no_neighbor && !is_flat_cell(cell_on_domain_side(code), plane);
     };
     if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;

@@ -62,8 +62,8 @@ std::vector<std::uint8_t> sides_within(const FrontInput& in) {
 /// taken back, and their apexes are searched for in the same way.
 class Front {
  public:
-  Front(const FrontInput& input, bool face_protection, delaunay::CellStar& star)
-      : in_(input), face_protection_(face_protection), star_(star), plc_open_(sides_within(input)) {}
+  Front(const FrontInput& input, bool face_protection)
+      : in_(input), face_protection_(face_protection), plc_open_(sides_within(input)) {}
 
   template <class Finder>
   void advance(Finder finder, const Progress& progress) {
@@ -335,7 +335,7 @@ class Front {
 
   std::uint32_t code_of(const OrientedFace& face) {
     const auto& [a, b, c] = face.corners;
-    return face_protection_ ? star_.find_face(a, b, c) : no_neighbor;
+    return face_protection_ ? delaunay::find_face(in_.delaunay, a, b, c) : no_neighbor;
   }
 
   /// Removes the tetrahedron above a base, if it still exists, and all that rest on it.
@@ -371,7 +371,6 @@ class Front {
   const FrontInput& in_;
   const bool face_protection_;
   Search first_search_ = Search::full;
-  delaunay::CellStar& star_;
   std::vector<std::uint8_t> plc_open_;  // by 2 * triangle + side
   HashTable<OrientedFace, State, OrientedFaceTraits> faces_;
   HashTable<OrientedFace, std::uint32_t, OrientedFaceTraits> owners_;  // the tetrahedra above faces
@@ -405,8 +404,7 @@ FrontResult standing_front(const FrontInput& in) {
 FrontResult advance_front(const FrontInput& in, const FrontOptions& options, const Progress& progress) {
   const auto& [plc, facets, codes, delaunay] = in;
   if (std::ranges::find(codes, no_neighbor) == codes.end()) return standing_front(in);
-  delaunay::CellStar star(delaunay);
-  Front front(in, options.face_protection, star);
+  Front front(in, options.face_protection);
   switch (options.locator) {
     case locate::LocatorKind::grid:
       front.advance(WholeModelFinder(facets, delaunay,
@@ -418,8 +416,8 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
                     progress);
       break;
     case locate::LocatorKind::cavity: {
-      NearVertices near(facets, codes, delaunay, star);
-      front.advance(CavityFinder(in, !options.face_protection, star, near), progress);
+      NearVertices near(facets, codes, delaunay);
+      front.advance(CavityFinder(in, !options.face_protection, near), progress);
       break;
     }
   }

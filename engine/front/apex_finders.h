@@ -50,18 +50,17 @@ class WholeModelFinder {
 class CavityFinder {
  public:
   /// \param all_faces  may the front hold Delaunay faces, outside of the cavities too?
-  CavityFinder(const FrontInput& input, bool all_faces, delaunay::CellStar& star, NearVertices& near)
+  CavityFinder(const FrontInput& input, bool all_faces, NearVertices& near)
       : facets_(input.facets),
         d_(input.delaunay),
-        star_(star),
         near_(near),
         all_faces_(all_faces),
-        locator_(input.plc, input.facets, input.codes, input.delaunay, star) {}
+        locator_(input.plc, input.facets, input.codes, input.delaunay) {}
 
   std::optional<std::uint32_t> find(const OrientedFace& face, RegionId region, Search search, std::uint32_t& cavity) {
     if (all_faces_) {
       const auto& [a, b, c] = face.corners;
-      if (const std::uint32_t code = star_.find_face(a, b, c); code != no_neighbor) {
+      if (const std::uint32_t code = delaunay::find_face(d_, a, b, c); code != no_neighbor) {
         cavity = locator_.cavity_of_cell(cell_of(code));
         if (cavity == no_cavity && d_.is_ghost(cell_of(code))) return std::nullopt;
         if (cavity == no_cavity) return d_.cells[cell_of(code)].vertices[face_of(code)];
@@ -85,7 +84,6 @@ class CavityFinder {
  private:
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
-  delaunay::CellStar& star_;
   NearVertices& near_;
   bool all_faces_;
   locate::CavityLocator locator_;

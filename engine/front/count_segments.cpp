@@ -1,23 +1,19 @@
 #include "engine/front/count_segments.h"
 
-#include <algorithm>
-
+#include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 
 namespace ccdt::front {
 namespace {
 
-/// The edges of the faces that are not Delaunay, sorted.
-std::vector<std::uint64_t> edges_of_undelaunay_faces(const facets::FacetMesh& facets,
-                                                     const std::vector<std::uint32_t>& codes) {
-  std::vector<std::uint64_t> edges;
+HashSet<std::uint64_t> edges_of_undelaunay_faces(const facets::FacetMesh& facets,
+                                                 const std::vector<std::uint32_t>& codes) {
+  HashSet<std::uint64_t> edges;
   for (std::size_t f = 0; f < codes.size(); ++f) {
     if (codes[f] != delaunay::no_neighbor) continue;
     const auto& t = facets.triangles[f];
-    for (int i = 0; i < 3; ++i) edges.push_back(edge_key(t[i], t[i < 2 ? i + 1 : 0]));
+    for (int i = 0; i < 3; ++i) edges.insert(edge_key(t[i], t[i < 2 ? i + 1 : 0]));
   }
-  std::ranges::sort(edges);
-  edges.erase(std::ranges::unique(edges).begin(), edges.end());
   return edges;
 }
 
@@ -26,9 +22,9 @@ std::vector<std::uint64_t> edges_of_undelaunay_faces(const facets::FacetMesh& fa
 SegmentCounts count_segments(const plc::Plc& plc, const protection::SegmentChains& chains,
                              const facets::FacetMesh& facets, const std::vector<std::uint32_t>& codes,
                              const delaunay::Delaunay& delaunay) {
-  const std::vector<std::uint64_t> uncertain = edges_of_undelaunay_faces(facets, codes);
+  const HashSet<std::uint64_t> uncertain = edges_of_undelaunay_faces(facets, codes);
   const auto is_delaunay = [&](VertexId a, VertexId b) {
-    return !std::ranges::binary_search(uncertain, edge_key(a, b)) || has_edge(delaunay, a, b);
+    return !uncertain.contains(edge_key(a, b)) || has_edge(delaunay, a, b);
   };
   SegmentCounts counts;
   counts.all = plc.segments.size();

@@ -83,11 +83,10 @@ std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>
   constexpr std::size_t cells_a_star = 64;  // that could be looked at instead of one star
   if (triangles.size() > delaunay.cells.size() / cells_a_star) return find_delaunay_faces(triangles, delaunay);
   const FaceMap first(triangles, delaunay.vertices.size());
-  delaunay::CellStar star(delaunay);
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];
-    if (first.find(a, b, c) == i) codes[i] = star.find_face(a, b, c);
+    if (first.find(a, b, c) == i) codes[i] = delaunay::find_face(delaunay, a, b, c);
   }
   work_done.faces_tested += triangles.size();
   return codes;

@@ -20,8 +20,8 @@ class NearVertices {
  public:
   /// \param codes  the Delaunay faces of the PLC by their codes; the others are `no_neighbor`
   NearVertices(const facets::FacetMesh& facets, const std::vector<std::uint32_t>& codes,
-               const delaunay::Delaunay& delaunay, delaunay::CellStar& star)
-      : star_(star), d_(delaunay), last_seen_(delaunay.vertices.size(), 0) {
+               const delaunay::Delaunay& delaunay)
+      : star_(delaunay), d_(delaunay), last_seen_(delaunay.vertices.size(), 0) {
     joined_by_missing_ = make_index_lists(delaunay.vertices.size(), [&](const auto& emit) {
       for (std::size_t i = 0; i < codes.size(); ++i) {
         if (codes[i] != delaunay::no_neighbor) continue;
@@ -63,7 +63,7 @@ class NearVertices {
     vertices_.push_back(v);
   }
 
-  delaunay::CellStar& star_;
+  delaunay::CellStar star_;
   const delaunay::Delaunay& d_;
   IndexLists joined_by_missing_;
   std::vector<std::uint32_t> last_seen_;  // the number of the last search that returned the vertex

@@ -82,8 +82,8 @@ class PiercedCellSearch {
  public:
   /// \param missing  numbers of triangles of `facets` that are not Delaunay faces
   PiercedCellSearch(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
-                    const delaunay::Delaunay& d, delaunay::CellStar& star)
-      : facets_(facets), missing_(missing), d_(d), star_(star), parts_(missing.size()) {}
+                    const delaunay::Delaunay& d)
+      : facets_(facets), missing_(missing), d_(d), star_(d), parts_(missing.size()) {}
 
   PiercedCells find() {
     for (std::uint32_t i = 0; i < missing_.size(); ++i) flood(i);
@@ -154,7 +154,7 @@ class PiercedCellSearch {
   const facets::FacetMesh& facets_;
   std::span<const std::uint32_t> missing_;
   const delaunay::Delaunay& d_;
-  delaunay::CellStar& star_;
+  delaunay::CellStar star_;
   HashTable<std::uint32_t, Visit> visits_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owned_;  // cells and their owners
   UnionFind parts_;                                             // of missing faces
@@ -222,18 +222,18 @@ class RegionsOfDomain {
 }  // namespace
 
 CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
-                             const delaunay::Delaunay& delaunay, delaunay::CellStar& star) {
+                             const delaunay::Delaunay& delaunay) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // Delaunay faces that have no code yet
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
     if (codes[i] != delaunay::no_neighbor) continue;
     const auto& [a, b, c] = facets.triangles[i];
-    const std::uint32_t code = star.find_face(a, b, c);
+    const std::uint32_t code = delaunay::find_face(delaunay, a, b, c);
     if (code == delaunay::no_neighbor)
       missing_.push_back(i);
     else
       found.emplace_back(i, code);
   }
-  pierced_ = PiercedCellSearch(facets, missing_, delaunay, star).find();
+  pierced_ = PiercedCellSearch(facets, missing_, delaunay).find();
 
   std::vector<std::vector<std::uint32_t>> faces(pierced_.cells.size());
   for (std::size_t i = 0; i < missing_.size(); ++i) faces[pierced_.part_of_face[i]].push_back(missing_[i]);
@@ -246,8 +246,10 @@ CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facet
     if (above != no_cavity || below != no_cavity) triangles_.push_back(triangle);
   };
   if (!missing_.empty()) {
-    for (std::uint32_t i = 0; i < codes.size(); ++i)
+    for (std::uint32_t i = 0; i < codes.size(); ++i) {
+      delaunay.prefetch_after(i, codes);
       if (codes[i] != delaunay::no_neighbor) add_delaunay_face(i, codes[i]);
+    }
     for (const auto& [triangle, code] : found) add_delaunay_face(triangle, code);
   }
   const RegionsOfDomain regions(plc, facets, delaunay.vertices.size());

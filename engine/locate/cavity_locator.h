@@ -41,7 +41,7 @@ class CavityLocator {
   /// \param facets  of the PLC
   /// \param codes   the Delaunay faces by their codes in the cell above; `no_neighbor` entries are searched again
   CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
-                const delaunay::Delaunay& delaunay, delaunay::CellStar& star);
+                const delaunay::Delaunay& delaunay);
 
   /// The vertices and faces of a cavity that a region of the domain has. `nullptr` if it has none: only a front that is
   /// stuck elsewhere comes there.

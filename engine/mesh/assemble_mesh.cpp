@@ -284,11 +284,10 @@ std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::Facet
     waiting.erase(other);
   }
   // The others are faces of Delaunay cells.
-  delaunay::CellStar star(d);
   std::optional<front::Stuck> found;
   waiting.for_each([&](const FaceKey&, std::uint32_t i) {
     const auto [a, b, c] = delaunay::corners_of_face(front.tetrahedra[i / 4], i % 4);
-    const std::uint32_t code = star.find_face(a, c, b);
+    const std::uint32_t code = delaunay::find_face(d, a, c, b);
     if (found || code == delaunay::no_neighbor || d.is_ghost(delaunay::cell_of(code))) return;
     const std::uint32_t e = d.cells[delaunay::cell_of(code)].vertices[delaunay::face_of(code)];
     if (!is_outside_sphere(d, front.tetrahedra[i / 4], e)) found.emplace(error(i));

@@ -45,9 +45,8 @@ std::vector<Triangle> some_triangles(const delaunay::Delaunay& d, std::size_t co
 std::vector<std::uint32_t> some_codes(const std::vector<Triangle>& triangles, const delaunay::Delaunay& d,
                                       std::mt19937& random) {
   std::vector<std::uint32_t> codes;
-  delaunay::CellStar star(d);
   for (const auto& [a, b, c] : triangles) {
-    std::uint32_t code = random() % 4 == 0 ? delaunay::no_neighbor : star.find_face(a, b, c);
+    std::uint32_t code = random() % 4 == 0 ? delaunay::no_neighbor : delaunay::find_face(d, a, b, c);
     if (code != delaunay::no_neighbor && random() % 2 == 0) code = d.across(code);
     codes.push_back(code);
   }

@@ -111,8 +111,7 @@ void expect_cells_of_missing_faces(const Stages& stages, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> part(0, 1);
   const delaunay::Delaunay& d = stages.delaunay;
-  delaunay::CellStar star(d);
-  const locate::CavityLocator locator(stages.plc, stages.facets, stages.codes, d, star);
+  const locate::CavityLocator locator(stages.plc, stages.facets, stages.codes, d);
   std::size_t inside = 0;
   for (std::uint32_t f = 0; f < stages.codes.size(); ++f) {
     const std::uint32_t cavity = locator.cavity_of_triangle(f);
@@ -143,18 +142,16 @@ TEST(CavityLocator, HasTheCellsThatMissingFacesGoThrough) {
 
 TEST(CavityLocator, HasNoCavityWhereNothingIsMissing) {
   const Stages cube(unit_cube());
-  delaunay::CellStar star(cube.delaunay);
-  const locate::CavityLocator locator(cube.plc, cube.facets, cube.codes, cube.delaunay, star);
+  const locate::CavityLocator locator(cube.plc, cube.facets, cube.codes, cube.delaunay);
   EXPECT_EQ(locator.cavity_count(), 0u);
   EXPECT_TRUE(locator.triangles().empty());
 }
 
 TEST(CavityLocator, LooksForFacesWhoseCodesAreNotTold) {
   const Stages bars(two_bars());
-  delaunay::CellStar star(bars.delaunay);
-  const locate::CavityLocator told(bars.plc, bars.facets, bars.codes, bars.delaunay, star);
+  const locate::CavityLocator told(bars.plc, bars.facets, bars.codes, bars.delaunay);
   const locate::CavityLocator untold(
-      bars.plc, bars.facets, std::vector<std::uint32_t>(bars.codes.size(), delaunay::no_neighbor), bars.delaunay, star);
+      bars.plc, bars.facets, std::vector<std::uint32_t>(bars.codes.size(), delaunay::no_neighbor), bars.delaunay);
   EXPECT_GT(told.cavity_count(), 0u);
   EXPECT_EQ(told.cavity_count(), untold.cavity_count());
   EXPECT_EQ(told.triangles(), untold.triangles());

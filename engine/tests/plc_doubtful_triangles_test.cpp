@@ -102,7 +102,7 @@ std::size_t count_right_edges(const Verdict& verdict) {
     for (const auto& [a, b, c] : f.triangles) {
       const std::uint32_t code = *face++;
       if (code == plc::no_face) continue;
-      const std::uint32_t found = delaunay::CellStar(verdict.delaunay).find_face(a, b, c);
+      const std::uint32_t found = delaunay::find_face(verdict.delaunay, a, b, c);
       EXPECT_TRUE(code == found || code == verdict.delaunay.across(found));
     }
   EXPECT_EQ(face, verdict.plc->faces.end());
