@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -66,19 +67,36 @@ std::uint32_t least_vertex(const Tetrahedron& t) {
   return std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
 }
 
+/// The attribute of all regions in the domain, if they have the same.
+std::optional<int> common_attribute(std::span<const plc::Region> regions) {
+  std::optional<int> common;
+  for (const plc::Region& region : regions) {
+    if (!region.inside) continue;
+    if (region.attribute != common.value_or(region.attribute)) return std::nullopt;
+    common = region.attribute;
+  }
+  return common;
+}
+
 /// The labeled cells and the tetrahedra of the front, by their sources.
 class Parts {
  public:
   Parts(const plc::Plc& plc, const front::FrontResult& front, std::span<const RegionId> region_of_cell,
         const LargeVector<Cell>& cells)
-      : plc_(plc), front_(front), region_of_cell_(region_of_cell), cells_(cells) {}
+      : plc_(plc),
+        front_(front),
+        region_of_cell_(region_of_cell),
+        cells_(cells),
+        common_attribute_(common_attribute(plc.regions)) {}
 
   std::size_t size() const { return cells_.size() + front_.tetrahedra.size(); }
   bool is_in_mesh(std::size_t source) const { return !region(source).is_none(); }
   const Tetrahedron& operator[](std::size_t source) const {
     return source < cells_.size() ? cells_[source].vertices : front_.tetrahedra[source - cells_.size()];
   }
-  int attribute(std::size_t source) const { return plc_.regions[region(source)].attribute; }
+  int attribute(std::size_t source) const {
+    return common_attribute_ ? *common_attribute_ : plc_.regions[region(source)].attribute;
+  }
 
  private:
   RegionId region(std::size_t source) const {
@@ -89,6 +107,7 @@ class Parts {
   const front::FrontResult& front_;
   std::span<const RegionId> region_of_cell_;
   const LargeVector<Cell>& cells_;
+  const std::optional<int> common_attribute_;  ///< spares looking up regions, which are anywhere in memory
 };
 
 /// Lists of sources, by their least vertices. The order within a list is any.
