@@ -151,7 +151,8 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
   return all;
 }
 
-/// Adds one to numbers to which all threads of the following loops add. One thread alone does not pay for this.
+/// Adds one to numbers to which all threads of the following loops add; make it before these loops, not in them. One
+/// thread alone does not pay for this.
 class AddOne {
  public:
   /// \return  the number before
@@ -163,8 +164,8 @@ class AddOne {
   const bool is_alone_ = thread_count() == 1;
 };
 
-/// Sets bits in bytes in which all threads of the following loops set some. One thread alone does not pay for this, nor
-/// do bits that are set already.
+/// Sets bits in bytes in which all threads of the following loops set some; make it before these loops, not in them.
+/// One thread alone does not pay for this, nor do bits that are set already.
 class SetBits {
  public:
   /// \return  the byte before

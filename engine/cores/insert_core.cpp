@@ -103,12 +103,11 @@ class Joiner {
 
   /// Several threads may reach the same neighbor; one of them gets it.
   void remove_neighbors(std::uint32_t c, std::vector<std::uint32_t>& found) {
-    const SetBits set_bits;
     const std::uint8_t walls = std::atomic_ref(walls_[c]).load(std::memory_order_relaxed);
     for (std::uint32_t f = 0; f < 4; ++f) {
       if ((walls >> f & 1) != 0) continue;
       const std::uint32_t next = cell_of(d_.cells[c].neighbors[f]);
-      if ((set_bits(walls_[next], removed) & removed) == 0) found.push_back(next);
+      if ((set_bits_(walls_[next], removed) & removed) == 0) found.push_back(next);
     }
   }
 
@@ -118,6 +117,7 @@ class Joiner {
   std::vector<std::uint8_t> walls_;           ///< by cell: faces on the border; must it be removed?
   std::vector<std::uint8_t> on_border_;       ///< by vertex
   FaceMap faces_;                             ///< of the border
+  const SetBits set_bits_;
 };
 
 /// Puts the core into the tetrahedralization of the other vertices. A flood fill from the core's border removes the old
