@@ -65,7 +65,7 @@ class SimplexMap {
   std::uint32_t find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
     const FaceKey key = face_key(a, b, c);
     std::uint32_t found = none;
-    // Which entry it is, is unpredictable, so there is no branch for each.
+    // It is unpredictable which entry matches, so there is no branch for each.
     for (std::uint32_t i = first_[key[0]]; i < first_[key[0] + 1]; ++i) {
       const unsigned is_same = unsigned{entries_[i].others[0] == key[1]} & unsigned{entries_[i].others[1] == key[2]};
       found = std::min(found, entries_[i].index | (is_same - 1));

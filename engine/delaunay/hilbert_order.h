@@ -14,7 +14,7 @@ namespace ccdt::delaunay {
 /// than random ones, and destroy and make fewer cells.
 ///
 /// \param later_rounds  by point: how many rounds follow its own, where the caller knows rounds that are spread even
-///                      better; there are at most 16 rounds. Empty: each has three times the points of all before it
+///                      better; more than 15 count as 15. Empty: each has three times the points of all before it
 /// \return  the indices of the points, each once; depends on the arguments alone
 std::vector<std::uint32_t> hilbert_order(std::span<const Point3> points,
                                          std::span<const std::uint8_t> later_rounds = {});

@@ -77,11 +77,11 @@ std::uint32_t confirm(std::uint32_t code, const std::array<VertexId, 3>& triangl
   return sees_in_order({q, p, r}, triangle) ? delaunay.across(code) : no_neighbor;
 }
 
-/// The same as `find_delaunay_faces`, but few triangles are searched in the stars of their vertices, not in all cells.
+/// The same as `find_delaunay_faces`, but few triangles are looked for one by one, not in all cells.
 std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>>& triangles,
                                        const delaunay::Delaunay& delaunay) {
-  constexpr std::size_t cells_a_star = 64;  // that could be looked at instead of one star
-  if (triangles.size() > delaunay.cells.size() / cells_a_star) return find_delaunay_faces(triangles, delaunay);
+  constexpr std::size_t cells_a_triangle = 64;  // that could be looked at instead
+  if (triangles.size() > delaunay.cells.size() / cells_a_triangle) return find_delaunay_faces(triangles, delaunay);
   const FaceMap first(triangles, delaunay.vertices.size());
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
   for (std::size_t i = 0; i < triangles.size(); ++i) {

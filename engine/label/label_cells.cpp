@@ -117,7 +117,7 @@ class RegionFlood {
   const delaunay::Delaunay& d_;
   const FaceBits& bits_;
   RawVector<RegionId>& region_;
-  RawVector<std::uint8_t> is_reached_;
+  RawVector<std::uint8_t> is_reached_;  ///< by cell; stays in the cache, unlike the regions
   const SetBits set_bits_;
 };
 

@@ -329,7 +329,7 @@ class Builder {
                                  std::array<Triangles, 8>& lists) const {
     for (const std::uint32_t t : those) {
       unsigned children = children_overlapping(boxes, around_[t]);
-      // If it overlaps one alone, the triangle is in it, or beyond the node in part.
+      // A triangle whose box is in one child touches that child alone.
       if (!std::has_single_bit(children) || !contains(boxes[std::countr_zero(children)], around_[t]))
         children &= children_touching(t, boxes);
       for (; children != 0; children &= children - 1) lists[std::countr_zero(children)].push_back(t);

@@ -103,11 +103,11 @@ inline std::array<std::uint32_t, 3> coordinates_of(Site site) {
   return coordinates_of_morton_code(site);
 }
 
-/// How many rounds follow that of a site if a lattice is inserted in rounds from coarse to fine. A simple cubic lattice
-/// with steps of 2^k octree units is in a face-centered one, that is in a simple cubic one with half the step, and so
-/// on; each begins a round. The points of the body-centered lattice with odd coordinates come last.
+/// How many rounds follow that of a site if a lattice is inserted in rounds from coarse to fine. The simple cubic
+/// lattice with steps of 2^k octree units is part of a face-centered one, which is part of the simple cubic lattice
+/// with half the step, and so on. Each begins a round. The centers of the body-centered lattice come last.
 ///
-/// \param log_step  all sites around have coordinates with at least this many trailing zero bits
+/// \param log_step  the coordinates of the sites around are multiples of 2 to this power
 constexpr std::uint8_t later_rounds(Site site, unsigned log_step) {
   const unsigned zeros = static_cast<unsigned>(std::countr_zero(site)) / 3;
   const bool even = std::popcount(site >> 3 * zeros & 7) % 2 == 0;

@@ -11,7 +11,7 @@ namespace ccdt::protection {
 /// What points keep away from already.
 enum class Avoided {
   nothing,
-  smallest_spheres  ///< of all edges and triangles of the surface
+  smallest_spheres  ///< of all edges and triangles of the surface, and with them the vertices
 };
 
 /// Prepares a surface for the insertion of interior points: leaves out those that could destroy a protected edge, and

@@ -59,7 +59,7 @@ class EdgeSplitter {
   std::size_t most_vertices_;              ///< more would be far too many splits
   std::vector<std::array<std::uint32_t, 4>> destroyed_;
   std::uint32_t probe_ = 0;                ///< counts the points for which cavities were searched
-  std::vector<std::uint32_t> last_probe_;  ///< by vertex: the last one whose cavity had it on its border
+  std::vector<std::uint32_t> last_probe_;  ///< by vertex: the last such point whose cavity had it on its border
 };
 
 }  // namespace ccdt::protection

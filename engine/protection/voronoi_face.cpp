@@ -9,7 +9,7 @@ namespace {
 
 using delaunay::Delaunay;
 
-/// Which one it is, is unpredictable, so there is no branch.
+/// The place is unpredictable, so there is no branch.
 std::uint32_t place_of(const Delaunay& d, std::uint32_t cell, std::uint32_t v) {
   const auto& vertices = d.cells[cell].vertices;
   return unsigned{vertices[1] == v} + 2 * unsigned{vertices[2] == v} + 3 * unsigned{vertices[3] == v};
