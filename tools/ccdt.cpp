@@ -13,8 +13,8 @@
 
 namespace {
 
-/// New pages are expensive: the system clears each of them. So the large arrays of one stage go to the next one rather
-/// than back to the system.
+/// New pages are expensive: the system clears each of them. So the arrays of one stage go to the next one rather than
+/// back to the system. Large ones share a `PagePool`.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);

@@ -1,13 +1,10 @@
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <functional>
 
 #include "engine/io/formats.h"
 #include "engine/tests/io_test_files.h"
-#include "engine/tests/sanitized.h"
+#include "engine/tests/little_memory.h"
 
 namespace ccdt {
 namespace {
@@ -17,27 +14,6 @@ using namespace io_test;
 io::FileBytes in_memory(std::string_view bytes) {
   return {"damaged", std::string(bytes)};
 }
-
-/// While it lives, this process cannot allocate much more memory than it has.
-class LittleMemory {
- public:
-  LittleMemory() {
-    if (is_sanitized) return;  // sanitizers reserve terabytes
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    getrlimit(RLIMIT_AS, &before_);
-    const rlimit little{pages * static_cast<std::size_t>(::getpagesize()) + (std::size_t{64} << 20), before_.rlim_max};
-    EXPECT_EQ(setrlimit(RLIMIT_AS, &little), 0);
-  }
-  ~LittleMemory() {
-    if (!is_sanitized) setrlimit(RLIMIT_AS, &before_);
-  }
-  LittleMemory(const LittleMemory&) = delete;
-  LittleMemory& operator=(const LittleMemory&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 /// What a binary format is read by, and a good file of it.
 struct BinaryFormat {
@@ -113,7 +89,7 @@ bool is_refused(const BinaryFormat& format, std::string_view bytes) {
 }
 
 TEST(BinaryFiles, EveryPrefixIsRefused) {
-  const LittleMemory little;
+  const LittleMemory little(std::size_t{64} << 20);
   for (const BinaryFormat& format : binary_formats()) {
     SCOPED_TRACE(format.name);
     EXPECT_FALSE(is_refused(format, format.good));
@@ -125,7 +101,7 @@ TEST(BinaryFiles, EveryPrefixIsRefused) {
 }
 
 TEST(BinaryFiles, EveryByteMayBeWrong) {
-  const LittleMemory little;
+  const LittleMemory little(std::size_t{64} << 20);
   for (const BinaryFormat& format : binary_formats()) {
     SCOPED_TRACE(format.name);
     std::size_t refused = 0;
