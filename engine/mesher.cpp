@@ -88,7 +88,7 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
 }
 
 /// The Delaunay tetrahedralization of the surface's vertices and the points.
-delaunay::Delaunay add_points(const lattice::LatticePoints& lattice, delaunay::Delaunay d, const MeshOptions& options,
+delaunay::Delaunay add_points(lattice::LatticePoints lattice, delaunay::Delaunay d, const MeshOptions& options,
                               const Progress& progress, MeshCounts& counts) {
   if (options.delaunay == DelaunayMethod::wrap) {
     append_vertices(d, lattice.points, lattice.later_rounds);
@@ -158,7 +158,7 @@ front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets,
 
 /// The mesh of the space that the facets enclose.
 ///
-/// \param delaunay  loses its cells
+/// \param delaunay  loses its cells and vertices
 /// \param codes     of the faces of the facets, see `front::FrontInput`
 /// \return  why there is none
 std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets,
@@ -174,11 +174,12 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   t.counts.front_tetrahedra = front.tetrahedra.size();
   t.counts.front_faces = front.undelaunay_faces;
 
-  const label::CellLabels labels =
+  label::CellLabels labels =
       measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   if (labels.stuck) return labels.stuck;
-  mesh::CollectedMesh collected = measured(
-      costs, mesh_stage::label, [&] { return mesh::collect_tetrahedra(t.plc, front, labels.regions, delaunay); });
+  mesh::CollectedMesh collected = measured(costs, mesh_stage::label, [&] {
+    return mesh::collect_tetrahedra(t.plc, front, std::move(labels.regions), delaunay);
+  });
   auto wrong = measured(costs, mesh_stage::finish, [&] {
     const auto not_filled = mesh::check_volume(t.plc, facets, delaunay, collected.mesh);
     return not_filled ? not_filled : mesh::check_front(t.plc, facets, delaunay, front);
@@ -187,9 +188,12 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
     return mesh::finish_mesh(t.plc, t.chains, delaunay, std::move(facets), collected);
   });
+  t.points = points_of(delaunay);
+  release(delaunay.vertices);
   if (improves(options, t))
-    t.cells = measured(costs, mesh_stage::improve,
-                       [&] { return mesh::join_tetrahedra(collected, std::move(delaunay.cells)); });
+    t.cells = measured(costs, mesh_stage::improve, [&] {
+      return mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), std::move(delaunay.cells));
+    });
   t.mesh = std::move(collected.mesh);
   return std::nullopt;
 }
@@ -215,7 +219,7 @@ std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::F
 /// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
 /// enclose.
 ///
-/// \param delaunay  loses its cells
+/// \param delaunay  loses its cells and vertices
 void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const MeshOptions& options,
                const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
   std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
@@ -235,6 +239,7 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const Me
   if (!t.stuck) return;
   if (t.stuck->faces.empty()) t.stuck->faces = std::move(missing);
   t.facets = std::move(facets);
+  t.points = points_of(delaunay);
 }
 
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
@@ -359,12 +364,11 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   }
   t.chains = std::move(surface.chains);
   delaunay::Delaunay all = measured(costs, mesh_stage::delaunay, [&] {
-    return add_points(lattice, std::move(surface.delaunay), options, progress, t.counts);
+    return add_points(std::move(lattice), std::move(surface.delaunay), options, progress, t.counts);
   });
   t.counts.interior_vertices = all.vertices.size() - t.first_interior;
 
   constrain(all, facets, options, progress, costs, t);
-  t.points = points_of(all);
   return t;
 }
 

@@ -50,7 +50,7 @@ const Unimproved& unimproved(const Stages& s) {
     const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
     mesh::CollectedMesh collected = mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay);
     u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.delaunay, s.facets, collected);
-    u.cells = mesh::join_tetrahedra(collected, s.delaunay.cells);
+    u.cells = mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), s.delaunay.cells);
     u.mesh = std::move(collected.mesh);
     u.points = points_of(s.delaunay);
     u.chains = s.chains;

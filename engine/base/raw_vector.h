@@ -58,4 +58,10 @@ struct LargePageAllocator : RawAllocator<T> {
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
 
+/// Frees the memory of a vector or of another container.
+template <class Container>
+void release(Container& container) {
+  container = Container();
+}
+
 }  // namespace ccdt

@@ -27,8 +27,8 @@ void insert_in_order(Delaunay& d, InsertionMarks& marks, std::span<const std::ui
   note_bytes(bytes_of(vertices, d.vertices, d.cell_at, d.cells, d.free_cells) + insertion.bytes());
 }
 
-/// About as many as there are, ghosts included.
-constexpr std::size_t cells_of_vertex = 7;
+/// About as many as there are, ghosts included. Points of a lattice add 6 cells each, or a little more.
+constexpr double cells_of_vertex = 6.25;
 constexpr std::size_t cells_of_surface_vertex = 9;  ///< if there are vertices only on surfaces
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
@@ -53,7 +53,8 @@ void reserve_cells(Delaunay& d, std::size_t capacity) {
 }
 
 std::size_t most_new_cells(std::size_t vertices) {
-  return are_several_worth_it(vertices) ? PartedInsertion::most_cells(vertices) : cells_of_vertex * vertices + 64;
+  if (are_several_worth_it(vertices)) return PartedInsertion::most_cells(vertices);
+  return static_cast<std::size_t>(cells_of_vertex * static_cast<double>(vertices)) + 64;
 }
 
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {

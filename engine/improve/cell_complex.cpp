@@ -30,11 +30,6 @@ FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   return face_key(a, b, c);
 }
 
-template <class List>
-void release(List& list) {
-  List().swap(list);
-}
-
 FaceKey key_of(const std::array<std::uint32_t, 3>& corners) {
   return face_key(corners[0], corners[1], corners[2]);
 }
@@ -53,8 +48,9 @@ void Change::clear() {
   merge.reset();
 }
 
-CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<int> regions,
-                         std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
+CellComplex::CellComplex(std::vector<std::array<std::uint32_t, 3>> faces,
+                         std::span<const std::array<std::uint32_t, 2>> edges, LargeVector<Cell> cells,
+                         std::vector<int> regions, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
                          std::uint32_t first_interior, const QualityGoal& goal)
     : goal_(goal),
       points_(std::move(points)),
@@ -67,19 +63,19 @@ CellComplex::CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std
       regions_(std::move(regions)),
       qualities_(cells_.size()),
       generations_(cells_.size()),
-      faces_(mesh.faces),
+      faces_(std::move(faces)),
       facet_of_face_(std::move(facet_of_face)) {
   // Few vertices will be inserted. Without room for them, the first one would double the list.
   points_.reserve(points_.size() + points_.size() / 64);
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::fill(walls_.data() + begin, walls_.data() + end, std::uint8_t{0});
-    std::fill(generations_.data() + begin, generations_.data() + end, 0u);
+    std::fill(generations_.data() + begin, generations_.data() + end, std::uint16_t{0});
     compute_qualities(goal_, points_, std::span(cells_).subspan(begin, end - begin),
                       std::span(qualities_).subspan(begin, end - begin));
   });
   const auto list_segments = [&] {
-    segments_.reserve(mesh.edges.size());
-    for (const auto& edge : mesh.edges) segments_.insert(edge_key(edge[0], edge[1]));
+    segments_.reserve(edges.size());
+    for (const auto& edge : edges) segments_.insert(edge_key(edge[0], edge[1]));
   };
   const auto list_faces = [&] {
     face_table_.reserve(faces_.size());
@@ -307,6 +303,7 @@ void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<co
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   // The tetrahedra get the memory of what is no longer needed.
   release(qualities_), release(generations_), release(walls_), release(changed_at_), release(facet_of_face_);
+  release(face_table_), release(segments_);
   std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
   const auto number_vertices = [&] {

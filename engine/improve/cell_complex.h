@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -71,14 +72,16 @@ class CellMarks {
   /// Forgets all marks.
   void clear(std::size_t cell_count) {
     if (marks_.size() < cell_count) marks_.resize(cell_count, 0);
+    if (++search_ > 0) return;
+    std::ranges::fill(marks_, std::uint16_t{0});
     ++search_;
   }
   void mark(std::uint32_t cell) { marks_[cell] = search_; }
   bool is_marked(std::uint32_t cell) const { return marks_[cell] == search_; }
 
  private:
-  std::vector<std::uint32_t> marks_;  // the number of the last search that visited the cell
-  std::uint32_t search_ = 0;
+  std::vector<std::uint16_t> marks_;  // the number of the last search that visited the cell
+  std::uint16_t search_ = 0;
 };
 
 /// A tetrahedral mesh that can be changed: cells know their neighbors, and which of their faces and edges must stay.
@@ -88,13 +91,15 @@ class CellMarks {
 /// vertices on its segments and facets; *interior* vertices may move anywhere or be removed.
 class CellComplex {
  public:
-  /// \param mesh            its faces and edges; the rest is not used
+  /// \param faces           of the mesh, on its facets
+  /// \param edges           of the mesh, on its segments
   /// \param cells           the tetrahedra; neighbors may be missing
   /// \param regions         the attribute of the region of each
   /// \param points          the vertices of the mesh in grid units
   /// \param facet_of_face   the facet of each of the faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
-  CellComplex(const mesh::TetMesh& mesh, LargeVector<Cell> cells, std::vector<int> regions, std::vector<Point3> points,
+  CellComplex(std::vector<std::array<std::uint32_t, 3>> faces, std::span<const std::array<std::uint32_t, 2>> edges,
+              LargeVector<Cell> cells, std::vector<int> regions, std::vector<Point3> points,
               std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior, const QualityGoal& goal);
 
   const QualityGoal& goal() const { return goal_; }
@@ -119,8 +124,8 @@ class CellComplex {
   bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
   int region(std::uint32_t c) const { return regions_[c]; }
   double quality(std::uint32_t c) const { return qualities_[c]; }
-  /// How often the place of the cell was reused.
-  std::uint32_t generation(std::uint32_t c) const { return generations_[c]; }
+  /// How often the place of the cell was reused, modulo 2^16.
+  std::uint16_t generation(std::uint32_t c) const { return generations_[c]; }
   /// The position of a vertex in one of its cells.
   std::uint32_t place(std::uint32_t c, std::uint32_t v) const {
     const auto& all = cells_[c].vertices;
@@ -184,9 +189,10 @@ class CellComplex {
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
-  /// Writes the result back to the mesh that the complex was made of: tetrahedra, regions, faces and their markers. The
-  /// edges on segments get the new numbers of their vertices. What was removed leaves no gaps.
+  /// Writes the result back to the mesh that the complex was made of: tetrahedra, regions, and faces. The edges on
+  /// segments get the new numbers of their vertices. What was removed leaves no gaps.
   ///
+  /// \param mesh  still has the markers of all faces and the edges
   /// \return the vertices of the mesh, in grid units
   std::vector<Point3> take_mesh(mesh::TetMesh& mesh) &&;
 
@@ -216,7 +222,7 @@ class CellComplex {
   RawVector<std::uint8_t> walls_;  // bit f is set if face f is a wall
   std::vector<int> regions_;
   RawVector<double> qualities_;
-  RawVector<std::uint32_t> generations_;
+  RawVector<std::uint16_t> generations_;
   std::vector<std::uint32_t> free_;  // places of dead cells
 
   // The surface.

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 struct BadCell {
   double quality;
   std::uint32_t cell;
-  std::uint32_t generation;    ///< version of the cell: a different one means a new cell
+  std::uint16_t generation;    ///< version of the cell: a different one means a new cell
   std::uint64_t tried_at = 0;  ///< the number of the last change when no improvement was found
   int tries = 0;               ///< how often no improvement was found
   bool has_moved = false;      ///< its vertices have moved, but not far enough
@@ -382,10 +382,10 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, std::vector<Point3>& points,
                            mesh::TetMesh& mesh, const Progress& progress) {
   // The cells are the tetrahedra. In large meshes there is no memory for both.
-  decltype(mesh.tetrahedra)().swap(mesh.tetrahedra);
-  CellComplex complex(mesh, std::move(input.cells), std::move(mesh.regions), std::move(points),
-                      std::move(input.facet_of_face), static_cast<std::uint32_t>(input.first_interior),
-                      goal_of(options));
+  release(mesh.tetrahedra);
+  CellComplex complex(std::move(mesh.faces), mesh.edges, std::move(input.cells), std::move(mesh.regions),
+                      std::move(points), std::move(input.facet_of_face),
+                      static_cast<std::uint32_t>(input.first_interior), goal_of(options));
   std::uint64_t removed = 0;
   if (options.steiner == SteinerRule::remove) {
     const auto first_steiner = static_cast<std::uint32_t>(input.first_steiner);

@@ -81,21 +81,26 @@ std::optional<int> common_attribute(std::span<const plc::Region> regions) {
 /// The labeled cells and the tetrahedra of the front, by their sources.
 class Parts {
  public:
-  Parts(const plc::Plc& plc, const front::FrontResult& front, std::span<const RegionId> region_of_cell,
+  Parts(const plc::Plc& plc, const front::FrontResult& front, RawVector<RegionId> region_of_cell,
         const LargeVector<Cell>& cells)
       : plc_(plc),
         front_(front),
-        region_of_cell_(region_of_cell),
+        region_of_cell_(std::move(region_of_cell)),
         cells_(cells),
         common_attribute_(common_attribute(plc.regions)) {}
 
   std::size_t size() const { return cells_.size() + front_.tetrahedra.size(); }
+  std::size_t bytes() const { return bytes_of(region_of_cell_); }
   bool is_in_mesh(std::size_t source) const { return !region(source).is_none(); }
   const Tetrahedron& operator[](std::size_t source) const {
     return source < cells_.size() ? cells_[source].vertices : front_.tetrahedra[source - cells_.size()];
   }
   int attribute(std::size_t source) const {
     return common_attribute_ ? *common_attribute_ : plc_.regions[region(source)].attribute;
+  }
+  /// From now on, only parts in the mesh may be asked for.
+  void forget_others() {
+    if (common_attribute_) release(region_of_cell_);
   }
 
  private:
@@ -105,7 +110,7 @@ class Parts {
 
   const plc::Plc& plc_;
   const front::FrontResult& front_;
-  std::span<const RegionId> region_of_cell_;
+  RawVector<RegionId> region_of_cell_;
   const LargeVector<Cell>& cells_;
   const std::optional<int> common_attribute_;  ///< spares looking up regions, which are anywhere in memory
 };
@@ -116,8 +121,7 @@ struct Buckets {
   RawVector<std::uint32_t> sources;
 };
 
-/// \param mesh  meanwhile gets room for the tetrahedra: clearing so much memory takes as long as filling the lists
-Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices, TetMesh& mesh) {
+Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
   const AddOne add_one;
   Buckets buckets;
   std::vector<std::uint32_t>& ends = buckets.ends;
@@ -130,15 +134,10 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices, TetMesh&
   });
   for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
   // So far each entry is where the bucket begins. Each source moves it on, to where the bucket ends.
-  const std::size_t count = ends.back();
-  buckets.sources.resize(count);
-  const auto fill = [&] {
-    parallel_for(parts.size(), grain, [&](std::size_t i) {
-      if (least[i] != not_in_mesh) buckets.sources[add_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
-    });
-  };
-  const auto make_room = [&] { mesh.tetrahedra.resize(count), mesh.regions.resize(count); };
-  parallel_both(make_room, fill);
+  buckets.sources.resize(ends.back());
+  parallel_for(parts.size(), grain, [&](std::size_t i) {
+    if (least[i] != not_in_mesh) buckets.sources[add_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
+  });
   ends.pop_back();
   return buckets;
 }
@@ -146,13 +145,15 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices, TetMesh&
 }  // namespace
 
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                                 std::span<const RegionId> region_of_cell, const delaunay::Delaunay& delaunay) {
-  const Parts parts(plc, front, region_of_cell, delaunay.cells);
+                                 RawVector<RegionId> region_of_cell, const delaunay::Delaunay& delaunay) {
+  Parts parts(plc, front, std::move(region_of_cell), delaunay.cells);
   const std::size_t vertices = delaunay.vertices.size();
   CollectedMesh collected;
   auto& [mesh, sources] = collected;
-  Buckets buckets = group_by_least_vertex(parts, vertices, mesh);
+  Buckets buckets = group_by_least_vertex(parts, vertices);
   sources = std::move(buckets.sources);
+  parts.forget_others();
+  parallel_both([&] { mesh.tetrahedra.resize(sources.size()); }, [&] { mesh.regions.resize(sources.size()); });
   parallel_ranges(vertices, grain, [&](std::size_t v, std::size_t end) {
     constexpr std::size_t ahead = 16;  // cells of a bucket are far apart, so memory is asked for them early
     const std::size_t last = buckets.ends[end - 1];
@@ -174,30 +175,36 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
       }
     }
   });
-  note_bytes(bytes_of(delaunay.vertices, delaunay.cell_at, delaunay.cells, region_of_cell, buckets.ends, sources,
-                      mesh.tetrahedra, mesh.regions));
+  note_bytes(bytes_of(delaunay.vertices, delaunay.cell_at, delaunay.cells, buckets.ends, sources, mesh.tetrahedra,
+                      mesh.regions) +
+             parts.bytes());
   return collected;
 }
 
-LargeVector<Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<Cell> cells) {
-  const auto& [mesh, sources] = collected;
+LargeVector<Cell> join_tetrahedra(const TetMesh& mesh, RawVector<std::uint32_t> sources, LargeVector<Cell> cells) {
   const std::size_t cell_count = cells.size(), count = sources.size();
   if (cell_count < count) cells.resize(count);
   constexpr Tetrahedron no_neighbors = {no_neighbor, no_neighbor, no_neighbor, no_neighbor};
   constexpr std::uint32_t not_in_mesh = delaunay::no_cell;
   RawVector<std::uint32_t> tetrahedron_of(cell_count);
-  RawVector<std::uint8_t> arrangements(cell_count);
   parallel_fill(std::span(tetrahedron_of), not_in_mesh);
-  parallel_fill(std::span(arrangements), std::uint8_t{0});
   parallel_for(count, grain, [&](std::size_t i) {
     if (sources[i] < cell_count) tetrahedron_of[sources[i]] = static_cast<std::uint32_t>(i);
   });
+  const auto of_front = parallel_collect<std::uint32_t>(count, grain, [&](std::size_t i, std::size_t end, auto& found) {
+    for (; i < end; ++i)
+      if (sources[i] >= cell_count) found.push_back(static_cast<std::uint32_t>(i));
+  });
+  release(sources);
+  RawVector<std::uint8_t> arrangements(cell_count);
+  parallel_fill(std::span(arrangements), std::uint8_t{0});
   parallel_for(cell_count, grain, [&](std::size_t c) {
     if (tetrahedron_of[c] != not_in_mesh)
       arrangements[c] = static_cast<std::uint8_t>(arrangement_of(cells[c].vertices));
   });
-  // The vertices of the cells are no longer needed. The new neighbors take their place until all are found. Close cells
-  // are close in the order of the Delaunay cells, so this is the order of the search.
+  // The vertices of the cells are no longer needed. The new neighbors take their place until all are found.
+  for (const std::uint32_t i : of_front) cells[i].vertices = no_neighbors;
+  // Close cells are close in the order of the Delaunay cells, so this is the order of the search.
   parallel_for(cell_count, grain, [&](std::size_t c) {
     if (tetrahedron_of[c] == not_in_mesh) return;
     Tetrahedron& neighbors = cells[tetrahedron_of[c]].vertices;
@@ -208,12 +215,9 @@ LargeVector<Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<Ce
       neighbors[places[f]] = other == not_in_mesh ? no_neighbor : face_code(other, places_there[face_of(code)]);
     }
   });
-  parallel_for(count, grain, [&](std::size_t i) {
-    const bool is_of_front = sources[i] >= cell_count;
-    cells[i] = {mesh.tetrahedra[i], is_of_front ? no_neighbors : cells[i].vertices};
-  });
+  parallel_for(count, grain, [&](std::size_t i) { cells[i] = {mesh.tetrahedra[i], cells[i].vertices}; });
   cells.resize(count);
-  note_bytes(bytes_of(mesh.tetrahedra, mesh.regions, sources, cells));  // the same on any number of threads
+  note_bytes(bytes_of(mesh.tetrahedra, mesh.regions, cells));  // the same on any number of threads
   return cells;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
@@ -25,12 +24,14 @@ struct CollectedMesh {
 /// vertex. Tetrahedra that are close in space are mostly close in this order, because interior vertices are numbered
 /// along a space-filling curve.
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                                 std::span<const RegionId> region_of_cell, const delaunay::Delaunay& delaunay);
+                                 RawVector<RegionId> region_of_cell, const delaunay::Delaunay& delaunay);
 
 /// The tetrahedra of the mesh as cells, in the same order. Two that come from Delaunay cells with a common face are
 /// neighbors; the other neighbors are missing (`no_neighbor`).
 ///
-/// \param cells  of the Delaunay tetrahedralization; their memory is used again
-LargeVector<delaunay::Cell> join_tetrahedra(const CollectedMesh& collected, LargeVector<delaunay::Cell> cells);
+/// \param sources  of the tetrahedra, see `CollectedMesh`
+/// \param cells    of the Delaunay tetrahedralization; their memory is used again
+LargeVector<delaunay::Cell> join_tetrahedra(const TetMesh& mesh, RawVector<std::uint32_t> sources,
+                                            LargeVector<delaunay::Cell> cells);
 
 }  // namespace ccdt::mesh

@@ -35,12 +35,12 @@ std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& fro
   const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes).regions;
   mesh::CollectedMesh collected = mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay);
   const auto facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.delaunay, s.facets, collected);
-  const auto joined = mesh::join_tetrahedra(collected, s.delaunay.cells);
+  const auto joined = mesh::join_tetrahedra(collected.mesh, collected.sources, s.delaunay.cells);
   std::vector<Point3> points;
   for (const auto& vertex : s.delaunay.vertices) points.push_back(vertex.point);
   const auto complex_of = [&](LargeVector<delaunay::Cell> cells) {
-    return improve::CellComplex(collected.mesh, std::move(cells), collected.mesh.regions, points, facet_of_face,
-                                static_cast<std::uint32_t>(points.size()), {});
+    return improve::CellComplex(collected.mesh.faces, collected.mesh.edges, std::move(cells), collected.mesh.regions,
+                                points, facet_of_face, static_cast<std::uint32_t>(points.size()), {});
   };
   const improve::CellComplex kept = complex_of(joined),
                              found = complex_of(improve_test::unjoined_cells(collected.mesh));

@@ -169,11 +169,9 @@ improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal) {
   mesh::TetMesh mesh;
   mesh.tetrahedra = model.cells;
   model.regions.resize(model.cells.size(), 0);
-  mesh.faces = model.faces;
-  mesh.edges = model.segments;
   const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
-  return improve::CellComplex(mesh, unjoined_cells(mesh), model.regions, model.points, model.facet_of_face,
-                              first_interior, goal);
+  return improve::CellComplex(model.faces, model.segments, unjoined_cells(mesh), model.regions, model.points,
+                              model.facet_of_face, first_interior, goal);
 }
 
 Invariants invariants_of(const improve::CellComplex& x) {
