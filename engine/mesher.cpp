@@ -76,8 +76,9 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   using Edge = std::array<VertexId, 2>;
   const auto subsegments = parallel_collect<Edge>(
       surface.chains.size(), 4096, [&](std::size_t begin, std::size_t end, std::vector<Edge>& found) {
-        for (const auto& chain : std::span(surface.chains).subspan(begin, end - begin))
-          for (std::size_t i = 0; i + 1 < chain.size(); ++i) found.push_back({chain[i].vertex, chain[i + 1].vertex});
+        for (std::size_t s = begin; s < end; ++s)
+          for (std::size_t i = 0; i + 1 < surface.chains[s].size(); ++i)
+            found.push_back({surface.chains[s][i].vertex, surface.chains[s][i + 1].vertex});
       });
   const BackgroundSizes background = in_grid_units(options.background, plc.grid);
   const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
@@ -430,8 +431,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
     t.counts.faces -= faces_before - t.mesh.faces.size();
     t.counts.interior_vertices = t.points.size() - (t.first_interior - removed);
     t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
-    const auto still_split = static_cast<std::uint64_t>(std::ranges::count_if(t.chains, protection::is_split));
-    t.counts.segments->restored = t.counts.segments->split - still_split;
+    t.counts.segments->restored = t.counts.segments->split - protection::count_split(t.chains);
   }
   t.mesh.vertices =
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });

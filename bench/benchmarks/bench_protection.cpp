@@ -28,7 +28,7 @@ std::string find_fault(const Stages& s, protection::Protection strategy) {
       protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), strategy);
   for (std::size_t segment = 0; segment < result.chains.size(); ++segment) {
     if (!result.must_be_chain[segment]) continue;
-    const auto& chain = result.chains[segment];
+    const auto chain = result.chains[segment];
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       if (!has_edge(result.delaunay, chain[i].vertex, chain[i + 1].vertex))
         return "segment " + std::to_string(segment) + " is not protected";

@@ -122,7 +122,7 @@ class FacetMesher {
         chains_(chains),
         d_(delaunay),
         star_(delaunay),
-        is_split_(std::ranges::any_of(chains, [](const auto& chain) { return chain.size() != 2; })),
+        is_split_(chains.have_inner_vertices()),
         in_facet_(delaunay.vertices.size(), 0) {
     const auto has_one_triangle = [](const plc::Facet& facet) { return facet.triangles.size() == 1; };
     if (!is_split_ && std::ranges::all_of(plc.facets, has_one_triangle)) return;
@@ -227,7 +227,7 @@ class FacetMesher {
     planar::Triangulation t = planar::from_triangles(facet.triangles, constrained);
     planar::legalize(t, plane);
     for (const FacetSegment& s : segments) {
-      const auto& chain = chains_[s.segment];
+      const auto chain = chains_[s.segment];
       for (std::size_t i = 1; i + 1 < chain.size(); ++i)
         planar::split_edge(t, chain[i - 1].vertex, chain.back().vertex, chain[i].vertex, plane);
     }

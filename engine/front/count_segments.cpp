@@ -29,7 +29,7 @@ SegmentCounts count_segments(const plc::Plc& plc, const protection::SegmentChain
   SegmentCounts counts;
   counts.all = plc.segments.size();
   for (std::size_t s = 0; s < plc.segments.size(); ++s) {
-    const auto& chain = chains[s];
+    const auto chain = chains[s];
     counts.grazeable += plc.segments[s].grazeable;
     if (protection::is_split(chain)) {
       ++counts.split;

@@ -35,7 +35,7 @@ class SteinerRemover {
   SteinerRemover(CellComplex& x, std::uint32_t first_steiner)
       : x_(x), removal_(x), loosener_(x), first_steiner_(first_steiner) {}
 
-  void add_chain(const std::vector<protection::ChainVertex>& chain) {
+  void add_chain(std::span<const protection::ChainVertex> chain) {
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
       const std::uint32_t v = chain[i].vertex;
       if (v < first_steiner_ || x_.cell_at(v) == no_neighbor) continue;
@@ -130,14 +130,13 @@ class SteinerRemover {
 
 std::uint64_t remove_steiner_vertices(const plc::Plc& plc, std::uint32_t first_steiner, CellComplex& x,
                                       protection::SegmentChains& chains, const Progress& progress) {
-  if (std::ranges::none_of(chains, protection::is_split)) return 0;
+  if (protection::count_split(chains) == 0) return 0;
   SteinerRemover remover(x, first_steiner);
   const std::vector<std::uint32_t> sides = plc::count_boundary_sides(plc);
   for (std::size_t s = 0; s < chains.size(); ++s)
     if (sides[s] <= 2) remover.add_chain(chains[s]);
   const std::uint64_t removed = remover.run(progress);
-  for (auto& chain : chains)
-    std::erase_if(chain, [&](const protection::ChainVertex& v) { return x.is_removed(v.vertex); });
+  chains.erase_if([&](const protection::ChainVertex& v) { return x.is_removed(v.vertex); });
   return removed;
 }
 

@@ -112,9 +112,9 @@ class FlatTetrahedronPeeler {
         other_faces_.insert(key_of(t));
     }
     for (const Point3& normal : normals) axis_of_.push_back(facets::axis_along(normal));
-    for (const auto& chain : chains_)
-      for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-        segment_edges_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex));
+    for (std::size_t s = 0; s < chains_.size(); ++s)
+      for (std::size_t i = 0; i + 1 < chains_[s].size(); ++i)
+        segment_edges_.insert(edge_key(chains_[s][i].vertex, chains_[s][i + 1].vertex));
   }
 
   /// Removes tetrahedra. The others keep their order.

@@ -20,7 +20,7 @@ std::vector<std::uint64_t> find_missing(const plc::Plc& plc, const ProtectedDela
       state.chains.size(), 1024, [&](std::size_t s, std::size_t end, std::vector<std::uint64_t>& missing) {
         for (; s < end; ++s) {
           if (!state.must_be_chain[s] || (plc.segments[s].has_face && !has_new_vertices)) continue;
-          const std::vector<ChainVertex>& chain = state.chains[s];
+          const std::span<const ChainVertex> chain = state.chains[s];
           for (std::size_t i = 0; i + 1 < chain.size(); ++i)
             if (!has_edge(state.delaunay, chain[i].vertex, chain[i + 1].vertex))
               missing.push_back(edge_key(chain[i].vertex, chain[i + 1].vertex));
@@ -59,7 +59,7 @@ class Protector {
       const Subsegment& piece = pieces_[*place];
       if (!has_edge(state_.delaunay, piece.from.vertex, piece.to.vertex)) split(piece);
     }
-    for (auto& chain : state_.chains) std::ranges::sort(chain, {}, &ChainVertex::fraction);
+    state_.chains.insert(std::move(added_));
   }
 
  private:
@@ -88,7 +88,7 @@ class Protector {
 
   void split(const Subsegment piece) {
     const ChainVertex middle = splitter_.split(piece);
-    state_.chains[piece.segment].push_back(middle);
+    added_.push_back({piece.segment, middle});
     piece_of_.erase(piece_of_.find(key_of(piece)));
     add({piece.segment, piece.from, middle});
     add({piece.segment, middle, piece.to});
@@ -106,6 +106,7 @@ class Protector {
 
   ProtectedDelaunay& state_;
   EdgeSplitter splitter_;
+  std::vector<InnerVertex> added_;
   std::vector<Subsegment> pieces_;                    // also those that were split
   HashTable<std::uint64_t, std::uint32_t> piece_of_;  // by their edges: those that were not
   std::vector<std::uint64_t> other_ends_;             // by vertex: bits of the other ends of pieces there
@@ -118,12 +119,7 @@ class Protector {
 ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, SegmentChains chains) {
   ProtectedDelaunay result{std::move(delaunay), std::move(chains), {}};
   for (const plc::Segment& s : plc.segments) result.must_be_chain.push_back(s.grazeable);
-  if (!result.chains.empty()) return result;
-  result.chains.resize(plc.segments.size());
-  parallel_for(plc.segments.size(), 4096, [&](std::size_t i) {
-    const auto [a, b] = plc.segments[i].ends;
-    result.chains[i] = {{a, 0}, {b, whole_segment}};
-  });
+  if (result.chains.empty()) result.chains = SegmentChains(plc.segments);
   return result;
 }
 
@@ -143,8 +139,8 @@ ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Pr
 
 std::vector<std::uint64_t> count_splits_by_level(const SegmentChains& chains) {
   std::vector<std::uint64_t> splits;
-  for (const auto& chain : chains)
-    for (const ChainVertex& v : chain) {
+  for (std::size_t s = 0; s < chains.size(); ++s)
+    for (const ChainVertex& v : chains[s]) {
       if (v.level > splits.size()) splits.resize(v.level, 0);
       if (v.level > 0) ++splits[v.level - 1];
     }

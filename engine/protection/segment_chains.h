@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/index.h"
+#include "engine/plc/plc.h"
 
 namespace ccdt::protection {
 
@@ -20,13 +23,54 @@ inline constexpr std::uint32_t whole_segment = 1u << 30;
 /// Multiples of this fraction, 2^-20, are on the grid on every segment.
 inline constexpr std::uint32_t usual_step = whole_segment >> 20;
 
+/// A vertex inside a segment.
+struct InnerVertex {
+  std::uint32_t segment;
+  ChainVertex vertex;
+};
+
 /// The chains of the segments of a PLC: for each segment the vertices on it, from its first end (fraction 0) to its
-/// second (`whole_segment`).
-using SegmentChains = std::vector<std::vector<ChainVertex>>;
+/// second (`whole_segment`). All are in one array, since most segments have nothing but their ends.
+class SegmentChains {
+ public:
+  SegmentChains() = default;
+  /// Segments without inner vertices.
+  explicit SegmentChains(std::span<const plc::Segment> segments);
+
+  bool empty() const { return begins_.empty(); }
+  std::size_t size() const { return empty() ? 0 : begins_.size() - 1; }
+  std::span<const ChainVertex> operator[](std::size_t segment) const {
+    return {vertices_.data() + begins_[segment], vertices_.data() + begins_[segment + 1]};
+  }
+  bool have_inner_vertices() const { return vertices_.size() > 2 * size(); }
+
+  void insert(std::vector<InnerVertex> added);
+
+  /// Removes vertices inside segments.
+  template <class IsGone>
+  void erase_if(const IsGone& is_gone) {
+    std::uint32_t kept = 0, begin = 0;
+    for (std::size_t s = 0; s < size(); ++s) {
+      const std::uint32_t end = begins_[s + 1];
+      for (std::uint32_t i = begin; i < end; ++i)
+        if (!is_gone(vertices_[i])) vertices_[kept++] = vertices_[i];
+      begins_[s + 1] = kept;
+      begin = end;
+    }
+    vertices_.resize(kept);
+  }
+
+ private:
+  std::vector<std::uint32_t> begins_;  // by segment, and the end of the last one
+  std::vector<ChainVertex> vertices_;
+};
 
 /// Did protection split the segment? Vertices that refinement gave it do not count.
-inline bool is_split(const std::vector<ChainVertex>& chain) {
+inline bool is_split(std::span<const ChainVertex> chain) {
   return std::ranges::any_of(chain, [](const ChainVertex& v) { return v.level > 0; });
 }
+
+/// How many segments did protection split?
+std::size_t count_split(const SegmentChains& chains);
 
 }  // namespace ccdt::protection

@@ -22,7 +22,6 @@ namespace ccdt::refine {
 namespace {
 
 using planar::Side;
-using protection::ChainVertex;
 
 /// A triangle is too large if its circumradius is more than this times the wanted length; an equilateral triangle of
 /// that length has 0.58.
@@ -113,7 +112,7 @@ class Refiner {
     RefinedPlc result;
     const auto of_input = static_cast<std::uint32_t>(plc_.vertices.size());
     std::vector<std::uint32_t> in_facets;
-    std::vector<std::vector<ChainVertex>> inside(plc_.segments.size());
+    std::vector<protection::InnerVertex> inside;
     const std::span<const Point3> added = std::span(points_).subspan(of_input);
     // In Hilbert order, neighbors are near each other, so searches are short.
     for (const std::uint32_t i : delaunay::hilbert_order(added)) {
@@ -126,16 +125,11 @@ class Refiner {
     for (std::uint32_t v = of_input; v < points_.size(); ++v) {
       if (place_[v].segment == none) continue;
       const VertexId id(plc_.vertices.size() + result.on_segments.size());
-      inside[place_[v].segment].push_back({id, place_[v].fraction * protection::usual_step, 0});
+      inside.push_back({place_[v].segment, {id, place_[v].fraction * protection::usual_step, 0}});
       result.on_segments.push_back(points_[v]);
     }
-    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
-      auto& chain = inside[s];
-      chain.push_back({plc_.segments[s].ends[0], 0, 0});
-      chain.push_back({plc_.segments[s].ends[1], protection::whole_segment, 0});
-      std::ranges::sort(chain, {}, &ChainVertex::fraction);
-    }
-    result.chains = std::move(inside);
+    result.chains = protection::SegmentChains(plc_.segments);
+    result.chains.insert(std::move(inside));
     retriangulate(in_facets, of_input);
     result.plc = std::move(plc_);
     return result;

@@ -15,7 +15,7 @@ namespace {
 HashTable<std::uint64_t, PieceToSplit> list_pieces(const FailedAttempt& attempt) {
   HashTable<std::uint64_t, PieceToSplit> pieces;
   for (std::size_t s = 0; s < attempt.chains.size(); ++s) {
-    const auto& chain = attempt.chains[s];
+    const auto chain = attempt.chains[s];
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       pieces.insert(edge_key(chain[i].vertex, chain[i + 1].vertex),
                     {attempt.plc.segments[s].ends, chain[i].fraction, chain[i + 1].fraction});
@@ -73,7 +73,7 @@ bool divide(std::span<const plc::FacetPart> parts, std::vector<plc::FacetPart>& 
 }
 
 /// The piece in the chain of a segment, if it is there.
-std::optional<protection::PieceEnds> find_ends(const std::vector<protection::ChainVertex>& chain,
+std::optional<protection::PieceEnds> find_ends(std::span<const protection::ChainVertex> chain,
                                                const PieceToSplit& piece) {
   for (std::size_t i = 0; i + 1 < chain.size(); ++i)
     if (chain[i].fraction == piece.from && chain[i + 1].fraction == piece.to)

@@ -150,7 +150,7 @@ TEST(FindFreedom, SteinerVerticesSlideAlongTheirSegments) {
   const Found found = find(cube_with_floating_segment(), true);
   int steiner = 0;
   for (std::size_t s = 0; s < found.chains.size(); ++s) {
-    const auto& chain = found.chains[s];
+    const auto chain = found.chains[s];
     const auto& ends = found.plc.segments[s].ends;
     for (std::size_t i = 1; i + 1 < chain.size(); ++i, ++steiner) {
       const improve::Freedom& f = found.freedom[chain[i].vertex];
@@ -168,8 +168,10 @@ int sliding_middles(const plc::InputPlc& input) {
   const plc::Plc plc = plc::build_plc(input);
   protection::SegmentChains chains = protection::unprotected(plc, {}).chains;
   auto next = static_cast<std::uint32_t>(plc.vertices.size());
-  for (auto& chain : chains)
-    chain.insert(chain.begin() + 1, protection::ChainVertex{VertexId(next++), protection::whole_segment / 2, 1});
+  std::vector<protection::InnerVertex> middles;
+  for (std::uint32_t s = 0; s < plc.segments.size(); ++s)
+    middles.push_back({s, {VertexId(next++), protection::whole_segment / 2, 1}});
+  chains.insert(std::move(middles));
   const std::vector<improve::Freedom> freedom = improve::find_freedom(plc, chains, next);
   return static_cast<int>(std::count_if(freedom.begin() + static_cast<std::ptrdiff_t>(plc.vertices.size()),
                                         freedom.end(), [](const improve::Freedom& f) { return f.dimensions == 1; }));

@@ -111,7 +111,7 @@ struct Protected {
     delaunay::Delaunay d = delaunay;
     insert_points(d, points);
     for (std::size_t s = 0; s < surface.chains.size(); ++s) {
-      const auto& chain = surface.chains[s];
+      const auto chain = surface.chains[s];
       for (std::size_t k = 1; surface.must_be_chain[s] && k < chain.size(); ++k)
         ASSERT_TRUE(delaunay::has_edge(d, chain[k - 1].vertex, chain[k].vertex)) << points.size() << " points";
     }
@@ -321,8 +321,10 @@ std::vector<Point3> lattice_points(const Protected& p, lattice::Lattice kind) {
     triangles.push_back({facets.triangles[i], p.plc.regions[facet.above].inside, p.plc.regions[facet.below].inside});
   }
   std::vector<std::array<VertexId, 2>> subsegments;
-  for (const auto& chain : p.surface.chains)
+  for (std::size_t s = 0; s < p.surface.chains.size(); ++s) {
+    const auto chain = p.surface.chains[s];
     for (std::size_t k = 1; k < chain.size(); ++k) subsegments.push_back({chain[k - 1].vertex, chain[k].vertex});
+  }
   std::vector<Point3> vertices;
   for (const delaunay::DelaunayVertex& v : p.delaunay.vertices) vertices.push_back(v.point);
   lattice::LatticeOptions options;

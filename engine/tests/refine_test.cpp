@@ -69,7 +69,7 @@ void expect_exactly_in_place(const Refined& r) {
       for (const VertexId v : t) EXPECT_EQ(numbers::orient3d(plane[0], plane[1], plane[2], points[v]), 0);
   }
   for (std::size_t s = 0; s < before.segments.size(); ++s) {
-    const auto& chain = r.after.chains[s];
+    const auto chain = r.after.chains[s];
     EXPECT_EQ(chain.front().vertex, before.segments[s].ends[0]);
     EXPECT_EQ(chain.back().vertex, before.segments[s].ends[1]);
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
@@ -84,9 +84,11 @@ void expect_exactly_in_place(const Refined& r) {
 double longest_piece(const RefinedPlc& refined) {
   const std::vector<Point3> points = all_points(refined);
   double longest = 0;
-  for (const auto& chain : refined.chains)
+  for (std::size_t s = 0; s < refined.chains.size(); ++s) {
+    const auto chain = refined.chains[s];
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       longest = std::max(longest, length(points[chain[i + 1].vertex] - points[chain[i].vertex]));
+  }
   return longest * refined.plc.grid.unit;
 }
 

@@ -1,0 +1,44 @@
+#include "engine/protection/segment_chains.h"
+
+#include <tuple>
+#include <utility>
+
+namespace ccdt::protection {
+
+SegmentChains::SegmentChains(std::span<const plc::Segment> segments) {
+  begins_.reserve(segments.size() + 1);
+  vertices_.reserve(2 * segments.size());
+  for (const plc::Segment& segment : segments) {
+    begins_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+    vertices_.push_back({segment.ends[0], 0});
+    vertices_.push_back({segment.ends[1], whole_segment});
+  }
+  begins_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+}
+
+void SegmentChains::insert(std::vector<InnerVertex> added) {
+  if (added.empty()) return;
+  std::ranges::sort(added, {}, [](const InnerVertex& v) { return std::tuple(v.segment, v.vertex.fraction); });
+  std::vector<ChainVertex> all;
+  all.reserve(vertices_.size() + added.size());
+  auto next = added.cbegin();
+  for (std::uint32_t s = 0; s < size(); ++s) {
+    const std::span<const ChainVertex> chain = (*this)[s];
+    begins_[s] = static_cast<std::uint32_t>(all.size());
+    for (const ChainVertex& v : chain) {
+      for (; next != added.cend() && next->segment == s && next->vertex.fraction < v.fraction; ++next)
+        all.push_back(next->vertex);
+      all.push_back(v);
+    }
+  }
+  begins_.back() = static_cast<std::uint32_t>(all.size());
+  vertices_ = std::move(all);
+}
+
+std::size_t count_split(const SegmentChains& chains) {
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < chains.size(); ++s) count += is_split(chains[s]);
+  return count;
+}
+
+}  // namespace ccdt::protection
