@@ -435,6 +435,8 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   }
   t.mesh.vertices =
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
+  if (const auto attribute = mesh::common_attribute(t.plc.regions))
+    t.mesh.regions.assign(t.mesh.tetrahedra.size(), *attribute);
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   for (StageSeconds* seconds : {&costs.seconds, &costs.cpu_seconds})

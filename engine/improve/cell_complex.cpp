@@ -205,7 +205,7 @@ std::uint32_t CellComplex::take_place() {
   const auto place = static_cast<std::uint32_t>(cells_.size());
   cells_.emplace_back();
   walls_.push_back(0);
-  regions_.push_back(0);
+  if (!regions_.empty()) regions_.push_back(0);
   qualities_.push_back(0);
   generations_.push_back(0);
   return place;
@@ -274,7 +274,7 @@ void CellComplex::fill_cavity(const Change& change, std::span<const std::uint32_
     const std::uint32_t c = places[i];
     cells_[c].vertices = cell.vertices;
     walls_[c] = 0;
-    regions_[c] = cell.region;
+    if (!regions_.empty()) regions_[c] = cell.region;
     qualities_[c] = cell.quality;
     for (std::uint32_t f = 0; f < 4; ++f) connect(face_code(c, f), change.faces, cavity.faces);
   }
@@ -322,14 +322,16 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
       },
       [&](std::size_t count) {
         // By this thread, which gets the memory that it gave back.
-        parallel_both([&] { mesh.tetrahedra.resize(count), mesh.regions.resize(count); }, number_vertices);
+        parallel_both([&] { mesh.tetrahedra.resize(count), mesh.regions.resize(regions_.empty() ? 0 : count); },
+                      number_vertices);
       },
       [&](std::size_t c, std::size_t end, std::size_t place) {
         for (; c < end; ++c) {
           if (is_dead(static_cast<std::uint32_t>(c))) continue;
           const auto& v = cells_[c].vertices;
           mesh.tetrahedra[place] = {number[v[0]], number[v[1]], number[v[2]], number[v[3]]};
-          mesh.regions[place++] = regions_[c];
+          if (!regions_.empty()) mesh.regions[place] = regions_[c];
+          ++place;
         }
       });
   std::size_t kept = 0;

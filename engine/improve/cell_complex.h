@@ -94,7 +94,7 @@ class CellComplex {
   /// \param faces           of the mesh, on its facets
   /// \param edges           of the mesh, on its segments
   /// \param cells           the tetrahedra; neighbors may be missing
-  /// \param regions         the attribute of the region of each
+  /// \param regions         the attribute of the region of each; empty: all are in one region
   /// \param points          the vertices of the mesh in grid units
   /// \param facet_of_face   the facet of each of the faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
@@ -122,7 +122,7 @@ class CellComplex {
   std::size_t dead_count() const { return free_.size(); }
   const Cell& cell(std::uint32_t c) const { return cells_[c]; }
   bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
-  int region(std::uint32_t c) const { return regions_[c]; }
+  int region(std::uint32_t c) const { return regions_.empty() ? 0 : regions_[c]; }
   double quality(std::uint32_t c) const { return qualities_[c]; }
   /// How often the place of the cell was reused, modulo 2^16.
   std::uint16_t generation(std::uint32_t c) const { return generations_[c]; }
@@ -220,7 +220,7 @@ class CellComplex {
   // By cell.
   LargeVector<Cell> cells_;
   RawVector<std::uint8_t> walls_;  // bit f is set if face f is a wall
-  std::vector<int> regions_;
+  std::vector<int> regions_;       // empty: one region
   RawVector<double> qualities_;
   RawVector<std::uint16_t> generations_;
   std::vector<std::uint32_t> free_;  // places of dead cells

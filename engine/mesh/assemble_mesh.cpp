@@ -128,11 +128,11 @@ class FlatTetrahedronPeeler {
         continue;
       }
       mesh_.tetrahedra[kept] = mesh_.tetrahedra[i];
-      mesh_.regions[kept] = mesh_.regions[i];
+      if (!mesh_.regions.empty()) mesh_.regions[kept] = mesh_.regions[i];
       sources_[kept++] = sources_[i];
     }
     mesh_.tetrahedra.resize(kept);
-    mesh_.regions.resize(kept);
+    if (!mesh_.regions.empty()) mesh_.regions.resize(kept);
     sources_.resize(kept);
   }
 

@@ -67,27 +67,12 @@ std::uint32_t least_vertex(const Tetrahedron& t) {
   return std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
 }
 
-/// The attribute of all regions in the domain, if they have the same.
-std::optional<int> common_attribute(std::span<const plc::Region> regions) {
-  std::optional<int> common;
-  for (const plc::Region& region : regions) {
-    if (!region.inside) continue;
-    if (region.attribute != common.value_or(region.attribute)) return std::nullopt;
-    common = region.attribute;
-  }
-  return common;
-}
-
 /// The labeled cells and the tetrahedra of the front, by their sources.
 class Parts {
  public:
   Parts(const plc::Plc& plc, const front::FrontResult& front, RawVector<RegionId> region_of_cell,
         const LargeVector<Cell>& cells)
-      : plc_(plc),
-        front_(front),
-        region_of_cell_(std::move(region_of_cell)),
-        cells_(cells),
-        common_attribute_(common_attribute(plc.regions)) {}
+      : plc_(plc), front_(front), region_of_cell_(std::move(region_of_cell)), cells_(cells) {}
 
   std::size_t size() const { return cells_.size() + front_.tetrahedra.size(); }
   std::size_t bytes() const { return bytes_of(region_of_cell_); }
@@ -95,13 +80,8 @@ class Parts {
   const Tetrahedron& operator[](std::size_t source) const {
     return source < cells_.size() ? cells_[source].vertices : front_.tetrahedra[source - cells_.size()];
   }
-  int attribute(std::size_t source) const {
-    return common_attribute_ ? *common_attribute_ : plc_.regions[region(source)].attribute;
-  }
-  /// From now on, only parts in the mesh may be asked for.
-  void forget_others() {
-    if (common_attribute_) release(region_of_cell_);
-  }
+  int attribute(std::size_t source) const { return plc_.regions[region(source)].attribute; }
+  void forget_regions() { release(region_of_cell_); }
 
  private:
   RegionId region(std::size_t source) const {
@@ -112,7 +92,6 @@ class Parts {
   const front::FrontResult& front_;
   RawVector<RegionId> region_of_cell_;
   const LargeVector<Cell>& cells_;
-  const std::optional<int> common_attribute_;  ///< spares looking up regions, which are anywhere in memory
 };
 
 /// Lists of sources, by their least vertices. The order within a list is any.
@@ -144,6 +123,16 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
 
 }  // namespace
 
+std::optional<int> common_attribute(std::span<const plc::Region> regions) {
+  std::optional<int> common;
+  for (const plc::Region& region : regions) {
+    if (!region.inside) continue;
+    if (region.attribute != common.value_or(region.attribute)) return std::nullopt;
+    common = region.attribute;
+  }
+  return common;
+}
+
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
                                  RawVector<RegionId> region_of_cell, const delaunay::Delaunay& delaunay) {
   Parts parts(plc, front, std::move(region_of_cell), delaunay.cells);
@@ -152,8 +141,12 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
   auto& [mesh, sources] = collected;
   Buckets buckets = group_by_least_vertex(parts, vertices);
   sources = std::move(buckets.sources);
-  parts.forget_others();
-  parallel_both([&] { mesh.tetrahedra.resize(sources.size()); }, [&] { mesh.regions.resize(sources.size()); });
+  const bool has_regions = !common_attribute(plc.regions);
+  if (has_regions)
+    mesh.regions.resize(sources.size());
+  else
+    parts.forget_regions();
+  mesh.tetrahedra.resize(sources.size());
   parallel_ranges(vertices, grain, [&](std::size_t v, std::size_t end) {
     constexpr std::size_t ahead = 16;  // cells of a bucket are far apart, so memory is asked for them early
     const std::size_t last = buckets.ends[end - 1];
@@ -170,7 +163,7 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
         const auto& [second_and_third, fourth, source] = bucket[i];
         mesh.tetrahedra[first + i] = {static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(second_and_third >> 32),
                                       static_cast<std::uint32_t>(second_and_third), fourth};
-        mesh.regions[first + i] = parts.attribute(source);
+        if (has_regions) mesh.regions[first + i] = parts.attribute(source);
         sources[first + i] = source;
       }
     }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "engine/base/raw_vector.h"
 #include "engine/delaunay/delaunay.h"
@@ -10,6 +12,9 @@
 
 namespace ccdt::mesh {
 
+/// The attribute of all regions in the domain, if they have the same.
+std::optional<int> common_attribute(std::span<const plc::Region> regions);
+
 /// The constrained Delaunay tetrahedralization as a mesh, and where its tetrahedra come from.
 struct CollectedMesh {
   TetMesh mesh;
@@ -17,7 +22,8 @@ struct CollectedMesh {
   RawVector<std::uint32_t> sources;
 };
 
-/// The tetrahedra of the front and the labeled cells, with their regions. The mesh has nothing else yet.
+/// The tetrahedra of the front and the labeled cells, with their regions unless these have a common attribute. The mesh
+/// has nothing else yet.
 ///
 /// They and the corners of each are in an order that depends on nothing but the set of tetrahedra: the mesh is the
 /// same, byte for byte, whatever strategy made it and on however many threads. The first corner of each is its least
