@@ -169,7 +169,7 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
       measured(costs, mesh_stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
   if (touching) return touching;
 
-  const front::FrontResult front =
+  front::FrontResult front =
       measured(costs, mesh_stage::front, [&] { return advance(t.plc, facets, delaunay, options, progress, codes); });
   if (front.stuck) return front.stuck;
   t.counts.front_tetrahedra = front.tetrahedra.size();
@@ -178,19 +178,21 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   label::CellLabels labels =
       measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   if (labels.stuck) return labels.stuck;
-  mesh::CollectedMesh collected = measured(costs, mesh_stage::label, [&] {
-    return mesh::collect_tetrahedra(t.plc, front, std::move(labels.regions), delaunay);
-  });
-  auto wrong = measured(costs, mesh_stage::finish, [&] {
-    const auto not_filled = mesh::check_volume(t.plc, facets, delaunay, collected.mesh);
-    return not_filled ? not_filled : mesh::check_front(t.plc, facets, delaunay, front);
-  });
-  if (wrong) return wrong;
-  t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
-    return mesh::finish_mesh(t.plc, t.chains, delaunay, std::move(facets), collected);
-  });
+  if (auto wrong =
+          measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
+    return wrong;
   t.points = points_of(delaunay);
-  release(delaunay.vertices);
+  release(delaunay.vertices), release(delaunay.cell_at), release(codes);
+  mesh::CollectedMesh collected = measured(costs, mesh_stage::label, [&] {
+    return mesh::collect_tetrahedra(t.plc, front, std::move(labels.regions), delaunay.cells, t.points.size());
+  });
+  front = {};
+  if (auto wrong = measured(costs, mesh_stage::finish,
+                            [&] { return mesh::check_volume(t.plc, facets, t.points, collected.mesh); }))
+    return wrong;
+  t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
+    return mesh::finish_mesh(t.plc, t.chains, t.points, std::move(facets), collected);
+  });
   if (improves(options, t))
     t.cells = measured(costs, mesh_stage::improve, [&] {
       return mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), std::move(delaunay.cells));
@@ -240,7 +242,7 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const Me
   if (!t.stuck) return;
   if (t.stuck->faces.empty()) t.stuck->faces = std::move(missing);
   t.facets = std::move(facets);
-  t.points = points_of(delaunay);
+  if (t.points.empty()) t.points = points_of(delaunay);
 }
 
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a

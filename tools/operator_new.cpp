@@ -13,7 +13,7 @@ namespace {
 using ccdt::tools::PagePool;
 
 /// Smaller arrays are not worth the system calls.
-constexpr std::size_t least_pooled = std::size_t{1} << 20;
+constexpr std::size_t least_pooled = std::size_t{1} << 19;
 
 /// Never destroyed: the last arrays are freed after all static objects are gone.
 PagePool& pool() {

@@ -64,7 +64,7 @@ class HashTable {
  public:
   struct Entry {
     Key key = Traits::none();
-    Value value{};
+    [[no_unique_address]] Value value{};
   };
 
   std::size_t size() const { return size_; }

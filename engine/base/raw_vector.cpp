@@ -14,16 +14,11 @@ namespace {
 
 constexpr std::size_t large_page = std::size_t{1} << 21;
 
-std::size_t whole_pages(std::size_t bytes) {
-  return (bytes + large_page - 1) / large_page * large_page;
-}
-
 }  // namespace
 
 void* allocate_large_pages(std::size_t bytes) {
-  const std::size_t size = whole_pages(bytes);
-  void* const place = ::operator new (size, std::align_val_t{large_page});
-  madvise(place, size, MADV_HUGEPAGE);  // a hint: without large pages, all is as usual
+  void* const place = ::operator new (bytes, std::align_val_t{large_page});
+  madvise(place, bytes, MADV_HUGEPAGE);  // a hint: without large pages, all is as usual
   return place;
 }
 

@@ -25,13 +25,13 @@ double determinant(const Point3& a, const Point3& b, const Point3& c) {
 }
 
 /// Six times the volume that the facets enclose, by the divergence theorem.
-double volume_within(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& d) {
+double volume_within(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const Point3> points) {
   double volume = 0;
   for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
     const plc::Facet& facet = plc.facets[facets.facet[i]];
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     const auto& t = facets.triangles[i];
-    if (outward != 0) volume += outward * determinant(d.point(t[0]), d.point(t[1]), d.point(t[2]));
+    if (outward != 0) volume += outward * determinant(points[t[0]], points[t[1]], points[t[2]]);
   }
   return volume;
 }
@@ -50,9 +50,14 @@ bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
 /// segment from its facet, fold the facet over, or put it onto another one.
 class FlatTetrahedronPeeler {
  public:
-  FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains,
-                        const delaunay::Delaunay& delaunay, facets::FacetMesh& facets, CollectedMesh& collected)
-      : plc_(plc), chains_(chains), d_(delaunay), facets_(facets), mesh_(collected.mesh), sources_(collected.sources) {}
+  FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, std::span<const Point3> points,
+                        facets::FacetMesh& facets, CollectedMesh& collected)
+      : plc_(plc),
+        chains_(chains),
+        points_(points),
+        facets_(facets),
+        mesh_(collected.mesh),
+        sources_(collected.sources) {}
 
   void peel() {
     find_bent_facets();
@@ -105,7 +110,7 @@ class FlatTetrahedronPeeler {
     for (std::size_t i = 0; i < facets_.triangles.size(); ++i) {
       const auto& t = facets_.triangles[i];
       Point3& normal = normals[facets_.facet[i]];
-      normal = normal + area_vector({d_.point(t[0]), d_.point(t[1]), d_.point(t[2])});
+      normal = normal + area_vector({points_[t[0]], points_[t[1]], points_[t[2]]});
       if (is_bent_boundary(plc_, plc_.facets[facets_.facet[i]]))
         triangle_of_.set(key_of(t), i);
       else
@@ -180,7 +185,7 @@ class FlatTetrahedronPeeler {
       // Face corners see the tetrahedron above them; the facet's triangles have the domain above or below.
       auto [a, b, c] = delaunay::corners_of_face(t, inner[i]);
       if (plc_.regions[plc_.facets[facet].above].inside) std::swap(a, b);
-      if (!facets::is_upright(d_.point(a), d_.point(b), d_.point(c), axis_of_[facet])) return false;
+      if (!facets::is_upright(points_[a], points_[b], points_[c], axis_of_[facet])) return false;
       uncovered[i] = {VertexId(a), VertexId(b), VertexId(c)};
       // The order of a cell's vertices depends on the strategy.
       std::ranges::rotate(uncovered[i], std::ranges::min_element(uncovered[i]));
@@ -195,7 +200,7 @@ class FlatTetrahedronPeeler {
 
   const plc::Plc& plc_;
   const protection::SegmentChains& chains_;
-  const delaunay::Delaunay& d_;
+  std::span<const Point3> points_;
   facets::FacetMesh& facets_;
   TetMesh& mesh_;
   RawVector<std::uint32_t>& sources_;
@@ -296,26 +301,26 @@ std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::Facet
 }
 
 std::optional<front::Stuck> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                         const delaunay::Delaunay& d, const TetMesh& mesh) {
+                                         std::span<const Point3> points, const TetMesh& mesh) {
   const auto volumes = parallel_chunks(mesh.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end) {
     double volume = 0;
     for (; i < end; ++i) {
       const auto& t = mesh.tetrahedra[i];
-      const Point3& a = d.point(t[0]);
-      volume += determinant(d.point(t[1]) - a, d.point(t[2]) - a, d.point(t[3]) - a);
+      const Point3& a = points[t[0]];
+      volume += determinant(points[t[1]] - a, points[t[2]] - a, points[t[3]] - a);
     }
     return volume;
   });
   const double filled = std::accumulate(volumes.begin(), volumes.end(), 0.0);
-  const double wanted = volume_within(plc, facets, d);
+  const double wanted = volume_within(plc, facets, points);
   if (std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted)) return {};
   return front::stuck_near("the tetrahedra do not fill the domain", plc, {});
 }
 
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                       const delaunay::Delaunay& delaunay, facets::FacetMesh facets,
+                                       std::span<const Point3> points, facets::FacetMesh facets,
                                        CollectedMesh& collected) {
-  FlatTetrahedronPeeler(plc, chains, delaunay, facets, collected).peel();
+  FlatTetrahedronPeeler(plc, chains, points, facets, collected).peel();
   collected.mesh.constrained_delaunay = true;
   return add_faces_and_edges(plc, chains, facets, collected.mesh);
 }

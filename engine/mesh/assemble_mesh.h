@@ -19,8 +19,10 @@ namespace ccdt::mesh {
 
 /// The error if the volume of the tetrahedra differs from that inside the facets. All cells are positive and share
 /// their faces; if the volume is right too, they fill the domain once, and there is no error.
+///
+/// \param points  the vertices, in grid units
 std::optional<front::Stuck> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                         const delaunay::Delaunay& delaunay, const TetMesh& mesh);
+                                         std::span<const Point3> points, const TetMesh& mesh);
 
 /// The error if the tetrahedra of the front are not constrained Delaunay: a face between two, or between one and a
 /// labeled cell, is not locally Delaunay. That is possible only if a facet is not exactly flat, so nothing is tested
@@ -31,9 +33,10 @@ std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::Facet
 /// Completes the mesh except for its coordinates: removes the flat tetrahedra on its boundary, and adds the faces of
 /// the facets and the edges of the segments.
 ///
+/// \param points  the vertices, in grid units
 /// \return the facet of each of the mesh's faces
 std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                       const delaunay::Delaunay& delaunay, facets::FacetMesh facets,
+                                       std::span<const Point3> points, facets::FacetMesh facets,
                                        CollectedMesh& collected);
 
 /// Gives a mesh the edges of the segments, with their markers.

@@ -134,9 +134,9 @@ std::optional<int> common_attribute(std::span<const plc::Region> regions) {
 }
 
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                                 RawVector<RegionId> region_of_cell, const delaunay::Delaunay& delaunay) {
-  Parts parts(plc, front, std::move(region_of_cell), delaunay.cells);
-  const std::size_t vertices = delaunay.vertices.size();
+                                 RawVector<RegionId> region_of_cell, const LargeVector<Cell>& cells,
+                                 std::size_t vertices) {
+  Parts parts(plc, front, std::move(region_of_cell), cells);
   CollectedMesh collected;
   auto& [mesh, sources] = collected;
   Buckets buckets = group_by_least_vertex(parts, vertices);
@@ -168,9 +168,7 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
       }
     }
   });
-  note_bytes(bytes_of(delaunay.vertices, delaunay.cell_at, delaunay.cells, buckets.ends, sources, mesh.tetrahedra,
-                      mesh.regions) +
-             parts.bytes());
+  note_bytes(bytes_of(cells, buckets.ends, sources, mesh.tetrahedra, mesh.regions) + parts.bytes());
   return collected;
 }
 

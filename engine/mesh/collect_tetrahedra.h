@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -29,8 +30,13 @@ struct CollectedMesh {
 /// same, byte for byte, whatever strategy made it and on however many threads. The first corner of each is its least
 /// vertex. Tetrahedra that are close in space are mostly close in this order, because interior vertices are numbered
 /// along a space-filling curve.
+///
+/// \param region_of_cell  see `label::CellLabels`
+/// \param cells           of the Delaunay tetrahedralization
+/// \param vertices        how many it has
 CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& front,
-                                 RawVector<RegionId> region_of_cell, const delaunay::Delaunay& delaunay);
+                                 RawVector<RegionId> region_of_cell, const LargeVector<delaunay::Cell>& cells,
+                                 std::size_t vertices);
 
 /// The tetrahedra of the mesh as cells, in the same order. Two that come from Delaunay cells with a common face are
 /// neighbors; the other neighbors are missing (`no_neighbor`).
