@@ -73,13 +73,7 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
     const plc::Facet& facet = plc.facets[facets.facet[i]];
     triangles[i] = {facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside};
   });
-  using Edge = std::array<VertexId, 2>;
-  const auto subsegments = parallel_collect<Edge>(
-      surface.chains.size(), 4096, [&](std::size_t begin, std::size_t end, std::vector<Edge>& found) {
-        for (std::size_t s = begin; s < end; ++s)
-          for (std::size_t i = 0; i + 1 < surface.chains[s].size(); ++i)
-            found.push_back({surface.chains[s][i].vertex, surface.chains[s][i + 1].vertex});
-      });
+  const std::vector<std::array<VertexId, 2>> subsegments = surface.chains.pieces();
   const BackgroundSizes background = in_grid_units(options.background, plc.grid);
   const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
                                         options.grading,   options.sphere_factor,

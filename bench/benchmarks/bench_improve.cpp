@@ -47,12 +47,13 @@ const Unimproved& unimproved(const Stages& s) {
   const auto [at, is_new] = made.try_emplace(&s);
   Unimproved& u = at->second;
   if (is_new) {
+    u.points = points_of(s.delaunay);
     const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
-    mesh::CollectedMesh collected = mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay);
-    u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.delaunay, s.facets, collected);
+    mesh::CollectedMesh collected =
+        mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay.cells, s.delaunay.vertices.size());
+    u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, u.points, s.facets, collected);
     u.cells = mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), s.delaunay.cells);
     u.mesh = std::move(collected.mesh);
-    u.points = points_of(s.delaunay);
     u.chains = s.chains;
   }
   return u;

@@ -18,7 +18,7 @@ namespace {
 
 mesh::TetMesh label(const Stages& s) {
   const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
-  return mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay).mesh;
+  return mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay.cells, s.delaunay.vertices.size()).mesh;
 }
 
 /// The volume by the divergence theorem, from the triangles of the input.

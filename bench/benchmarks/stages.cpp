@@ -55,9 +55,7 @@ LatticeInput lattice_input(const plc::Plc& plc, const protection::ProtectedDelau
     const plc::Facet& facet = plc.facets[facets.facet[i]];
     input.triangles.push_back({facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside});
   }
-  for (const auto& chain : surface.chains)
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      input.subsegments.push_back({chain[i].vertex, chain[i + 1].vertex});
+  input.subsegments = surface.chains.pieces();
   input.options.edge_length = density.edge_length / plc.grid.unit;
   input.options.grading = density.grading;
   return input;
@@ -89,7 +87,9 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   const label::CellLabels labels = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   s.front.stuck = labels.stuck;
   if (!labels.stuck)
-    s.tetrahedra = sorted(mesh::collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay).mesh.tetrahedra);
+    s.tetrahedra =
+        sorted(mesh::collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay.cells, s.delaunay.vertices.size())
+                   .mesh.tetrahedra);
   return s;
 }
 

@@ -117,9 +117,7 @@ class FlatTetrahedronPeeler {
         other_faces_.insert(key_of(t));
     }
     for (const Point3& normal : normals) axis_of_.push_back(facets::axis_along(normal));
-    for (std::size_t s = 0; s < chains_.size(); ++s)
-      for (std::size_t i = 0; i + 1 < chains_[s].size(); ++i)
-        segment_edges_.insert(edge_key(chains_[s][i].vertex, chains_[s][i + 1].vertex));
+    for (const auto& [a, b] : chains_.pieces()) segment_edges_.insert(edge_key(a, b));
   }
 
   /// Removes tetrahedra. The others keep their order.

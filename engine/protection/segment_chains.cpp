@@ -16,6 +16,15 @@ SegmentChains::SegmentChains(std::span<const plc::Segment> segments) {
   begins_.push_back(static_cast<std::uint32_t>(vertices_.size()));
 }
 
+std::vector<std::array<VertexId, 2>> SegmentChains::pieces() const {
+  std::vector<std::array<VertexId, 2>> all;
+  all.reserve(vertices_.size() - size());
+  for (std::size_t s = 0; s < size(); ++s)
+    for (std::uint32_t i = begins_[s] + 1; i < begins_[s + 1]; ++i)
+      all.push_back({vertices_[i - 1].vertex, vertices_[i].vertex});
+  return all;
+}
+
 void SegmentChains::insert(std::vector<InnerVertex> added) {
   if (added.empty()) return;
   std::ranges::sort(added, {}, [](const InnerVertex& v) { return std::tuple(v.segment, v.vertex.fraction); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -43,6 +44,8 @@ class SegmentChains {
     return {vertices_.data() + begins_[segment], vertices_.data() + begins_[segment + 1]};
   }
   bool have_inner_vertices() const { return vertices_.size() > 2 * size(); }
+  /// The ends of the pieces of all segments.
+  std::vector<std::array<VertexId, 2>> pieces() const;
 
   void insert(std::vector<InnerVertex> added);
 

@@ -33,11 +33,12 @@ std::size_t count_joined(const LargeVector<delaunay::Cell>& cells) {
 std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& front,
                                   const std::vector<std::uint32_t>& codes) {
   const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes).regions;
-  mesh::CollectedMesh collected = mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay);
-  const auto facet_of_face = mesh::finish_mesh(s.plc, s.chains, s.delaunay, s.facets, collected);
-  const auto joined = mesh::join_tetrahedra(collected.mesh, collected.sources, s.delaunay.cells);
+  mesh::CollectedMesh collected =
+      mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay.cells, s.delaunay.vertices.size());
   std::vector<Point3> points;
   for (const auto& vertex : s.delaunay.vertices) points.push_back(vertex.point);
+  const auto facet_of_face = mesh::finish_mesh(s.plc, s.chains, points, s.facets, collected);
+  const auto joined = mesh::join_tetrahedra(collected.mesh, collected.sources, s.delaunay.cells);
   const auto complex_of = [&](LargeVector<delaunay::Cell> cells) {
     return improve::CellComplex(collected.mesh.faces, collected.mesh.edges, std::move(cells), collected.mesh.regions,
                                 points, facet_of_face, static_cast<std::uint32_t>(points.size()), {});

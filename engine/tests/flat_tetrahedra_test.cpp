@@ -63,9 +63,8 @@ std::size_t count_after_finish(const Point3& fourth) {
                  .exactly_flat = false,
                  .above = RegionId(0),
                  .below = RegionId(1)}};
-  delaunay::Delaunay delaunay;
-  for (const Point3& p : {Point3{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, fourth, {2, 2, -10}})
-    delaunay.vertices.push_back({0x1p20 * p});
+  std::vector<Point3> points;
+  for (const Point3& p : {Point3{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, fourth, {2, 2, -10}}) points.push_back(0x1p20 * p);
   const facets::FacetMesh facets{plc.facets[0].triangles, {FacetId(0), FacetId(0)}};
   mesh::CollectedMesh collected;
   for (const auto& t : {std::array<std::uint32_t, 4>{0, 1, 2, 3}, {0, 2, 1, 4}}) {
@@ -73,7 +72,7 @@ std::size_t count_after_finish(const Point3& fourth) {
     collected.mesh.regions.push_back(0);
     collected.sources.push_back(0);
   }
-  mesh::finish_mesh(plc, {}, delaunay, facets, collected);
+  mesh::finish_mesh(plc, {}, points, facets, collected);
   return collected.mesh.tetrahedra.size();
 }
 

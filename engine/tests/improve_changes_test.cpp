@@ -185,6 +185,16 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   EXPECT_TRUE(invariants_of(x) == before);
 }
 
+TEST(CellMarks, AreForgottenByEveryLaterSearch) {
+  improve::CellMarks marks;
+  marks.clear(2);
+  marks.mark(1);
+  for (int search = 0; search < 1 << 17; ++search) {
+    marks.clear(2);
+    ASSERT_FALSE(marks.is_marked(0) || marks.is_marked(1)) << search;
+  }
+}
+
 TEST(Changes, LongerRingIsLeftAlone) {
   improve::CellComplex x = complex_of(ring_of(improve::longest_ring + 1), by_shape);
   // Not for lack of something better: of all triangles of the ring, none is smaller than one that cuts off a corner.

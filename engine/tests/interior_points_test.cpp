@@ -320,11 +320,7 @@ std::vector<Point3> lattice_points(const Protected& p, lattice::Lattice kind) {
     const plc::Facet& facet = p.plc.facets[facets.facet[i]];
     triangles.push_back({facets.triangles[i], p.plc.regions[facet.above].inside, p.plc.regions[facet.below].inside});
   }
-  std::vector<std::array<VertexId, 2>> subsegments;
-  for (std::size_t s = 0; s < p.surface.chains.size(); ++s) {
-    const auto chain = p.surface.chains[s];
-    for (std::size_t k = 1; k < chain.size(); ++k) subsegments.push_back({chain[k - 1].vertex, chain[k].vertex});
-  }
+  const auto subsegments = p.surface.chains.pieces();
   std::vector<Point3> vertices;
   for (const delaunay::DelaunayVertex& v : p.delaunay.vertices) vertices.push_back(v.point);
   lattice::LatticeOptions options;

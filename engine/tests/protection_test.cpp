@@ -281,6 +281,36 @@ TEST(Protection, SegmentsSideBySideAreSplitSideBySide) {
   EXPECT_LT(expect_agreement(cube_with_bundle(0x1p-18), Lattice::none).counts.steiner_vertices, 10000u);
 }
 
+TEST(SegmentChains, HoldVerticesInTheOrderOfTheirSegments) {
+  const auto id = [](std::uint32_t v) { return VertexId(v); };
+  const std::array<plc::Segment, 3> segments = {{{{id(0), id(1)}}, {{id(1), id(2)}}, {{id(2), id(0)}}}};
+  protection::SegmentChains chains(segments);
+  EXPECT_FALSE(chains.have_inner_vertices());
+  constexpr std::uint32_t quarter = protection::whole_segment / 4;
+  chains.insert({{2, {id(3), 2 * quarter, 1}}, {0, {id(4), 3 * quarter, 2}}, {2, {id(5), quarter, 0}}});
+  chains.insert({{0, {id(6), quarter, 1}}});
+  EXPECT_TRUE(chains.have_inner_vertices());
+
+  using Vertices = std::vector<std::uint32_t>;
+  const auto vertices_of = [&](std::size_t s) {
+    Vertices vertices;
+    for (const protection::ChainVertex& v : chains[s]) vertices.push_back(v.vertex);
+    return vertices;
+  };
+  EXPECT_EQ(vertices_of(0), (Vertices{0, 6, 4, 1}));
+  EXPECT_EQ(vertices_of(1), (Vertices{1, 2}));
+  EXPECT_EQ(vertices_of(2), (Vertices{2, 5, 3, 0}));
+  EXPECT_EQ(protection::count_split(chains), 2u);
+  EXPECT_EQ(chains.pieces().size(), 7u);
+  EXPECT_EQ(chains.pieces()[1], (std::array{id(6), id(4)}));
+
+  chains.erase_if([&](const protection::ChainVertex& v) { return v.vertex == id(6) || v.vertex == id(3); });
+  EXPECT_EQ(vertices_of(0), (Vertices{0, 4, 1}));
+  EXPECT_EQ(vertices_of(1), (Vertices{1, 2}));
+  EXPECT_EQ(vertices_of(2), (Vertices{2, 5, 0}));
+  EXPECT_EQ(protection::count_split(chains), 1u);
+}
+
 TEST(Protection, FractionsFinerThanUsualAreOnTheGrid) {
   const plc::Plc plc = plc::build_plc(cube_with_bundle(0x1p-16));
   const auto [delaunay, chains, grazeable] = protection::protect_edges(

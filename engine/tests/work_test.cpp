@@ -228,7 +228,7 @@ face_check.triangles_visited 261
 face_check.faces_tested 946
 face_check.peak_bytes 1984
 label.cells_visited 174
-label.peak_bytes 19188
+label.peak_bytes 14836
 finish.cells_visited 156
 finish.peak_bytes 5520
 improve.orient3d_filter_failures 2
@@ -238,7 +238,7 @@ improve.cells_created 59
 improve.cells_destroyed 77
 improve.changes_tried 220
 improve.quality_evaluations 1022
-improve.peak_bytes 18744
+improve.peak_bytes 16676
 )");
 }
 
@@ -381,7 +381,7 @@ improve.moves_tried 178
 improve.vertices_moved 48
 improve.ascent_steps 196
 improve.quality_evaluations 23068
-improve.peak_bytes 21835
+improve.peak_bytes 19437
 )");
 }
 
