@@ -101,9 +101,9 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
           if (is_inner[e]) continue;
           const std::uint32_t s = parts.match.segment_of[e];
           const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
-          const bool has_face = std::ranges::any_of(
-              parts.edges.around(e), [&](std::uint32_t t) { return parts.triangles.faces[t] != no_face; });
-          segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e), has_face};
+          std::uint32_t face = no_face;
+          for (const std::uint32_t t : parts.edges.around(e)) face = std::min(face, parts.triangles.faces[t]);
+          segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e), face};
         }
       });
   for (std::size_t i = 0; i < map.of_loose.size(); ++i) {

@@ -19,8 +19,8 @@ inline constexpr std::uint32_t no_face = 0xFFFFFFFFu;
 struct Segment {
   std::array<VertexId, 2> ends;
   int marker = 0;
-  bool grazeable = false;  ///< a sector of the domain of 180 degrees or more is around it (Shewchuk 2002)
-  bool has_face = false;   ///< a triangle at it is one of `Plc::faces`, so it is an edge there
+  bool grazeable = false;        ///< a sector of the domain of 180 degrees or more is around it (Shewchuk 2002)
+  std::uint32_t face = no_face;  ///< of a triangle at it, in `Plc::faces`: then it is an edge there
 };
 
 /// A facet: a maximal connected coplanar patch of input facets with one marker, bounded by segments.

@@ -27,11 +27,19 @@ constexpr std::size_t points_per_split = 20;
 /// The halves of an edge may be costly as well. After this many rounds, few are.
 constexpr int most_rounds = 3;
 
-std::vector<PieceEnds> protected_edges(const ProtectedDelaunay& p) {
-  std::vector<PieceEnds> edges;
+struct ProtectedEdge {
+  PieceEnds ends;
+  std::uint32_t face;  ///< of the tetrahedralization, at the edge; `plc::no_face`: none is known
+};
+
+std::vector<ProtectedEdge> protected_edges(const plc::Plc& plc, const ProtectedDelaunay& p) {
+  // With more vertices, the faces may be others.
+  const bool has_faces = p.delaunay.vertices.size() == plc.vertices.size();
+  std::vector<ProtectedEdge> edges;
   for (std::size_t s = 0; s < p.chains.size(); ++s)
     for (std::size_t i = 0; p.must_be_chain[s] && i + 1 < p.chains[s].size(); ++i)
-      edges.push_back({p.chains[s][i].vertex, p.chains[s][i + 1].vertex});
+      edges.push_back(
+          {{p.chains[s][i].vertex, p.chains[s][i + 1].vertex}, has_faces ? plc.segments[s].face : plc::no_face});
   return edges;
 }
 
@@ -65,8 +73,11 @@ class HarmSearch {
       : points_(points), tree_(tree), d_(d), avoided_(avoided) {}
 
   /// \return  the points in the edge's sphere
-  std::vector<std::uint32_t> find(const PieceEnds& edge) {
-    gather_ring(d_, edge[0], edge[1], ring_);
+  std::vector<std::uint32_t> find(const ProtectedEdge& it) {
+    const PieceEnds& edge = it.ends;
+    const std::uint32_t first =
+        it.face == plc::no_face ? delaunay::find_edge(d_, edge[0], edge[1]) : delaunay::cell_of(it.face);
+    gather_ring(d_, edge[0], edge[1], first, ring_);
     face_.make(d_, edge[0], edge[1], ring_);
     if (avoided_ == Avoided::smallest_spheres && face_.smallest_ball_is_empty()) return {};
     std::optional<std::size_t> fewest;
@@ -156,7 +167,7 @@ class HarmSearch {
 
 /// The points that may harm each protected edge.
 std::vector<std::vector<std::uint32_t>> find_harmful(std::span<const Point3> points, const BoxTree& tree,
-                                                     const std::vector<PieceEnds>& edges,
+                                                     const std::vector<ProtectedEdge>& edges,
                                                      const delaunay::Delaunay& delaunay, Avoided avoided) {
   std::vector<std::vector<std::uint32_t>> harmful(edges.size());
   parallel_ranges(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -168,12 +179,13 @@ std::vector<std::vector<std::uint32_t>> find_harmful(std::span<const Point3> poi
 
 /// What points do to the protected edges of a surface.
 struct Harm {
-  std::vector<PieceEnds> edges;
+  std::vector<ProtectedEdge> edges;
   std::vector<std::vector<std::uint32_t>> points;  ///< that may harm each edge
   std::vector<std::uint32_t> edge_count;           ///< by point: the edges that it may harm
 
-  Harm(std::span<const Point3> all, const BoxTree& tree, const ProtectedDelaunay& surface, Avoided avoided)
-      : edges(protected_edges(surface)),
+  Harm(std::span<const Point3> all, const BoxTree& tree, const plc::Plc& plc, const ProtectedDelaunay& surface,
+       Avoided avoided)
+      : edges(protected_edges(plc, surface)),
         points(find_harmful(all, tree, edges, surface.delaunay, avoided)),
         edge_count(all.size()) {
     for (const auto& harmful : points)
@@ -188,7 +200,7 @@ struct Harm {
     for (std::size_t e = 0; e < edges.size(); ++e) {
       double own = 0;
       for (const std::uint32_t i : points[e]) own += 1.0 / edge_count[i];
-      if (own > points_per_split) costly.push_back(edges[e]);
+      if (own > points_per_split) costly.push_back(edges[e].ends);
     }
     return costly;
   }
@@ -226,13 +238,13 @@ std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::
                                      ProtectedDelaunay& surface, Avoided avoided, const Progress& progress) {
   const BoxTree tree(boxes_of(points));
   const std::size_t first_in_the_way = avoided == Avoided::nothing ? 0 : surface.delaunay.vertices.size();
-  Harm harm(points, tree, surface, avoided);
+  Harm harm(points, tree, plc, surface, avoided);
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<PieceEnds> costly = harm.costly_edges();
     if (costly.empty()) break;
     std::optional<ProtectedDelaunay> split = with_split(costly, plc, strategy, surface, progress);
     if (!split) break;
-    Harm less(points, tree, *split, Avoided::nothing);
+    Harm less(points, tree, plc, *split, Avoided::nothing);
     const std::size_t splits = split->delaunay.vertices.size() - surface.delaunay.vertices.size();
     if (less.harmful_points() + points_per_split * splits > harm.harmful_points()) break;
     surface = std::move(*split);

@@ -19,7 +19,7 @@ std::vector<std::uint64_t> find_missing(const plc::Plc& plc, const ProtectedDela
   return parallel_collect<std::uint64_t>(
       state.chains.size(), 1024, [&](std::size_t s, std::size_t end, std::vector<std::uint64_t>& missing) {
         for (; s < end; ++s) {
-          if (!state.must_be_chain[s] || (plc.segments[s].has_face && !has_new_vertices)) continue;
+          if (!state.must_be_chain[s] || (plc.segments[s].face != plc::no_face && !has_new_vertices)) continue;
           const std::span<const ChainVertex> chain = state.chains[s];
           for (std::size_t i = 0; i + 1 < chain.size(); ++i)
             if (!has_edge(state.delaunay, chain[i].vertex, chain[i + 1].vertex))

@@ -17,9 +17,8 @@ std::uint32_t place_of(const Delaunay& d, std::uint32_t cell, std::uint32_t v) {
 
 }  // namespace
 
-void gather_ring(const Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring) {
+void gather_ring(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t first, EdgeRing& ring) {
   ring.cells.clear(), ring.vertices.clear();
-  const std::uint32_t first = delaunay::find_edge(d, a, b);
   std::uint32_t here = first, exit = 0;
   while (d.cells[first].vertices[exit] == a || d.cells[first].vertices[exit] == b) ++exit;
   do {

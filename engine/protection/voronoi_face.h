@@ -15,8 +15,8 @@ struct EdgeRing {
   std::vector<std::uint32_t> cells, vertices;
 };
 
-/// \param d  has the edge ab
-void gather_ring(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, EdgeRing& ring);
+/// \param first  one of the cells around the edge ab
+void gather_ring(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t first, EdgeRing& ring);
 
 /// The face of the Voronoi diagram that is dual to a Delaunay edge: the centers of the spheres through the edge's ends
 /// that hold no vertex. It is a convex polygon in the plane that bisects the edge. It is computed in floating point,

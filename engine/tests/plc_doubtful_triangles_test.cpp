@@ -93,7 +93,7 @@ void expect_same(const plc::Plc& a, const plc::Plc& b) {
 std::size_t count_right_edges(const Verdict& verdict) {
   std::size_t known = 0;
   for (const plc::Segment& s : verdict.plc->segments) {
-    if (!s.has_face) continue;
+    if (s.face == plc::no_face) continue;
     EXPECT_TRUE(delaunay::has_edge(verdict.delaunay, s.ends[0], s.ends[1]));
     ++known;
   }
