@@ -7,6 +7,7 @@
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/octree.h"
 #include "engine/lattice/options.h"
+#include "engine/lattice/sites.h"
 
 namespace ccdt::lattice {
 

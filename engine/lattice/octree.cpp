@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <boost/sort/spreadsort/integer_sort.hpp>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -11,7 +10,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/base/sort_in_runs.h"
 #include "engine/lattice/inside_test.h"
 #include "engine/numbers/filters.h"
 
@@ -33,29 +31,6 @@ double side_for_unit_edge(Lattice kind) {
       break;
   }
   return std::sqrt(2.0);
-}
-
-/// Places in a cell, in halves of its side.
-using CellPoint = std::array<std::uint8_t, 3>;
-
-constexpr CellPoint corners_then_faces[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2},
-                                            {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 0}, {1, 0, 1},
-                                            {0, 1, 1}, {1, 1, 2}, {1, 2, 1}, {2, 1, 1}};
-constexpr CellPoint corners_then_center[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2},
-                                             {2, 0, 2}, {0, 2, 2}, {2, 2, 2}, {1, 1, 1}};
-
-std::span<const CellPoint> points_of_cell(Lattice kind) {
-  switch (kind) {
-    case Lattice::fcc:
-      return corners_then_faces;
-    case Lattice::bcc:
-      return corners_then_center;
-    case Lattice::sc:
-      return std::span(corners_then_center).first(8);
-    case Lattice::none:
-      break;
-  }
-  return {};
 }
 
 /// The children of a node on the upper sides of its three middle planes, as bits.
@@ -437,28 +412,6 @@ Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice
   work_done.octree_nodes_created += tree.nodes.size();
   note_bytes(bytes_of(tree.nodes, tree.triangles));
   return tree;
-}
-
-std::vector<Site> list_sites(const Octree& tree, Lattice kind) {
-  const std::span<const CellPoint> cell = points_of_cell(kind);
-  const auto add_sites = [&](const OctreeNode& node, std::vector<Site>& sites) {
-    if (!node.is_leaf() || node.place == NodePlace::outside) return;
-    const std::uint32_t half = tree.side(node) / 2;
-    for (const CellPoint& p : cell) {
-      const std::array<std::uint32_t, 3> c = {node.corner[0] + p[0] * half, node.corner[1] + p[1] * half,
-                                              node.corner[2] + p[2] * half};
-      if (strictly_contains(tree.bounds, tree.point(c))) sites.push_back(site_at(c));
-    }
-  };
-  std::vector<Site> sites =
-      parallel_collect<Site>(tree.nodes.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<Site>& found) {
-        for (; i < end; ++i) add_sites(tree.nodes[i], found);
-      });
-  sort_in_runs(
-      sites, [](auto first, auto last) { boost::sort::spreadsort::integer_sort(first, last); }, std::less<>());
-  const auto repeated = std::ranges::unique(sites);
-  sites.erase(repeated.begin(), repeated.end());
-  return sites;
 }
 
 }  // namespace ccdt::lattice

@@ -11,6 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/lattice/clear_sites.h"
+#include "engine/lattice/sites.h"
 #include "engine/plc/edge_length_bounds.h"
 
 namespace ccdt::lattice {

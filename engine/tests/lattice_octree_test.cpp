@@ -17,19 +17,6 @@ lattice::Octree octree_of(const Shape& shape, double edge_length, double grading
   return lattice::build_octree(surface, lattice::SizeField(surface, edge_length, grading), lattice::Lattice::fcc);
 }
 
-/// Fine squares near one corner of a large cube.
-Shape cube_with_a_fine_corner() {
-  Shape shape = cube(8);
-  const double fine = shape.unit / 16;
-  const Point3 corner = shape.unit * Point3{-3.5, -3.5, -3.5};
-  for (int i = 0; i < 3; ++i) {
-    shape.vertices.push_back(corner + Point3{i == 0 ? fine : 0, i == 1 ? fine : 0, i == 2 ? fine : 0});
-  }
-  const auto last = shape.vertices.size();
-  shape.triangles.push_back({{VertexId(last - 3), VertexId(last - 2), VertexId(last - 1)}, true, true});
-  return shape;
-}
-
 TEST(LatticeOctree, HasLevelsThatDifferByOneAtMost) {
   for (const Shape& shape : {cube_with_a_fine_corner(), sphere(3)}) {
     const lattice::Octree tree = octree_of(shape, 0, 2);  // growth as fast as the rule allows
@@ -125,41 +112,6 @@ TEST(LatticeOctree, IsUniformWithoutGrading) {
     ASSERT_NEAR(lattice::edge_length_of_cell(lattice::Lattice::fcc, tree.length(tree.side(node))) / edge_length, 1,
                 0.004);
   }
-}
-
-/// The coordinates of the sites of an FCC lattice with this step in a cube.
-std::vector<std::array<std::uint32_t, 3>> cube_of_sites(std::uint32_t step, std::uint32_t count) {
-  std::vector<std::array<std::uint32_t, 3>> sites;
-  for (std::uint32_t x = 0; x < count; ++x)
-    for (std::uint32_t y = 0; y < count; ++y)
-      for (std::uint32_t z = (x + y) % 2; z < count; z += 2) sites.push_back({x * step, y * step, z * step});
-  return sites;
-}
-
-TEST(LaterRounds, DivideALatticeIntoCoarserOnes) {
-  for (const unsigned log_step : {0u, 1u, 5u}) {
-    std::array<std::size_t, 16> at_least{};  // how many sites have at least so many later rounds
-    for (const auto& c : cube_of_sites(1u << log_step, 16)) {
-      const unsigned later = lattice::later_rounds(lattice::site_at(c), log_step);
-      for (unsigned k = 0; k < at_least.size(); ++k) at_least[k] += later >= k;
-      // Simple cubic with steps of 2^k: `later` is at least 2k. Face-centered: at least 2k + 1.
-      for (unsigned k = 0; k < 4; ++k) {
-        const std::uint32_t step = 1u << (log_step + k);
-        const bool in_cubic = c[0] % step == 0 && c[1] % step == 0 && c[2] % step == 0;
-        ASSERT_EQ(later >= 2 * k, in_cubic);
-        ASSERT_EQ(later >= 2 * k + 1, in_cubic && (c[0] / step + c[1] / step + c[2] / step) % 2 == 0);
-      }
-    }
-    EXPECT_EQ(at_least[1], 2048u);
-    EXPECT_EQ(at_least[2], 512u);
-    EXPECT_EQ(at_least[3], 256u);
-    EXPECT_EQ(at_least[4], 64u);
-  }
-}
-
-TEST(LaterRounds, TakesTheBodyCenteredPointsLast) {
-  EXPECT_EQ(lattice::later_rounds(lattice::site_at({1, 1, 1}), 0), 0);
-  EXPECT_EQ(lattice::later_rounds(lattice::site_at({8, 8, 24}), 3), 0);
 }
 
 TEST(InsideByRays, TellsTheSideAndDeclinesPointsOfTheSurface) {

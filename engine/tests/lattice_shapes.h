@@ -144,4 +144,17 @@ inline double winding_number(const Shape& shape, const Point3& p) {
   return angle / (4 * std::numbers::pi);
 }
 
+/// Fine squares near one corner of a large cube.
+inline Shape cube_with_a_fine_corner() {
+  Shape shape = cube(8);
+  const double fine = shape.unit / 16;
+  const Point3 corner = shape.unit * Point3{-3.5, -3.5, -3.5};
+  for (int i = 0; i < 3; ++i) {
+    shape.vertices.push_back(corner + Point3{i == 0 ? fine : 0, i == 1 ? fine : 0, i == 2 ? fine : 0});
+  }
+  const auto last = shape.vertices.size();
+  shape.triangles.push_back({{VertexId(last - 3), VertexId(last - 2), VertexId(last - 1)}, true, true});
+  return shape;
+}
+
 }  // namespace ccdt::test

@@ -203,9 +203,9 @@ lattice.box_tree_nodes 104
 lattice.octree_nodes_created 137
 lattice.rays_cast 27
 lattice.ray_triangles 294
-lattice.sites_tested 87
-lattice.obstacles_tested 2603
-lattice.peak_bytes 23491
+lattice.sites_tested 72
+lattice.obstacles_tested 2338
+lattice.peak_bytes 23356
 delaunay.orient3d_filter_failures 77
 delaunay.insphere_filter_failures 55
 delaunay.narrow_evaluations 132
