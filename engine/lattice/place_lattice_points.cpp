@@ -75,6 +75,29 @@ double share_in_one_level(const Octree& tree) {
   return sample.empty() ? 0 : count / static_cast<double>(sample.size());
 }
 
+/// The place of a leaf that a lattice point of another leaf touches, if one of them is not on the surface.
+NodePlace place_beside(const Octree& tree, const std::array<std::uint32_t, 3>& point, const OctreeNode& leaf) {
+  for (const unsigned axes : {1u, 2u, 4u, 3u, 5u, 6u, 7u}) {
+    std::array<std::uint32_t, 3> beside = point;
+    bool is_on_border = true;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((axes >> k & 1u) == 0) continue;
+      is_on_border = is_on_border && point[k] == leaf.corner[k];
+      --beside[k];
+    }
+    if (!is_on_border) continue;
+    if (const NodePlace place = tree.leaf_at(beside).place; place != NodePlace::surface) return place;
+  }
+  return NodePlace::surface;
+}
+
+/// Is a lattice point, which is within the bounds of the surface, strictly inside the domain?
+bool is_site_inside(const Octree& tree, const DomainSurface& surface, const std::array<std::uint32_t, 3>& point,
+                    const OctreeNode& leaf) {
+  const NodePlace place = leaf.place == NodePlace::surface ? place_beside(tree, point, leaf) : leaf.place;
+  return place == NodePlace::surface ? is_inside(tree, surface, tree.point(point), leaf) : place == NodePlace::inside;
+}
+
 /// Sorts things with corners among the vertices along a space-filling curve, so that neighbors in space are neighbors
 /// in memory. The place of each is the sum of its corners.
 template <class Thing, class Corners>
@@ -117,9 +140,7 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
     if (!stays[i]) return;
     const auto coordinates = coordinates_of(sites[i]);
     const OctreeNode& leaf = tree.leaf_at(coordinates);
-    if (leaf.place == NodePlace::outside) return;
-    if (leaf.place == NodePlace::inside || is_inside(tree, surface, tree.point(coordinates), leaf))
-      levels[i] = leaf.level;
+    if (is_site_inside(tree, surface, coordinates, leaf)) levels[i] = leaf.level;
   });
   const auto kept = parallel_collect<std::uint32_t>(
       sites.size(), 8192, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
