@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -17,6 +18,23 @@ std::size_t round_up(std::size_t size, std::size_t unit) {
   return (size + unit - 1) / unit * unit;
 }
 
+std::size_t page_size() {
+  static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return size;
+}
+
+/// The size of a part of a block without the pages at its end that were never used.
+std::size_t used_size(std::byte* begin, std::size_t size) {
+  std::array<unsigned char, 1024> in_memory{};
+  for (std::size_t end = size / page_size(); end > 0;) {
+    const std::size_t first = end - std::min(end, in_memory.size());
+    mincore(begin + first * page_size(), (end - first) * page_size(), in_memory.data());
+    for (; end > first; --end)
+      if ((in_memory[end - 1 - first] & 1) != 0) return end * page_size();
+  }
+  return 0;
+}
+
 /// Null: there is not so much memory.
 std::byte* map_pages(std::size_t size) {
   void* const pages = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -27,7 +45,7 @@ std::byte* map_pages(std::size_t size) {
 
 void* PagePool::take(std::size_t bytes) {
   if (bytes > std::numeric_limits<std::size_t>::max() - 2 * alignment) throw std::bad_alloc();
-  const std::size_t size = round_up(std::max<std::size_t>(bytes, 1), static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+  const std::size_t size = round_up(std::max<std::size_t>(bytes, 1), page_size());
   const std::lock_guard lock(mutex_);
   pieces_.reserve(pieces_.size() + 2);  // now, as nothing may fail later: one for a rest, one for new pages
   std::byte* const block = map_block(size);
@@ -49,9 +67,13 @@ bool PagePool::give_back(void* place) noexcept {
   bool found = false;
   for (Piece& piece : pieces_) {
     if (piece.block != place) continue;
-    piece.block = nullptr;
     found = true;
+    piece.block = nullptr;
+    const std::size_t used = used_size(piece.begin, piece.size);
+    if (used < piece.size) munmap(piece.begin + used, piece.size - used);
+    piece.size = used;
   }
+  std::erase_if(pieces_, [](const Piece& piece) { return piece.size == 0; });
   return found;
 }
 

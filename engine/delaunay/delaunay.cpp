@@ -79,12 +79,6 @@ void renumber(Delaunay& d, const std::vector<std::uint32_t>& order) {
   });
 }
 
-/// The position of v among the vertices of the cell; 4 if it is not there. It is unpredictable, so there is no branch.
-std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
-  const auto& u = cell.vertices;
-  return 4 - 4 * unsigned{u[0] == v} - 3 * unsigned{u[1] == v} - 2 * unsigned{u[2] == v} - unsigned{u[3] == v};
-}
-
 }  // namespace
 
 void refuse_flat_points() {
@@ -162,26 +156,22 @@ std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
   }
 }
 
-// Walks around the edge ab from one of its cells to the next.
 std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const std::uint32_t first = find_edge(d, a, b);
-  if (first == no_neighbor) return no_neighbor;
-  std::uint32_t here = first, exit = 0;
-  while (d.cells[first].vertices[exit] == a || d.cells[first].vertices[exit] == b) ++exit;
-  do {
+  std::uint32_t found = no_neighbor;
+  if (first == no_neighbor) return found;
+  walk_around_edge(d, a, b, first, [&](std::uint32_t here, std::uint32_t exit, std::uint32_t staying) {
     ++work_done.cells_visited;
     const Cell& cell = d.cells[here];
-    const std::uint32_t i = place_of(cell, a), j = place_of(cell, b), k = 6 - i - j - exit, v = cell.vertices[k];
-    if (v == c) {
-      const auto& corner = face_corners[exit];
-      const bool above = (corner[0] == i && corner[1] == j) || (corner[1] == i && corner[2] == j) ||
-                         (corner[2] == i && corner[0] == j);
-      return above ? face_code(here, exit) : cell.neighbors[exit];
-    }
-    here = cell_of(cell.neighbors[exit]);
-    exit = place_of(d.cells[here], v);
-  } while (here != first);
-  return no_neighbor;
+    if (cell.vertices[staying] != c) return true;
+    const std::uint32_t i = place_of(cell, a), j = place_of(cell, b);
+    const auto& corner = face_corners[exit];
+    const bool above =
+        (corner[0] == i && corner[1] == j) || (corner[1] == i && corner[2] == j) || (corner[2] == i && corner[0] == j);
+    found = above ? face_code(here, exit) : cell.neighbors[exit];
+    return false;
+  });
+  return found;
 }
 
 }  // namespace ccdt::delaunay

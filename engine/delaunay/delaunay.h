@@ -155,6 +155,31 @@ std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> 
 void insert_points(Delaunay& d, std::span<const Point3> points, std::span<const std::uint8_t> later_rounds = {},
                    const Progress& progress = {});
 
+/// The place of v among the vertices of the cell; 4 if it is not there. It is unpredictable, so there is no branch.
+inline std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
+  const auto& u = cell.vertices;
+  return 4 - 4 * unsigned{u[0] == v} - 3 * unsigned{u[1] == v} - 2 * unsigned{u[2] == v} - unsigned{u[3] == v};
+}
+
+/// Walks around the edge ab, from one of its cells to the next.
+///
+/// \param first  the cell to begin with
+/// \param visit  visit(cell, exit, staying): the walk leaves the cell through the face opposite to the vertex at the
+///               place `exit`, and the vertex at `staying` is the other one that is not on the edge; false ends it
+template <class Visit>
+void walk_around_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t first, const Visit& visit) {
+  std::uint32_t here = first, exit = 0;
+  while (d.cells[first].vertices[exit] == a || d.cells[first].vertices[exit] == b) ++exit;
+  do {
+    const Cell& cell = d.cells[here];
+    // The four places add up to 6.
+    const std::uint32_t staying = 6 - place_of(cell, a) - place_of(cell, b) - exit, v = cell.vertices[staying];
+    if (!visit(here, exit, staying)) return;
+    here = cell_of(cell.neighbors[exit]);
+    exit = place_of(d.cells[here], v);
+  } while (here != first);
+}
+
 /// A cell that has the edge ab; `no_neighbor` if that is no edge of the tetrahedralization.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b);
 

@@ -5,30 +5,17 @@
 #include <cstddef>
 
 namespace ccdt::protection {
-namespace {
 
 using delaunay::Delaunay;
 
-/// The place is unpredictable, so there is no branch.
-std::uint32_t place_of(const Delaunay& d, std::uint32_t cell, std::uint32_t v) {
-  const auto& vertices = d.cells[cell].vertices;
-  return unsigned{vertices[1] == v} + 2 * unsigned{vertices[2] == v} + 3 * unsigned{vertices[3] == v};
-}
-
-}  // namespace
-
 void gather_ring(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t first, EdgeRing& ring) {
   ring.cells.clear(), ring.vertices.clear();
-  std::uint32_t here = first, exit = 0;
-  while (d.cells[first].vertices[exit] == a || d.cells[first].vertices[exit] == b) ++exit;
-  do {
+  walk_around_edge(d, a, b, first, [&](std::uint32_t here, std::uint32_t, std::uint32_t staying) {
     ring.cells.push_back(here);
-    // The places of the four vertices add up to 6.
-    const std::uint32_t stays = d.cells[here].vertices[6 - place_of(d, here, a) - place_of(d, here, b) - exit];
-    if (stays != delaunay::ghost_vertex) ring.vertices.push_back(stays);
-    here = delaunay::cell_of(d.cells[here].neighbors[exit]);
-    exit = place_of(d, here, stays);
-  } while (here != first);
+    const std::uint32_t v = d.cells[here].vertices[staying];
+    if (v != delaunay::ghost_vertex) ring.vertices.push_back(v);
+    return true;
+  });
   std::ranges::sort(ring.vertices);
 }
 

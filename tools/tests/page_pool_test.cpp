@@ -71,6 +71,20 @@ TEST(PagePool, HandsPagesOnToBlocksOfAnySize) {
   for (void* const part : parts) EXPECT_TRUE(pool.give_back(part));
 }
 
+TEST(PagePool, HandsOnOnlyPagesThatWereUsed) {
+  PagePool pool;
+  void* const first = pool.take(8 * mib);
+  void* const second = pool.take(2 * mib);
+  filled(first, mib, 1), filled(second, 2 * mib, 2);
+  EXPECT_TRUE(pool.give_back(first));
+  EXPECT_TRUE(pool.give_back(second));
+  void* const both = pool.take(3 * mib);
+  EXPECT_EQ(pages_in_memory(both, 3 * mib), 3 * mib / page_size());
+  EXPECT_TRUE(pool.give_back(both));
+
+  EXPECT_TRUE(pool.give_back(pool.take(mib)));
+}
+
 TEST(PagePool, TakesBackOnlyItsOwnBlocks) {
   PagePool pool, other;
   void* const block = pool.take(mib);
