@@ -201,8 +201,8 @@ facets.peak_bytes 1728
 lattice.octree_nodes 137
 lattice.box_tree_nodes 104
 lattice.octree_nodes_created 137
-lattice.rays_cast 27
-lattice.ray_triangles 294
+lattice.rays_cast 15
+lattice.ray_triangles 176
 lattice.sites_tested 72
 lattice.obstacles_tested 2338
 lattice.peak_bytes 23356
