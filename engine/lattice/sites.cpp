@@ -13,7 +13,7 @@
 namespace ccdt::lattice {
 namespace {
 
-/// Places in a cell, in halves of its side. Those below 2, of which the leaf itself is the holder, are in Morton order.
+/// Places in a cell, in halves of its side. Those that the leaf itself holds, all below 2, are in Morton order.
 using CellPoint = std::array<std::uint8_t, 3>;
 
 constexpr CellPoint corners_then_faces[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2},

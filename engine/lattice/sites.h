@@ -35,8 +35,8 @@ constexpr std::uint8_t later_rounds(Site site, unsigned log_step) {
 }
 
 /// The lattice points of all leaves that are not outside, each once, in Morton order, and strictly within the bounds of
-/// the surface. Those of leaves on the surface may be outside of the domain. Those in leaves that are outside are left
-/// out.
+/// the surface. Those on the lower faces of leaves outside are left out. Those of leaves on the surface may be outside
+/// of the domain.
 std::vector<Site> list_sites(const Octree& tree, Lattice kind);
 
 }  // namespace ccdt::lattice
