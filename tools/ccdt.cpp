@@ -7,26 +7,8 @@
 #include "tools/error_words.h"
 #include "tools/usage_words.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
-namespace {
-
-/// New pages are expensive: the system clears each of them. So the arrays of one stage go to the next one rather than
-/// back to the system. Large ones share a `PagePool`.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-#endif
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
   using namespace ccdt::tools;
-  keep_freed_memory();
   ExitCode exit_code = wrong_usage;
   try {
     CLI::App app("tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",

@@ -25,6 +25,7 @@
 #include "engine/surface/remesh_surface.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
+#include "tools/freed_memory.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/sweep_command.h"
@@ -267,6 +268,7 @@ bool is_small(const MeshCommand& command) {
 }
 
 void run(MeshCommand command) {
+  if (command.mesher == "ccdt") keep_freed_memory();
   check_surface_options(command);
   check_files(command);
   if (command.options.threads == 0 && is_small(command)) command.options.threads = 1;

@@ -11,6 +11,7 @@
 #include "engine/plc/bent_facets.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
+#include "tools/freed_memory.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
@@ -26,6 +27,7 @@ struct VerifyCommand {
 };
 
 bool run(const VerifyCommand& command) {
+  keep_freed_memory();
   if (!command.report.empty()) {
     check_can_be_written(command.report);
     check_are_different(command.input, command.report);

@@ -1,10 +1,18 @@
-// `operator new` of the program takes large arrays from a pool of pages. Sanitizers have their own.
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#include "tools/freed_memory.h"
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+// Sanitizers have their own `operator new`.
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define CCDT_POOLS_PAGES
+
+#include <atomic>
 
 #include "tools/page_pool.h"
 
@@ -15,11 +23,17 @@ using ccdt::tools::PagePool;
 /// Smaller arrays are not worth the system calls.
 constexpr std::size_t least_pooled = std::size_t{1} << 19;
 
+std::atomic<bool> is_pooling = false;
+
 /// Never destroyed: the last arrays are freed after all static objects are gone.
 PagePool& pool() {
   alignas(PagePool) static std::byte place[sizeof(PagePool)];
   static PagePool& made = *::new (static_cast<void*>(place)) PagePool;
   return made;
+}
+
+bool belongs_in_pool(std::size_t bytes) {
+  return bytes >= least_pooled && is_pooling.load(std::memory_order_relaxed);
 }
 
 void* checked(void* place) {
@@ -31,13 +45,13 @@ void* checked(void* place) {
 
 // NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what others use instead of `malloc`
 void* operator new(std::size_t bytes) {
-  return bytes < least_pooled ? checked(std::malloc(bytes)) : pool().take(bytes);
+  return belongs_in_pool(bytes) ? pool().take(bytes) : checked(std::malloc(bytes));
 }
 
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
-  if (bytes < least_pooled || unit > PagePool::alignment) return checked(std::aligned_alloc(unit, bytes));
-  return pool().take(bytes);
+  if (belongs_in_pool(bytes) && unit <= PagePool::alignment) return pool().take(bytes);
+  return checked(std::aligned_alloc(unit, bytes));
 }
 
 void operator delete(void* place) noexcept {
@@ -58,3 +72,13 @@ void operator delete(void* place, std::size_t bytes, std::align_val_t) noexcept 
 // NOLINTEND(cppcoreguidelines-no-malloc)
 
 #endif
+
+void ccdt::tools::keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+#ifdef CCDT_POOLS_PAGES
+  is_pooling = true;
+#endif
+}
