@@ -85,6 +85,18 @@ TEST(PagePool, HandsOnOnlyPagesThatWereUsed) {
   EXPECT_TRUE(pool.give_back(pool.take(mib)));
 }
 
+/// Older kernels do not move pages with different settings together.
+TEST(PagePool, HandsOnPagesWithDifferentSettings) {
+  PagePool pool;
+  void* const block = pool.take(8 * mib);
+  filled(block, 8 * mib, 1);
+  madvise(block, 4 * mib, MADV_DONTFORK);
+  EXPECT_TRUE(pool.give_back(block));
+  void* const next = pool.take(9 * mib);
+  filled(next, 9 * mib, 2);
+  EXPECT_TRUE(pool.give_back(next));
+}
+
 TEST(PagePool, TakesBackOnlyItsOwnBlocks) {
   PagePool pool, other;
   void* const block = pool.take(mib);
