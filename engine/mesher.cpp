@@ -83,6 +83,8 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
 }
 
 /// The Delaunay tetrahedralization of the surface's vertices and the points.
+///
+/// \param lattice  its memory is free afterward
 delaunay::Delaunay add_points(lattice::LatticePoints lattice, delaunay::Delaunay d, const MeshOptions& options,
                               const Progress& progress, MeshCounts& counts) {
   if (options.delaunay == DelaunayMethod::wrap) {
@@ -176,6 +178,7 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
           measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
     return wrong;
   t.points = points_of(delaunay);
+  // The next steps need the most memory.
   release(delaunay.vertices), release(delaunay.cell_at), release(codes);
   mesh::CollectedMesh collected = measured(costs, mesh_stage::label, [&] {
     return mesh::collect_tetrahedra(t.plc, front, std::move(labels.regions), delaunay.cells, t.points.size());

@@ -73,12 +73,12 @@ class HarmSearch {
       : points_(points), tree_(tree), d_(d), avoided_(avoided) {}
 
   /// \return  the points in the edge's sphere
-  std::vector<std::uint32_t> find(const ProtectedEdge& it) {
-    const PieceEnds& edge = it.ends;
+  std::vector<std::uint32_t> find(const ProtectedEdge& edge) {
+    const auto [a, b] = edge.ends;
     const std::uint32_t first =
-        it.face == plc::no_face ? delaunay::find_edge(d_, edge[0], edge[1]) : delaunay::cell_of(it.face);
-    gather_ring(d_, edge[0], edge[1], first, ring_);
-    face_.make(d_, edge[0], edge[1], ring_);
+        edge.face == plc::no_face ? delaunay::find_edge(d_, a, b) : delaunay::cell_of(edge.face);
+    gather_ring(d_, a, b, first, ring_);
+    face_.make(d_, a, b, ring_);
     if (avoided_ == Avoided::smallest_spheres && face_.smallest_ball_is_empty()) return {};
     std::optional<std::size_t> fewest;
     face_.visit_empty_balls([&](const Ball& ball) {
@@ -90,7 +90,7 @@ class HarmSearch {
       }
       return *fewest > 0 && *fewest <= few_points;
     });
-    if (!fewest) find_in_cell(edge);
+    if (!fewest) find_in_cell(edge.ends);
     return best_;
   }
 
