@@ -417,7 +417,7 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
       break;
     case locate::LocatorKind::cavity: {
       NearVertices near(facets, codes, delaunay);
-      front.advance(CavityFinder(in, !options.face_protection, near), progress);
+      front.advance(CavityFinder(in, options, near), progress);
       break;
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -46,6 +47,8 @@ struct FrontOptions {
   locate::LocatorKind locator = locate::LocatorKind::grid;
   double grid_scale = 1;        ///< of the grid: factor of the paper's cell size
   bool face_protection = true;  ///< are new faces looked up in the tetrahedralization?
+  /// The `cavity` locator tries all vertices of a chamber with up to so many: they are fewer than those near a face.
+  std::size_t small_chamber = 256;
 };
 
 /// Advances the front of constrained Delaunay tetrahedra from the undelaunay faces until all faces of the front are
@@ -54,9 +57,9 @@ struct FrontOptions {
 /// vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the cell there is hidden
 /// from every point of the face (Shewchuk 2008).
 ///
-/// The `cavity` locator tries vertices near a face first, because the sphere of a needle may contain thousands of
-/// hidden ones. If the tetrahedra fit together, they are right; those that do not fit are made again with all vertices
-/// tried. The locators of the whole model try all vertices, as the paper does.
+/// In a large chamber, the `cavity` locator tries vertices near a face first, because the sphere of a needle may
+/// contain thousands of hidden ones. If the tetrahedra fit together, they are right; those that do not fit are made
+/// again with all vertices tried. The locators of the whole model try all vertices, as the paper does.
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::front

@@ -49,12 +49,12 @@ class WholeModelFinder {
 /// The same, cavity by cavity and region by region.
 class CavityFinder {
  public:
-  /// \param all_faces  may the front hold Delaunay faces, outside of the cavities too?
-  CavityFinder(const FrontInput& input, bool all_faces, NearVertices& near)
+  CavityFinder(const FrontInput& input, const FrontOptions& options, NearVertices& near)
       : facets_(input.facets),
         d_(input.delaunay),
         near_(near),
-        all_faces_(all_faces),
+        all_faces_(!options.face_protection),
+        small_chamber_(options.small_chamber),
         locator_(input.plc, input.facets, input.codes, input.delaunay) {}
 
   std::optional<std::uint32_t> find(const OrientedFace& face, RegionId region, Search search, std::uint32_t& cavity) {
@@ -69,6 +69,7 @@ class CavityFinder {
     if (cavity == no_cavity) return std::nullopt;
     const locate::OctreeLocator* const chamber = locator_.chamber(cavity, region);
     if (chamber == nullptr) return std::nullopt;
+    if (chamber->vertex_count() <= small_chamber_) return find_apex(*chamber, facets_, d_, face);
     const auto near = find_near_apex(*chamber, facets_, d_, face, near_);
     return search == Search::near ? near : find_apex(*chamber, facets_, d_, face, near);
   }
@@ -85,7 +86,8 @@ class CavityFinder {
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   NearVertices& near_;
-  bool all_faces_;
+  bool all_faces_;  // may the front hold Delaunay faces, outside of the cavities too?
+  std::size_t small_chamber_;
   locate::CavityLocator locator_;
 };
 

@@ -19,61 +19,63 @@ using CellVertices = std::array<std::uint32_t, 4>;
 /// The exact test whether a triangle and a cell, both closed, intersect; vertices by id.
 class TriangleCellTest {
  public:
-  TriangleCellTest(const delaunay::Delaunay& d, const Triangle& t, const CellVertices& cell)
-      : d_(d), t_(t), cell_(cell) {
-    for (int i = 0; i < 4; ++i) {
-      side_[i] = orient(t[0], t[1], t[2], cell[i]);
-      ++(side_[i] > 0 ? above_ : side_[i] < 0 ? below_ : on_);
-    }
+  /// \param sides  of the triangle's plane, on which the corners of the cell are
+  TriangleCellTest(const delaunay::Delaunay& d, const Triangle& t, const CellVertices& cell,
+                   const std::array<int, 4>& sides)
+      : d_(d), t_(t), cell_(cell), sides_(sides) {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (unsigned k = 0; k < 3; ++k) shared_[i] |= unsigned{cell[i] == t[k]} << k;
   }
 
   /// Do the cell and the inside of the triangle meet? Exact, but for a corner of the cell alone: the inside of a face
   /// of the mesh has no vertices.
   bool intersect() const {
-    if ((above_ == 0 || below_ == 0) && on_ < 2) return false;
-    if (is_outside_a_face()) return false;
-    for (int i = 0; i < 3; ++i)
-      if (section_is_outside_edge(t_[i], t_[(i + 1) % 3])) return false;
-    return true;
+    const auto above = std::ranges::count(sides_, 1), below = std::ranges::count(sides_, -1);
+    if ((above == 0 || below == 0) && above + below > 2) return false;
+    for (unsigned k = 0; k < 3; ++k)
+      if (section_is_outside_edge(k, above > 0 ? 1 : -1)) return false;
+    return !is_outside_a_face();
   }
 
  private:
-  int orient(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-    // Cells and triangles share many corners.
-    if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
-    return numbers::orient3d(d_.point(a), d_.point(b), d_.point(c), d_.point(d));
+  const Point3& point(std::uint32_t v) const { return d_.point(v); }
+
+  /// Is the section of the cell with the triangle's plane on the outer side of edge k of the triangle, or on its line
+  /// in part?
+  ///
+  /// \param from  the side of some corners. Without corners above, those below give the corners of the section.
+  bool section_is_outside_edge(unsigned k, int from) const {
+    const unsigned next = k < 2 ? k + 1 : 0, ends = 1U << k | 1U << next;
+    // The edge of the cell from i to j on the other side, or the corner j of the section, passes the line of the edge
+    // on the triangle's side.
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        if (sides_[i] == from && sides_[j] != from && ((shared_[i] | shared_[j]) & ends) == 0 &&
+            numbers::orient3d(point(t_[k]), point(t_[next]), point(cell_[j]), point(cell_[i])) == from)
+          return false;
+    return true;
   }
 
   /// Is the triangle on the outer side of a face of the cell, or on the face's plane in part?
   bool is_outside_a_face() const {
-    return std::any_of(delaunay::face_corners.begin(), delaunay::face_corners.end(), [&](const auto& f) {
-      int outside = 0;
-      for (const std::uint32_t v : t_) {
-        const int side = orient(cell_[f[0]], cell_[f[1]], cell_[f[2]], v);
+    return std::ranges::any_of(delaunay::face_corners, [&](const auto& f) {
+      const unsigned on_face = shared_[f[0]] | shared_[f[1]] | shared_[f[2]];
+      bool is_outside = false;
+      for (unsigned k = 0; k < 3; ++k) {
+        if ((on_face >> k & 1) != 0) continue;
+        const int side = numbers::orient3d(point(cell_[f[0]]), point(cell_[f[1]]), point(cell_[f[2]]), point(t_[k]));
         if (side > 0) return false;
-        if (side < 0) ++outside;
+        is_outside |= side < 0;
       }
-      return outside > 0;
+      return is_outside;
     });
-  }
-
-  /// Is the section of the cell with the triangle's plane on the outer side of the edge ab of the triangle, or on its
-  /// line in part?
-  bool section_is_outside_edge(std::uint32_t a, std::uint32_t b) const {
-    // The edge of the cell from i, above or below, to j on the other side, or the corner j of the section, passes the
-    // line ab on the triangle's side. Without corners above those below give the corners of the section.
-    const int from = above_ > 0 ? 1 : -1;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        if (side_[i] == from && side_[j] != from && orient(a, b, cell_[j], cell_[i]) == from) return false;
-    return true;
   }
 
   const delaunay::Delaunay& d_;
   const Triangle& t_;
   const CellVertices& cell_;
-  std::array<int, 4> side_{};  // of the corners of the cell to the plane of the triangle
-  int above_ = 0, on_ = 0, below_ = 0;
+  const std::array<int, 4>& sides_;
+  std::array<unsigned, 4> shared_{};  // by corner of the cell: a bit for each corner of the triangle that it is
 };
 
 /// Finds the finite cells that meet the inside of some missing face: those that it cuts, and those that touch it with
@@ -83,7 +85,12 @@ class PiercedCellSearch {
   /// \param missing  numbers of triangles of `facets` that are not Delaunay faces
   PiercedCellSearch(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
                     const delaunay::Delaunay& d)
-      : facets_(facets), missing_(missing), d_(d), star_(d), parts_(missing.size()) {}
+      : facets_(facets),
+        missing_(missing),
+        d_(d),
+        star_(d),
+        sides_(d.vertices.size(), {none, 0}),
+        parts_(missing.size()) {}
 
   PiercedCells find() {
     for (std::uint32_t i = 0; i < missing_.size(); ++i) flood(i);
@@ -102,13 +109,20 @@ class PiercedCellSearch {
     std::uint32_t owner = none;  ///< the first that met the cell
   };
 
-  /// Finds the cells that missing face i meets, from the first of those around one of its corners.
+  /// Finds the cells that missing face i meets, from the first of those around an edge, or else around a corner.
   void flood(std::uint32_t i) {
     const auto& [a, b, c] = facets_.triangles[missing_[i]];
     const Triangle t = {a, b, c};
     stack_.clear();
-    const auto star = star_.around(a);
-    for (auto cell = star.begin(); stack_.empty() && cell != star.end(); ++cell) visit_cell(*cell, i, t);
+    const auto is_first = [&](std::uint32_t cell) {
+      visit_cell(cell, i, t);
+      return !stack_.empty();
+    };
+    if (const std::uint32_t at_edge = delaunay::find_edge(d_, a, b); at_edge != delaunay::no_neighbor)
+      delaunay::walk_around_edge(d_, a, b, at_edge,
+                                 [&](std::uint32_t cell, std::uint32_t, std::uint32_t) { return !is_first(cell); });
+    else
+      std::ranges::find_if(star_.around(a), is_first);
     while (!stack_.empty()) {
       const std::uint32_t cell = stack_.back();
       stack_.pop_back();
@@ -122,13 +136,26 @@ class PiercedCellSearch {
     if (visit.last == i) return;
     visit.last = i;
     ++work_done.piercing_tests;
-    if (!TriangleCellTest(d_, t, d_.cells[cell].vertices).intersect()) return;
+    const CellVertices& vertices = d_.cells[cell].vertices;
+    std::array<int, 4> sides;
+    for (std::size_t k = 0; k < 4; ++k) sides[k] = side(vertices[k], i, t);
+    if (!TriangleCellTest(d_, t, vertices, sides).intersect()) return;
     if (visit.owner == none) {
       visit.owner = i;
       owned_.emplace_back(cell, i);
     }
     parts_.join(visit.owner, i);
     stack_.push_back(cell);
+  }
+
+  /// The side of the plane of missing face i on which a vertex is.
+  int side(std::uint32_t v, std::uint32_t i, const Triangle& t) {
+    auto& [face, side] = sides_[v];
+    if (face == i) return side;
+    face = i;
+    const bool is_corner = v == t[0] || v == t[1] || v == t[2];
+    side = is_corner ? 0 : numbers::orient3d(d_.point(t[0]), d_.point(t[1]), d_.point(t[2]), d_.point(v));
+    return side;
   }
 
   PiercedCells number_parts() {
@@ -156,6 +183,7 @@ class PiercedCellSearch {
   const delaunay::Delaunay& d_;
   delaunay::CellStar star_;
   HashTable<std::uint32_t, Visit> visits_;
+  std::vector<std::pair<std::uint32_t, int>> sides_;  // of vertices, seen from the missing face that was the last
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owned_;  // cells and their owners
   UnionFind parts_;                                             // of missing faces
   std::vector<std::uint32_t> stack_;

@@ -202,6 +202,8 @@ class OctreeLocator {
     return bytes;
   }
 
+  std::size_t vertex_count() const { return vertices_.size(); }
+
   /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, roughly by increasing
   /// distance from `start`. The cap may shrink during the search.
   template <class Visit>

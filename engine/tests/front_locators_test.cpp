@@ -22,7 +22,8 @@ void expect_same_tetrahedra(const Stages& stages) {
                            all = stages.advance_all({locate::LocatorKind::grid});
   for (const front::FrontOptions& locator :
        {front::FrontOptions{locate::LocatorKind::grid, 0.5}, front::FrontOptions{locate::LocatorKind::grid, 2},
-        front::FrontOptions{locate::LocatorKind::octree}, front::FrontOptions{locate::LocatorKind::cavity}}) {
+        front::FrontOptions{locate::LocatorKind::octree}, front::FrontOptions{locate::LocatorKind::cavity},
+        front::FrontOptions{.locator = locate::LocatorKind::cavity, .small_chamber = 0}}) {
     SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.locator)));
     const front::FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
     EXPECT_EQ(sorted(checked.tetrahedra), sorted(other.tetrahedra));

@@ -290,16 +290,16 @@ TEST(WorkOfSmallInputs, FrontWithEachLocator) {
 face_check.cells_visited 107
 face_check.faces_tested 194
 face_check.peak_bytes 768
-front.orient3d_filter_failures 4
-front.centroid_filter_failures 1
-front.narrow_evaluations 4
-front.exact_evaluations 4
-front.octree_nodes 191
-front.cells_visited 697
+front.orient3d_filter_failures 10
+front.centroid_filter_failures 3
+front.narrow_evaluations 10
+front.exact_evaluations 10
+front.octree_nodes 287
+front.cells_visited 97
 front.octree_nodes_created 14
-front.front_candidates 142
-front.visibility_tests 129
-front.piercing_tests 152
+front.front_candidates 266
+front.visibility_tests 174
+front.piercing_tests 143
 front.peak_bytes 8104
 )");
   expect_work(work_of_front(LocatorKind::octree, true), R"(
@@ -338,16 +338,16 @@ TEST(WorkOfSmallInputs, FrontOverAllFaces) {
 face_check.cells_visited 107
 face_check.faces_tested 194
 face_check.peak_bytes 768
-front.orient3d_filter_failures 15
-front.centroid_filter_failures 4
-front.narrow_evaluations 15
-front.exact_evaluations 15
-front.octree_nodes 249
-front.cells_visited 971
+front.orient3d_filter_failures 24
+front.centroid_filter_failures 7
+front.narrow_evaluations 24
+front.exact_evaluations 24
+front.octree_nodes 347
+front.cells_visited 371
 front.octree_nodes_created 14
-front.front_candidates 142
-front.visibility_tests 202
-front.piercing_tests 152
+front.front_candidates 295
+front.visibility_tests 246
+front.piercing_tests 143
 front.peak_bytes 16392
 )");
   expect_work(work_of_front(LocatorKind::octree, false), R"(
