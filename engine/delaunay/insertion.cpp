@@ -124,8 +124,13 @@ void Insertion::discard_cavity() {
 std::uint32_t Insertion::fill_cavity() {
   choose_places();
   // By Euler's formula, the border, a triangulated sphere, has half as many vertices as faces and two more.
-  if (border_.size / 2 + 2 <= table_side) {
-    connect_by_table();
+  const std::size_t vertices = border_.size / 2 + 2;
+  if (vertices <= table_side) {
+    connect_by_table<table_side>(table_);
+  } else if (vertices <= large_table_side) {
+    large_table_.resize(large_table_side * large_table_side);
+    connect_by_table<large_table_side>(large_table_);
+    ++work_done.large_cavities;
   } else {
     connect_by_search();
     ++work_done.large_cavities;
@@ -267,15 +272,16 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
 /// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
 /// pass in opposite directions: each one leaves its code in the table, then each finds that of the other. (No branch
 /// depends on which vertices and edges were met before, since that is unpredictable.)
-void Insertion::connect_by_table() {
+template <std::size_t side>
+void Insertion::connect_by_table(RawVector<std::uint32_t>& codes) {
   struct Corners {
     std::array<std::uint8_t, 3> local;
     std::uint8_t ghost;  ///< its position; 3: it is none of them
   };
-  std::array<Corners, 2 * table_side> corners;
-  std::array<std::uint32_t, table_side + 1> vertices;  // the last place is for what is no new vertex
+  std::array<Corners, 2 * side> corners;
+  std::array<std::uint32_t, side + 1> vertices;  // the last place is for what is no new vertex
   std::size_t numbered = 0;
-  std::uint32_t* const table = table_.data();
+  std::uint32_t* const table = codes.data();
   for (std::size_t i = 0; i < border_.size; ++i) {
     const CavityFace& face = border_.slots[i];
     const std::uint32_t place = places_[i];
@@ -290,19 +296,19 @@ void Insertion::connect_by_table() {
       if (u != ghost_vertex) d_.cell_at[u] = place;
     }
     for (std::size_t k = 0; k < 3; ++k)
-      table[corners[i].local[after[k]] * table_side + corners[i].local[before[k]]] =
+      table[corners[i].local[after[k]] * side + corners[i].local[before[k]]] =
           face_code(place, opposite[corners[i].ghost][k]);
   }
   for (std::size_t i = 0; i < border_.size; ++i) {
     auto& neighbors = d_.cells[places_[i]].neighbors;
     const auto& [local, ghost] = corners[i];
     for (std::size_t k = 0; k < 3; ++k)
-      neighbors[opposite[ghost][k]] = table[local[before[k]] * table_side + local[after[k]]];
+      neighbors[opposite[ghost][k]] = table[local[before[k]] * side + local[after[k]]];
   }
   for (std::size_t i = 0; i < numbered; ++i) local_of(vertices[i]) = no_local;
 }
 
-/// The same for a cavity with more vertices than the table has rows.
+/// The same for a cavity with more vertices than a table has rows.
 void Insertion::connect_by_search() {
   const auto key = [](std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32 | to; };
   for (std::size_t i = 0; i < border_.size; ++i) {

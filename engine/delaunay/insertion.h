@@ -141,7 +141,8 @@ class Insertion {
   bool ghost_conflicts(const Cell& ghost) const;
   void choose_places();
   std::uint32_t make_cell(const CavityFace& face, std::uint32_t place) const;
-  void connect_by_table();
+  template <std::size_t side>
+  void connect_by_table(RawVector<std::uint32_t>& codes);
   void connect_by_search();
 
   std::vector<std::uint32_t>& free_cells() { return pool_ == nullptr ? d_.free_cells : free_places_; }
@@ -162,11 +163,12 @@ class Insertion {
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
   // Vertices of the border get small local numbers, so that its directed edges are places in a small table of face
-  // codes.
-  static constexpr std::uint32_t table_side = 64;
+  // codes. Few cavities need the large one, which takes more than the fastest cache.
+  static constexpr std::size_t table_side = 64, large_table_side = 254;
   std::uint8_t local_of_ghost_ = InsertionMarks::no_local;
-  std::vector<std::uint32_t> table_;
-  HashTable<std::uint64_t, std::uint32_t> waiting_;  ///< the same for large cavities: by directed edge, a face code
+  RawVector<std::uint32_t> table_, large_table_;
+  HashTable<std::uint64_t, std::uint32_t>
+      waiting_;  ///< the same for the largest cavities: by directed edge, a face code
 };
 
 }  // namespace ccdt::delaunay
