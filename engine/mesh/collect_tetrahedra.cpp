@@ -107,9 +107,13 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
   ends.assign(vertices + 1, 0);
   RawVector<std::uint32_t> least(parts.size());
   constexpr std::uint32_t not_in_mesh = delaunay::ghost_vertex;
-  parallel_for(parts.size(), grain, [&](std::size_t i) {
-    least[i] = parts.is_in_mesh(i) ? least_vertex(parts[i]) : not_in_mesh;
-    if (least[i] != not_in_mesh) add_one(ends[least[i] + 1]);
+  parallel_ranges(parts.size(), grain, [&](std::size_t i, std::size_t end) {
+    std::uint32_t others = 0;
+    // Which cells are in the mesh is unpredictable, so there is no branch.
+    for (; i < end; ++i) {
+      const std::uint32_t v = least[i] = std::max(least_vertex(parts[i]), parts.is_in_mesh(i) ? 0 : not_in_mesh);
+      add_one(v == not_in_mesh ? others : ends[v + 1]);
+    }
   });
   for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
   // So far each entry is where the bucket begins. Each source moves it on, to where the bucket ends.
