@@ -156,11 +156,10 @@ std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
   }
 }
 
-std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::uint32_t first = find_edge(d, a, b);
+std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t at_edge) {
   std::uint32_t found = no_neighbor;
-  if (first == no_neighbor) return found;
-  walk_around_edge(d, a, b, first, [&](std::uint32_t here, std::uint32_t exit, std::uint32_t staying) {
+  if (at_edge == no_neighbor) return found;
+  walk_around_edge(d, a, b, at_edge, [&](std::uint32_t here, std::uint32_t exit, std::uint32_t staying) {
     ++work_done.cells_visited;
     const Cell& cell = d.cells[here];
     if (cell.vertices[staying] != c) return true;

@@ -190,7 +190,12 @@ inline bool has_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
 
 /// The code of the face abc in the cell above it (from where abc is counterclockwise); `no_neighbor` if it is not a
 /// face.
-std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+///
+/// \param at_edge  the result of `find_edge` for ab
+std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t at_edge);
+inline std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  return find_face(d, a, b, c, find_edge(d, a, b));
+}
 
 /// Visits the cells around vertices. It owns the marks for this, so create it once and use it often.
 class CellStar {

@@ -82,11 +82,13 @@ class TriangleCellTest {
 /// an edge or a face within its plane. They are connected, so each face has one part.
 class PiercedCellSearch {
  public:
-  /// \param missing  numbers of triangles of `facets` that are not Delaunay faces
+  /// \param missing   numbers of triangles of `facets` that are not Delaunay faces
+  /// \param at_edges  of their first edges: the results of `find_edge`
   PiercedCellSearch(const facets::FacetMesh& facets, std::span<const std::uint32_t> missing,
-                    const delaunay::Delaunay& d)
+                    std::span<const std::uint32_t> at_edges, const delaunay::Delaunay& d)
       : facets_(facets),
         missing_(missing),
+        at_edges_(at_edges),
         d_(d),
         star_(d),
         sides_(d.vertices.size(), {none, 0}),
@@ -118,8 +120,8 @@ class PiercedCellSearch {
       visit_cell(cell, i, t);
       return !stack_.empty();
     };
-    if (const std::uint32_t at_edge = delaunay::find_edge(d_, a, b); at_edge != delaunay::no_neighbor)
-      delaunay::walk_around_edge(d_, a, b, at_edge,
+    if (at_edges_[i] != delaunay::no_neighbor)
+      delaunay::walk_around_edge(d_, a, b, at_edges_[i],
                                  [&](std::uint32_t cell, std::uint32_t, std::uint32_t) { return !is_first(cell); });
     else
       std::ranges::find_if(star_.around(a), is_first);
@@ -146,6 +148,7 @@ class PiercedCellSearch {
     }
     parts_.join(visit.owner, i);
     stack_.push_back(cell);
+    for (const std::uint32_t code : d_.cells[cell].neighbors) __builtin_prefetch(&d_.cells[delaunay::cell_of(code)]);
   }
 
   /// The side of the plane of missing face i on which a vertex is.
@@ -179,7 +182,7 @@ class PiercedCellSearch {
   }
 
   const facets::FacetMesh& facets_;
-  std::span<const std::uint32_t> missing_;
+  std::span<const std::uint32_t> missing_, at_edges_;
   const delaunay::Delaunay& d_;
   delaunay::CellStar star_;
   HashTable<std::uint32_t, Visit> visits_;
@@ -252,16 +255,18 @@ class RegionsOfDomain {
 CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                              const delaunay::Delaunay& delaunay) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // Delaunay faces that have no code yet
+  std::vector<std::uint32_t> at_edges;                         // cells at the first edges of missing faces
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
     if (codes[i] != delaunay::no_neighbor) continue;
     const auto& [a, b, c] = facets.triangles[i];
-    const std::uint32_t code = delaunay::find_face(delaunay, a, b, c);
+    const std::uint32_t at_edge = delaunay::find_edge(delaunay, a, b);
+    const std::uint32_t code = delaunay::find_face(delaunay, a, b, c, at_edge);
     if (code == delaunay::no_neighbor)
-      missing_.push_back(i);
+      missing_.push_back(i), at_edges.push_back(at_edge);
     else
       found.emplace_back(i, code);
   }
-  pierced_ = PiercedCellSearch(facets, missing_, delaunay).find();
+  pierced_ = PiercedCellSearch(facets, missing_, at_edges, delaunay).find();
 
   std::vector<std::vector<std::uint32_t>> faces(pierced_.cells.size());
   for (std::size_t i = 0; i < missing_.size(); ++i) faces[pierced_.part_of_face[i]].push_back(missing_[i]);
