@@ -133,13 +133,11 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
   return cells_;
 }
 
-// Walks toward b within the star of a. Like any walk toward a point in a Delaunay tetrahedralization, it ends. It ends
-// in the cell at a that contains the direction to b; if ab is an edge, it is an edge of that cell.
-std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
+// Walks within the star of a. Like any walk toward a point in a Delaunay tetrahedralization, it ends.
+std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, std::uint32_t b) {
   std::uint32_t here = d.cell_at[a];
-  // The walk never leaves the hull, because b is inside.
+  // The walk never leaves the hull, because p is inside.
   if (d.is_ghost(here)) here = cell_of(d.cells[here].neighbors[3]);
-  const Point3& p = d.point(b);
   for (std::uint32_t from = no_neighbor;;) {
     ++work_done.cells_visited;
     const Cell& cell = d.cells[here];
@@ -150,10 +148,16 @@ std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
       const auto [u, v, w] = corners_of_face(cell.vertices, f);
       if (numbers::orient3d(d.point(u), d.point(v), d.point(w), p) < 0) exit = f;
     }
-    if (exit == 4) return no_neighbor;
+    if (exit == 4) return here;
     from = face_code(here, exit);
     here = cell_of(cell.neighbors[exit]);
   }
+}
+
+// If ab is an edge, it is one of the cell toward b.
+std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t cell = cell_toward(d, a, d.point(b), b);
+  return place_of(d.cells[cell], b) < 4 ? cell : no_neighbor;
 }
 
 std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t at_edge) {

@@ -180,6 +180,11 @@ void walk_around_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::
   } while (here != first);
 }
 
+/// The cell with the vertex a that holds the places toward p, which is in the convex hull; any if there are several.
+///
+/// \param b  a cell with this vertex, which is at p, will do
+std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, std::uint32_t b = ghost_vertex);
+
 /// A cell that has the edge ab; `no_neighbor` if that is no edge of the tetrahedralization.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b);
 

@@ -164,6 +164,7 @@ class FacetMesher {
   struct FacetSegment {
     VertexId a, b;  ///< in the order of its triangle
     std::uint32_t segment;
+    std::size_t number;  ///< in the order of the triangles
   };
 
   bool is_unsplit(const Triangle& t) const {
@@ -177,16 +178,16 @@ class FacetMesher {
 
   std::vector<FacetSegment> segments_of(const plc::Facet& facet) const {
     std::vector<FacetSegment> segments;
+    segments.reserve(3 * facet.triangles.size());
     for (const Triangle& t : facet.triangles) {
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
         if (const std::uint32_t found = segment_of_edge_->find(a, b); found != EdgeMap::none)
-          segments.push_back({a, b, found});
+          segments.push_back({a, b, found, segments.size()});
       }
     }
     // A segment within the facet is met from both sides.
-    std::stable_sort(segments.begin(), segments.end(),
-                     [](const auto& l, const auto& r) { return l.segment < r.segment; });
+    std::ranges::sort(segments, {}, [](const auto& s) { return std::pair(s.segment, s.number); });
     const auto same = [](const auto& l, const auto& r) { return l.segment == r.segment; };
     segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
     return segments;
@@ -223,8 +224,12 @@ class FacetMesher {
                                             const std::vector<FacetSegment>& segments) const {
     std::vector<planar::Edge> constrained;
     constrained.reserve(segments.size());
-    for (const FacetSegment& s : segments) constrained.push_back({s.a, s.b});
-    planar::Triangulation t = planar::from_triangles(facet.triangles, constrained);
+    std::size_t inner_vertices = 0;
+    for (const FacetSegment& s : segments) {
+      constrained.push_back({s.a, s.b});
+      inner_vertices += chains_[s.segment].size() - 2;
+    }
+    planar::Triangulation t = planar::from_triangles(facet.triangles, constrained, 2 * inner_vertices);
     planar::legalize(t, plane);
     for (const FacetSegment& s : segments) {
       const auto chain = chains_[s.segment];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -157,6 +158,34 @@ CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const 
   Lanes la, lb, lc, ld, le;
   filter::load(a, la), filter::load(b, lb), filter::load(c, lc), filter::load(d, ld), filter::load(e, le);
   return insphere_filter(la, lb, lc, ld, le);
+}
+
+/// Sign of the sum of angles that `incircle` (predicates.cpp) is about. The axis is the one nearest to the normal of
+/// the plane.
+CCDT_ALWAYS_INLINE Sign incircle_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const Point3 u = a - c, v = b - c, p = a - d, q = b - d, normal = cross(u, v);
+  const double nx = std::fabs(normal.x), ny = std::fabs(normal.y), nz = std::fabs(normal.z);
+  const auto area = [&](const Point3& s, const Point3& t, double& magnitude) {
+    const auto [s1, s2, t1, t2] = nx > ny && nx > nz ? std::array{s.y, s.z, t.y, t.z}
+                                  : ny > nz          ? std::array{s.z, s.x, t.z, t.x}
+                                                     : std::array{s.x, s.y, t.x, t.y};
+    magnitude = std::fabs(s1 * t2) + std::fabs(s2 * t1);
+    return s1 * t2 - s2 * t1;
+  };
+  const auto product = [](const Point3& s, const Point3& t, double& magnitude) {
+    magnitude = std::fabs(s.x * t.x) + std::fabs(s.y * t.y) + std::fabs(s.z * t.z);
+    return dot(s, t);
+  };
+  double area_c_size, area_d_size, product_c_size, product_d_size;
+  const double area_c = area(u, v, area_c_size), area_d = area(q, p, area_d_size);
+  const double product_c = product(u, v, product_c_size), product_d = product(p, q, product_d_size);
+  const double det = product_c * area_d + area_c * product_d;
+  // Seven roundings in each product of a dot product, an area and the sum, rounded up for those of the bound.
+  constexpr double factor = 16 * 0x1p-53;
+  const double bound = factor * (product_c_size * area_d_size + area_c_size * product_d_size);
+  if (std::fabs(area_c) <= factor * area_c_size) return Sign::unknown;
+  if (std::fabs(det) > bound) return (det > 0) == (area_c > 0) ? Sign::minus : Sign::plus;
+  return bound == 0 ? Sign::zero : Sign::unknown;  // without products there are no roundings
 }
 
 /// Sign of the sum of orient3d(p, q, r, x) over x = a, b, c: that of the centroid. Never `zero`.

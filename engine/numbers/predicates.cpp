@@ -3,6 +3,7 @@
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdlib>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/numbers/filters.h"
@@ -113,22 +114,22 @@ int insphere_sign(const std::array<std::array<std::int64_t, 3>, 4>& m) {
   return sign_of(sum);
 }
 
-/// The same for up to 40 bits: the products of two numbers of 128 bits are added up in three digits of 64.
-int insphere_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 4>& m) {
-  const InsphereTerms<Int128, Int128> terms(m);
-  Int128 first = 0, second = 0, third = 0;
-  for (int i = 0; i < 4; ++i) {
-    const Int128 h = terms.height[i], v = terms.volume[i];
-    const auto low = static_cast<UnsignedInt128>(low_digit(h)) * low_digit(v);
-    first += static_cast<std::uint64_t>(low);
-    second += static_cast<std::uint64_t>(low >> 64);
-    second += Int128(low_digit(h)) * rest(v) + rest(h) * Int128(low_digit(v));
-    third += rest(h) * rest(v);
+/// Sign of the sum of up to four products first[i] * second[i] of 123 bits each, added up in three digits of 64.
+template <std::size_t n>
+int sum_sign_in_digits(const std::array<Int128, n>& first, const std::array<Int128, n>& second) {
+  Int128 low = 0, middle = 0, high = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Int128 a = first[i], b = second[i];
+    const auto product = static_cast<UnsignedInt128>(low_digit(a)) * low_digit(b);
+    low += static_cast<std::uint64_t>(product);
+    middle += static_cast<std::uint64_t>(product >> 64);
+    middle += Int128(low_digit(a)) * rest(b) + rest(a) * Int128(low_digit(b));
+    high += rest(a) * rest(b);
   }
-  second += rest(first);
-  third += rest(second);
-  if (third != 0) return sign_of(third);
-  return (low_digit(second) | low_digit(first)) != 0 ? 1 : 0;
+  middle += rest(low);
+  high += rest(middle);
+  if (high != 0) return sign_of(high);
+  return (low_digit(middle) | low_digit(low)) != 0 ? 1 : 0;
 }
 
 void count_narrow_evaluation() {
@@ -196,7 +197,8 @@ int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
     count_narrow_evaluation();
     if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
     if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
-    return insphere_sign_in_digits(m.row);
+    const InsphereTerms<Int128, Int128> terms(m.row);
+    return sum_sign_in_digits(terms.height, terms.volume);
   }
   count_wide_evaluation();
   if (m.bits <= 49) return insphere_sign<Int128, WideInt<256>, WideInt<256>>(m.row);
@@ -230,9 +232,47 @@ int insphere_tie(const Point3& a, const Point3& b, const Point3& c, const Point3
   });
 }
 
+namespace {
+
+/// `incircle` after its filter failed.
+int incircle_exactly(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  ++work_done.insphere_filter_failures;
+  const Differences<3> m = shifted_differences<3>({&a, &b, &c}, d);
+  if (m.bits <= 40)
+    count_narrow_evaluation();
+  else
+    count_wide_evaluation();
+  const auto& [p, q, r] = m.row;
+  const std::array<std::int64_t, 3> u = {p[0] - r[0], p[1] - r[1], p[2] - r[2]};
+  const std::array<std::int64_t, 3> v = {q[0] - r[0], q[1] - r[1], q[2] - r[2]};
+  const auto product = [](const auto& s, const auto& t) {
+    return Int128(s[0]) * t[0] + Int128(s[1]) * t[1] + Int128(s[2]) * t[2];
+  };
+  const auto area = [](const auto& s, const auto& t, int i, int j) {
+    return Int128(s[i]) * t[j] - Int128(s[j]) * t[i];
+  };
+  for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)})
+    if (const Int128 at_c = area(u, v, i, j); at_c != 0)
+      return -sign_of(at_c) * sum_sign_in_digits<2>({{product(u, v), product(p, q)}}, {{area(q, p, i, j), at_c}});
+  return 0;
+}
+
+/// For exactly coplanar points, abc not on one line: +1 when d is strictly inside the circumcircle of abc, -1 outside,
+/// 0 on it.
+///
+/// d is inside when the angles at c and d over the chord ab sum up to more than 180 degrees, that is, when the sine of
+/// the sum is negative: sin(c + d) = sin c cos d + cos c sin d, with dot products for the cosines and signed areas for
+/// the sines. As all areas are in one plane, those of the projection along an axis do.
+int incircle(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  if (const Sign sign = incircle_filter(a, b, c, d); sign != Sign::unknown) return static_cast<int>(sign);
+  return incircle_exactly(a, b, c, d);
+}
+
+}  // namespace
+
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
                        const std::array<std::uint32_t, 4>& ranks) {
-  if (const int sign = insphere(a, b, c, apex, d); sign != 0) return sign;
+  if (const int sign = incircle(a, b, c, d); sign != 0) return sign;
   count_tie();
   return first_nonzero(ranks, [&](std::size_t i) {
     return i < 3 ? orient3d_with({&a, &b, &c, &apex}, i, d) : -orient3d(a, b, c, apex);

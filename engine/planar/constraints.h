@@ -44,6 +44,7 @@ void split_side(Triangulation& t, Side s, VertexId v, const P& predicates) {
   const Adjacency ca = adjacency_at(t, {s.triangle, previous_corner(s.corner)});
   const std::uint32_t first = s.triangle, second = append_triangle(t, v, b, c);
   std::vector<std::uint32_t> stack;
+  stack.reserve(16);
   if (!inner) {
     set_corners(t, first, a, v, c);
     attach(t, {first, 2}, {none, 0, constrained});
@@ -60,7 +61,7 @@ void split_side(Triangulation& t, Side s, VertexId v, const P& predicates) {
     join(t, {third, 1}, {fourth, 0}, false);
     join(t, {first, 2}, {third, 2}, constrained);
     join(t, {second, 2}, {fourth, 2}, constrained);
-    stack = {pack({third, 0}), pack({fourth, 1})};
+    stack.insert(stack.end(), {pack({third, 0}), pack({fourth, 1})});
   }
   attach(t, {first, 1}, ca);
   attach(t, {second, 0}, bc);

@@ -13,7 +13,7 @@ namespace {
 /// Enters a constrained or border edge into the table, so that it is found without a search.
 void register_edge(Triangulation& t, Side s) {
   if (is_constrained(t, s) || neighbor(t, s) == none) {
-    t.fixed_edges.set(edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
+    t.known_edges.set(edge_key(edge_start(t, s), edge_end(t, s)), pack(s));
   }
 }
 
@@ -145,46 +145,46 @@ void replace_channel(Triangulation& t, const std::vector<std::uint32_t>& channel
 }
 
 Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
-                             std::span<const Edge> constrained_edges) {
+                             std::span<const Edge> constrained_edges, std::size_t room) {
   Triangulation t;
+  const std::size_t most = triangles.size() + room;
+  t.triangles.reserve(most), t.neighbors.reserve(most), t.constrained.reserve(most);
   t.triangles.assign(triangles.begin(), triangles.end());
   t.neighbors.assign(triangles.size(), {none, none, none});
   t.constrained.assign(triangles.size(), {false, false, false});
-  t.triangle_of_vertex.reserve(triangles.size() / 2 + 3);
+  t.triangle_of_vertex.reserve(most / 2 + 3);
 
-  const auto count = static_cast<std::uint32_t>(triangles.size());
-  Table side_of_edge;  // by direction, so that each may occur once
-  side_of_edge.reserve(3 * triangles.size());
-  for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
-    const Side s = unpack(packed);
-    const VertexId from = edge_start(t, s), to = edge_end(t, s);
-    if (from == to) throw Defect("a triangle of a facet has the same vertex twice", {from, to});
-    if (side_of_edge.contains(directed_key(from, to))) {
-      throw Defect("two triangles of a facet lie on the same side of an edge", {from, to});
+  t.known_edges.reserve(3 * most / 2 + 2);
+  for (std::uint32_t triangle = 0; triangle < triangles.size(); ++triangle) {
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const Side s{triangle, corner};
+      const VertexId from = edge_start(t, s), to = edge_end(t, s);
+      if (from == to) throw Defect("a triangle of a facet has the same vertex twice", {from, to});
+      if (const auto [first, is_new] = t.known_edges.insert(edge_key(from, to), pack(s)); !is_new) {
+        const Side other = unpack(*first);
+        if (edge_start(t, other) == from || neighbor(t, other) != none) {
+          throw Defect("two triangles of a facet lie on the same side of an edge", {from, to});
+        }
+        t.neighbors[triangle][corner] = other.triangle;
+        t.neighbors[other.triangle][other.corner] = triangle;
+      }
+      t.triangle_of_vertex.set(apex(t, s), triangle);
     }
-    side_of_edge.set(directed_key(from, to), packed);
-    t.triangle_of_vertex.set(apex(t, s), s.triangle);
-  }
-  for (std::uint32_t packed = 0; packed < 3 * count; ++packed) {
-    const Side s = unpack(packed);
-    const std::uint32_t other = side_of_edge.get(directed_key(edge_end(t, s), edge_start(t, s)), none);
-    if (other != none) t.neighbors[s.triangle][s.corner] = other / 3;
-    register_edge(t, s);
   }
   for (const auto& [a, b] : constrained_edges) {
-    std::uint32_t packed = side_of_edge.get(directed_key(a, b), none);
-    if (packed == none) packed = side_of_edge.get(directed_key(b, a), none);
-    if (packed == none) throw Defect("a constrained edge of a facet is not an edge of its triangles", {a, b});
-    set_constrained(t, unpack(packed), true);
+    const std::uint32_t* packed = t.known_edges.find(edge_key(a, b));
+    if (packed == nullptr) throw Defect("a constrained edge of a facet is not an edge of its triangles", {a, b});
+    const Side s = unpack(*packed);
+    set_constrained(t, edge_start(t, s) == a || neighbor(t, s) == none ? s : other_side(t, s), true);
   }
   return t;
 }
 
 std::optional<Side> find_edge(const Triangulation& t, VertexId a, VertexId b) {
-  const std::uint32_t fixed = t.fixed_edges.get(edge_key(a, b), none);
-  if (fixed != none) {
-    // Entries are not removed when an edge is split or freed, so they must be checked.
-    const Side s = unpack(fixed);
+  const std::uint32_t known = t.known_edges.get(edge_key(a, b), none);
+  if (known != none) {
+    // Entries are not removed when an edge is split or flipped, so they must be checked.
+    const Side s = unpack(known);
     if (s.triangle < t.triangles.size() && edge_key(edge_start(t, s), edge_end(t, s)) == edge_key(a, b)) return s;
   }
   std::optional<Side> found;
@@ -257,7 +257,7 @@ std::vector<std::uint32_t> nesting_depths(const Triangulation& t) {
 
   std::vector<std::uint32_t> here, behind;
   for (const Edge& edge : border_edges(t)) {
-    const Side s = unpack(t.fixed_edges.get(edge_key(edge[0], edge[1]), none));
+    const Side s = unpack(t.known_edges.get(edge_key(edge[0], edge[1]), none));
     (is_constrained(t, s) ? behind : here).push_back(s.triangle);
   }
   while (!here.empty() || !behind.empty()) {

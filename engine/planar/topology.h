@@ -57,7 +57,7 @@ struct Triangulation {
   std::vector<std::array<bool, 3>> constrained;         ///< the edge must stay; the same seen from both sides
 
   Table triangle_of_vertex;  ///< vertex -> one triangle around it
-  Table fixed_edges;         ///< constrained and border edges -> 3 * triangle + corner of one side
+  Table known_edges;  ///< edges, among them all constrained and border edges -> 3 * triangle + corner of one side
 };
 
 /// A list of triangles that is not a triangulation of a part of a plane. The catcher knows the coordinates and can add

@@ -12,10 +12,11 @@ namespace ccdt::planar {
 
 /// The triangulation that consists of these triangles, all counterclockwise in the caller's plane. Nothing is flipped.
 ///
+/// \param room  for so many more triangles memory is reserved
 /// \throw Defect  an edge with more than two triangles, or two triangles on the same side of an edge; or a
 ///                      constrained edge that no triangle has
 Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
-                             std::span<const Edge> constrained_edges = {});
+                             std::span<const Edge> constrained_edges = {}, std::size_t room = 0);
 
 /// A side of the edge ab, or nothing if there is no such edge. Constant time for constrained and border edges and
 /// otherwise linear in the number of triangles around a and b (around a pinched vertex, at worst: of all triangles).

@@ -1,6 +1,8 @@
 #include "engine/protection/protect_edges.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -28,9 +30,9 @@ std::vector<std::uint64_t> find_missing(const plc::Plc& plc, const ProtectedDela
       });
 }
 
-/// Splits pieces of segments until all that need protection are Delaunay edges. A stack holds those that may not be:
-/// the missing ones at first, then those of cells that a split destroyed. A stack needs fewer splits than a queue,
-/// because one place is finished before the next one.
+/// Splits pieces of segments until all that need protection are Delaunay edges. A stack holds the missing ones: those
+/// from the start, then those that a split made or destroyed; an edge that is lost never comes back. A stack needs
+/// fewer splits than a queue, because one place is finished before the next one.
 class Protector {
  public:
   Protector(const plc::Plc& plc, Protection strategy, std::vector<std::uint64_t> missing, ProtectedDelaunay& state)
@@ -54,10 +56,7 @@ class Protector {
       if ((done & 0xFFF) == 0) report(progress, "protect", done, done + stack_.size());
       const std::uint64_t edge = stack_.back();
       stack_.pop_back();
-      const std::uint32_t* place = piece_of_.find(edge);
-      if (place == nullptr) continue;
-      const Subsegment& piece = pieces_[*place];
-      if (!has_edge(state_.delaunay, piece.from.vertex, piece.to.vertex)) split(piece);
+      if (const std::uint32_t* piece = piece_of_.find(edge)) split(pieces_[*piece]);
     }
     state_.chains.insert(std::move(added_));
   }
@@ -76,32 +75,46 @@ class Protector {
   void add(const Subsegment& piece) {
     pieces_.push_back(piece);
     index_piece(static_cast<std::uint32_t>(pieces_.size() - 1));
-    stack_.push_back(key_of(piece));
+    if (!has_edge(state_.delaunay, piece.from.vertex, piece.to.vertex)) stack_.push_back(key_of(piece));
   }
 
-  /// False for most edges that are no pieces, without looking them up.
-  bool may_be_piece(std::uint32_t a, std::uint32_t b) const {
-    return a != delaunay::ghost_vertex && b != delaunay::ghost_vertex && (other_ends_[a] & bit_of(b)) != 0 &&
-           (other_ends_[b] & bit_of(a)) != 0;
-  }
   static std::uint64_t bit_of(std::uint32_t vertex) { return std::uint64_t{1} << vertex % 64; }
 
+  /// Visits the pieces among the edges of a cell or a face; most others are left out without looking them up. Those of
+  /// cells and faces with the ghost are edges of others, too.
+  template <std::size_t n, class Visit>
+  void visit_pieces(const std::array<std::uint32_t, n>& vertices, const Visit& visit) const {
+    if (std::ranges::find(vertices, delaunay::ghost_vertex) != vertices.end()) return;
+    for (std::size_t i = 1; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if ((other_ends_[vertices[i]] & bit_of(vertices[j])) != 0 &&
+            (other_ends_[vertices[j]] & bit_of(vertices[i])) != 0)
+          if (const std::uint32_t* piece = piece_of_.find(edge_key(vertices[i], vertices[j]))) visit(*piece);
+  }
+
+  /// The pieces within the cavity, in an order that does not depend on that of the cells.
+  void find_lost() {
+    lost_.clear();
+    met_in_.resize(pieces_.size(), 0);
+    const std::size_t split = added_.size() + 1;
+    for (const delaunay::CavityFace& face : splitter_.insertion().cavity_faces())
+      visit_pieces(face.vertices, [&](std::uint32_t piece) { met_in_[piece] = split; });
+    for (const std::uint32_t cell : splitter_.insertion().cavity_cells())
+      visit_pieces(state_.delaunay.cells[cell].vertices, [&](std::uint32_t piece) {
+        if (std::exchange(met_in_[piece], split) != split) lost_.push_back(key_of(pieces_[piece]));
+      });
+    std::ranges::sort(lost_);
+  }
+
   void split(const Subsegment piece) {
-    const ChainVertex middle = splitter_.split(piece);
+    const ChainVertex middle = splitter_.choose(piece);
+    find_lost();
+    splitter_.insert();
     added_.push_back({piece.segment, middle});
     piece_of_.erase(piece_of_.find(key_of(piece)));
     add({piece.segment, piece.from, middle});
     add({piece.segment, middle, piece.to});
-    lost_.clear();
-    for (const auto& v : splitter_.destroyed())
-      for (int i = 1; i < 4; ++i)
-        for (int j = 0; j < i; ++j)
-          if (may_be_piece(v[i], v[j]) && piece_of_.contains(edge_key(v[i], v[j])))
-            lost_.push_back(edge_key(v[i], v[j]));
-    // In an order that does not depend on that of the cells.
-    std::ranges::sort(lost_);
-    const auto repeated = std::ranges::unique(lost_);
-    stack_.insert(stack_.end(), lost_.begin(), repeated.begin());
+    stack_.insert(stack_.end(), lost_.begin(), lost_.end());
   }
 
   ProtectedDelaunay& state_;
@@ -110,8 +123,9 @@ class Protector {
   std::vector<Subsegment> pieces_;                    // also those that were split
   HashTable<std::uint64_t, std::uint32_t> piece_of_;  // by their edges: those that were not
   std::vector<std::uint64_t> other_ends_;             // by vertex: bits of the other ends of pieces there
-  std::vector<std::uint64_t> lost_;                   // edges of cells that the last split has destroyed
-  std::vector<std::uint64_t> stack_;                  // of edges; some may be split or exist by now
+  std::vector<std::uint64_t> lost_;                   // pieces that the last split has destroyed
+  std::vector<std::size_t> met_in_;                   // by piece: the last split with it in the cavity or on its border
+  std::vector<std::uint64_t> stack_;                  // of edges that do not exist; some may be split by now
 };
 
 }  // namespace

@@ -85,6 +85,7 @@ EdgeSplitter::EdgeSplitter(const plc::Plc& plc, Protection strategy, delaunay::D
       strategy_(strategy),
       d_(delaunay),
       insertion_(delaunay),
+      search_(delaunay),
       segment_of_(delaunay.vertices.size() - plc.vertices.size(), no_segment),
       most_vertices_(delaunay.vertices.size() + most_splits(delaunay.vertices.size())) {
   for (std::uint32_t s = 0; s < chains.size(); ++s)
@@ -95,7 +96,7 @@ bool EdgeSplitter::can_split(const Subsegment& piece) const {
   return piece.to.fraction - piece.from.fraction >= 2 * step_of(piece.segment);
 }
 
-ChainVertex EdgeSplitter::split(const Subsegment& piece) {
+ChainVertex EdgeSplitter::choose(const Subsegment& piece) {
   if (!can_split(piece))
     refuse_further_splits(plc_, piece, "it would have to be split at places that are not on the grid");
   if (d_.vertices.size() > most_vertices_)
@@ -103,9 +104,6 @@ ChainVertex EdgeSplitter::split(const Subsegment& piece) {
   const std::uint32_t fraction = split_fraction(piece);
   const std::uint32_t id = d_.add_vertex(point_on_segment(plc_, piece.segment, fraction));
   insertion_.find_cavity(id, d_.cell_at[piece.from.vertex]);
-  destroyed_.clear();
-  for (const std::uint32_t cell : insertion_.cavity_cells()) destroyed_.push_back(d_.cells[cell].vertices);
-  insertion_.fill_cavity();
   segment_of_.push_back(piece.segment);
   return {VertexId(id), fraction, std::max(piece.from.level, piece.to.level) + 1};
 }
@@ -141,33 +139,24 @@ std::uint32_t EdgeSplitter::split_fraction(const Subsegment& piece) {
   return encroaching ? fraction_near(piece, split_place(piece, *encroaching)) : middle;
 }
 
-/// The vertex around a point of the piece that sees the piece under the largest obtuse angle: the reason why the piece
-/// is missing. None if no vertex is in the diametral sphere.
+/// Of the vertices that a new vertex on the piece would be joined to, the one that sees the piece under the largest
+/// obtuse angle: the reason why the piece is missing. None if no vertex is in the diametral sphere.
 std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
-  const std::uint32_t probe = d_.add_vertex(point_on_segment(plc_, piece.segment, fraction));
-  insertion_.find_cavity(probe, d_.cell_at[piece.from.vertex]);
-  const Point3 &a = d_.point(piece.from.vertex), &b = d_.point(piece.to.vertex);
-  std::optional<std::uint32_t> worst;
-  double least_cosine = 0;
-  ++probe_;
-  last_probe_.resize(d_.vertices.size(), 0);
-  for (const delaunay::CavityFace& face : insertion_.cavity_faces()) {
-    for (const std::uint32_t v : face.vertices) {
-      if (v == delaunay::ghost_vertex || v == piece.from.vertex || v == piece.to.vertex) continue;
-      if (std::exchange(last_probe_[v], probe_) == probe_) continue;
-      const Point3 to_a = a - d_.point(v), to_b = b - d_.point(v);
-      const double product = dot(to_a, to_b);
-      if (product >= 0) continue;
-      const double cosine = product / std::sqrt(squared_length(to_a) * squared_length(to_b));
-      // Of equal ones the least vertex, for any order of the cells.
-      if (cosine > least_cosine || (cosine == least_cosine && v >= worst.value_or(0))) continue;
-      least_cosine = cosine;
-      worst = v;
-    }
-  }
+  const Point3 p = point_on_segment(plc_, piece.segment, fraction);
+  const WorstVertex none(d_.point(piece.from.vertex), d_.point(piece.to.vertex));
+  // It is nearly always the worst one of all.
+  WorstVertex worst = none;
+  if (search_.find_worst(piece.from.vertex, piece.to.vertex, worst) &&
+      (!worst.vertex() || would_be_joined(d_, *worst.vertex(), p)))
+    return worst.vertex();
+  worst = none;
+  insertion_.find_cavity(d_.add_vertex(p), d_.cell_at[piece.from.vertex]);
+  for (const delaunay::CavityFace& face : insertion_.cavity_faces())
+    for (const std::uint32_t v : face.vertices)
+      if (v != delaunay::ghost_vertex) worst.examine(v, d_.point(v));
   insertion_.discard_cavity();
   d_.remove_last_vertex();
-  return worst;
+  return worst.vertex();
 }
 
 /// Where to split the piece because of an encroaching vertex.

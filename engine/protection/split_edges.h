@@ -1,15 +1,14 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/plc/plc.h"
+#include "engine/protection/encroachment.h"
 #include "engine/protection/options.h"
 #include "engine/protection/segment_chains.h"
 
@@ -36,13 +35,13 @@ class EdgeSplitter {
   /// Is the piece long enough to have a place between its ends where it may be split?
   bool can_split(const Subsegment& piece) const;
 
-  /// Inserts a vertex that splits the piece, where `strategy` says. The caller adds it to the chain.
+  /// Adds a vertex that splits the piece, where `strategy` says, and finds its cavity. The caller adds it to the chain,
+  /// examines the cavity and calls `insert`.
   ///
   /// \throw LimitError  the piece is as short as the grid allows, or there are far too many splits
-  ChainVertex split(const Subsegment& piece);
-
-  /// The cells that the last split destroyed, by their vertices.
-  std::span<const std::array<std::uint32_t, 4>> destroyed() const { return destroyed_; }
+  ChainVertex choose(const Subsegment& piece);
+  const delaunay::Insertion& insertion() const { return insertion_; }
+  void insert() { insertion_.fill_cavity(); }
 
  private:
   std::uint32_t step_of(std::uint32_t segment) const;
@@ -55,11 +54,9 @@ class EdgeSplitter {
   Protection strategy_;
   delaunay::Delaunay& d_;
   delaunay::Insertion insertion_;
+  DiametralSearch search_;
   std::vector<std::uint32_t> segment_of_;  ///< by vertex, without those of the PLC; none: not on a segment
   std::size_t most_vertices_;              ///< more would be far too many splits
-  std::vector<std::array<std::uint32_t, 4>> destroyed_;
-  std::uint32_t probe_ = 0;                ///< counts the points for which cavities were searched
-  std::vector<std::uint32_t> last_probe_;  ///< by vertex: the last such point whose cavity had it on its border
 };
 
 }  // namespace ccdt::protection
