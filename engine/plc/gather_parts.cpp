@@ -383,27 +383,27 @@ using VertexOnTriangle = std::pair<std::uint32_t, VertexId>;
 std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3> vertices,
                                                          std::span<const TrianglePair> close, const BoxTree& tree,
                                                          const TriangleSet& triangles) {
-  const auto test = [&](VertexId v, std::uint32_t t, std::vector<VertexOnTriangle>& found) {
-    const VertexTriple& c = triangles.corners[t];
-    if (has_corner(c, v)) return;
-    const auto corners = points_of(vertices, c);
-    if (bounding_box(corners).meets(box_of(vertices[v])) &&
-        is_on_triangle(dominant_axis(corners), vertices[v], corners))
-      found.emplace_back(t, v);
+  const auto test = [&](std::span<const VertexId> those, std::uint32_t t, std::vector<VertexOnTriangle>& found) {
+    const auto corners = points_of(vertices, triangles.corners[t]);
+    const Box box = hull(hull(box_of(corners[0]), box_of(corners[1])), box_of(corners[2]));
+    for (const VertexId v : those)
+      if (box.meets(box_of(vertices[v])) && !has_corner(triangles.corners[t], v) &&
+          is_on_triangle(dominant_axis(corners), vertices[v], corners))
+        found.emplace_back(t, v);
   };
   std::vector<VertexOnTriangle> found = parallel_collect<VertexOnTriangle>(
       close.size(), 1024, [&](std::size_t begin, std::size_t end, std::vector<VertexOnTriangle>& some) {
         for (const auto& [s, t] : close.subspan(begin, end - begin)) {
-          for (const VertexId v : triangles.corners[s]) test(v, t, some);
-          for (const VertexId v : triangles.corners[t]) test(v, s, some);
+          test(triangles.corners[s], t, some);
+          test(triangles.corners[t], s, some);
         }
       });
   std::vector<bool> is_corner(vertices.size(), false);
   for (const VertexTriple& t : triangles.corners)
     for (const VertexId v : t) is_corner[v] = true;
-  for (std::uint32_t v = 0; v < vertices.size(); ++v)
-    if (!is_corner[v])
-      tree.for_each_meeting(box_of(vertices[v]), [&](std::uint32_t t) { test(VertexId(v), t, found); });
+  for (std::uint32_t i = 0; i < vertices.size(); ++i)
+    if (const VertexId v(i); !is_corner[i])
+      tree.for_each_meeting(box_of(vertices[i]), [&](std::uint32_t t) { test({&v, 1}, t, found); });
   std::ranges::sort(found);
   const auto again = std::ranges::unique(found);
   found.erase(again.begin(), again.end());

@@ -196,7 +196,7 @@ facets.exact_evaluations 96
 facets.cells_visited 1897
 facets.edges_tested 199
 facets.edges_flipped 19
-facets.triangles_visited 583
+facets.triangles_visited 490
 facets.peak_bytes 1728
 lattice.octree_nodes 137
 lattice.box_tree_nodes 104
@@ -224,7 +224,7 @@ face_check.exact_evaluations 41
 face_check.cells_visited 1434
 face_check.edges_tested 65
 face_check.edges_flipped 5
-face_check.triangles_visited 261
+face_check.triangles_visited 222
 face_check.faces_tested 946
 face_check.peak_bytes 1984
 label.cells_visited 174
@@ -264,13 +264,13 @@ TEST(WorkOfSmallInputs, SegmentsThatNeedProtection) {
   MeshOptions options;
   options.lattice = Lattice::none;
   expect_work(text_of("protect", mesh_plc(plc_test::schoenhardt(), options).work.protect), R"(
-protect.insertions 6
-protect.walk_steps 14
-protect.cells_tested 72
+protect.insertions 3
+protect.walk_steps 5
+protect.cells_tested 36
 protect.cells_created 26
 protect.cells_destroyed 13
 protect.largest_cavity 5
-protect.cells_visited 26
+protect.cells_visited 47
 protect.peak_bytes 1124
 )");
 }
@@ -295,7 +295,7 @@ front.centroid_filter_failures 3
 front.narrow_evaluations 10
 front.exact_evaluations 10
 front.octree_nodes 287
-front.cells_visited 97
+front.cells_visited 85
 front.octree_nodes_created 14
 front.front_candidates 266
 front.visibility_tests 174
@@ -343,7 +343,7 @@ front.centroid_filter_failures 7
 front.narrow_evaluations 24
 front.exact_evaluations 24
 front.octree_nodes 347
-front.cells_visited 371
+front.cells_visited 359
 front.octree_nodes_created 14
 front.front_candidates 295
 front.visibility_tests 246
