@@ -1,5 +1,6 @@
 #include "engine/plc/close_triangles.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -38,10 +39,22 @@ bool are_on_one_side(std::span<const Point3> vertices, const VertexTriple& plane
   return true;
 }
 
+/// Does a plane through the only common corner, across an axis, show that the triangles share nothing else?
+bool are_apart_at_corner(std::span<const Point3> vertices, const CornerPairs& pair) {
+  const auto& [s, t] = pair.corners;
+  const auto divides = [&](auto axis) {
+    const double at = vertices[s[0]].*axis;
+    const auto [s_low, s_high] = std::minmax({vertices[s[1]].*axis, vertices[s[2]].*axis});
+    const auto [t_low, t_high] = std::minmax({vertices[t[1]].*axis, vertices[t[2]].*axis});
+    return (s_high <= at && at <= t_low && s_high < t_low) || (t_high <= at && at <= s_low && t_high < s_low);
+  };
+  return divides(&Point3::x) || divides(&Point3::y) || divides(&Point3::z);
+}
+
 /// With what they share, for which both signs would be zero, in that plane.
 bool are_apart(std::span<const Point3> vertices, const CornerPairs& pair) {
   const auto& [s, t] = pair.corners;
-  if (pair.common == 3) return true;
+  if (pair.common == 3 || (pair.common == 1 && are_apart_at_corner(vertices, pair))) return true;
   return are_on_one_side(vertices, t, s, pair.common) || are_on_one_side(vertices, s, t, pair.common);
 }
 
