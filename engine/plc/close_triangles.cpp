@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -27,16 +28,24 @@ struct CornerPairs {
   }
 };
 
-/// Are the corners of a triangle, from the given one on, certainly on the same side of another's plane?
+/// Are the corners of a triangle, from the given one on, certainly on the same side of another's plane? Like
+/// `orient3d_filter`, with one normal for all.
 bool are_on_one_side(std::span<const Point3> vertices, const VertexTriple& plane, const VertexTriple& corners,
                      int from) {
-  using numbers::Sign;
-  const Point3 &a = vertices[plane[0]], &b = vertices[plane[1]], &c = vertices[plane[2]];
-  const Sign first = numbers::orient3d_filter(a, b, c, vertices[corners[from]]);
-  if (first != Sign::plus && first != Sign::minus) return false;
-  for (int i = from + 1; i < 3; ++i)
-    if (numbers::orient3d_filter(a, b, c, vertices[corners[i]]) != first) return false;
-  return true;
+  using numbers::filter::larger;
+  const Point3& a = vertices[plane[0]];
+  const Point3 u = vertices[plane[1]] - a, v = vertices[plane[2]] - a, normal = cross(u, v);
+  const auto largest = [](double s, double t) { return larger(std::fabs(s), std::fabs(t)); };
+  const Point3 most = {largest(u.x, v.x), largest(u.y, v.y), largest(u.z, v.z)};
+  bool is_above = false, is_below = false;
+  for (int i = from; i < 3; ++i) {
+    const Point3 w = vertices[corners[i]] - a;
+    const double height = dot(w, normal),
+                 bound = numbers::orient3d_error * largest(most.x, w.x) * largest(most.y, w.y) * largest(most.z, w.z);
+    if (std::fabs(height) <= bound) return false;
+    (height > 0 ? is_above : is_below) = true;
+  }
+  return is_above != is_below;
 }
 
 /// Does a plane through the only common corner, across an axis, show that the triangles share nothing else?
