@@ -180,9 +180,6 @@ random.peak_bytes 253405
 
 TEST(WorkOfSmallInputs, CubeFilledWithALattice) {
   expect_work(text_of(mesh_plc(rotated(oblique, gridded_cube(3))).work), R"(
-plc.orient3d_filter_failures 16
-plc.narrow_evaluations 16
-plc.exact_evaluations 16
 plc.box_tree_nodes 294
 plc.box_pairs 177
 plc.cells_visited 297
@@ -387,9 +384,9 @@ improve.peak_bytes 19437
 
 TEST(WorkOfSmallInputs, RemeshedSurface) {
   expect_work(text_of("remesh", work_of([] { remeshed(unit_cube(), 0.3); })), R"(
-remesh.orient3d_filter_failures 712
-remesh.narrow_evaluations 712
-remesh.exact_evaluations 712
+remesh.orient3d_filter_failures 208
+remesh.narrow_evaluations 208
+remesh.exact_evaluations 208
 remesh.box_tree_nodes 10028
 remesh.box_pairs 5200
 remesh.edges_flipped 12
