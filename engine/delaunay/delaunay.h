@@ -180,9 +180,9 @@ void walk_around_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::
   } while (here != first);
 }
 
-/// The cell with the vertex a that holds the places toward p, which is in the convex hull; any if there are several.
+/// A cell at the vertex a in which the straight line from a to p begins; p is in the convex hull.
 ///
-/// \param b  a cell with this vertex, which is at p, will do
+/// \param b  the vertex at p, if there is one: any cell at a that has it will do
 std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, std::uint32_t b = ghost_vertex);
 
 /// A cell that has the edge ab; `no_neighbor` if that is no edge of the tetrahedralization.

@@ -47,7 +47,7 @@ struct FrontOptions {
   locate::LocatorKind locator = locate::LocatorKind::grid;
   double grid_scale = 1;        ///< of the grid: factor of the paper's cell size
   bool face_protection = true;  ///< are new faces looked up in the tetrahedralization?
-  /// The `cavity` locator tries all vertices of a chamber with up to so many: they are fewer than those near a face.
+  /// The `cavity` locator tries all vertices of a chamber that has at most this many: fewer than are near a face.
   std::size_t small_chamber = 256;
 };
 

@@ -19,7 +19,7 @@ using CellVertices = std::array<std::uint32_t, 4>;
 /// The exact test whether a triangle and a cell, both closed, intersect; vertices by id.
 class TriangleCellTest {
  public:
-  /// \param sides  of the triangle's plane, on which the corners of the cell are
+  /// \param sides  by corner of the cell: the side of the triangle's plane that it is on
   TriangleCellTest(const delaunay::Delaunay& d, const Triangle& t, const CellVertices& cell,
                    const std::array<int, 4>& sides)
       : d_(d), t_(t), cell_(cell), sides_(sides) {

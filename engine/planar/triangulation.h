@@ -12,7 +12,7 @@ namespace ccdt::planar {
 
 /// The triangulation that consists of these triangles, all counterclockwise in the caller's plane. Nothing is flipped.
 ///
-/// \param room  for so many more triangles memory is reserved
+/// \param room  memory is reserved for this many further triangles
 /// \throw Defect  an edge with more than two triangles, or two triangles on the same side of an edge; or a
 ///                      constrained edge that no triangle has
 Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,

@@ -9,11 +9,13 @@
 namespace ccdt::protection {
 namespace {
 
-/// A search for more costs more than the search for a cavity.
+/// If there are more, finding the cavity of a probe is cheaper.
 constexpr std::size_t most_vertices = 16;
 
 }  // namespace
 
+// The places that see the piece under one angle are a circular arc between its ends, turned around it. The middle of
+// the arc is farthest away.
 double WorstVertex::width() const {
   return 0.5 * std::sqrt(squared_length(b_ - a_) * (1 + least_cosine_ + 1e-9) / (1 - least_cosine_));
 }

@@ -25,8 +25,7 @@ class WorstVertex {
   }
   /// None if no vertex is in the diametral sphere.
   std::optional<std::uint32_t> vertex() const { return vertex_; }
-  /// The places that see the piece under an angle are circular arcs between its ends, turned around it. How far are
-  /// those that see it under the angle of the vertex away from the piece at most? With room for rounding.
+  /// How far from the piece can a place be that sees it under an angle at least as large? With room for rounding.
   double width() const;
 
  private:
@@ -40,7 +39,7 @@ class DiametralSearch {
  public:
   explicit DiametralSearch(const delaunay::Delaunay& delaunay) : d_(delaunay) {}
 
-  /// Finds the worst one of all vertices.
+  /// Finds the worst of all vertices.
   ///
   /// \param a, b  the ends of the piece
   /// \return false if there are too many vertices around the piece
