@@ -1,7 +1,6 @@
 #include "engine/plc/find_facets.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -57,7 +56,7 @@ class PatchFinder {
         turned_(triangles.size(), 0),
         round_of_(triangles.size(), 0),
         may_cross_(edges.size()),
-        is_lonely_(triangles.size(), 1) {
+        is_lonely_(triangles.size()) {
     parallel_for(triangles.size(), grain,
                  [&](std::size_t t) { normals_[t] = rounded_normal(corner_points(static_cast<std::uint32_t>(t))); });
     parallel_for(edges.size(), grain, [&](std::size_t i) {
@@ -65,8 +64,9 @@ class PatchFinder {
       const auto around = edges.around(e);
       may_cross_[e] =
           around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
-      if (may_cross_[e]) mark_not_lonely(e);
     });
+    parallel_for(triangles.size(), grain,
+                 [&](std::size_t t) { is_lonely_[t] = is_lonely(static_cast<std::uint32_t>(t)); });
   }
 
   FacetPatches find() {
@@ -114,11 +114,11 @@ class PatchFinder {
 
   // Most triangles of a curved surface are facets of their own. They are found before patches grow. A triangle that
   // would take in its neighbor at some edge is none of them.
-  void mark_not_lonely(std::uint32_t e) {
-    const auto around = edges_.around(e);
-    for (const std::uint32_t t : around)
-      if (find_turn(across(e, t), e, runs_along_edge(t, e), plane_of(t).plane()))
-        std::atomic_ref(is_lonely_[t]).store(0, std::memory_order_relaxed);
+  bool is_lonely(std::uint32_t t) const {
+    const Plane plane = plane_of(t).plane();
+    return std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
+      return may_cross_[e] && find_turn(across(e, t), e, runs_along_edge(t, e), plane);
+    });
   }
 
   // Stores the patch of the seed in `patch_`. It grows along a plane that is fitted on the way. If some vertex is too
