@@ -1,71 +1,117 @@
 #include "engine/plc/close_triangles.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/numbers/filters.h"
+#include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
 namespace {
 
-/// The corners of two triangles, those that they share first.
-struct CornerPairs {
-  std::array<VertexTriple, 2> corners;
-  int common = 0;
-
-  CornerPairs(const VertexTriple& s, const VertexTriple& t) : corners{s, t} {
-    for (int i = 0; i < 3; ++i)
-      for (int j = common; j < 3; ++j)
-        if (corners[0][i] == corners[1][j]) {
-          std::swap(corners[0][i], corners[0][common]);
-          std::swap(corners[1][j], corners[1][common]);
-          ++common;
-          break;
-        }
+/// The plane of a triangle, in floating point.
+class RoundedPlane {
+ public:
+  RoundedPlane() = default;
+  explicit RoundedPlane(const std::array<Point3, 3>& t) : point_(t[0]), normal_(area_vector(t)) {
+    const Point3 u = t[1] - t[0], v = t[2] - t[0];
+    const auto sum = [](double p, double q) { return std::fabs(p) + std::fabs(q); };
+    least_ = 4 * (sum(u.y * v.z, u.z * v.y) + sum(u.z * v.x, u.x * v.z) + sum(u.x * v.y, u.y * v.x));
   }
+
+  const Point3& normal() const { return normal_; }
+
+  /// The side that a point is certainly on; 0: not known. Differences of points are exact and at most 2^52 + 2^21. So
+  /// errors are below that times five roundings, 5 * 2^-53, of the sum of the magnitudes of all products in the normal.
+  int side_of(const Point3& p) const {
+    const double height = dot(normal_, p - point_);
+    return height > least_ ? 1 : height < -least_ ? -1 : 0;
+  }
+
+ private:
+  Point3 point_, normal_;
+  double least_;  ///< of magnitudes with a certain sign
 };
 
-/// Are the corners of a triangle, from the given one on, certainly on the same side of another's plane? Like
-/// `orient3d_filter`, with one normal for all.
-bool are_on_one_side(std::span<const Point3> vertices, const VertexTriple& plane, const VertexTriple& corners,
-                     int from) {
-  using numbers::filter::larger;
-  const Point3& a = vertices[plane[0]];
-  const Point3 u = vertices[plane[1]] - a, v = vertices[plane[2]] - a, normal = cross(u, v);
-  const auto largest = [](double s, double t) { return larger(std::fabs(s), std::fabs(t)); };
-  const Point3 most = {largest(u.x, v.x), largest(u.y, v.y), largest(u.z, v.z)};
-  bool is_above = false, is_below = false;
-  for (int i = from; i < 3; ++i) {
-    const Point3 w = vertices[corners[i]] - a;
-    const double height = dot(w, normal),
-                 bound = numbers::orient3d_error * largest(most.x, w.x) * largest(most.y, w.y) * largest(most.z, w.z);
-    if (std::fabs(height) <= bound) return false;
-    (height > 0 ? is_above : is_below) = true;
+using SeenTriangle = std::array<PlanePoint, 3>;
+
+/// Is p, on the line of an edge, beyond this end of it?
+bool is_beyond(const PlanePoint& end, const PlanePoint& other_end, const PlanePoint& p) {
+  // Both products have the same sign, so rounding does not change that of their sum.
+  return (other_end[0] - end[0]) * (p[0] - end[0]) + (other_end[1] - end[1]) * (p[1] - end[1]) < 0;
+}
+
+/// Is the other triangle beyond the line of an edge of the one? It may have corners on that line, which are beyond one
+/// end of the edge, or common.
+bool divides(const SeenTriangle& one, const SeenTriangle& other, int common) {
+  const int sense = orient_in_plane(one[0], one[1], one[2]);
+  if (sense == 0) return false;
+  for (int k = 0; k < 3; ++k) {
+    const int next = k == 2 ? 0 : k + 1;
+    if (common > 0 && (k == 1 || (common == 2 && k == 2))) continue;
+    bool before = common == 0 || k == 0, after = common == 0 || k == 2;
+    for (int j = common; j < 3 && (before || after); ++j) {
+      const int side = orient_in_plane(one[k], one[next], other[j]);
+      if (side == -sense) continue;
+      before = before && side == 0 && is_beyond(one[k], one[next], other[j]);
+      after = after && side == 0 && is_beyond(one[next], one[k], other[j]);
+    }
+    if (before || after) return true;
   }
-  return is_above != is_below;
+  return false;
 }
 
-/// Does a plane through the only common corner, across an axis, show that the triangles share nothing else?
-bool are_apart_at_corner(std::span<const Point3> vertices, const CornerPairs& pair) {
-  const auto& [s, t] = pair.corners;
-  const auto divides = [&](auto axis) {
-    const double at = vertices[s[0]].*axis;
-    const auto [s_low, s_high] = std::minmax({vertices[s[1]].*axis, vertices[s[2]].*axis});
-    const auto [t_low, t_high] = std::minmax({vertices[t[1]].*axis, vertices[t[2]].*axis});
-    return (s_high <= at && at <= t_low && s_high < t_low) || (t_high <= at && at <= s_low && t_high < s_low);
-  };
-  return divides(&Point3::x) || divides(&Point3::y) || divides(&Point3::z);
+/// Exchanges corners until those that both triangles have are the first of each. Returns their number.
+int put_common_first(VertexTriple& s, VertexTriple& t) {
+  int common = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = common; j < 3; ++j)
+      if (s[i] == t[j]) {
+        std::swap(s[i], s[common]);
+        std::swap(t[j], t[common]);
+        ++common;
+        break;
+      }
+  return common;
 }
 
-/// With what they share, for which both signs would be zero, in that plane.
-bool are_apart(std::span<const Point3> vertices, const CornerPairs& pair) {
-  const auto& [s, t] = pair.corners;
-  if (pair.common == 3 || (pair.common == 1 && are_apart_at_corner(vertices, pair))) return true;
-  return are_on_one_side(vertices, t, s, pair.common) || are_on_one_side(vertices, s, t, pair.common);
-}
+class TrianglePairs {
+ public:
+  TrianglePairs(std::span<const Point3> vertices, std::span<const VertexTriple> triangles)
+      : vertices_(vertices), triangles_(triangles), planes_(triangles.size()) {
+    parallel_for(planes_.size(), 4096,
+                 [&](std::size_t t) { planes_[t] = RoundedPlane(points_of(vertices, triangles[t])); });
+  }
+
+  /// Do two triangles certainly share nothing but corners and edges of both?
+  bool are_apart(std::uint32_t i, std::uint32_t j) const {
+    if (is_on_one_side(i, j) || is_on_one_side(j, i)) return true;
+    VertexTriple s = triangles_[i], t = triangles_[j];
+    const int common = put_common_first(s, t);
+    if (common == 3) return true;
+    const std::array<Point3, 3> p = points_of(vertices_, s), q = points_of(vertices_, t);
+    const int axis = dominant_axis(planes_[i].normal()), other_axis = dominant_axis(planes_[j].normal());
+    return are_apart_seen_along(axis, p, q, common) ||
+           (other_axis != axis && are_apart_seen_along(other_axis, p, q, common));
+  }
+
+ private:
+  /// Is a triangle certainly on one side of the other's plane, except for common corners?
+  bool is_on_one_side(std::uint32_t triangle, std::uint32_t of) const {
+    int side = 0;
+    for (const VertexId v : triangles_[triangle]) {
+      const int its_side = planes_[of].side_of(vertices_[v]);
+      if (its_side == 0 ? !has_corner(triangles_[of], v) : its_side == -side) return false;
+      if (its_side != 0) side = its_side;
+    }
+    return side != 0;
+  }
+
+  std::span<const Point3> vertices_;
+  std::span<const VertexTriple> triangles_;
+  RawVector<RoundedPlane> planes_;
+};
 
 }  // namespace
 
@@ -76,12 +122,18 @@ RawVector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& tri
   return boxes;
 }
 
+bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common) {
+  const SeenTriangle seen_s = {seen_along(axis, s[0]), seen_along(axis, s[1]), seen_along(axis, s[2])};
+  const SeenTriangle seen_t = {seen_along(axis, t[0]), seen_along(axis, t[1]), seen_along(axis, t[2])};
+  return divides(seen_s, seen_t, common) || divides(seen_t, seen_s, common);
+}
+
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
                                                const BoxTree& tree, std::span<const std::uint8_t> is_doubtful) {
+  const TrianglePairs pairs(vertices, triangles.corners);
   return tree.collect_from_pairs<TrianglePair>(is_doubtful,
                                                [&](std::vector<TrianglePair>& close, std::uint32_t i, std::uint32_t j) {
-                                                 if (!are_apart(vertices, {triangles.corners[i], triangles.corners[j]}))
-                                                   close.push_back({i, j});
+                                                 if (!pairs.are_apart(i, j)) close.push_back({i, j});
                                                });
 }
 

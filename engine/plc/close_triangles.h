@@ -18,12 +18,19 @@ struct TrianglePair {
 };
 
 /// All pairs of triangles that may have more in common than corners and edges of both. Most of those whose boxes meet
-/// are neighbors, and floating point shows that one of the two is on one side of the other's plane: these are left out.
+/// are neighbors, and floating point shows that one of the two is on one side of the other's plane, or, if they are
+/// in one plane, of the line of one of its edges: these are left out.
 ///
 /// \param triangles    with an area
 /// \param tree         over `boxes_of(vertices, triangles)`
 /// \param is_doubtful  by triangle: pairs of two others are left out as well; empty: all are
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
                                                const BoxTree& tree, std::span<const std::uint8_t> is_doubtful = {});
+
+/// Does the line of an edge of one of two triangles, seen along an axis, divide the two, so that they share nothing but
+/// common corners? False does not mean that they meet.
+///
+/// \param common  the number of corners that both have, up to two, the first of each
+bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common);
 
 }  // namespace ccdt::plc

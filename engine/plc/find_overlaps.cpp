@@ -86,8 +86,7 @@ VertexTriple from_corner(const VertexTriple& c, VertexId v) {
   return c[0] == v ? c : c[1] == v ? VertexTriple{c[1], c[2], c[0]} : VertexTriple{c[2], c[0], c[1]};
 }
 
-// For triangles of one exactly flat facet the axis is one that its plane is not parallel to, and otherwise negative.
-std::optional<Contact> meet(std::span<const Point3> vertices, const VertexTriple& s, const VertexTriple& t, int axis) {
+std::optional<Contact> meet(std::span<const Point3> vertices, const VertexTriple& s, const VertexTriple& t) {
   int common = 0;
   VertexId corner = s[0];
   for (const VertexId v : s)
@@ -98,7 +97,6 @@ std::optional<Contact> meet(std::span<const Point3> vertices, const VertexTriple
   if (common >= 2) return std::nullopt;
   const Triangle p = points_of(vertices, common == 1 ? from_corner(s, corner) : s);
   const Triangle q = points_of(vertices, common == 1 ? from_corner(t, corner) : t);
-  if (axis >= 0 && are_apart_in_plane(axis, p, q, common)) return std::nullopt;
   return common == 1 ? meet_triangles_at_corner(p, q) : meet_triangles(p, q);
 }
 
@@ -122,27 +120,19 @@ bool share_end(const std::array<VertexId, 2>& a, const std::array<VertexId, 2>& 
 
 std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
                                    const FacetPatches& facets, std::span<const TrianglePair> close, std::size_t limit) {
-  // Pairs of one facet mostly follow one another.
-  struct FacetAxis {
-    std::uint32_t facet = EdgeTable::none;
-    int axis = -1;
-  };
-  const auto find_overlap = [&](const TrianglePair& pair, FacetAxis& last, std::vector<Overlap>& found) {
+  const auto find_overlap = [&](const TrianglePair& pair, std::vector<Overlap>& found) {
     const auto [i, j] = pair;
     const std::uint32_t facet = facets.facet_of[i];
-    const bool one_facet = facet == facets.facet_of[j];
-    if (one_facet && !facets.exactly_flat[facet]) return;
+    if (facet == facets.facet_of[j] && !facets.exactly_flat[facet]) return;
     const VertexTriple &s = triangles.corners[i], &t = triangles.corners[j];
-    if (one_facet && last.facet != facet) last = {facet, dominant_axis(points_of(vertices, s))};
-    if (const auto contact = meet(vertices, s, t, one_facet ? last.axis : -1)) {
+    if (const auto contact = meet(vertices, s, t)) {
       const bool covering = contact->coplanar && are_coplanar(points_of(vertices, s), points_of(vertices, t));
       found.push_back({covering ? Overlap::Between::covering_facets : Overlap::Between::facets, i, j, contact->where});
     }
   };
   std::vector<Overlap> all = parallel_collect<Overlap>(
       close.size(), 1024, [&](std::size_t begin, std::size_t end, std::vector<Overlap>& found) {
-        FacetAxis last;
-        for (; begin < end && found.size() < limit; ++begin) find_overlap(close[begin], last, found);
+        for (; begin < end && found.size() < limit; ++begin) find_overlap(close[begin], found);
       });
   if (all.size() > limit) all.erase(all.begin() + static_cast<std::ptrdiff_t>(limit), all.end());
   return all;
@@ -173,25 +163,6 @@ std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, con
 
 std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, const Triangle& t) {
   return meet_with_signs(p, q, numbers::orient3d(t[0], t[1], t[2], p), numbers::orient3d(t[0], t[1], t[2], q), t);
-}
-
-bool are_apart_in_plane(int axis, const Triangle& s, const Triangle& t, int common) {
-  const auto integers = [](const Triangle& u) {
-    return std::array<IntegerPoint, 3>{to_integers(u[0]), to_integers(u[1]), to_integers(u[2])};
-  };
-  const std::array<IntegerPoint, 3> is = integers(s), it = integers(t);
-  // Does the line of an edge of one triangle separate the two? A common corner, the first of both, may be on the line.
-  const auto divides = [&](const std::array<IntegerPoint, 3>& one, const std::array<IntegerPoint, 3>& other) {
-    const int sense = orient_along(axis, one[0], one[1], one[2]);
-    for (int k = 0; k < 3; ++k) {
-      const bool through_common = common == 1 && k != 1;
-      int j = through_common ? 1 : 0;
-      while (j < 3 && orient_along(axis, one[k], one[(k + 1) % 3], other[j]) == -sense) ++j;
-      if (j == 3) return true;
-    }
-    return false;
-  };
-  return divides(is, it) || divides(it, is);
 }
 
 std::optional<Contact> meet_triangles(const Triangle& s, const Triangle& t) {

@@ -40,13 +40,6 @@ struct Contact {
 /// Where a segment meets a triangle, both closed; nothing if they are apart.
 std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, const std::array<Point3, 3>& triangle);
 
-/// Are two coplanar triangles separated by the line of an edge of one, so that they share nothing, except perhaps a
-/// corner on that line? False does not mean that they meet: the functions below decide, but are many times slower.
-///
-/// \param axis    an axis that the plane is not parallel to
-/// \param common  the number of corners that both have: 0, or 1, the first of each
-bool are_apart_in_plane(int axis, const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common);
-
 /// Where two triangles without a common vertex meet, both closed.
 std::optional<Contact> meet_triangles(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
 

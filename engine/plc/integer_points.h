@@ -45,9 +45,14 @@ inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
   const WideVector n = exact_normal(t);
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
+
+/// Does the difference of two rounded products of exact factors have the sign that it seems to have? Its error is below
+/// 2^-52 of the sum of their magnitudes.
+inline bool is_certain(double p, double q) {
+  return std::fabs(p - q) > 1e-15 * (std::fabs(p) + std::fabs(q));
+}
+
 inline bool has_no_area(const std::array<Point3, 3>& t) {
-  // Differences are exact, and the error of one of products is below 2^-52 of the sum of their magnitudes.
-  const auto is_certain = [](double p, double q) { return std::fabs(p - q) > 1e-15 * (std::fabs(p) + std::fabs(q)); };
   const Point3 u = t[1] - t[0], v = t[2] - t[0];
   if (is_certain(u.x * v.y, u.y * v.x) || is_certain(u.y * v.z, u.z * v.y) || is_certain(u.z * v.x, u.x * v.z))
     return false;
@@ -70,8 +75,26 @@ inline int orient_along(int axis, const IntegerPoint& a, const IntegerPoint& b, 
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   return numbers::sign_of(Wide(b[u] - a[u]) * (c[v] - a[v]) - Wide(b[v] - a[v]) * (c[u] - a[u]));
 }
+
+/// A point in the plane across an axis.
+using PlanePoint = std::array<double, 2>;
+
+inline PlanePoint seen_along(int axis, const Point3& p) {
+  return axis == 0 ? PlanePoint{p.y, p.z} : axis == 1 ? PlanePoint{p.z, p.x} : PlanePoint{p.x, p.y};
+}
+
+/// The same orientation, of points on the grid.
+inline int orient_in_plane(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+  const double bu = b[0] - a[0], bv = b[1] - a[1], cu = c[0] - a[0], cv = c[1] - a[1];
+  const double p = bu * cv, q = bv * cu;
+  if (is_certain(p, q)) return p > q ? 1 : -1;
+  const auto product = [](double x, double y) {
+    return Wide(static_cast<std::int64_t>(x)) * static_cast<std::int64_t>(y);
+  };
+  return numbers::sign_of(product(bu, cv) - product(bv, cu));
+}
 inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3& c) {
-  return orient_along(axis, to_integers(a), to_integers(b), to_integers(c));
+  return orient_in_plane(seen_along(axis, a), seen_along(axis, b), seen_along(axis, c));
 }
 
 }  // namespace ccdt::plc
