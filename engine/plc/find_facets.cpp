@@ -117,7 +117,7 @@ class PatchFinder {
   bool is_lonely(std::uint32_t t) const {
     const Plane plane = plane_of(t).plane();
     return std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
-      return may_cross_[e] && find_turn(across(e, t), e, runs_along_edge(t, e), plane);
+      return may_cross_[e] && find_turn(across(e, t), e, t, false, plane);
     });
   }
 
@@ -165,29 +165,30 @@ class PatchFinder {
     return around[0] == t ? around[1] : around[0];
   }
 
-  // Does the triangle, of two, run along the edge from its smaller end to its greater?
-  bool runs_along_edge(std::uint32_t t, std::uint32_t e) const {
+  // Do the two triangles at the edge run along it the same way?
+  bool run_the_same_way(std::uint32_t e) const {
     const auto sides = edges_.sides_around(e);
-    return is_above(triangle_of(sides[0]) == t ? sides[0] : sides[1]);
+    return is_above(sides[0]) == is_above(sides[1]);
   }
 
   // Is the neighbor in the plane and, when oriented like the triangle it was reached from, counterclockwise in the
   // projection?
   bool accept(std::uint32_t next, std::uint32_t e, std::uint32_t t, const Plane& plane) {
-    const auto turn = find_turn(next, e, runs_along_edge(t, e) != static_cast<bool>(turned_[t]), plane);
+    const auto turn = find_turn(next, e, t, static_cast<bool>(turned_[t]), plane);
     if (turn) turned_[next] = *turn;
     return turn.has_value();
   }
 
-  // Must the neighbor be turned to belong to the patch? None if it does not belong there.
-  std::optional<bool> find_turn(std::uint32_t next, std::uint32_t e, bool runs, const Plane& plane) const {
+  // Must the neighbor of a triangle that is turned, or not, be turned to belong to the patch? None if it does not
+  // belong there.
+  std::optional<bool> find_turn(std::uint32_t next, std::uint32_t e, std::uint32_t t, bool is_turned,
+                                const Plane& plane) const {
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[next], a, b);
-    const auto around = edges_.around(e);
-    const double tolerance = std::min(tolerances_[around[0]], tolerances_[around[1]]);
+    const double tolerance = std::min(tolerances_[t], tolerances_[next]);
     for (const VertexId v : {apex, a, b})
       if (plane.squared_distance(vertices_[v]) > tolerance * tolerance) return std::nullopt;
-    const bool turn = runs_along_edge(next, e) == runs;
+    const bool turn = run_the_same_way(e) != is_turned;
     const int axis = dominant_axis(plane.normal);
     const double along = as_array(normals_[next])[axis] * as_array(plane.normal)[axis];  // signs are exact
     if (turn ? along >= 0 : along <= 0) return std::nullopt;
@@ -247,8 +248,7 @@ class PatchFinder {
       const auto e = static_cast<std::uint32_t>(i);
       if (!may_cross_[e]) return;
       const auto around = edges_.around(e);
-      patches.is_inner_edge[e] = facet_of_[around[0]] == facet_of_[around[1]] &&
-                                 runs_along_edge(around[0], e) != runs_along_edge(around[1], e);
+      patches.is_inner_edge[e] = facet_of_[around[0]] == facet_of_[around[1]] && !run_the_same_way(e);
     });
     return patches;
   }
