@@ -32,14 +32,21 @@ void throw_input_error(const Plc& plc, const std::string& what, const std::strin
 }
 
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  // A face is that of one triangle.
+  // A face is that of one triangle, so one of two with the same corners has none.
   if (std::ranges::find(triangles.faces, no_face) == triangles.faces.end()) return;
+  std::vector<char> may_be_shared(plc.vertices.size(), 0);
+  const auto smallest = [](const VertexTriple& t) { return std::min({t[0], t[1], t[2]}); };
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (triangles.faces[t] == no_face) may_be_shared[smallest(triangles.corners[t])] = 1;
   using KeyedTriangle = std::pair<FaceKey, std::uint32_t>;
-  std::vector<KeyedTriangle> sorted(triangles.size());
-  parallel_for(sorted.size(), 4096, [&](std::size_t t) {
-    const auto& [a, b, c] = triangles.corners[t];
-    sorted[t] = {face_key(a, b, c), static_cast<std::uint32_t>(t)};
-  });
+  std::vector<KeyedTriangle> sorted = parallel_collect<KeyedTriangle>(
+      triangles.size(), 4096, [&](std::size_t t, std::size_t end, std::vector<KeyedTriangle>& found) {
+        for (; t < end; ++t) {
+          const auto& [a, b, c] = triangles.corners[t];
+          if (may_be_shared[smallest(triangles.corners[t])])
+            found.emplace_back(face_key(a, b, c), static_cast<std::uint32_t>(t));
+        }
+      });
   sort_in_buckets(sorted, [](const KeyedTriangle& t) { return t.first[0]; });
   const auto twin = std::ranges::adjacent_find(sorted, {}, &KeyedTriangle::first);
   if (twin == sorted.end()) return;
