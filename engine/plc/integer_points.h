@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -42,6 +43,13 @@ inline Wide height_over(const IntegerPoint& a, const WideVector& normal, const I
 
 /// The exact normal rounded to doubles; zero components stay zero and signs are exact.
 inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
+  const Point3 u = t[1] - t[0], v = t[2] - t[0];
+  constexpr double inverse = 1.0 / numbers::DyadicGrid::quantum;
+  // Of less than 2^26 quanta, products have at most 52 bits, so that nothing is rounded.
+  const auto is_short = [](const Point3& p) {
+    return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < 0x1p26 * numbers::DyadicGrid::quantum;
+  };
+  if (is_short(u) && is_short(v)) return cross(inverse * u, inverse * v);
   const WideVector n = exact_normal(t);
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
