@@ -70,15 +70,15 @@ class PatchFinder {
   }
 
   FacetPatches find() {
-    std::vector<std::uint32_t> order = parallel_collect<std::uint32_t>(
-        triangles_.size(), grain, [&](std::size_t t, std::size_t end, std::vector<std::uint32_t>& found) {
+    std::vector<SizedTriangle> order = parallel_collect<SizedTriangle>(
+        triangles_.size(), grain, [&](std::size_t t, std::size_t end, std::vector<SizedTriangle>& found) {
           for (; t < end; ++t)
-            if (!is_lonely_[t]) found.push_back(static_cast<std::uint32_t>(t));
+            if (!is_lonely_[t]) found.push_back(sized(static_cast<std::uint32_t>(t)));
         });
-    sort_in_runs(order, [&](std::uint32_t s, std::uint32_t t) { return precedes(s, t); });
+    sort_in_runs(order);
 
     std::vector<std::uint32_t> seeds;
-    for (const std::uint32_t seed : order) {
+    for (const auto& [area, seed] : order) {
       if (facet_of_[seed] != none) continue;
       find_patch(seed);
       for (const std::uint32_t t : patch_) {
@@ -101,10 +101,13 @@ class PatchFinder {
   std::array<Point3, 3> corner_points(std::uint32_t t) const { return points_of(vertices_, triangles_.corners[t]); }
 
   // Patches of larger triangles grow first.
-  bool precedes(std::uint32_t s, std::uint32_t t) const {
-    const double area_of_s = squared_length(normals_[s]), area_of_t = squared_length(normals_[t]);
-    return area_of_s != area_of_t ? area_of_s > area_of_t : s < t;
-  }
+  struct SizedTriangle {
+    double area;
+    std::uint32_t triangle;
+
+    bool operator<(const SizedTriangle& o) const { return area != o.area ? area > o.area : triangle < o.triangle; }
+  };
+  SizedTriangle sized(std::uint32_t t) const { return {squared_length(normals_[t]), t}; }
 
   FittedPlane plane_of(std::uint32_t t) const {
     FittedPlane fitted;
@@ -143,7 +146,7 @@ class PatchFinder {
       const std::uint32_t t = patch_[i];
       for (const std::uint32_t e : edges_.edges_of[t]) {
         const std::uint32_t next = neighbor_across(e, t);
-        if (next == none || (is_lonely_[next] && precedes(next, seed)) || !accept(next, e, t, plane)) continue;
+        if (next == none || (is_lonely_[next] && sized(next) < sized(seed)) || !accept(next, e, t, plane)) continue;
         patch_.push_back(next);
         round_of_[next] = round_;
         if (!refit) continue;
