@@ -22,8 +22,9 @@ class RoundedPlane {
 
   const Point3& normal() const { return normal_; }
 
-  /// The side that a point is certainly on; 0: not known. Differences of points are exact and at most 2^52 + 2^21. So
-  /// errors are below that times five roundings, 5 * 2^-53, of the sum of the magnitudes of all products in the normal.
+  /// The side that a point is certainly on; 0: not known. Differences of points are exact and at most 2^52 + 2^21, and
+  /// each product in the normal takes part in five roundings. So the error is below 2.51 times the sum of their
+  /// magnitudes.
   int side_of(const Point3& p) const {
     const double height = dot(normal_, p - point_);
     return height > least_ ? 1 : height < -least_ ? -1 : 0;
@@ -76,6 +77,7 @@ int put_common_first(VertexTriple& s, VertexTriple& t) {
   return common;
 }
 
+/// Quick tests of pairs of triangles.
 class TrianglePairs {
  public:
   TrianglePairs(std::span<const Point3> vertices, std::span<const VertexTriple> triangles)
@@ -90,6 +92,7 @@ class TrianglePairs {
     VertexTriple s = triangles_[i], t = triangles_[j];
     const int common = put_common_first(s, t);
     if (common == 3) return true;
+    // Triangles in one plane are seen along the same axis. Of two others, one may touch the other's plane from a side.
     const std::array<Point3, 3> p = points_of(vertices_, s), q = points_of(vertices_, t);
     const int axis = dominant_axis(planes_[i].normal()), other_axis = dominant_axis(planes_[j].normal());
     return are_apart_seen_along(axis, p, q, common) ||

@@ -93,13 +93,12 @@ inline PlanePoint seen_along(int axis, const Point3& p) {
 
 /// The same orientation, of points on the grid.
 inline int orient_in_plane(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
-  const double bu = b[0] - a[0], bv = b[1] - a[1], cu = c[0] - a[0], cv = c[1] - a[1];
-  const double p = bu * cv, q = bv * cu;
+  const double p = (b[0] - a[0]) * (c[1] - a[1]), q = (b[1] - a[1]) * (c[0] - a[0]);
   if (is_certain(p, q)) return p > q ? 1 : -1;
   const auto product = [](double x, double y) {
     return Wide(static_cast<std::int64_t>(x)) * static_cast<std::int64_t>(y);
   };
-  return numbers::sign_of(product(bu, cv) - product(bv, cu));
+  return numbers::sign_of(product(b[0] - a[0], c[1] - a[1]) - product(b[1] - a[1], c[0] - a[0]));
 }
 inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3& c) {
   return orient_in_plane(seen_along(axis, a), seen_along(axis, b), seen_along(axis, c));
