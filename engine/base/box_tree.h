@@ -31,7 +31,7 @@ class BoxTree {
   /// Calls visit(i, j) once for every pair of different items whose boxes meet.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
-    if (!items_.empty()) descend_self(1, AllPairs(), visit);
+    if (!items_.empty()) descend_self(1, AllPairs{*this}, visit);
   }
 
   /// Calls collect(found, i, j), on several threads, for the pairs of which at least one item is wanted, to add to a
@@ -41,33 +41,50 @@ class BoxTree {
   /// \return  the lists, one after the other as `for_each_pair` comes to their pairs
   template <class Item, class Collect>
   std::vector<Item> collect_from_pairs(std::span<const std::uint8_t> is_wanted, const Collect& collect) const {
-    return is_wanted.empty() ? collect_from<Item>(AllPairs(), collect)
+    return is_wanted.empty() ? collect_from<Item>(AllPairs{*this}, collect)
                              : collect_from<Item>(WantedPairs(*this, is_wanted), collect);
   }
 
  private:
+  /// All pairs whose boxes meet.
   struct AllPairs {
-    bool has_any(std::uint32_t, std::uint32_t) const { return true; }
-    bool has(std::size_t, std::size_t) const { return true; }
+    const BoxTree& tree;
+
+    bool has_any(std::uint32_t a, std::uint32_t b) const { return tree.nodes_[a].meets(tree.nodes_[b]); }
+    bool has_any_of(std::size_t i, std::uint32_t node) const { return tree.boxes_[i].meets(tree.nodes_[node]); }
+    bool has(std::size_t i, std::size_t j) const { return tree.boxes_[i].meets(tree.boxes_[j]); }
   };
 
-  /// The pairs of which at least one item is wanted.
+  /// Those of which at least one item is wanted.
   class WantedPairs {
    public:
     WantedPairs(const BoxTree& tree, std::span<const std::uint8_t> is_wanted)
-        : places_(tree.items_.size()), nodes_(tree.nodes_.size(), false) {
-      for (std::size_t i = 0; i < places_.size(); ++i) {
-        places_[i] = is_wanted[tree.items_[i]];
-        nodes_[tree.leaf_count_ + i / leaf_size] |= places_[i];
+        : tree_(tree), is_wanted_(tree.items_.size()), wanted_(tree.nodes_.size(), empty_box) {
+      for (std::size_t i = 0; i < is_wanted_.size(); ++i) {
+        is_wanted_[i] = is_wanted[tree.items_[i]];
+        Box& leaf = wanted_[tree.leaf_count_ + i / leaf_size];
+        if (is_wanted_[i]) leaf = hull(leaf, tree.boxes_[i]);
       }
-      for (std::size_t node = tree.leaf_count_; node-- > 1;) nodes_[node] = nodes_[2 * node] | nodes_[2 * node + 1];
+      for (std::size_t node = tree.leaf_count_; node-- > 1;)
+        wanted_[node] = hull(wanted_[2 * node], wanted_[2 * node + 1]);
     }
-    /// Are there any between two nodes, or within one?
-    bool has_any(std::uint32_t a, std::uint32_t b) const { return (nodes_[a] | nodes_[b]) != 0; }
-    bool has(std::size_t i, std::size_t j) const { return (places_[i] | places_[j]) != 0; }
+    /// May there be any between two nodes, or within one?
+    bool has_any(std::uint32_t a, std::uint32_t b) const {
+      return tree_.nodes_[a].meets(tree_.nodes_[b]) &&
+             (wanted_[a].meets(tree_.nodes_[b]) || tree_.nodes_[a].meets(wanted_[b]));
+    }
+    /// Of one item with those of a node?
+    bool has_any_of(std::size_t i, std::uint32_t node) const {
+      return tree_.boxes_[i].meets(is_wanted_[i] ? tree_.nodes_[node] : wanted_[node]);
+    }
+    bool has(std::size_t i, std::size_t j) const {
+      return (is_wanted_[i] | is_wanted_[j]) != 0 && tree_.boxes_[i].meets(tree_.boxes_[j]);
+    }
 
    private:
-    std::vector<std::uint8_t> places_, nodes_;  ///< have a wanted item
+    const BoxTree& tree_;
+    std::vector<std::uint8_t> is_wanted_;
+    RawVector<Box> wanted_;  ///< of each node: the hull of the wanted items
   };
 
   template <class Item, class Pairs, class Collect>
@@ -80,7 +97,7 @@ class BoxTree {
                                     for (const auto& [a, b] : std::span(searches).subspan(begin, end - begin))
                                       if (a == b)
                                         descend_self(a, pairs, visit);
-                                      else if (nodes_[a].meets(nodes_[b]))
+                                      else if (pairs.has_any(a, b))
                                         descend_both(a, b, pairs, visit);
                                   });
   }
@@ -134,7 +151,7 @@ class BoxTree {
     if (!is_leaf(node)) {
       descend_self(2 * node, pairs, visit);
       descend_self(2 * node + 1, pairs, visit);
-      if (nodes_[2 * node].meets(nodes_[2 * node + 1])) descend_both(2 * node, 2 * node + 1, pairs, visit);
+      if (pairs.has_any(2 * node, 2 * node + 1)) descend_both(2 * node, 2 * node + 1, pairs, visit);
       return;
     }
     const auto [begin, end] = places_of(node);
@@ -144,7 +161,7 @@ class BoxTree {
 
   template <class Pairs, class Visit>
   void visit_if_meeting(std::size_t i, std::size_t j, const Pairs& pairs, const Visit& visit) const {
-    if (!pairs.has(i, j) || !boxes_[i].meets(boxes_[j])) return;
+    if (!pairs.has(i, j)) return;
     ++work_done.box_pairs;
     visit(items_[i], items_[j]);
   }
@@ -156,13 +173,13 @@ class BoxTree {
     if (!is_leaf(a)) {  // both are on the same level
       for (const std::uint32_t i : {2 * a, 2 * a + 1})
         for (const std::uint32_t j : {2 * b, 2 * b + 1})
-          if (pairs.has_any(i, j) && nodes_[i].meets(nodes_[j])) descend_both(i, j, pairs, visit);
+          if (pairs.has_any(i, j)) descend_both(i, j, pairs, visit);
       return;
     }
     const auto [begin_a, end_a] = places_of(a);
     const auto [begin_b, end_b] = places_of(b);
     for (std::size_t i = begin_a; i < end_a; ++i) {
-      if (!boxes_[i].meets(nodes_[b])) continue;
+      if (!pairs.has_any_of(i, b)) continue;
       for (std::size_t j = begin_b; j < end_b; ++j) visit_if_meeting(i, j, pairs, visit);
     }
   }
