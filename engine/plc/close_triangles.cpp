@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/plc/integer_points.h"
 
@@ -99,6 +100,8 @@ class TrianglePairs {
            (other_axis != axis && are_apart_seen_along(other_axis, p, q, common));
   }
 
+  std::size_t bytes() const { return bytes_of(planes_); }
+
  private:
   /// Is a triangle certainly on one side of the other's plane, except for common corners?
   bool is_on_one_side(std::uint32_t triangle, std::uint32_t of) const {
@@ -134,10 +137,12 @@ bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::a
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
                                                const BoxTree& tree, std::span<const std::uint8_t> is_doubtful) {
   const TrianglePairs pairs(vertices, triangles.corners);
-  return tree.collect_from_pairs<TrianglePair>(is_doubtful,
-                                               [&](std::vector<TrianglePair>& close, std::uint32_t i, std::uint32_t j) {
-                                                 if (!pairs.are_apart(i, j)) close.push_back({i, j});
-                                               });
+  std::vector<TrianglePair> close = tree.collect_from_pairs<TrianglePair>(
+      is_doubtful, [&](std::vector<TrianglePair>& found, std::uint32_t i, std::uint32_t j) {
+        if (!pairs.are_apart(i, j)) found.push_back({i, j});
+      });
+  note_bytes(bytes_of(vertices, triangles.corners, close) + tree.bytes() + pairs.bytes());
+  return close;
 }
 
 }  // namespace ccdt::plc
