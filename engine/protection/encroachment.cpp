@@ -23,6 +23,12 @@ double WorstVertex::width() const {
 /// From every vertex but the nearest one, an edge leads to a vertex nearer to a place, as in a greedy walk. So the
 /// vertices in a ball are connected by edges within it, and the cells around them by faces that have such a vertex.
 ///
+/// A piece that is not an edge leaves its first end through a cell that has another vertex in the diametral ball, or on
+/// it: the power of a point with respect to this ball, less that with respect to the cell's sphere, changes linearly.
+/// It is zero at the first end and at most zero at the other, so at most zero where the piece leaves the cell, and at
+/// one of the three corners around that place, which are on the cell's sphere. If a vertex of that cell is clearly
+/// inside, the search starts there and does not go through the ends.
+///
 /// If there are many in the diametral ball, worse ones than the worst one so far can only be near the piece. Each is
 /// searched for in the ball between itself and one of three vertices: that one or an end, whichever is nearest along
 /// the piece. A vertex may be in such a ball if some place near that part of the piece is in front of the plane through
@@ -30,14 +36,20 @@ double WorstVertex::width() const {
 bool DiametralSearch::find_worst(std::uint32_t a, std::uint32_t b, WorstVertex& worst) {
   const Point3 &p = d_.point(a), &q = d_.point(b);
   const double length = ccdt::length(q - p), room = 1e-9 * length * length;
-  if (spread(a, worst, [&](std::uint32_t v) { return dot(p - d_.point(v), q - d_.point(v)) < room; })) return true;
+  const auto is_within = [&](std::uint32_t v, double bound) { return dot(p - d_.point(v), q - d_.point(v)) < bound; };
+  const std::uint32_t leaving = cell_toward(d_, a, q, b);
+  const bool starts_inside =
+      std::ranges::any_of(d_.cells[leaving].vertices, [&](std::uint32_t v) { return is_within(v, -room); });
+  if (spread(leaving, worst,
+             [&](std::uint32_t v) { return is_within(v, room) && !(starts_inside && (v == a || v == b)); }))
+    return true;
   const double width = worst.width();
   if (width > 0.1 * length) return false;
   const Point3 axis = (1 / length) * (q - p);
   const std::uint32_t worst_so_far = *worst.vertex();
   const double before = 0.5 * dot(axis, d_.point(worst_so_far) - p), after = 0.5 * length - before;
   const auto search_from = [&](std::uint32_t start, double backward, double forward) {
-    return spread(start, worst, [&](std::uint32_t v) {
+    return spread(cell_at(start), worst, [&](std::uint32_t v) {
       const Point3 to = d_.point(v) - d_.point(start);
       const double along = dot(axis, to), across = ccdt::length(cross(axis, to));
       return (std::max(-along * backward, along * forward) + 2 * width * across) * (1 + 1e-9) >= squared_length(to);
@@ -46,7 +58,13 @@ bool DiametralSearch::find_worst(std::uint32_t a, std::uint32_t b, WorstVertex& 
   return search_from(a, 0, before) && search_from(worst_so_far, before, after) && search_from(b, after, 0);
 }
 
-/// Examines the vertices inside, as far as edges within connect them with the first one.
+/// A cell with this vertex.
+std::uint32_t DiametralSearch::cell_at(std::uint32_t v) const {
+  const std::uint32_t cell = d_.cell_at[v];
+  return d_.is_ghost(cell) ? delaunay::cell_of(d_.cells[cell].neighbors[3]) : cell;
+}
+
+/// Examines the vertices inside, as far as edges within connect them with those of the first cell.
 /// \return false if there are too many
 template <class IsInside>
 bool DiametralSearch::spread(std::uint32_t first, WorstVertex& worst, const IsInside& is_inside) {
@@ -66,9 +84,8 @@ bool DiametralSearch::spread(std::uint32_t first, WorstVertex& worst, const IsIn
     return where[v] == Where::inside;
   };
   met_.clear();
-  const std::uint32_t start = d_.cell_at[first];
-  cells_.assign(1, d_.is_ghost(start) ? delaunay::cell_of(d_.cells[start].neighbors[3]) : start);
-  is_found[cells_[0]] = 1;
+  cells_.assign(1, first);
+  is_found[first] = 1;
   for (std::size_t i = 0; i < cells_.size() && found <= most_vertices; ++i) {
     const auto& [v, neighbors] = cells[cells_[i]];
     const std::array inside = {is_known_inside(v[0]), is_known_inside(v[1]), is_known_inside(v[2]),

@@ -46,6 +46,7 @@ class DiametralSearch {
   bool find_worst(std::uint32_t a, std::uint32_t b, WorstVertex& worst);
 
  private:
+  std::uint32_t cell_at(std::uint32_t v) const;
   template <class IsInside>
   bool spread(std::uint32_t first, WorstVertex& worst, const IsInside& is_inside);
 

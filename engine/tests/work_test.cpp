@@ -267,7 +267,7 @@ protect.cells_tested 36
 protect.cells_created 26
 protect.cells_destroyed 13
 protect.largest_cavity 5
-protect.cells_visited 47
+protect.cells_visited 51
 protect.peak_bytes 1124
 )");
 }
