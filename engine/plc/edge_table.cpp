@@ -156,7 +156,7 @@ std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const T
                                        std::size_t limit) {
   const auto sort_around = [&](std::uint32_t e, std::vector<Overlap>& covering) {
     const std::span<std::uint32_t> around = edges.sides_around(e);
-    if (is_inner_edge[e] || around.size() < 2) return;
+    if (is_inner_edge[e] || around.size() < 2 || edges.turns[e] != Turn::unknown) return;
     const Point3 &a = vertices[edges.ends[e][0]], &b = vertices[edges.ends[e][1]];
     const auto apex = [&](std::uint32_t side) -> const Point3& {
       return vertices[apex_over(triangles.corners[triangle_of(side)], edges.ends[e][0], edges.ends[e][1])];
@@ -186,7 +186,6 @@ std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const T
       if (covering.size() == limit) return;
     }
   };
-  edges.turns.resize(edges.size());
   std::vector<Overlap> covering = parallel_collect<Overlap>(
       edges.size(), chunk_length, [&](std::size_t begin, std::size_t end, std::vector<Overlap>& found) {
         for (std::size_t e = begin; e < end && found.size() < limit; ++e)

@@ -81,7 +81,7 @@ constexpr std::uint32_t opposite_of(std::uint32_t side) {
 }
 
 /// An angle, exactly classified.
-enum class Turn : std::uint8_t { zero, below_180, exactly_180, above_180 };
+enum class Turn : std::uint8_t { unknown, zero, below_180, exactly_180, above_180 };
 
 /// Two triangles or segments that meet in more than common vertices and edges, and such a point in grid units.
 struct Overlap {
@@ -100,8 +100,9 @@ struct EdgeTable {
   std::vector<std::uint32_t> first;                    ///< the sides of edge e: sides[first[e]] ... sides[first[e+1]-1]
   std::vector<std::uint32_t> sides;                    ///< increasing within an edge, until `sort_around_edges`
   std::vector<std::array<std::uint32_t, 3>> edges_of;  ///< the three edges of each triangle, in no particular order
-  std::vector<Turn> turns;  ///< at an edge of two triangles that are not in one facet: the angle from the first to the
-                            ///< second, counterclockwise as above; by `sort_around_edges`
+  std::vector<Turn> turns;  ///< at an edge of two triangles: the angle from the first to the second, counterclockwise
+                            ///< as above; clear ones by `find_facets`, the others, but those within one facet, by
+                            ///< `sort_around_edges`
 
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -135,11 +136,11 @@ void note_turned(std::uint32_t triangle, EdgeTable& edges);
 Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// Sorts the triangles around each edge of three or more by angle, counterclockwise about the axis from its smaller end
-/// to its greater, and finds the angle at edges of two.
+/// to its greater, and finds the angle at edges of two where `find_facets` has not.
 ///
 /// \param is_inner_edge  edges within one facet: they have two triangles and are skipped
 /// \param tolerance      in grid units; two facets on the same side of an edge and this near to each other cover each
-///                       other
+///                       other. At most the tolerances that `find_facets` had
 /// \return pairs of triangles that cover each other, at most `limit`; if it is reached, not all edges are sorted
 std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
                                        const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges,

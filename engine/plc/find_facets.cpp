@@ -56,16 +56,16 @@ class PatchFinder {
         turned_(triangles.size(), 0),
         round_of_(triangles.size(), 0),
         may_cross_(edges.size()),
-        may_be_flat_(edges.size()),
         is_lonely_(triangles.size()) {
     parallel_for(triangles.size(), grain,
                  [&](std::size_t t) { normals_[t] = rounded_normal(corner_points(static_cast<std::uint32_t>(t))); });
+    edges.turns.assign(edges.size(), Turn::unknown);
     parallel_for(edges.size(), grain, [&](std::size_t i) {
       const auto e = static_cast<std::uint32_t>(i);
       const auto around = edges.around(e);
-      may_cross_[e] =
-          around.size() == 2 && segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
-      may_be_flat_[e] = may_cross_[e] && may_be_flat(e);
+      if (around.size() != 2) return;
+      edges.turns[e] = clear_turn(e);
+      may_cross_[e] = segment_of[e] == none && triangles.markers[around[0]] == triangles.markers[around[1]];
     });
     parallel_for(triangles.size(), grain,
                  [&](std::size_t t) { is_lonely_[t] = is_lonely(static_cast<std::uint32_t>(t)); });
@@ -117,25 +117,28 @@ class PatchFinder {
     return fitted;
   }
 
-  // Most triangles of a curved surface are facets of their own. They are found before patches grow. A triangle that
-  // would take in its neighbor at some edge is none of them.
-  bool is_lonely(std::uint32_t t) const {
-    return std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
-      return may_be_flat_[e] && find_turn(across(e, t), e, t, false, plane_of(t).plane());
-    });
-  }
-
-  // May one of the two triangles at an edge be in the plane of the other? If not, both are certainly too far from it:
-  // their heights are the same volume over different areas.
-  bool may_be_flat(std::uint32_t e) const {
-    constexpr double rounding = 64;  // grid units; far more than that of heights here and in `find_turn`
-    const auto around = edges_.around(e);
-    const std::uint32_t s = around[0], t = around[1];
+  // The angle between the two triangles at an edge, if it is so clear that neither may be in the plane of the other:
+  // both heights, which are the same volume over different areas, are above the tolerance. Otherwise unknown.
+  Turn clear_turn(std::uint32_t e) const {
+    constexpr double rounding = 64;  // grid units; far more than that of heights here, in `find_turn` and elsewhere
+    const auto sides = edges_.sides_around(e);
+    const std::uint32_t s = triangle_of(sides[0]), t = triangle_of(sides[1]);
     const auto [a, b] = edges_.ends[e];
     const VertexId apex = apex_over(triangles_.corners[t], a, b);
     const double volume = dot(normals_[s], vertices_[apex] - vertices_[a]);
     const double least = std::min(tolerances_[s], tolerances_[t]) + rounding;
-    return volume * volume <= least * least * std::max(squared_length(normals_[s]), squared_length(normals_[t]));
+    if (volume * volume <= least * least * std::max(squared_length(normals_[s]), squared_length(normals_[t])))
+      return Turn::unknown;
+    return (volume > 0) == is_above(sides[0]) ? Turn::below_180 : Turn::above_180;
+  }
+
+  // Most triangles of a curved surface are facets of their own. They are found before patches grow. A triangle that
+  // would take in its neighbor at some edge is none of them.
+  bool is_lonely(std::uint32_t t) const {
+    return std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
+      return may_cross_[e] && edges_.turns[e] == Turn::unknown &&
+             find_turn(across(e, t), e, t, false, plane_of(t).plane());
+    });
   }
 
   // Stores the patch of the seed in `patch_`. It grows along a plane that is fitted on the way. If some vertex is too
@@ -279,7 +282,6 @@ class PatchFinder {
   std::vector<char> turned_;
   std::vector<std::uint32_t> round_of_;  // the last round of growing that reached the triangle
   std::vector<char> may_cross_;          // edges that a patch may grow over
-  std::vector<char> may_be_flat_;        // those at which the two triangles may be in one plane
   std::vector<char> is_lonely_;          // no neighbor belongs to the patch of the triangle
   std::uint32_t round_ = 0;
   std::vector<std::uint32_t> patch_;
