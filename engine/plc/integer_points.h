@@ -18,7 +18,7 @@ using Wide = numbers::Int128;
 using IntegerPoint = std::array<std::int64_t, 3>;
 using WideVector = std::array<Wide, 3>;
 
-/// A vertex of the input, measured in quanta.
+/// A vertex of the input, or a difference of two, measured in quanta.
 inline IntegerPoint to_integers(const Point3& p) {
   constexpr double inverse = 1.0 / numbers::DyadicGrid::quantum;
   return {static_cast<std::int64_t>(p.x * inverse), static_cast<std::int64_t>(p.y * inverse),
@@ -44,12 +44,15 @@ inline Wide height_over(const IntegerPoint& a, const WideVector& normal, const I
 /// The exact normal rounded to doubles; zero components stay zero and signs are exact.
 inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
   const Point3 u = t[1] - t[0], v = t[2] - t[0];
-  constexpr double inverse = 1.0 / numbers::DyadicGrid::quantum;
-  // Of less than 2^26 quanta, products have at most 52 bits, so that nothing is rounded.
+  // Of less than 2^31 quanta, differences of products have at most 63 bits.
   const auto is_short = [](const Point3& p) {
-    return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < 0x1p26 * numbers::DyadicGrid::quantum;
+    return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < 0x1p31 * numbers::DyadicGrid::quantum;
   };
-  if (is_short(u) && is_short(v)) return cross(inverse * u, inverse * v);
+  if (is_short(u) && is_short(v)) {
+    const IntegerPoint p = to_integers(u), q = to_integers(v);
+    return {static_cast<double>(p[1] * q[2] - p[2] * q[1]), static_cast<double>(p[2] * q[0] - p[0] * q[2]),
+            static_cast<double>(p[0] * q[1] - p[1] * q[0])};
+  }
   const WideVector n = exact_normal(t);
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
