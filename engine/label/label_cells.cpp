@@ -52,6 +52,13 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
   return bits;
 }
 
+void note_least(std::uint32_t& least, std::uint32_t i) {
+  const std::atomic_ref shared(least);
+  std::uint32_t before = shared.load(std::memory_order_relaxed);
+  while (i < before && !shared.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
+  }
+}
+
 /// Labels the cells that are connected to some first ones, with their region.
 class RegionFlood {
  public:
@@ -76,6 +83,10 @@ class RegionFlood {
                       }
                     });
   }
+
+  /// The least labeled cell behind a wall that is not open on its side: the front has filled that side, so the labeled
+  /// part leaks into what the front has replaced. `no_cell` if there is none.
+  std::uint32_t leak() const { return leak_; }
 
   std::size_t bytes() const { return bytes_of(is_reached_); }
 
@@ -102,8 +113,10 @@ class RegionFlood {
         __builtin_prefetch(&bits_[cells[i + ahead]]);
       }
       const std::uint32_t cell = cells[i];
+      const unsigned walls = bits_[cell] & 0x0Fu, open = bits_[cell] >> 4;
+      if ((walls & ~open) != 0) note_least(leak_, cell);
       for (std::uint32_t f = 0; f < 4; ++f) {
-        const bool is_wall = (bits_[cell] >> f & 1) != 0;
+        const bool is_wall = (walls >> f & 1) != 0;
         const std::uint32_t next = is_wall ? cell : cell_of(d_.cells[cell].neighbors[f]);
         reached[count] = next;
         count += reach(next);
@@ -118,34 +131,9 @@ class RegionFlood {
   const FaceBits& bits_;
   RawVector<RegionId>& region_;
   RawVector<std::uint8_t> is_reached_;  ///< by cell; stays in the cache, unlike the regions
+  std::uint32_t leak_ = delaunay::no_cell;
   const SetBits set_bits_;
 };
-
-void note_least(std::uint32_t& least, std::uint32_t i) {
-  const std::atomic_ref shared(least);
-  std::uint32_t before = shared.load(std::memory_order_relaxed);
-  while (i < before && !shared.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
-  }
-}
-
-/// A face of the PLC whose side toward a labeled cell was not open: the front has filled that side, so the labeled
-/// part leaks into what the front has replaced.
-/// \return a cell where this happens; `no_neighbor` if there is none
-std::uint32_t find_leak(const delaunay::Delaunay& d, const FaceBits& bits, const std::vector<std::uint32_t>& wall_codes,
-                        std::span<const RegionId> region) {
-  const auto leaks = [&](std::uint32_t side) {
-    const std::uint32_t cell = cell_of(side);
-    return !region[cell].is_none() && !(bits[cell] >> face_of(side) & 0x10u);
-  };
-  std::uint32_t leak = no_neighbor;
-  parallel_for(wall_codes.size(), grain, [&](std::size_t i) {
-    const std::uint32_t code = wall_codes[i];
-    if (code != no_neighbor && (leaks(code) || leaks(d.across(code)))) note_least(leak, static_cast<std::uint32_t>(i));
-  });
-  if (leak == no_neighbor) return no_neighbor;
-  const std::uint32_t code = wall_codes[leak];
-  return cell_of(leaks(code) ? code : d.across(code));
-}
 
 }  // namespace
 
@@ -176,8 +164,7 @@ CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const s
   std::uint32_t ghost = 0;
   while (d.is_dead(ghost) || !d.is_ghost(ghost)) ++ghost;
   if (!region[ghost].is_none()) return stuck_at(plc, d, ghost);
-  const std::uint32_t leak = find_leak(d, bits, wall_codes, region);
-  if (leak != no_neighbor) return stuck_at(plc, d, leak);
+  if (flood.leak() != delaunay::no_cell) return stuck_at(plc, d, flood.leak());
   return {std::move(region)};
 }
 
