@@ -35,12 +35,6 @@ void check_overlaps(const Plc& plc, const PlcParts& parts, const std::vector<Ove
     throw_overlaps(plc, parts.triangles, parts.segments, overlaps, overlaps.size() == most_overlaps);
 }
 
-// The triangles in space, and the pairs of them that may cross.
-struct TriangleSearch {
-  std::optional<BoxTree> tree;  // none: it was not worth its price
-  std::vector<TrianglePair> close;
-};
-
 // By triangle: is it not known to be a face of the complex? Empty: no triangle is known to be one.
 std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
   std::vector<std::uint8_t> is_doubtful;
@@ -50,19 +44,13 @@ std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
   return is_doubtful;
 }
 
-// Splits triangles at the vertices that are on them.
-TriangleSearch make_conforming(std::span<const Point3> vertices, TriangleSet& triangles) {
-  TriangleSearch search;
-  auto& [tree, close] = search;
+// Splits triangles at the vertices that are on them. Returns the pairs that may cross.
+std::vector<TrianglePair> make_conforming(std::span<const Point3> vertices, TriangleSet& triangles) {
   const std::vector<std::uint8_t> is_doubtful = find_doubtful(triangles);
-  if (!is_doubtful.empty() && std::ranges::find(is_doubtful, 1) == is_doubtful.end()) return search;
-  tree.emplace(boxes_of(vertices, triangles));
-  close = find_close_triangles(vertices, triangles, *tree, is_doubtful);
-  if (split_triangles_at_vertices(vertices, close, *tree, triangles)) {
-    tree.emplace(boxes_of(vertices, triangles));
-    close = find_close_triangles(vertices, triangles, *tree);
-  }
-  return search;
+  if (!is_doubtful.empty() && std::ranges::find(is_doubtful, 1) == is_doubtful.end()) return {};
+  std::vector<TrianglePair> close = find_close_triangles(vertices, triangles, is_doubtful);
+  if (split_triangles_at_vertices(vertices, close, triangles)) close = find_close_triangles(vertices, triangles);
+  return close;
 }
 
 // Is a sector of the domain of 180 degrees or more around the edge?
@@ -156,7 +144,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
   PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
   auto& [triangles, segments, edges, match, patches] = parts;
   check_duplicate_triangles(plc, triangles);
-  auto [tree, close] = make_conforming(plc.vertices, triangles);
+  const std::vector<TrianglePair> close = make_conforming(plc.vertices, triangles);
   split_segments_at_vertices(plc.vertices, segments);
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
@@ -171,8 +159,9 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
       sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, std::ranges::min(tolerances), edges, 1);
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
+  std::optional<BoxTree> tree;  // of the triangles, if it is worth its price
   if (!match.loose.empty()) {
-    if (!tree) tree.emplace(boxes_of(plc.vertices, triangles));
+    tree.emplace(boxes_of(plc.vertices, triangles));
     check_overlaps(plc, parts,
                    find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, most_overlaps));
   }

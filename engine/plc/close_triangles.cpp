@@ -1,9 +1,13 @@
 #include "engine/plc/close_triangles.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
+#include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/plc/integer_points.h"
@@ -135,13 +139,32 @@ bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::a
 }
 
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                               const BoxTree& tree, std::span<const std::uint8_t> is_doubtful) {
+                                               std::span<const std::uint8_t> is_doubtful) {
+  const auto may_cross = [&](std::uint32_t t) { return is_doubtful.empty() || is_doubtful[t] != 0; };
+  std::vector<std::uint32_t> all(triangles.size()), doubtful;
+  std::iota(all.begin(), all.end(), 0u);
+  std::ranges::copy_if(all, std::back_inserter(doubtful), may_cross);
+  // To look for all around a few is faster than to make a tree of all.
+  constexpr std::size_t triangles_for_one = 64;
+  const bool are_few = doubtful.size() < all.size() / triangles_for_one;
+  const std::vector<std::uint32_t>&in_tree = are_few ? doubtful : all, &sought = are_few ? all : doubtful;
+  const auto box = [&](std::uint32_t t) { return bounding_box(points_of(vertices, triangles.corners[t])); };
+  RawVector<Box> boxes(in_tree.size());
+  parallel_for(boxes.size(), 4096, [&](std::size_t i) { boxes[i] = box(in_tree[i]); });
+  const BoxTree tree(std::move(boxes));
   const TrianglePairs pairs(vertices, triangles.corners);
-  std::vector<TrianglePair> close = tree.collect_from_pairs<TrianglePair>(
-      is_doubtful, [&](std::vector<TrianglePair>& found, std::uint32_t i, std::uint32_t j) {
-        if (!pairs.are_apart(i, j)) found.push_back({i, j});
+  std::vector<TrianglePair> close = parallel_collect<TrianglePair>(
+      sought.size(), 256, [&](std::size_t i, std::size_t end, std::vector<TrianglePair>& found) {
+        for (; i < end; ++i) {
+          const std::uint32_t s = sought[i];
+          tree.for_each_meeting(box(s), [&](std::uint32_t place) {
+            const std::uint32_t t = in_tree[place];
+            if (t == s || (t < s && may_cross(s) && may_cross(t))) return;  // the pair is found at the other one
+            if (!pairs.are_apart(s, t)) found.push_back({s, t});
+          });
+        }
       });
-  note_bytes(bytes_of(vertices, triangles.corners, close) + tree.bytes() + pairs.bytes());
+  note_bytes(bytes_of(vertices, triangles.corners, all, doubtful, close) + tree.bytes() + pairs.bytes());
   return close;
 }
 

@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/box_tree.h"
+#include "engine/base/box.h"
+#include "engine/base/raw_vector.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::plc {
@@ -22,10 +23,9 @@ struct TrianglePair {
 /// in one plane, of the line of one of its edges: these are left out.
 ///
 /// \param triangles    with an area
-/// \param tree         over `boxes_of(vertices, triangles)`
 /// \param is_doubtful  by triangle: pairs of two others are left out as well; empty: all are
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
-                                               const BoxTree& tree, std::span<const std::uint8_t> is_doubtful = {});
+                                               std::span<const std::uint8_t> is_doubtful = {});
 
 /// Does the line of an edge of one of two triangles, seen along an axis, divide the two, so that they share nothing but
 /// common corners? False does not mean that they meet.

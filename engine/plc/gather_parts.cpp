@@ -381,7 +381,7 @@ namespace {
 using VertexOnTriangle = std::pair<std::uint32_t, VertexId>;
 
 std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3> vertices,
-                                                         std::span<const TrianglePair> close, const BoxTree& tree,
+                                                         std::span<const TrianglePair> close,
                                                          const TriangleSet& triangles) {
   const auto test = [&](std::span<const VertexId> those, std::uint32_t t, std::vector<VertexOnTriangle>& found) {
     const auto corners = points_of(vertices, triangles.corners[t]);
@@ -401,9 +401,13 @@ std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3>
   std::vector<bool> is_corner(vertices.size(), false);
   for (const VertexTriple& t : triangles.corners)
     for (const VertexId v : t) is_corner[v] = true;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i)
-    if (const VertexId v(i); !is_corner[i])
-      tree.for_each_meeting(box_of(vertices[i]), [&](std::uint32_t t) { test({&v, 1}, t, found); });
+  std::optional<BoxTree> tree;  // mostly not needed
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const VertexId v(i);
+    if (is_corner[i]) continue;
+    if (!tree) tree.emplace(boxes_of(vertices, triangles));
+    tree->for_each_meeting(box_of(vertices[i]), [&](std::uint32_t t) { test({&v, 1}, t, found); });
+  }
   std::ranges::sort(found);
   const auto again = std::ranges::unique(found);
   found.erase(again.begin(), again.end());
@@ -413,8 +417,8 @@ std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3>
 }  // namespace
 
 bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<const TrianglePair> close,
-                                 const BoxTree& tree, TriangleSet& triangles) {
-  const std::vector<VertexOnTriangle> found = find_vertices_on_triangles(vertices, close, tree, triangles);
+                                 TriangleSet& triangles) {
+  const std::vector<VertexOnTriangle> found = find_vertices_on_triangles(vertices, close, triangles);
   if (found.empty()) return false;
 
   TriangleSet result;

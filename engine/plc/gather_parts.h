@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "engine/base/box_tree.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
@@ -47,10 +46,9 @@ std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, Tria
 /// conforms in space then also conforms by indices.
 ///
 /// \param close  of the triangles
-/// \param tree   over the boxes of the triangles
 /// \return was anything split? Then the triangles are new
 bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<const TrianglePair> close,
-                                 const BoxTree& tree, TriangleSet& triangles);
+                                 TriangleSet& triangles);
 
 /// Splits the segments that contain other vertices, drops those without length, and keeps the first of equal ones.
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments);

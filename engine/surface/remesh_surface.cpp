@@ -171,9 +171,9 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
   for (const plc::Overlap& o :
        plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges, most_places))
     add(o);
-  const BoxTree tree(plc::boxes_of(plc.vertices, triangles));
-  const std::vector<plc::TrianglePair> close = plc::find_close_triangles(plc.vertices, triangles, tree);
+  const std::vector<plc::TrianglePair> close = plc::find_close_triangles(plc.vertices, triangles);
   for (const plc::Overlap& o : plc::find_overlaps(plc.vertices, triangles, facets, close, most_places)) add(o);
+  const BoxTree tree(plc::boxes_of(plc.vertices, triangles));
   for (const plc::Overlap& o :
        plc::find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
     add(o);

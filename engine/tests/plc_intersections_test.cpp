@@ -6,6 +6,7 @@
 
 #include "engine/base/box_tree.h"
 #include "engine/numbers/predicates.h"
+#include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/integer_points.h"
@@ -196,14 +197,6 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
 
-    std::vector<std::uint8_t> is_wanted(count);
-    for (std::uint8_t& wanted : is_wanted) wanted = random() % 4 == 0;
-    std::erase_if(expected, [&](const auto& pair) { return !is_wanted[pair.first] && !is_wanted[pair.second]; });
-    auto wanted = tree.collect_from_pairs<std::pair<std::uint32_t, std::uint32_t>>(
-        is_wanted, [](auto& pairs, std::uint32_t i, std::uint32_t j) { pairs.push_back(std::minmax(i, j)); });
-    std::sort(wanted.begin(), wanted.end());
-    EXPECT_EQ(wanted, expected);
-
     const Box query = hull(box_of(random_point(random, 12)), box_of(random_point(random, 12)));
     std::vector<std::uint32_t> met, should_meet;
     tree.for_each_meeting(query, [&](std::uint32_t i) { met.push_back(i); });
@@ -211,6 +204,42 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
       if (boxes[i].meets(query)) should_meet.push_back(i);
     std::sort(met.begin(), met.end());
     EXPECT_EQ(met, should_meet);
+  }
+}
+
+TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
+  std::mt19937 random(8);
+  std::vector<Point3> vertices(600);
+  for (Point3& p : vertices) p = random_point(random, 12);
+  std::uniform_int_distribution<std::uint32_t> vertex(0, 599);
+  plc::TriangleSet triangles;
+  while (triangles.size() < 1000) {
+    const plc::VertexTriple t = {VertexId(vertex(random)), VertexId(vertex(random)), VertexId(vertex(random))};
+    if (!plc::has_no_area(plc::points_of(vertices, t))) triangles.add(t, 0, 0);
+  }
+  const auto sorted_pairs = [&](std::span<const std::uint8_t> is_doubtful) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const auto& [s, t] : plc::find_close_triangles(vertices, triangles, is_doubtful))
+      pairs.push_back(std::minmax(s, t));
+    std::ranges::sort(pairs);
+    return pairs;
+  };
+  const auto all = sorted_pairs({});
+  EXPECT_GT(all.size(), 10000u);
+  for (std::uint32_t i = 0; i < 200; ++i)
+    for (std::uint32_t j = i + 1; j < triangles.size(); ++j) {
+      const plc::VertexTriple &s = triangles.corners[i], &t = triangles.corners[j];
+      const bool have_common = std::ranges::find_first_of(s, t) != s.end();
+      if (!have_common && plc::meet_triangles(plc::points_of(vertices, s), plc::points_of(vertices, t))) {
+        EXPECT_TRUE(std::ranges::binary_search(all, std::pair(i, j))) << i << " " << j;
+      }
+    }
+  for (const unsigned one_of : {1, 2, 40, 100, 400}) {
+    std::vector<std::uint8_t> is_doubtful(triangles.size());
+    for (std::uint8_t& doubtful : is_doubtful) doubtful = random() % one_of == 0;
+    auto expected = all;
+    std::erase_if(expected, [&](const auto& pair) { return !is_doubtful[pair.first] && !is_doubtful[pair.second]; });
+    EXPECT_EQ(sorted_pairs(is_doubtful), expected) << "one of " << one_of;
   }
 }
 
