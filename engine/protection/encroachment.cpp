@@ -41,7 +41,7 @@ bool DiametralSearch::find_worst(std::uint32_t a, std::uint32_t b, WorstVertex& 
   const bool starts_inside =
       std::ranges::any_of(d_.cells[leaving].vertices, [&](std::uint32_t v) { return is_within(v, -room); });
   if (spread(leaving, worst,
-             [&](std::uint32_t v) { return is_within(v, room) && !(starts_inside && (v == a || v == b)); }))
+             [&](std::uint32_t v) { return is_within(v, room) && (!starts_inside || (v != a && v != b)); }))
     return true;
   const double width = worst.width();
   if (width > 0.1 * length) return false;
