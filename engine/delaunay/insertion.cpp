@@ -208,12 +208,11 @@ bool Insertion::ghost_conflicts(const Cell& ghost) const {
   const Point3 &a = d_.point(ghost.vertices[0]), &b = d_.point(ghost.vertices[1]), &c = d_.point(ghost.vertices[2]);
   const int side = numbers::orient3d(a, b, c, p_);
   if (side != 0) return side > 0;
+  if (ties_ == Ties::greatest_rank) return numbers::incircle(a, b, c, p_) > 0;
   const std::uint32_t inner = ghost.neighbors[3];
   const Point3& apex = d_.point(d_.cells[cell_of(inner)].vertices[face_of(inner)]);
-  // The apex is below the ghost's triangle: seen from it the triangle is a, c, b.
-  const int sign = numbers::insphere(a, c, b, apex, p_);
-  if (sign != 0 || ties_ == Ties::greatest_rank) return sign > 0;
   const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
+  // The apex is below the ghost's triangle: seen from it the triangle is a, c, b.
   return numbers::incircle_perturbed(
              a, c, b, apex, p_, {rank(ghost.vertices[0]), rank(ghost.vertices[2]), rank(ghost.vertices[1]), rank(v_)}) >
          0;

@@ -257,18 +257,15 @@ int incircle_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
   return 0;
 }
 
-/// For exactly coplanar points, abc not on one line: +1 when d is strictly inside the circumcircle of abc, -1 outside,
-/// 0 on it.
-///
-/// d is inside when the angles at c and d over the chord ab add up to more than 180 degrees, that is, when the sine of
-/// the sum is negative: sin(c + d) = sin c cos d + cos c sin d, with dot products for the cosines and signed areas for
-/// the sines. As all areas are in one plane, those of the projection along an axis do.
+}  // namespace
+
+// d is inside when the angles at c and d over the chord ab add up to more than 180 degrees, that is, when the sine of
+// the sum is negative: sin(c + d) = sin c cos d + cos c sin d, with dot products for the cosines and signed areas for
+// the sines. As all areas are in one plane, those of the projection along an axis do.
 int incircle(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   if (const Sign sign = incircle_filter(a, b, c, d); sign != Sign::unknown) return static_cast<int>(sign);
   return incircle_exactly(a, b, c, d);
 }
-
-}  // namespace
 
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
                        const std::array<std::uint32_t, 4>& ranks) {

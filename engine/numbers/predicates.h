@@ -49,6 +49,10 @@ int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const 
 int insphere_tie(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                  const std::array<std::uint32_t, 5>& ranks);
 
+/// For exactly coplanar points, abc not on one line: +1 when d is strictly inside the circumcircle of abc, -1 outside,
+/// 0 on it.
+int incircle(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
 /// Within a plane: for a, b, c, d exactly coplanar and `apex` off their plane with orient3d(a, b, c, apex) > 0: +1 when
 /// d is inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has
 /// none), so that the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.

@@ -204,9 +204,9 @@ lattice.sites_tested 72
 lattice.obstacles_tested 2338
 lattice.peak_bytes 23356
 delaunay.orient3d_filter_failures 77
-delaunay.insphere_filter_failures 55
-delaunay.narrow_evaluations 132
-delaunay.exact_evaluations 132
+delaunay.insphere_filter_failures 45
+delaunay.narrow_evaluations 122
+delaunay.exact_evaluations 122
 delaunay.insertions 59
 delaunay.walk_steps 217
 delaunay.cells_tested 1811
