@@ -154,6 +154,13 @@ class CellComplex {
     return !is_interior(a) && !is_interior(b) && segments_.find(edge_key(a, b)) != nullptr;
   }
 
+  /// Notes that the domain touches itself along an edge of a segment: there is space outside on both sides of it.
+  void note_touching(std::uint32_t a, std::uint32_t b) { touching_.insert(edge_key(a, b)); }
+  /// Does it?
+  bool is_touching(std::uint32_t a, std::uint32_t b) const {
+    return !touching_.empty() && touching_.find(edge_key(a, b)) != nullptr;
+  }
+
   /// The quality of a cell with these vertices.
   double quality_of(const std::array<std::uint32_t, 4>& v) const {
     return cell_quality(goal_, points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
@@ -227,6 +234,7 @@ class CellComplex {
 
   // The surface.
   HashSet<std::uint64_t> segments_;               // edges that lie on segments
+  HashSet<std::uint64_t> touching_;               // those along which the domain touches itself
   HashTable<FaceKey, std::uint32_t> face_table_;  // places in `faces_`
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> facet_of_face_;

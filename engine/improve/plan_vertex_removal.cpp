@@ -82,18 +82,9 @@ bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Triangle t = {polygon[from], polygon[(from + i) % n], polygon[(from + i + 1) % n]};
     page.triangles.push_back(t);
-    if (!is_new_and_upright(x_, t, page.facet) || is_in_star(t)) return false;
+    if (!is_new_and_upright(x_, t, page.facet) || is_face_of_cell(x_, t, {})) return false;
   }
   return true;
-}
-
-/// Is the triangle a face of a cell of the star? Around facets that are flat only within the tolerance there are cells
-/// with all corners on one page.
-bool VertexRemoval::is_in_star(const Triangle& t) const {
-  return std::ranges::any_of(star_, [&](std::uint32_t c) {
-    const auto& v = x_.cell(c).vertices;
-    return std::ranges::all_of(t, [&](std::uint32_t corner) { return has(v, corner); });
-  });
 }
 
 /// Plans all but the new cells.

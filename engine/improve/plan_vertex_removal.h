@@ -66,7 +66,6 @@ class VertexRemoval {
   void find_sectors();
   void add_pages(std::uint32_t cell, Sector& sector) const;
   bool find_fan(Page& page, std::size_t from) const;
-  bool is_in_star(const Triangle& triangle) const;
   bool plan_collapse(std::size_t end, Change& change);
   bool plan_fill(Change& change);
   bool fill_sectors(std::size_t page, Change& change);

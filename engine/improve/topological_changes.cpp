@@ -179,8 +179,9 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
   change.faces = {with_corner(x, *face, b, last), with_corner(x, *next, a, first)};
   const std::uint32_t facet = x.facet_of_face()[*face];
-  return std::ranges::all_of(change.faces,
-                             [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, facet); });
+  return std::ranges::all_of(change.faces, [&](const FaceChange& f) {
+    return is_new_and_upright(x, f.corners, facet) && !is_face_of_cell(x, f.corners, change.old_cells);
+  });
 }
 
 /// The largest number of cells on one side of the removed faces.
@@ -244,7 +245,26 @@ class SandwichedFaces {
 
 bool is_new_and_upright(const CellComplex& x, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet) {
   const auto& [a, b, c] = corners;
+  if (x.is_touching(a, b) + x.is_touching(b, c) + x.is_touching(c, a) > 1) return false;
   return !x.find_face(a, b, c) && facets::is_upright(x.point(a), x.point(b), x.point(c), x.axis_of_facet(facet));
+}
+
+bool is_face_of_cell(const CellComplex& x, const std::array<std::uint32_t, 3>& t,
+                     std::span<const std::uint32_t> except) {
+  for (const std::uint32_t corner : t) {
+    std::vector<std::uint32_t> around = {x.cell_at(corner)};
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const Cell& cell = x.cell(around[i]);
+      const auto has = [&](std::uint32_t v) { return std::ranges::find(cell.vertices, v) != cell.vertices.end(); };
+      if (std::ranges::all_of(t, has) && std::ranges::find(except, around[i]) == except.end()) return true;
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const std::uint32_t next = cell.neighbors[f];
+        if (cell.vertices[f] == corner || next == no_neighbor) continue;
+        if (std::ranges::find(around, cell_of(next)) == around.end()) around.push_back(cell_of(next));
+      }
+    }
+  }
+  return false;
 }
 
 double worst_of(const std::vector<NewCell>& cells) {
