@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/base/count_work.h"
+#include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
 namespace {
@@ -179,8 +180,10 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
   change.faces = {with_corner(x, *face, b, last), with_corner(x, *next, a, first)};
   const std::uint32_t facet = x.facet_of_face()[*face];
+  // In a plane, the new faces cover what the old ones did.
+  const bool is_flat = numbers::orient3d(x.point(a), x.point(b), x.point(first), x.point(last)) == 0;
   return std::ranges::all_of(change.faces, [&](const FaceChange& f) {
-    return is_new_and_upright(x, f.corners, facet) && !is_face_of_cell(x, f.corners, change.old_cells);
+    return is_new_and_upright(x, f.corners, facet) && (is_flat || !is_face_of_cell(x, f.corners, change.old_cells));
   });
 }
 

@@ -368,9 +368,10 @@ TEST(WorkOfSmallInputs, Improvement) {
   options.improve.target_dihedral = 40;
   options.improve.boundary = BoundaryRule::slide;
   expect_work(text_of("improve", mesh_plc(gridded_cube(3), options).work.improve), R"(
-improve.orient3d_filter_failures 288
-improve.narrow_evaluations 288
-improve.exact_evaluations 288
+improve.orient3d_filter_failures 294
+improve.narrow_evaluations 293
+improve.wide_evaluations 1
+improve.exact_evaluations 294
 improve.cells_created 180
 improve.cells_destroyed 163
 improve.changes_tried 1210
