@@ -156,7 +156,7 @@ class CellComplex {
 
   /// Notes that the domain touches itself along an edge of a segment: there is space outside on both sides of it.
   void note_touching(std::uint32_t a, std::uint32_t b) { touching_.insert(edge_key(a, b)); }
-  /// Does it?
+  /// Does the domain touch itself along the edge?
   bool is_touching(std::uint32_t a, std::uint32_t b) const {
     return !touching_.empty() && touching_.find(edge_key(a, b)) != nullptr;
   }

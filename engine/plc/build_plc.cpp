@@ -159,7 +159,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
       sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, std::ranges::min(tolerances), edges, 1);
   if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
   check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
-  std::optional<BoxTree> tree;  // of the triangles, if it is worth its price
+  std::optional<BoxTree> tree;  // of the triangles, made only where it pays
   if (!match.loose.empty()) {
     tree.emplace(boxes_of(plc.vertices, triangles));
     check_overlaps(plc, parts,

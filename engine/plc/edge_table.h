@@ -101,7 +101,7 @@ struct EdgeTable {
   std::vector<std::uint32_t> sides;                    ///< increasing within an edge, until `sort_around_edges`
   std::vector<std::array<std::uint32_t, 3>> edges_of;  ///< the three edges of each triangle, in no particular order
   std::vector<Turn> turns;  ///< at an edge of two triangles: the angle from the first to the second, counterclockwise
-                            ///< as above; clear ones by `find_facets`, the others, but those within one facet, by
+                            ///< as above; clear ones by `find_facets`, the others, except within one facet, by
                             ///< `sort_around_edges`
 
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
