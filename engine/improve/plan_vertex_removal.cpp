@@ -75,16 +75,25 @@ bool VertexRemoval::follow_page(std::size_t first, Page& page) const {
 }
 
 /// Triangulates the polygon of a page by a fan. \return are all its triangles new, and upright?
-bool VertexRemoval::find_fan(Page& page, std::size_t from) const {
+bool VertexRemoval::find_fan(Page& page, std::size_t from) {
   page.triangles.clear();
   const auto& polygon = page.polygon;
   const std::size_t n = polygon.size();
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Triangle t = {polygon[from], polygon[(from + i) % n], polygon[(from + i + 1) % n]};
     page.triangles.push_back(t);
-    if (!is_new_and_upright(x_, t, page.facet) || is_face_of_cell(x_, t, {})) return false;
+    if (!is_new_and_upright(x_, t, page.facet)) return false;
   }
-  return true;
+  gather_cells(x_, polygon[from], marks_, around_apex_);
+  return std::ranges::none_of(page.triangles, [&](const Triangle& t) { return is_face_of(around_apex_, t); });
+}
+
+/// In a facet that is flat only within the tolerance, cells can have all corners of a new triangle of a page.
+bool VertexRemoval::is_face_of(std::span<const std::uint32_t> cells, const Triangle& t) const {
+  return std::ranges::any_of(cells, [&](std::uint32_t c) {
+    const auto& v = x_.cell(c).vertices;
+    return std::ranges::all_of(t, [&](std::uint32_t corner) { return has(v, corner); });
+  });
 }
 
 /// Plans all but the new cells.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/improve/cell_complex.h"
@@ -65,7 +66,8 @@ class VertexRemoval {
   bool follow_page(std::size_t first, Page& page) const;
   void find_sectors();
   void add_pages(std::uint32_t cell, Sector& sector) const;
-  bool find_fan(Page& page, std::size_t from) const;
+  bool find_fan(Page& page, std::size_t from);
+  bool is_face_of(std::span<const std::uint32_t> cells, const Triangle& triangle) const;
   bool plan_collapse(std::size_t end, Change& change);
   bool plan_fill(Change& change);
   bool fill_sectors(std::size_t page, Change& change);
@@ -80,6 +82,7 @@ class VertexRemoval {
   // Working memory.
   CellMarks marks_;
   std::vector<std::uint32_t> star_;
+  std::vector<std::uint32_t> around_apex_;  ///< the cells at the apex of a fan
   std::vector<FaceAtVertex> faces_;
   std::vector<Page> pages_;
   std::vector<Sector> sectors_;
