@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "engine/base/count_work.h"
 #include "engine/numbers/predicates.h"
@@ -170,6 +171,26 @@ bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
          other.vertices[0] == first && other.vertices[other.size] == ring.vertices[0];
 }
 
+/// Is the triangle a face of a cell, except of those given? In a facet that is flat only within the tolerance, cells
+/// can have all corners of a new face of it. Then this cell and a new one would be on the same side of that face.
+bool is_face_of_cell(const CellComplex& x, const std::array<std::uint32_t, 3>& t,
+                     std::span<const std::uint32_t> except) {
+  for (const std::uint32_t corner : t) {
+    std::vector<std::uint32_t> around = {x.cell_at(corner)};
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const Cell& cell = x.cell(around[i]);
+      const auto has = [&](std::uint32_t v) { return std::ranges::find(cell.vertices, v) != cell.vertices.end(); };
+      if (std::ranges::all_of(t, has) && std::ranges::find(except, around[i]) == except.end()) return true;
+      for (std::uint32_t f = 0; f < 4; ++f) {
+        const std::uint32_t next = cell.neighbors[f];
+        if (cell.vertices[f] == corner || next == no_neighbor) continue;
+        if (std::ranges::find(around, cell_of(next)) == around.end()) around.push_back(cell_of(next));
+      }
+    }
+  }
+  return false;
+}
+
 /// Plans to flip an edge on a facet: the cells on both sides change, and the facet gets the other diagonal.
 bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& change) {
   const std::uint32_t a = ring.a, b = ring.b, first = ring.vertices[0], last = ring.vertices[ring.size];
@@ -250,24 +271,6 @@ bool is_new_and_upright(const CellComplex& x, const std::array<std::uint32_t, 3>
   const auto& [a, b, c] = corners;
   if (x.is_touching(a, b) + x.is_touching(b, c) + x.is_touching(c, a) > 1) return false;
   return !x.find_face(a, b, c) && facets::is_upright(x.point(a), x.point(b), x.point(c), x.axis_of_facet(facet));
-}
-
-bool is_face_of_cell(const CellComplex& x, const std::array<std::uint32_t, 3>& t,
-                     std::span<const std::uint32_t> except) {
-  for (const std::uint32_t corner : t) {
-    std::vector<std::uint32_t> around = {x.cell_at(corner)};
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const Cell& cell = x.cell(around[i]);
-      const auto has = [&](std::uint32_t v) { return std::ranges::find(cell.vertices, v) != cell.vertices.end(); };
-      if (std::ranges::all_of(t, has) && std::ranges::find(except, around[i]) == except.end()) return true;
-      for (std::uint32_t f = 0; f < 4; ++f) {
-        const std::uint32_t next = cell.neighbors[f];
-        if (cell.vertices[f] == corner || next == no_neighbor) continue;
-        if (std::ranges::find(around, cell_of(next)) == around.end()) around.push_back(cell_of(next));
-      }
-    }
-  }
-  return false;
 }
 
 double worst_of(const std::vector<NewCell>& cells) {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "engine/improve/smoothing.h"
@@ -39,11 +38,6 @@ inline constexpr std::uint32_t longest_ring = 8;
 /// folding over: a facet that is flat only within the tolerance has cells with all corners on it. Nor may the triangle
 /// have two edges along which the domain touches itself: beyond the space outside, it may be a face of other cells.
 bool is_new_and_upright(const CellComplex& complex, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet);
-
-/// Is the triangle a face of a cell, except of those given? In a facet that is flat only within the tolerance, cells
-/// can have all corners of a new face of it. Then this cell and a new one would be on the same side of that face.
-bool is_face_of_cell(const CellComplex& complex, const std::array<std::uint32_t, 3>& triangle,
-                     std::span<const std::uint32_t> except);
 
 /// Plans to remove an edge: the cells around it are replaced by the best of all triangulations of the ring of vertices
 /// around it, each of its triangles joined to both ends of the edge (Shewchuk 2002, "Two discrete optimization
