@@ -22,8 +22,14 @@ constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
 using FaceKey = std::array<std::uint32_t, 3>;
 
 constexpr FaceKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::uint32_t low = std::min(a, b), high = std::max(a, b);  // without branches
-  return {std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c)};
+  const std::uint32_t least = std::min(std::min(a, b), c), greatest = std::max(std::max(a, b), c);
+  return {least, a ^ b ^ c ^ least ^ greatest, greatest};  // without branches
+}
+
+/// Is the order of three different corners an odd permutation of the increasing one? Triangles with the same corners
+/// face the same way if both are odd or both are even.
+constexpr bool is_odd(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  return ((a > b) ^ (b > c) ^ (a > c)) != 0;
 }
 
 /// A fixed set of edges (N = 2) or triangles (N = 3), each found at its least vertex, in any order of its corners.
@@ -48,7 +54,8 @@ class SimplexMap {
       const Corners corners = sorted(simplices[i]);
       Entry& entry = entries_[add_one(first_[1 + corners[0]])];
       std::copy(corners.begin() + 1, corners.end(), entry.others.begin());
-      entry.index = static_cast<std::uint32_t>(i);
+      entry.number = static_cast<std::uint32_t>(i);
+      if constexpr (N == 3) entry.number = 2 * entry.number + is_odd(simplices[i][0], simplices[i][1], simplices[i][2]);
     });
   }
 
@@ -58,19 +65,24 @@ class SimplexMap {
   std::uint32_t find(std::uint32_t a, std::uint32_t b) const requires(N == 2) {
     if (b < a) std::swap(a, b);
     for (std::uint32_t i = first_[a]; i < first_[a + 1]; ++i)
-      if (entries_[i].others[0] == b) return entries_[i].index;
+      if (entries_[i].others[0] == b) return entries_[i].number;
     return none;
   }
-  /// The index of the triangle in the given list, the least one of equal triangles; `none` if it is not there.
-  std::uint32_t find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
+
+  /// A triangle in the given list.
+  struct Found {
+    std::uint32_t index;     ///< the least one of triangles with these corners; `none` if it is not there
+    bool faces_the_other_way;  ///< than the corners do in the order in which they were given
+  };
+  Found find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
     const FaceKey key = face_key(a, b, c);
     std::uint32_t found = none;
     // It is unpredictable which entry matches, so there is no branch for each.
     for (std::uint32_t i = first_[key[0]]; i < first_[key[0] + 1]; ++i) {
       const unsigned is_same = unsigned{entries_[i].others[0] == key[1]} & unsigned{entries_[i].others[1] == key[2]};
-      found = std::min(found, entries_[i].index | (is_same - 1));
+      found = std::min(found, entries_[i].number | (is_same - 1));
     }
-    return found;
+    return {found == none ? none : found / 2, ((found & 1) != 0) != is_odd(a, b, c)};
   }
 
  private:
@@ -84,7 +96,7 @@ class SimplexMap {
 
   struct Entry {
     std::array<std::uint32_t, N - 1> others;  // greater than the least corner, increasing
-    std::uint32_t index;
+    std::uint32_t number;  // of an edge: its index; of a triangle: twice its index, and one more if it `is_odd`
   };
   std::vector<std::uint32_t> first_;  // entries of least vertex v: first_[v] .. first_[v + 1]
   std::vector<Entry> entries_;

@@ -18,11 +18,6 @@ using delaunay::face_code;
 using delaunay::face_of;
 using delaunay::no_neighbor;
 
-/// Do the corners of one triangle have the same cyclic order?
-bool same_direction(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
-  return a == b || (a[0] == b[1] && a[1] == b[2] && a[2] == b[0]) || (a[0] == b[2] && a[1] == b[0] && a[2] == b[1]);
-}
-
 class Joiner {
  public:
   Joiner(Delaunay& d, std::uint32_t outer_cells, const std::vector<std::uint32_t>& border)
@@ -71,15 +66,14 @@ class Joiner {
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (others == 1 && is_on_border(v[f])) continue;
       const auto face = corners_of_face(v, f);
-      const std::uint32_t number = faces_.find(face[0], face[1], face[2]);
+      const auto [number, is_opposite] = faces_.find(face[0], face[1], face[2]);
       if (number == FaceMap::none) continue;
-      const std::uint32_t code = border_[number];
       walls_[c] |= static_cast<std::uint8_t>(1u << f);
-      if (same_direction(face, corners(code))) {
-        is_inside = true;
-      } else {
-        delaunay::join_faces(d_.cells, face_code(c, f), code);
+      if (is_opposite) {
+        delaunay::join_faces(d_.cells, face_code(c, f), border_[number]);
         ++joined;
+      } else {
+        is_inside = true;
       }
     }
     if (is_inside) {

@@ -86,7 +86,7 @@ std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];
-    if (first.find(a, b, c) == i) codes[i] = delaunay::find_face(delaunay, a, b, c);
+    if (first.find(a, b, c).index == i) codes[i] = delaunay::find_face(delaunay, a, b, c);
   }
   work_done.faces_tested += triangles.size();
   return codes;
@@ -140,9 +140,8 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   const auto look_up = [&](std::uint32_t code) {
     const delaunay::Cell& cell = delaunay.cells[delaunay::cell_of(code)];
     const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, delaunay::face_of(code));
-    const std::uint32_t face = faces.find(p, q, r);
-    if (face == FaceMap::none) return;
-    codes[face] = sees_in_order({p, q, r}, triangles[face]) ? code : cell.neighbors[delaunay::face_of(code)];
+    const auto [face, is_below] = faces.find(p, q, r);
+    if (face != FaceMap::none) codes[face] = is_below ? cell.neighbors[delaunay::face_of(code)] : code;
   };
   // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
   parallel_ranges(delaunay.cells.size(), 4096, [&](std::size_t begin, std::size_t end) {
