@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <span>
 #include <utility>
 
@@ -10,55 +11,55 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/simplex_map.h"
+#include "engine/numbers/filters.h"
 
 namespace ccdt::front {
 namespace {
 
 using delaunay::no_neighbor;
 
+// Four numbers, one for each corner or face of a cell; which the compiler maps to the registers of the processor.
+using FourNumbers = std::uint32_t __attribute__((vector_size(16)));
+
+CCDT_ALWAYS_INLINE void load(const std::array<std::uint32_t, 4>& numbers, FourNumbers& result) {
+  std::memcpy(&result, &numbers, sizeof result);
+}
+
 /// A filter in front of a set of triangles (Bloom 1970), which rejects most of those that are not in the set. It is
-/// fast because it is small, and because the order of the corners does not matter.
+/// fast because it is small, and because it takes the hash of a triangle from the sum of those of its corners, so that
+/// their order does not matter, and the faces of a cell share them.
 class FaceFilter {
  public:
   FaceFilter() = default;
   explicit FaceFilter(std::span<const std::array<VertexId, 3>> triangles)
-      : bits_(std::bit_ceil(triangles.size() / 4 + 1)), shift_(58 - std::countr_zero(bits_.size())) {
+      : bits_(std::bit_ceil(triangles.size() / 2 + 1)), shift_(27 - std::countr_zero(bits_.size())) {
     for (const auto& [a, b, c] : triangles) {
-      const std::uint64_t place = place_of(odd(a) * odd(b) * odd(c));
-      bits_[place / 64] |= std::uint64_t{1} << place % 64;
+      const std::uint32_t place = (mix(a.value) + mix(b.value) + mix(c.value)) >> shift_;
+      bits_[place / 32] |= 1u << place % 32;
     }
   }
 
-  /// A bit for each face of a cell that may be in the set.
-  unsigned may_have_faces(const std::array<std::uint32_t, 4>& v) const {
-    const std::uint64_t a = odd(v[0]), b = odd(v[1]), c = odd(v[2]), d = odd(v[3]);
-    return bit_of(b * c * d) | bit_of(a * c * d) << 1 | bit_of(a * b * d) << 2 | bit_of(a * b * c) << 3;
+  /// For each face of a cell: one if it may be in the set, or zero.
+  CCDT_ALWAYS_INLINE void may_have_faces(const std::array<std::uint32_t, 4>& v, FourNumbers& result) const {
+    FourNumbers corners;
+    load(v, corners);
+    const FourNumbers mixed = mix(corners);
+    const FourNumbers places = ((mixed[0] + mixed[1] + mixed[2] + mixed[3]) - mixed) >> shift_;
+    const FourNumbers words = places / 32;
+    result = FourNumbers{bits_[words[0]], bits_[words[1]], bits_[words[2]], bits_[words[3]]} >> places % 32 & 1;
   }
 
  private:
-  static std::uint64_t odd(std::uint32_t v) { return 2 * std::uint64_t{v} + 1; }
-  std::uint64_t place_of(std::uint64_t product) const { return product * 0x9E3779B97F4A7C15u >> shift_; }
-  unsigned bit_of(std::uint64_t product) const {
-    const std::uint64_t place = place_of(product);
-    return static_cast<unsigned>(bits_[place / 64] >> place % 64 & 1);
+  template <class Number>
+  static CCDT_ALWAYS_INLINE Number mix(Number v) {
+    v *= 0x9E3779B1u;
+    v ^= v >> 15;
+    return v * 0x85EBCA77u;
   }
 
-  std::vector<std::uint64_t> bits_;  ///< a power of two of words, about 16 bits for each triangle
+  std::vector<std::uint32_t> bits_;  ///< a power of two of words, about 16 bits for each triangle
   int shift_ = 0;
 };
-
-/// A bit for each face of a cell that this cell tests, not its neighbor.
-///
-/// \param vertices  ids from here on belong to vertices without faces
-unsigned faces_to_test(std::uint32_t c, std::uint32_t vertices, const delaunay::Delaunay& delaunay) {
-  const auto& [v, neighbors] = delaunay.cells[c];
-  unsigned inner = 0;  // a bit for each corner without faces
-  for (std::uint32_t k = 0; k < 4; ++k) inner |= unsigned{v[k] >= vertices} << k;
-  if ((inner & (inner - 1)) != 0 || delaunay.is_dead(c)) return 0;
-  unsigned tested = 0;
-  for (std::uint32_t f = 0; f < 4; ++f) tested |= unsigned{delaunay::face_code(c, f) < neighbors[f]} << f;
-  return inner != 0 ? tested & inner : tested;
-}
 
 /// The corners of a face as a cell sees them. Are they those of the triangle in its order, so that the cell is above
 /// it?
@@ -127,42 +128,58 @@ void keep_first(std::uint32_t code, const delaunay::Delaunay& delaunay, std::vec
     if ((its == code || its == other_side) && !std::exchange(is_first, false)) its = no_neighbor;
 }
 
+/// Codes of faces that may be in the set: those of cells from `begin` on, until the list is full.
+struct Candidates {
+  std::array<std::uint32_t, 256> codes;
+  std::size_t count = 0;
+};
+
+/// \return the first cell that was not looked at
+CCDT_WIDE_LANES std::uint32_t choose_candidates(const delaunay::Delaunay& delaunay, const FaceFilter& filter,
+                                                std::uint32_t begin, std::uint32_t end, Candidates& candidates) {
+  std::uint32_t c = begin;
+  std::size_t count = 0, tested = 0;
+  for (; c < end && count + 4 <= candidates.codes.size(); ++c) {
+    if (delaunay.is_dead(c)) continue;
+    const delaunay::Cell& cell = delaunay.cells[c];
+    FourNumbers neighbors, chosen;
+    load(cell.neighbors, neighbors);
+    const FourNumbers codes = FourNumbers{0, 1, 2, 3} + delaunay::face_code(c, 0);
+    // Of two cells, one tests the face between them.
+    const FourNumbers is_tested = (codes < neighbors) & 1;
+    filter.may_have_faces(cell.vertices, chosen);
+    chosen &= is_tested;
+    for (int f = 0; f < 4; ++f) {  // no branch for each face: it would be mispredicted
+      candidates.codes[count] = codes[f];
+      count += chosen[f];
+      tested += is_tested[f];
+    }
+  }
+  candidates.count = count;
+  work_done.faces_tested += tested;
+  return c;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<VertexId, 3>>& triangles,
                                                const delaunay::Delaunay& delaunay) {
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
-  std::uint32_t vertices = 0;
-  for (const auto& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   FaceMap faces;
   FaceFilter filter;
-  parallel_both([&] { faces = FaceMap(triangles, vertices); }, [&] { filter = FaceFilter(triangles); });
-  const auto look_up = [&](std::uint32_t code) {
-    const delaunay::Cell& cell = delaunay.cells[delaunay::cell_of(code)];
-    const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, delaunay::face_of(code));
-    const auto [face, is_below] = faces.find(p, q, r);
-    if (face != FaceMap::none) codes[face] = is_below ? cell.neighbors[delaunay::face_of(code)] : code;
-  };
-  // One pass over the cells, most of which are inside and skipped at once. (The ghosts' faces are theirs too.)
+  parallel_both([&] { faces = FaceMap(triangles, delaunay.vertices.size()); }, [&] { filter = FaceFilter(triangles); });
+  // One pass over the cells. (The ghosts' faces are theirs too.)
   parallel_ranges(delaunay.cells.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    std::array<std::uint32_t, 256> candidates;
-    std::size_t count = 0;
-    const auto look_up_candidates = [&] {
-      for (std::size_t i = 0; i < count; ++i) look_up(candidates[i]);
-      count = 0;
-    };
-    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
-      const unsigned tested = faces_to_test(c, vertices, delaunay);
-      if (tested == 0) continue;
-      const unsigned chosen = tested & filter.may_have_faces(delaunay.cells[c].vertices);
-      for (std::uint32_t f = 0; f < 4; ++f) {  // no branch for each face: it would be mispredicted
-        work_done.faces_tested += tested >> f & 1;
-        candidates[count] = delaunay::face_code(c, f);
-        count += chosen >> f & 1;
+    Candidates candidates;
+    for (auto c = static_cast<std::uint32_t>(begin); c < end;) {
+      c = choose_candidates(delaunay, filter, c, static_cast<std::uint32_t>(end), candidates);
+      for (const std::uint32_t code : std::span(candidates.codes).first(candidates.count)) {
+        const delaunay::Cell& cell = delaunay.cells[delaunay::cell_of(code)];
+        const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, delaunay::face_of(code));
+        const auto [face, is_below] = faces.find(p, q, r);
+        if (face != FaceMap::none) codes[face] = is_below ? cell.neighbors[delaunay::face_of(code)] : code;
       }
-      if (count + 4 > candidates.size()) look_up_candidates();
     }
-    look_up_candidates();
   });
   work_done.cells_visited += delaunay.cells.size() - delaunay.free_cells.size();
   note_bytes(bytes_of(codes, triangles));
