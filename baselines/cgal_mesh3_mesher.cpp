@@ -69,7 +69,7 @@ std::map<SubdomainPair, Interface> interfaces_of(const plc::Plc& plc) {
     const bool flip = sides.first < sides.second;
     if (flip) std::swap(sides.first, sides.second);
     Interface& interface = interfaces[sides];
-    for (const auto& triangle : facet.triangles) {
+    for (const auto& triangle : plc.triangles_of(facet)) {
       std::array<std::size_t, 3> corners{};
       for (std::size_t i = 0; i < 3; ++i) corners[i] = interface.add(plc, triangle[i]);
       if (flip) std::swap(corners[0], corners[1]);

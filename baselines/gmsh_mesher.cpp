@@ -67,7 +67,7 @@ DiscreteModel discrete_model(const plc::Plc& plc) {
     const bool bounds = inside_below || inside_above;
     if (bounds && numbers.try_emplace(surface, static_cast<int>(numbers.size()) + 1).second)
       model.surfaces.push_back(surface);
-    for (const auto& triangle : facet.triangles) {
+    for (const auto& triangle : plc.triangles_of(facet)) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto [low, high] = std::minmax(triangle[i], triangle[(i + 1) % 3]);
         edges.push_back({low, high});

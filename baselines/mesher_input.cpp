@@ -41,7 +41,7 @@ InputPlc triangulate_facets(const InputPlc& input, const MeshOptions& options) {
   triangles.triangle_numbers.clear();
   triangles.polygon_facets.clear();
   for (const plc::Facet& facet : plc.facets)
-    for (const auto& [a, b, c] : facet.triangles) {
+    for (const auto& [a, b, c] : plc.triangles_of(facet)) {
       triangles.triangles.push_back({a.value, b.value, c.value});
       triangles.triangle_markers.push_back(facet.marker);
     }

@@ -27,7 +27,7 @@ double angle_between(const Point3& a, const Point3& b) {
 template <class Visit>
 void for_each_corner(const plc::Plc& plc, Visit visit) {
   for (const plc::Facet& facet : plc.facets)
-    for (const auto& t : facet.triangles)
+    for (const auto& t : plc.triangles_of(facet))
       for (std::size_t i = 0; i < 3; ++i) visit(facet, t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
 }
 
@@ -128,7 +128,7 @@ double enclosed_volume(const plc::Plc& plc) {
   for (const plc::Facet& facet : plc.facets) {
     const int sides = static_cast<int>(plc.regions[facet.below].inside) - plc.regions[facet.above].inside;
     if (sides == 0) continue;
-    for (const auto& t : facet.triangles)
+    for (const auto& t : plc.triangles_of(facet))
       volume += sides * dot(cross(plc.world[t[0]], plc.world[t[1]]), plc.world[t[2]]) / 6;
   }
   return volume;

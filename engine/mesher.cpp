@@ -209,8 +209,7 @@ std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::F
       if (facets.facet[i] != facets.facet[first]) first = i;
       // Where a facet has got other triangles, this may be the face of another one.
       const plc::Facet& facet = plc.facets[facets.facet[i]];
-      const std::size_t face = facet.first_face + (i - first);
-      if (i - first < facet.triangles.size() && face < plc.faces.size()) earlier[i] = plc.faces[face];
+      if (i - first < facet.triangle_count) earlier[i] = plc.faces[facet.first_triangle + (i - first)];
     }
   });
   return front::find_delaunay_faces_again(facets.triangles, earlier, delaunay);

@@ -60,8 +60,7 @@ plc::InputPlc sheet_of(std::int64_t triangles) {
 plc::InputPlc surface_of(const Stages& s) {
   plc::InputPlc surface;
   surface.vertices.assign(s.plc.vertices.begin(), s.plc.vertices.end());
-  for (const plc::Facet& facet : s.plc.facets)
-    for (const auto& [a, b, c] : facet.triangles) surface.triangles.push_back({a, b, c});
+  for (const auto& [a, b, c] : s.plc.triangles) surface.triangles.push_back({a, b, c});
   return surface;
 }
 

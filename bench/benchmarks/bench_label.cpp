@@ -27,7 +27,7 @@ double enclosed_volume(const plc::Plc& plc) {
   for (const plc::Facet& facet : plc.facets) {
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     if (outward == 0) continue;
-    for (const auto& [a, b, c] : facet.triangles)
+    for (const auto& [a, b, c] : plc.triangles_of(facet))
       volume += outward * dot(plc.vertices[a], cross(plc.vertices[b], plc.vertices[c]));
   }
   return volume / 6;

@@ -54,9 +54,7 @@ EvenSurface make_even_surface(plc::InputPlc input, double edge_length, const std
   if (!is_even) input = surface::remesh_surface(input, {.edge_length = edge_length});
   io::write_plc(input, file);
   const plc::Plc plc = plc::build_plc(input);
-  EvenSurface made{{}, file, edge_length, !is_even, plc.vertices.size(), 0, bench::smallest_angles(plc)};
-  for (const plc::Facet& facet : plc.facets) made.triangles += facet.triangles.size();
-  return made;
+  return {{}, file, edge_length, !is_even, plc.vertices.size(), plc.triangles.size(), bench::smallest_angles(plc)};
 }
 
 /// Searches for the edge length at which our FCC lattice makes the wanted number of tetrahedra. Surface and inside have

@@ -29,12 +29,11 @@ ShapeSize measure(const plc::InputPlc& input) {
   const plc::Plc plc = plc::build_plc(input);
   ShapeSize size;
   size.volume = std::abs(bench::enclosed_volume(plc));
-  for (const plc::Facet& facet : plc.facets)
-    for (const auto& t : facet.triangles) {
-      const Point3& a = plc.world[t[0]];
-      size.area += std::sqrt(squared_length(cross(plc.world[t[1]] - a, plc.world[t[2]] - a))) / 2;
-      ++size.triangles;
-    }
+  for (const auto& t : plc.triangles) {
+    const Point3& a = plc.world[t[0]];
+    size.area += std::sqrt(squared_length(cross(plc.world[t[1]] - a, plc.world[t[2]] - a))) / 2;
+    ++size.triangles;
+  }
   return size;
 }
 

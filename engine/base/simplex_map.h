@@ -71,7 +71,7 @@ class SimplexMap {
 
   /// A triangle in the given list.
   struct Found {
-    std::uint32_t index;     ///< the least one of triangles with these corners; `none` if it is not there
+    std::uint32_t index;       ///< the least one of triangles with these corners; `none` if it is not there
     bool faces_the_other_way;  ///< than the corners do in the order in which they were given
   };
   Found find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {

@@ -82,11 +82,11 @@ struct FacetFrame {
   double scale;  ///< extent of the facet
 };
 
-FacetFrame frame_of(const plc::Facet& facet, Vertices vertices) {
+FacetFrame frame_of(std::span<const Triangle> triangles, Vertices vertices) {
   Point3 normal;
-  const Point3& base = vertices[facet.triangles[0][0]].point;
+  const Point3& base = vertices[triangles[0][0]].point;
   double scale = 1;
-  for (const Triangle& t : facet.triangles) {
+  for (const Triangle& t : triangles) {
     const Point3 u = vertices[t[1]].point - vertices[t[0]].point, v = vertices[t[2]].point - vertices[t[0]].point;
     normal = normal + cross(u, v);
     scale = std::max(scale, squared_length(vertices[t[0]].point - base));
@@ -102,10 +102,10 @@ double power_of_two_above(double x) {
   return std::ldexp(fraction == 0.5 ? 0.5 : 1, exponent);
 }
 
-FacetPlane exact_plane(const plc::Facet& facet, Vertices vertices) {
-  const FacetFrame frame = frame_of(facet, vertices);
+FacetPlane exact_plane(std::span<const Triangle> triangles, Vertices vertices) {
+  const FacetFrame frame = frame_of(triangles, vertices);
   const double up = power_of_two_above(frame.scale);
-  Point3 apex = vertices[facet.triangles[0][0]].point;
+  Point3 apex = vertices[triangles[0][0]].point;
   double& height = frame.axis == 0 ? apex.x : frame.axis == 1 ? apex.y : apex.z;
   height += std::copysign(up, as_array(frame.normal)[frame.axis]);
   return FacetPlane(vertices, apex);
@@ -124,7 +124,7 @@ class FacetMesher {
         star_(delaunay),
         is_split_(chains.have_inner_vertices()),
         in_facet_(delaunay.vertices.size(), 0) {
-    const auto has_one_triangle = [](const plc::Facet& facet) { return facet.triangles.size() == 1; };
+    const auto has_one_triangle = [](const plc::Facet& facet) { return facet.triangle_count == 1; };
     if (!is_split_ && std::ranges::all_of(plc.facets, has_one_triangle)) return;
     std::vector<std::array<VertexId, 2>> edges;
     edges.reserve(plc.segments.size());
@@ -134,14 +134,15 @@ class FacetMesher {
 
   void triangulate(FacetId id, FacetMesh& result) {
     const plc::Facet& facet = plc_.facets[id];
-    if (facet.triangles.size() == 1 && is_unsplit(facet.triangles[0])) {
-      result.triangles.push_back(facet.triangles[0]);
+    const std::span<const Triangle> triangles = plc_.triangles_of(facet);
+    if (triangles.size() == 1 && is_unsplit(triangles[0])) {
+      result.triangles.push_back(triangles[0]);
       result.facet.push_back(id);
       return;
     }
-    const std::vector<FacetSegment> segments = segments_of(facet);
-    const FacetPlane plane = facet.exactly_flat ? exact_plane(facet, d_.vertices) : flatten(facet, segments);
-    planar::Triangulation t = split_triangulation(facet, plane, segments);
+    const std::vector<FacetSegment> segments = segments_of(triangles);
+    const FacetPlane plane = facet.exactly_flat ? exact_plane(triangles, d_.vertices) : flatten(triangles, segments);
+    planar::Triangulation t = split_triangulation(triangles, plane, segments);
     if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
     result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
     result.facet.resize(result.triangles.size(), id);
@@ -155,7 +156,7 @@ class FacetMesher {
     return std::ranges::none_of(codes, [&](std::uint32_t code) {
       const std::uint32_t cell = cell_on_domain_side(code);
       if (!has_all_vertices_here(cell)) return false;
-      if (!plane) plane.emplace(flatten(facet, segments_of(facet)));
+      if (!plane) plane.emplace(flatten(plc_.triangles_of(facet), segments_of(plc_.triangles_of(facet))));
       return is_flat_cell(cell, *plane);
     });
   }
@@ -176,10 +177,10 @@ class FacetMesher {
     return true;
   }
 
-  std::vector<FacetSegment> segments_of(const plc::Facet& facet) const {
+  std::vector<FacetSegment> segments_of(std::span<const Triangle> triangles) const {
     std::vector<FacetSegment> segments;
-    segments.reserve(3 * facet.triangles.size());
-    for (const Triangle& t : facet.triangles) {
+    segments.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles) {
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
         if (const std::uint32_t found = segment_of_edge_->find(a, b); found != EdgeMap::none)
@@ -196,8 +197,8 @@ class FacetMesher {
   /// Sees the vertices along the frame's axis and stretches what is seen to true distances: with the other two
   /// coordinates (s, t) and the heights that the plane has there, the distances are those of a linear image of (s, t),
   /// which loses no orientation.
-  FacetPlane flatten(const plc::Facet& facet, const std::vector<FacetSegment>& segments) {
-    const FacetFrame frame = frame_of(facet, d_.vertices);
+  FacetPlane flatten(std::span<const Triangle> triangles, const std::vector<FacetSegment>& segments) {
+    const FacetFrame frame = frame_of(triangles, d_.vertices);
     flattened_.resize(d_.vertices.size());
     const auto pick = [&](const Point3& p) {  // the axis last, turning the other two so that above stays above
       if (frame.axis == 0) return Point3{p.y, p.z, p.x};
@@ -205,7 +206,7 @@ class FacetMesher {
       return p;
     };
     const Point3 n = pick(frame.normal);
-    const Point3 base = pick(d_.point(facet.triangles[0][0]));
+    const Point3 base = pick(d_.point(triangles[0][0]));
     const double rise_s = -n.x / n.z, rise_t = -n.y / n.z, turn = n.z > 0 ? 1 : -1;
     const double first = std::sqrt(1 + rise_s * rise_s);
     const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
@@ -214,13 +215,13 @@ class FacetMesher {
       flattened_[v] = {numbers::round_to_unit(0.25 * (first * p.x + shear * p.y)),
                        numbers::round_to_unit(0.25 * turn * second * p.y), 0};
     };
-    for (const Triangle& t : facet.triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
+    for (const Triangle& t : triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
     for (const FacetSegment& s : segments)
       for (const protection::ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);
     return FacetPlane(d_.vertices, flattened_);
   }
 
-  planar::Triangulation split_triangulation(const plc::Facet& facet, const FacetPlane& plane,
+  planar::Triangulation split_triangulation(std::span<const Triangle> triangles, const FacetPlane& plane,
                                             const std::vector<FacetSegment>& segments) const {
     std::vector<planar::Edge> constrained;
     constrained.reserve(segments.size());
@@ -229,7 +230,7 @@ class FacetMesher {
       constrained.push_back({s.a, s.b});
       inner_vertices += chains_[s.segment].size() - 2;
     }
-    planar::Triangulation t = planar::from_triangles(facet.triangles, constrained, 2 * inner_vertices);
+    planar::Triangulation t = planar::from_triangles(triangles, constrained, 2 * inner_vertices);
     planar::legalize(t, plane);
     for (const FacetSegment& s : segments) {
       const auto chain = chains_[s.segment];

@@ -54,7 +54,7 @@ HashSet<std::uint64_t> segments_of_bent_facets(const plc::Plc& plc, const BentVe
   HashSet<std::uint64_t> parts;
   for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
     if (plc.facets[f].exactly_flat) continue;
-    for (const auto& t : plc.facets[f].triangles)
+    for (const auto& t : plc.triangles_of(plc.facets[f]))
       for (std::size_t k = 0; k < 3; ++k)
         if (const std::uint32_t* const s = segments.find(edge_key(t[k], t[(k + 1) % 3])); s != nullptr)
           parts.insert(part_key(f, *s), {});

@@ -76,8 +76,8 @@ class FreedomFinder {
   void look_at_facets() {
     for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
       const plc::Facet& facet = plc_.facets[f];
-      for (std::uint32_t t = 0; t < facet.triangles.size(); ++t)
-        for (const VertexId v : facet.triangles[t]) look_at(f, t, v);
+      for (const auto& t : plc_.triangles_of(facet))
+        for (const VertexId v : t) look_at(f, t, v);
       if (!facet.exactly_flat) forbid_edges(facet);
     }
     const std::vector<std::uint32_t> boundary_sides = plc::count_boundary_sides(plc_);
@@ -86,12 +86,12 @@ class FreedomFinder {
   }
 
   void forbid_edges(const plc::Facet& facet) {
-    for (const auto& [a, b, c] : facet.triangles)
+    for (const auto& [a, b, c] : plc_.triangles_of(facet))
       for (const std::uint64_t edge : {edge_key(a, b), edge_key(b, c), edge_key(c, a)})
         if (const std::uint32_t* const segment = segment_of_edge_.find(edge)) may_slide_along_[*segment] = false;
   }
 
-  void look_at(std::uint32_t facet, std::uint32_t triangle, std::uint32_t v) {
+  void look_at(std::uint32_t facet, const std::array<VertexId, 3>& triangle, std::uint32_t v) {
     VertexSurroundings& around = around_[v];
     around.flat = around.flat && plc_.facets[facet].exactly_flat;
     if (around.facet == none) {
@@ -100,7 +100,7 @@ class FreedomFinder {
       around.several_facets = true;
     }
     if (around.segment_count != 2) return;
-    const auto [a, b, c] = plc_.facets[facet].triangles[triangle];
+    const auto& [a, b, c] = triangle;
     for (const std::uint32_t s : around.segments)
       if (numbers::orient3d(point(a), point(b), point(c), point(other_end(s, v))) != 0) around.crossed = true;
   }
@@ -114,7 +114,7 @@ class FreedomFinder {
   }
 
   Freedom in_plane(std::uint32_t facet) const {
-    if (!steps_[facet]) steps_[facet] = plc::steps_of_facet(plc_.facets[facet], plc_.vertices);
+    if (!steps_[facet]) steps_[facet] = plc::steps_of_facet(plc_.triangles_of(plc_.facets[facet]), plc_.vertices);
     return steps_[facet] ? Freedom{2, steps_[facet]->u, steps_[facet]->v} : fixed;
   }
 

@@ -13,7 +13,7 @@ std::vector<std::uint32_t> count_boundary_sides(const Plc& plc) {
   std::vector<std::uint32_t> sides(plc.segments.size(), 0);
   for (const Facet& facet : plc.facets) {
     if (plc.regions[facet.above].inside == plc.regions[facet.below].inside) continue;
-    for (const auto& [a, b, c] : facet.triangles)
+    for (const auto& [a, b, c] : plc.triangles_of(facet))
       for (const std::uint64_t edge : {edge_key(a, b), edge_key(b, c), edge_key(c, a)})
         if (const std::uint32_t* const segment = segment_of_edge.find(edge)) ++sides[*segment];
   }

@@ -101,22 +101,26 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
   return segments;
 }
 
-std::vector<Facet> collect_facets(const TriangleSet& triangles, const FacetPatches& patches, const RegionMap& map) {
-  std::vector<Facet> facets(patches.count());
-  parallel_for(facets.size(), 1024, [&](std::size_t f) {
+void collect_facets(const TriangleSet& triangles, const FacetPatches& patches, const RegionMap& map, Plc& plc) {
+  plc.facets.resize(patches.count());
+  parallel_for(plc.facets.size(), 4096, [&](std::size_t f) {
     const auto members = patches.members.of(f);
     const std::uint32_t first = members.front();
-    Facet& facet = facets[f];
-    facet.triangles.reserve(members.size());
-    for (const std::uint32_t t : members) facet.triangles.push_back(triangles.corners[t]);
-    facet.exactly_flat = patches.exactly_flat[f];
-    facet.marker = triangles.markers[first];
-    facet.number = triangles.numbers[first];
-    facet.above = map.of(first, true);
-    facet.below = map.of(first, false);
-    facet.first_face = patches.members.first[f];
+    plc.facets[f] = {.first_triangle = patches.members.first[f],
+                     .triangle_count = static_cast<std::uint32_t>(members.size()),
+                     .exactly_flat = patches.exactly_flat[f] != 0,
+                     .marker = triangles.markers[first],
+                     .number = triangles.numbers[first],
+                     .above = map.of(first, true),
+                     .below = map.of(first, false)};
   });
-  return facets;
+  const std::vector<std::uint32_t>& in_order = patches.members.items;
+  plc.triangles.resize(in_order.size());
+  plc.faces.resize(in_order.size());
+  parallel_for(in_order.size(), 4096, [&](std::size_t i) {
+    plc.triangles[i] = triangles.corners[in_order[i]];
+    plc.faces[i] = triangles.faces[in_order[i]];
+  });
 }
 
 }  // namespace
@@ -172,10 +176,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
                       edges.ends, patches.facet_of, map.of_side) +
              (tree ? tree->bytes() : 0));
   plc.segments = collect_segments(plc.vertices, parts, map);
-  plc.facets = collect_facets(triangles, patches, map);
-  plc.faces.resize(triangles.size());
-  parallel_for(plc.faces.size(), 4096,
-               [&](std::size_t i) { plc.faces[i] = triangles.faces[patches.members.items[i]]; });
+  collect_facets(triangles, patches, map, plc);
   plc.regions = std::move(map.regions);
   report(progress, stage, steps_of_build, steps_of_build);
   return plc;

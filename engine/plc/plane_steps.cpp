@@ -46,9 +46,10 @@ PlaneSteps steps_in_plane(const Point3& a, const Point3& b, const Point3& c) {
   return steps;
 }
 
-std::optional<PlaneSteps> steps_of_facet(const Facet& facet, const std::vector<Point3>& points) {
+std::optional<PlaneSteps> steps_of_facet(std::span<const std::array<VertexId, 3>> triangles,
+                                         const std::vector<Point3>& points) {
   VertexId a, b;
-  for (const auto& triangle : facet.triangles) {
+  for (const auto& triangle : triangles) {
     for (const VertexId v : triangle) {
       if (v == a || v == b || !is_multiple_of_quantum(points[v])) continue;
       if (a.is_none()) {

@@ -22,6 +22,7 @@ PlaneSteps steps_in_plane(const Point3& a, const Point3& b, const Point3& c);
 
 /// The steps in the plane of an exactly flat facet, computed from corners of the input, which are multiples of the
 /// quantum. From other vertices, they would be as long as the triangles.
-std::optional<PlaneSteps> steps_of_facet(const Facet& facet, const std::vector<Point3>& points);
+std::optional<PlaneSteps> steps_of_facet(std::span<const std::array<VertexId, 3>> triangles,
+                                         const std::vector<Point3>& points);
 
 }  // namespace ccdt::plc

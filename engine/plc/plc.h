@@ -28,21 +28,12 @@ struct Segment {
 /// `above` is the side to which the normals of its triangles point (right-hand rule, counterclockwise as seen from
 /// above).
 struct Facet {
-  std::vector<std::array<VertexId, 3>>
-      triangles;             ///< any triangulation, with all vertices of the facet, consistently oriented
-  bool exactly_flat = true;  ///< false: flat only within the tolerance
+  std::uint32_t first_triangle = 0, triangle_count = 0;  ///< in `Plc::triangles`
+  bool exactly_flat = true;                              ///< false: flat only within the tolerance
   int marker = 0;
   std::uint32_t number = 0;  ///< number in the file of one input facet in it, for messages
   RegionId above, below;
-  std::uint32_t first_face = 0;  ///< the place of its first triangle in `Plc::faces`
 };
-
-/// The normal of a facet, as long as twice its area.
-inline Point3 sum_of_normals(const Facet& facet, std::span<const Point3> points) {
-  Point3 sum;
-  for (const auto& [a, b, c] : facet.triangles) sum = sum + area_vector({points[a], points[b], points[c]});
-  return sum;
-}
 
 /// A part of space that the facets do not divide further. Region 0 is the one that reaches infinity.
 struct Region {
@@ -63,11 +54,31 @@ struct Plc {
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex, its vertex
   std::vector<Segment> segments;
   std::vector<Facet> facets;
-  std::vector<std::uint32_t> faces;  ///< of the triangles of all facets, one after the other: what they are in a
-                                     ///< simplicial complex that has all vertices, such as their Delaunay
-                                     ///< tetrahedralization; or `no_face`
+  std::vector<std::array<VertexId, 3>> triangles;  ///< those of all facets, one facet after the other
+  std::vector<std::uint32_t> faces;  ///< by triangle: what it is in a simplicial complex that has all vertices, such as
+                                     ///< their Delaunay tetrahedralization; or `no_face`
   std::vector<Region> regions;
   double largest_rounding = 0;  ///< largest change of a coordinate by the grid, in the units of the input
+
+  /// Any triangulation of a facet, with all of its vertices, consistently oriented.
+  std::span<const std::array<VertexId, 3>> triangles_of(const Facet& facet) const {
+    return std::span(triangles).subspan(facet.first_triangle, facet.triangle_count);
+  }
+  /// Adds a facet with these triangles.
+  void add(Facet facet, std::span<const std::array<VertexId, 3>> its_triangles) {
+    facet.first_triangle = static_cast<std::uint32_t>(triangles.size());
+    facet.triangle_count = static_cast<std::uint32_t>(its_triangles.size());
+    facets.push_back(facet);
+    triangles.insert(triangles.end(), its_triangles.begin(), its_triangles.end());
+    faces.resize(triangles.size(), no_face);
+  }
 };
+
+/// The normal of a facet, as long as twice its area.
+inline Point3 sum_of_normals(std::span<const std::array<VertexId, 3>> triangles, std::span<const Point3> points) {
+  Point3 sum;
+  for (const auto& [a, b, c] : triangles) sum = sum + area_vector({points[a], points[b], points[c]});
+  return sum;
+}
 
 }  // namespace ccdt::plc

@@ -54,15 +54,16 @@ std::optional<Point3> nearest_in_plane(const plc::PlaneSteps& steps, const Point
 
 }  // namespace
 
-FacetPlane::FacetPlane(const plc::Facet& facet, const std::vector<Point3>& points)
+FacetPlane::FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool exactly_flat,
+                       const std::vector<Point3>& points)
     : points_(points),
-      exactly_flat_(facet.exactly_flat),
-      normal_(normalized(plc::sum_of_normals(facet, points))),
+      exactly_flat_(exactly_flat),
+      normal_(normalized(plc::sum_of_normals(triangles, points))),
       axis_(plc::dominant_axis(normal_)) {
   if (exactly_flat_) {
-    apex_ = points[facet.triangles[0][0]];
+    apex_ = points[triangles[0][0]];
     double extent = 1;
-    for (const auto& t : facet.triangles) extent = std::max(extent, length(points[t[1]] - apex_));
+    for (const auto& t : triangles) extent = std::max(extent, length(points[t[1]] - apex_));
     int exponent = 0;
     std::frexp(extent, &exponent);
     const double up = std::ldexp(1.0, std::min(exponent, 50));
@@ -99,15 +100,15 @@ int FacetPlane::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
   return numbers::incircle_perturbed(at(a), at(b), at(c), apex_, at(d), {a, b, c, d});
 }
 
-FacetTriangulation::FacetTriangulation(const plc::Facet& facet, const std::vector<planar::Edge>& segments,
-                                       const std::vector<Point3>& points)
-    : plane_(facet, points), t_(planar::from_triangles(facet.triangles, segments)) {
+FacetTriangulation::FacetTriangulation(std::span<const std::array<VertexId, 3>> triangles, bool exactly_flat,
+                                       const std::vector<planar::Edge>& segments, const std::vector<Point3>& points)
+    : plane_(triangles, exactly_flat, points), t_(planar::from_triangles(triangles, segments)) {
   planar::legalize(t_, plane_);
-  if (facet.exactly_flat) {
-    if (const auto steps = plc::steps_of_facet(facet, points)) patches_.push_back({{}, *steps});
+  if (exactly_flat) {
+    if (const auto steps = plc::steps_of_facet(triangles, points)) patches_.push_back({{}, *steps});
     return;
   }
-  for (const auto& t : facet.triangles) {
+  for (const auto& t : triangles) {
     const auto corners = corners_of(t, points);
     patches_.push_back({corners, plc::steps_in_plane(corners[0], corners[1], corners[2])});
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/base/index.h"
@@ -19,7 +20,7 @@ namespace ccdt::refine {
 class FacetPlane {
  public:
   /// \param points  of all vertices, including those that come later; must outlive this
-  FacetPlane(const plc::Facet& facet, const std::vector<Point3>& points);
+  FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool exactly_flat, const std::vector<Point3>& points);
 
   int orient(VertexId a, VertexId b, VertexId c) const;
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const;
@@ -44,9 +45,10 @@ struct WalkEnd {
 /// The constrained Delaunay triangulation of a facet, to which vertices can be added.
 class FacetTriangulation {
  public:
-  /// \param segments  edges of the facet's triangles
-  FacetTriangulation(const plc::Facet& facet, const std::vector<planar::Edge>& segments,
-                     const std::vector<Point3>& points);
+  /// \param triangles  of the facet
+  /// \param segments   edges of these
+  FacetTriangulation(std::span<const std::array<VertexId, 3>> triangles, bool exactly_flat,
+                     const std::vector<planar::Edge>& segments, const std::vector<Point3>& points);
 
   const planar::Triangulation& triangulation() const { return t_; }
   const FacetPlane& plane() const { return plane_; }

@@ -155,7 +155,7 @@ class Refiner {
     facets_.reserve(plc_.facets.size());
     for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
       std::vector<planar::Edge> segments;
-      for (const auto& t : plc_.facets[f].triangles) {
+      for (const auto& t : plc_.triangles_of(plc_.facets[f])) {
         for (int i = 0; i < 3; ++i) {
           const std::uint32_t s = segment_of_edge_.find(t[i], t[(i + 1) % 3]);
           if (s == EdgeMap::none) continue;
@@ -163,7 +163,8 @@ class Refiner {
           if (facets_of_segment_[s].empty() || facets_of_segment_[s].back() != f) facets_of_segment_[s].push_back(f);
         }
       }
-      facets_.emplace_back(plc_.facets[f], segments, points_);
+      const plc::Facet& facet = plc_.facets[f];
+      facets_.emplace_back(plc_.triangles_of(facet), facet.exactly_flat, segments, points_);
     }
   }
 
@@ -388,21 +389,28 @@ class Refiner {
     std::vector<std::vector<VertexId>> vertices_of(plc_.facets.size());
     for (std::uint32_t i = 0; i < in_facets.size(); ++i)
       vertices_of[place_[in_facets[i]].facet].push_back(VertexId(of_input + i));
-    for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
-      plc::Facet& facet = plc_.facets[f];
-      if (vertices_of[f].empty()) continue;
+    const std::vector<plc::Facet> facets = std::exchange(plc_.facets, {});
+    const std::vector<std::array<VertexId, 3>> triangles = std::exchange(plc_.triangles, {});
+    plc_.faces.clear();
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+      const plc::Facet& facet = facets[f];
+      const auto its_triangles = std::span(triangles).subspan(facet.first_triangle, facet.triangle_count);
+      if (vertices_of[f].empty()) {
+        plc_.add(facet, its_triangles);
+        continue;
+      }
       std::vector<planar::Edge> segments;
-      for (const auto& t : facet.triangles)
+      for (const auto& t : its_triangles)
         for (int i = 0; i < 3; ++i)
           if (segment_of_edge_.find(t[i], t[(i + 1) % 3]) != EdgeMap::none) segments.push_back({t[i], t[(i + 1) % 3]});
-      FacetTriangulation triangulation(facet, segments, plc_.vertices);
+      FacetTriangulation triangulation(its_triangles, facet.exactly_flat, segments, plc_.vertices);
       std::uint32_t near = 0;
       for (const VertexId v : vertices_of[f]) {
         const WalkEnd end = triangulation.walk(near, v);
         triangulation.insert(v, end.wall || end.triangle == planar::none ? triangulation.find(v) : end.triangle);
         near = triangulation.triangulation().triangle_of_vertex.get(v, 0);
       }
-      facet.triangles = triangulation.triangulation().triangles;
+      plc_.add(facet, triangulation.triangulation().triangles);
     }
   }
 
@@ -423,11 +431,10 @@ class Refiner {
 /// The number of triangles that the surface would have without thin places.
 double count_even_triangles(const plc::Plc& plc, double edge_length) {
   double count = 0;
-  for (const plc::Facet& facet : plc.facets)
-    for (const auto& [a, b, c] : facet.triangles) {
-      const Point3 twice_area = area_vector({plc.vertices[a], plc.vertices[b], plc.vertices[c]});
-      count += 1 + 2 / std::sqrt(3.0) * length(twice_area) / (edge_length * edge_length);
-    }
+  for (const auto& [a, b, c] : plc.triangles) {
+    const Point3 twice_area = area_vector({plc.vertices[a], plc.vertices[b], plc.vertices[c]});
+    count += 1 + 2 / std::sqrt(3.0) * length(twice_area) / (edge_length * edge_length);
+  }
   return count;
 }
 

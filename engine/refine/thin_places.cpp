@@ -122,7 +122,7 @@ class Strips {
 
   std::vector<FacetEdge> edges_of(const plc::Facet& facet) {
     std::vector<FacetEdge> edges;
-    for (const auto& t : facet.triangles) {
+    for (const auto& t : plc_.triangles_of(facet)) {
       const Point3 normal = area_vector({point(t[0]), point(t[1]), point(t[2])});
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
@@ -132,7 +132,7 @@ class Strips {
     }
     for (const FacetEdge& edge : edges)
       for (const VertexId v : edge.ends) is_on_edge_[v] = true;
-    for (const auto& t : facet.triangles) {
+    for (const auto& t : plc_.triangles_of(facet)) {
       for (const VertexId v : t) {
         if (is_on_edge_[v]) continue;
         edges.push_back({{v, v}, {}});
@@ -216,7 +216,7 @@ class Walls {
   Walls(const plc::Plc& plc, double largest)
       : plc_(plc), largest_(largest), facets_of_vertex_(plc.vertices.size()), met_by_(plc.facets.size(), none) {
     for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
-      for (const auto& t : plc.facets[f].triangles) {
+      for (const auto& t : plc.triangles_of(plc.facets[f])) {
         const Triangle corners = {plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]]};
         take_pieces(corners, f);
         open_.push_back({corners, f, {none, none}});
@@ -271,7 +271,7 @@ class Walls {
   }
 
   void mark_facets_around(std::uint32_t facet) {
-    for (const auto& t : plc_.facets[facet].triangles)
+    for (const auto& t : plc_.triangles_of(plc_.facets[facet]))
       for (const VertexId v : t)
         for (const std::uint32_t g : facets_of_vertex_[v]) met_by_[g] = facet;
   }

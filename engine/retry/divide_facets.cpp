@@ -47,7 +47,8 @@ class FacetDivider {
  public:
   FacetDivider(const facets::FacetMesh& mesh, std::span<const plc::FacetPart> parts, double least_height, plc::Plc& plc)
       : mesh_(mesh), parts_(parts), tree_(boxes_of(parts)), least_height_(least_height), plc_(plc) {
-    for (const plc::Facet& facet : plc.facets) normals_.push_back(plc::sum_of_normals(facet, plc.vertices));
+    for (const plc::Facet& facet : plc.facets)
+      normals_.push_back(plc::sum_of_normals(plc.triangles_of(facet), plc.vertices));
   }
 
   void divide() {
@@ -139,21 +140,27 @@ class FacetDivider {
   }
 
   void make_facets() {
-    HashTable<std::uint32_t, std::uint32_t> place_of;  // of the groups, in the list of facets
-    std::vector<plc::Facet> facets;
-    for (const plc::Facet& facet : plc_.facets)
-      if (facet.exactly_flat) facets.push_back(facet);
+    struct Group {
+      FacetId facet;  // that it is a part of
+      std::vector<std::array<VertexId, 3>> triangles;
+    };
+    HashTable<std::uint32_t, std::uint32_t> place_of;  // in the list of groups
+    std::vector<Group> groups;
     for (std::uint32_t i = 0; i < group_of_.size(); ++i) {
       if (!is_bent(i)) continue;
-      const auto [place, is_new] = place_of.insert(group_of_[i], static_cast<std::uint32_t>(facets.size()));
-      if (is_new) {
-        facets.push_back(plc_.facets[mesh_.facet[i]]);
-        facets.back().triangles.clear();
-      }
-      facets[*place].triangles.push_back(mesh_.triangles[i]);
+      const auto [place, is_new] = place_of.insert(group_of_[i], static_cast<std::uint32_t>(groups.size()));
+      if (is_new) groups.push_back({mesh_.facet[i], {}});
+      groups[*place].triangles.push_back(mesh_.triangles[i]);
     }
-    for (plc::Facet& facet : facets) facet.exactly_flat = facet.exactly_flat || facet.triangles.size() == 1;
-    plc_.facets = std::move(facets);
+    const plc::Plc old = plc_;
+    plc_.facets.clear(), plc_.triangles.clear(), plc_.faces.clear();
+    for (const plc::Facet& facet : old.facets)
+      if (facet.exactly_flat) plc_.add(facet, old.triangles_of(facet));
+    for (const auto& [of, triangles] : groups) {
+      plc::Facet facet = old.facets[of];
+      facet.exactly_flat = triangles.size() == 1;
+      plc_.add(facet, triangles);
+    }
   }
 
   const facets::FacetMesh& mesh_;

@@ -53,7 +53,7 @@ std::vector<plc::FacetPart> parts_at_faces(const FailedAttempt& attempt) {
     const FacetId facet = attempt.facets.facet[face];
     if (attempt.plc.facets[facet].exactly_flat) continue;
     const auto [normal, is_new] = normals.insert(facet, {});
-    if (is_new) *normal = plc::sum_of_normals(attempt.plc.facets[facet], points);
+    if (is_new) *normal = plc::sum_of_normals(attempt.plc.triangles_of(attempt.plc.facets[facet]), points);
     const auto& [a, b, c] = attempt.facets.triangles[face];
     parts.push_back({{points[a], points[b], points[c]}, *normal});
   }

@@ -87,9 +87,9 @@ class SurfaceCutter {
   void collect_triangles() {
     for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
       Point3 area;
-      for (const auto& [a, b, c] : plc_.facets[f].triangles)
+      for (const auto& [a, b, c] : plc_.triangles_of(plc_.facets[f]))
         area = area + area_vector({plc_.world[a], plc_.world[b], plc_.world[c]});
-      for (const auto& t : plc_.facets[f].triangles) {
+      for (const auto& t : plc_.triangles_of(plc_.facets[f])) {
         corners_.push_back(t);
         surface_.facet_of.push_back(f);
         surface_.triangle_normals.push_back(normalized(area));

@@ -26,8 +26,7 @@ Model model_of(const plc::InputPlc& input) {
   for (const Point3& p : plc.vertices) middle = middle + (1.0 / static_cast<double>(plc.vertices.size())) * p;
   const auto center = static_cast<std::uint32_t>(model.points.size());
   model.points.push_back({std::round(middle.x), std::round(middle.y), std::round(middle.z)});
-  for (const plc::Facet& facet : plc.facets)
-    for (const auto& [a, b, c] : facet.triangles) model.cells.push_back({a, b, c, center});
+  for (const auto& [a, b, c] : plc.triangles) model.cells.push_back({a, b, c, center});
   return model;
 }
 

@@ -73,13 +73,11 @@ void expect_exact_steps(const Found& found) {
     EXPECT_TRUE(is_integer(f.u) && is_integer(f.v));
     EXPECT_NE(f.u, Point3{});
     EXPECT_EQ(f.dimensions == 2, f.v != Point3{});
-    for (const plc::Facet& facet : found.plc.facets) {
-      for (const auto& t : facet.triangles) {
-        if (t[0] != v && t[1] != v && t[2] != v) continue;
-        const auto& at = found.plc.vertices;
-        for (const Point3& place : {here + 5.0 * f.u, here - 3.0 * f.v, here + f.u + 7.0 * f.v})
-          EXPECT_EQ(numbers::orient3d(at[t[0]], at[t[1]], at[t[2]], place), 0);
-      }
+    for (const auto& t : found.plc.triangles) {
+      if (t[0] != v && t[1] != v && t[2] != v) continue;
+      const auto& at = found.plc.vertices;
+      for (const Point3& place : {here + 5.0 * f.u, here - 3.0 * f.v, here + f.u + 7.0 * f.v})
+        EXPECT_EQ(numbers::orient3d(at[t[0]], at[t[1]], at[t[2]], place), 0);
     }
     for (const plc::Segment& s : found.plc.segments) {
       if (s.ends[0] == v || s.ends[1] == v) {

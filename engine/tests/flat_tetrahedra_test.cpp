@@ -59,13 +59,12 @@ TEST(FlatTetrahedra, OfAPlateThinnerThanTheToleranceDoNotConfuseTheFront) {
 std::size_t count_after_finish(const Point3& fourth) {
   plc::Plc plc;
   plc.regions = {{.inside = false}, {.inside = true}};
-  plc.facets = {{.triangles = {{VertexId(0), VertexId(1), VertexId(3)}, {VertexId(0), VertexId(3), VertexId(2)}},
-                 .exactly_flat = false,
-                 .above = RegionId(0),
-                 .below = RegionId(1)}};
+  const std::vector<std::array<VertexId, 3>> triangles = {{VertexId(0), VertexId(1), VertexId(3)},
+                                                          {VertexId(0), VertexId(3), VertexId(2)}};
+  plc.add({.exactly_flat = false, .above = RegionId(0), .below = RegionId(1)}, triangles);
   std::vector<Point3> points;
   for (const Point3& p : {Point3{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, fourth, {2, 2, -10}}) points.push_back(0x1p20 * p);
-  const facets::FacetMesh facets{plc.facets[0].triangles, {FacetId(0), FacetId(0)}};
+  const facets::FacetMesh facets{triangles, {FacetId(0), FacetId(0)}};
   mesh::CollectedMesh collected;
   for (const auto& t : {std::array<std::uint32_t, 4>{0, 1, 2, 3}, {0, 2, 1, 4}}) {
     collected.mesh.tetrahedra.push_back(t);

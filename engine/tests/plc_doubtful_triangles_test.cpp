@@ -84,7 +84,8 @@ Verdict verdict_on(const plc::InputPlc& input, bool with_proof, std::size_t& pro
 
 void expect_same(const plc::Plc& a, const plc::Plc& b) {
   ASSERT_EQ(a.facets.size(), b.facets.size());
-  for (std::size_t f = 0; f < a.facets.size(); ++f) EXPECT_EQ(a.facets[f].triangles, b.facets[f].triangles);
+  for (std::size_t f = 0; f < a.facets.size(); ++f) EXPECT_EQ(a.facets[f].triangle_count, b.facets[f].triangle_count);
+  EXPECT_EQ(a.triangles, b.triangles);
   ASSERT_EQ(a.segments.size(), b.segments.size());
   for (std::size_t s = 0; s < a.segments.size(); ++s) EXPECT_EQ(a.segments[s].ends, b.segments[s].ends);
 }
@@ -97,15 +98,14 @@ std::size_t count_right_edges(const Verdict& verdict) {
     EXPECT_TRUE(delaunay::has_edge(verdict.delaunay, s.ends[0], s.ends[1]));
     ++known;
   }
-  auto face = verdict.plc->faces.begin();
-  for (const plc::Facet& f : verdict.plc->facets)
-    for (const auto& [a, b, c] : f.triangles) {
-      const std::uint32_t code = *face++;
-      if (code == plc::no_face) continue;
-      const std::uint32_t found = delaunay::find_face(verdict.delaunay, a, b, c);
-      EXPECT_TRUE(code == found || code == verdict.delaunay.across(found));
-    }
-  EXPECT_EQ(face, verdict.plc->faces.end());
+  EXPECT_EQ(verdict.plc->faces.size(), verdict.plc->triangles.size());
+  for (std::size_t t = 0; t < verdict.plc->triangles.size(); ++t) {
+    const auto& [a, b, c] = verdict.plc->triangles[t];
+    const std::uint32_t code = verdict.plc->faces[t];
+    if (code == plc::no_face) continue;
+    const std::uint32_t found = delaunay::find_face(verdict.delaunay, a, b, c);
+    EXPECT_TRUE(code == found || code == verdict.delaunay.across(found));
+  }
   return known;
 }
 

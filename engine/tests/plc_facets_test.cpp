@@ -21,7 +21,7 @@ void expect_valid(const plc::Plc& plc) {
   EXPECT_EQ(ends.size(), plc.segments.size()) << "a segment is there twice";
   for (const plc::Facet& f : plc.facets) {
     std::map<std::array<std::uint32_t, 2>, int> edges;
-    for (const auto& t : f.triangles)
+    for (const auto& t : plc.triangles_of(f))
       for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
     for (const auto& [edge, count] : edges) {
       const bool is_segment = ends.count({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}) > 0;
@@ -94,7 +94,7 @@ TEST(PlcFacets, GriddedCubeHasSixFacets) {
   EXPECT_EQ(grazeable_count(plc), 0u);
   for (const plc::Facet& f : plc.facets) {
     EXPECT_TRUE(f.exactly_flat);
-    EXPECT_EQ(f.triangles.size(), 2u * 60 * 60);
+    EXPECT_EQ(f.triangle_count, 2u * 60 * 60);
   }
 }
 
@@ -215,8 +215,7 @@ TEST(PlcFacets, AVertexExactlyOnAnEdgeSplitsTheTrianglesThere) {
   EXPECT_EQ(segment_ends(plc).count({0, 8}), 1u);
   EXPECT_EQ(segment_ends(plc).count({1, 8}), 1u);
   std::set<std::uint32_t> on_facets;
-  for (const plc::Facet& f : plc.facets)
-    for (const auto& t : f.triangles) on_facets.insert(t.begin(), t.end());
+  for (const auto& t : plc.triangles) on_facets.insert(t.begin(), t.end());
   EXPECT_EQ(on_facets.size(), 10u);
 }
 
@@ -249,7 +248,7 @@ TEST(PlcFacets, AFacetMayHaveManyVerticesThatItsTrianglesDoNotName) {
   EXPECT_EQ(plc.vertices.size(), 4u + (n + 1) * (n + 1));
   EXPECT_EQ(plc.facets.size(), 6u);
   EXPECT_EQ(plc.segments.size(), 8u + 4 * n);
-  EXPECT_EQ(plc.facets[1].triangles.size(), 2u * n * n);
+  EXPECT_EQ(plc.facets[1].triangle_count, 2u * n * n);
   EXPECT_NEAR(inside_volume(plc), 1, 1e-12);
 }
 
@@ -257,12 +256,11 @@ TEST(PlcFacets, ExactlyFlatMeansThatAllVerticesAreInOnePlane) {
   const plc::Plc plc = plc::build_plc(rotated(arbitrary, l_shape()));
   for (const plc::Facet& f : plc.facets) {
     bool flat = true;
-    for (const auto& s : f.triangles)
-      for (const VertexId v : s) {
-        const auto& t = f.triangles[0];
+    const auto& t = plc.triangles_of(f)[0];
+    for (const auto& s : plc.triangles_of(f))
+      for (const VertexId v : s)
         flat =
             flat && numbers::orient3d(plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]], plc.vertices[v]) == 0;
-      }
     EXPECT_EQ(f.exactly_flat, flat);
   }
 }

@@ -74,7 +74,7 @@ TEST(PlcPolygons, ACubeOfSquares) {
     EXPECT_EQ(plc.facets.size(), 6u);
     EXPECT_EQ(plc.segments.size(), 12u);
     EXPECT_NEAR(inside_volume(plc), 1, 1e-9);
-    for (const plc::Facet& f : plc.facets) EXPECT_EQ(f.triangles.size(), 2u);
+    for (const plc::Facet& f : plc.facets) EXPECT_EQ(f.triangle_count, 2u);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(PlcPolygons, AThroughHole) {
     EXPECT_EQ(grazeable_count(plc), 4u) << "the four upright edges of the hole";
     EXPECT_EQ(inside_count(plc), 1u);
     EXPECT_NEAR(inside_volume(plc), 64 - 16, 1e-6);
-    EXPECT_EQ(plc.facets[0].triangles.size(), 8u);
+    EXPECT_EQ(plc.facets[0].triangle_count, 8u);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(PlcPolygons, SegmentsAndVerticesWithinAFacet) {
   EXPECT_EQ(built.segments.size(), 13u);
   EXPECT_EQ(segment_ends(built, true), (std::set<std::array<std::uint32_t, 2>>{{8, 9}}));
   std::set<std::uint32_t> corners;
-  for (const auto& t : built.facets[1].triangles) corners.insert(t.begin(), t.end());
+  for (const auto& t : built.triangles_of(built.facets[1])) corners.insert(t.begin(), t.end());
   EXPECT_EQ(corners, (std::set<std::uint32_t>{4, 5, 6, 7, 8, 9, 10}));
 }
 

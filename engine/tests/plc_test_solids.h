@@ -159,7 +159,8 @@ inline double volume(const plc::Plc& plc, std::uint32_t region) {
   double sixfold = 0;
   for (const plc::Facet& f : plc.facets) {
     const double sign = (f.below == region ? 1 : 0) - (f.above == region ? 1 : 0);
-    for (const auto& t : f.triangles) sixfold += sign * dot(plc.world[t[0]], cross(plc.world[t[1]], plc.world[t[2]]));
+    for (const auto& t : plc.triangles_of(f))
+      sixfold += sign * dot(plc.world[t[0]], cross(plc.world[t[1]], plc.world[t[2]]));
   }
   return sixfold / 6;
 }

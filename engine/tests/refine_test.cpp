@@ -50,9 +50,9 @@ std::array<Point3, 3> corners(const std::array<VertexId, 3>& t, const std::vecto
   return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
-double area_of(const plc::Facet& facet, const std::vector<Point3>& points) {
+double area_of(std::span<const std::array<VertexId, 3>> triangles, const std::vector<Point3>& points) {
   double area = 0;
-  for (const auto& t : facet.triangles) area += length(area_vector(corners(t, points))) / 2;
+  for (const auto& t : triangles) area += length(area_vector(corners(t, points))) / 2;
   return area;
 }
 
@@ -62,10 +62,12 @@ void expect_exactly_in_place(const Refined& r) {
   ASSERT_EQ(after.facets.size(), before.facets.size());
   ASSERT_EQ(r.after.chains.size(), before.segments.size());
   for (std::size_t f = 0; f < before.facets.size(); ++f) {
-    EXPECT_NEAR(area_of(after.facets[f], points) / area_of(before.facets[f], points), 1, 1e-12);
+    const auto triangles = after.triangles_of(after.facets[f]),
+               triangles_before = before.triangles_of(before.facets[f]);
+    EXPECT_NEAR(area_of(triangles, points) / area_of(triangles_before, points), 1, 1e-12);
     if (!before.facets[f].exactly_flat) continue;
-    const auto plane = corners(before.facets[f].triangles[0], points);
-    for (const auto& t : after.facets[f].triangles)
+    const auto plane = corners(triangles_before[0], points);
+    for (const auto& t : triangles)
       for (const VertexId v : t) EXPECT_EQ(numbers::orient3d(plane[0], plane[1], plane[2], points[v]), 0);
   }
   for (std::size_t s = 0; s < before.segments.size(); ++s) {
@@ -159,15 +161,13 @@ TEST(Refine, SizesAreTheLeastOfAllThinPlaces) {
   const std::vector<SizedPoint> places = find_thin_places(plc, options.edge_length, options.most_tetrahedra);
   ASSERT_GT(places.size(), 1000u);
   SurfaceSizes sizes(plc, options);
-  for (const plc::Facet& facet : plc.facets) {
-    for (const auto& t : facet.triangles) {
-      const auto [a, b, c] = corners(t, plc.vertices);
-      for (const Point3& p : {a, 0.5 * (b + c), 0.01 * (99 * a + b), (1.0 / 3) * (a + b + c)}) {
-        double least = options.edge_length;
-        for (const SizedPoint& place : places)
-          least = std::min(least, place.size + options.grading * length(place.point - p));
-        EXPECT_EQ(sizes.at(p), least);
-      }
+  for (const auto& t : plc.triangles) {
+    const auto [a, b, c] = corners(t, plc.vertices);
+    for (const Point3& p : {a, 0.5 * (b + c), 0.01 * (99 * a + b), (1.0 / 3) * (a + b + c)}) {
+      double least = options.edge_length;
+      for (const SizedPoint& place : places)
+        least = std::min(least, place.size + options.grading * length(place.point - p));
+      EXPECT_EQ(sizes.at(p), least);
     }
   }
 }

@@ -218,17 +218,14 @@ TEST(DividedFacets, AreBoundedBySegmentsAndCoverThePlate) {
     for (const plc::Segment& s : divided.segments)
       EXPECT_TRUE(segments.insert({std::min(s.ends[0], s.ends[1]), std::max(s.ends[0], s.ends[1])}).second);
     for (const plc::Facet& facet : divided.facets) {
-      EXPECT_TRUE(facet.triangles.size() > 1 || facet.exactly_flat);
+      EXPECT_TRUE(facet.triangle_count > 1 || facet.exactly_flat);
       std::map<std::array<VertexId, 2>, int> uses;
-      for (const auto& t : facet.triangles)
+      for (const auto& t : divided.triangles_of(facet))
         for (std::size_t k = 0; k < 3; ++k) ++uses[{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])}];
       for (const auto& [edge, count] : uses) EXPECT_TRUE(count == 2 || segments.contains(edge));
     }
-    Triangles triangles;
-    for (const plc::Facet& facet : divided.facets)
-      triangles.insert(triangles.end(), facet.triangles.begin(), facet.triangles.end());
     const auto chains = protection::unprotected(plate.plc, {}).chains;
-    EXPECT_EQ(sorted(triangles), sorted(facets::triangulate_facets(plate.plc, chains, delaunay).triangles));
+    EXPECT_EQ(sorted(divided.triangles), sorted(facets::triangulate_facets(plate.plc, chains, delaunay).triangles));
   });
   EXPECT_GE(added_facets, 20u);
 }
@@ -238,11 +235,9 @@ TEST(DividedFacets, HoldBothHalvesOfAStripThinnerThanTheTolerance) {
   plc.vertices = {{0, 0, 0}, {1000, 0, 0}, {1000, 1, 0}, {0, 1, 0}, {1000, 1000, 0}, {0, 1000, 0}, {500, 500, -700}};
   plc.regions = {{}, {.inside = true}};
   const auto id = [](std::uint32_t v) { return VertexId(v); };
-  plc.facets.push_back(
-      {.triangles = {{id(0), id(1), id(2)}, {id(0), id(2), id(3)}, {id(3), id(2), id(4)}, {id(3), id(4), id(5)}},
-       .exactly_flat = false,
-       .above = RegionId(0),
-       .below = RegionId(1)});
+  const Triangles triangles = {
+      {id(0), id(1), id(2)}, {id(0), id(2), id(3)}, {id(3), id(2), id(4)}, {id(3), id(4), id(5)}};
+  plc.add({.exactly_flat = false, .above = RegionId(0), .below = RegionId(1)}, triangles);
   constexpr std::array<std::uint32_t, 6> around = {0, 1, 2, 4, 5, 3};
   for (std::size_t i = 0; i < 6; ++i) plc.segments.push_back({{id(around[i]), id(around[(i + 1) % 6])}});
   const std::vector<plc::FacetPart> strip = {{{{{0, 0, 0}, {1000, 0, 0}, {1000, 1, 0}}}, {0, 0, 1}},
