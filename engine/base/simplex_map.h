@@ -22,8 +22,8 @@ constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
 using FaceKey = std::array<std::uint32_t, 3>;
 
 constexpr FaceKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::uint32_t least = std::min(std::min(a, b), c), greatest = std::max(std::max(a, b), c);
-  return {least, a ^ b ^ c ^ least ^ greatest, greatest};  // without branches
+  const std::uint32_t low = std::min(a, b), high = std::max(a, b);
+  return {std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c)};
 }
 
 /// Is the order of three different corners an odd permutation of the increasing one? Triangles with the same corners

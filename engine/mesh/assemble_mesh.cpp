@@ -269,8 +269,12 @@ void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, Te
 std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
                                         const delaunay::Delaunay& d, const front::FrontResult& front) {
   if (front.tetrahedra.empty() || std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return {};
-  HashSet<FaceKey> constrained;
-  for (const auto& t : facets.triangles) constrained.insert(key_of(t));
+  std::vector<std::uint8_t> is_on_front(d.vertices.size(), 0);
+  for (const auto& t : front.tetrahedra)
+    for (const std::uint32_t v : t) is_on_front[v] = 1;
+  HashSet<FaceKey> constrained;  // those that may be faces of the front's tetrahedra
+  for (const auto& t : facets.triangles)
+    if ((is_on_front[t[0]] & is_on_front[t[1]] & is_on_front[t[2]]) != 0) constrained.insert(key_of(t));
   HashTable<FaceKey, std::uint32_t> waiting;  // 4 * tetrahedron + corner opposite to the face
   const auto error = [&](std::uint32_t place) {
     const auto& [a, b, c, e] = front.tetrahedra[place / 4];
