@@ -7,7 +7,6 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
-#include "engine/plc/boundary_sides.h"
 #include "engine/plc/plane_steps.h"
 
 namespace ccdt::improve {
@@ -80,9 +79,8 @@ class FreedomFinder {
         for (const VertexId v : t) look_at(f, t, v);
       if (!facet.exactly_flat) forbid_edges(facet);
     }
-    const std::vector<std::uint32_t> boundary_sides = plc::count_boundary_sides(plc_);
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s)
-      if (boundary_sides[s] > 2) may_slide_along_[s] = false;
+      if (plc_.segments[s].touching) may_slide_along_[s] = false;
   }
 
   void forbid_edges(const plc::Facet& facet) {

@@ -18,7 +18,6 @@
 #include "engine/improve/remove_steiner_vertices.h"
 #include "engine/improve/shake_cells.h"
 #include "engine/mesh/assemble_mesh.h"
-#include "engine/plc/boundary_sides.h"
 
 namespace ccdt::improve {
 namespace {
@@ -387,9 +386,8 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   CellComplex complex(std::move(mesh.faces), mesh.edges, std::move(input.cells), std::move(mesh.regions),
                       std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
-  const std::vector<std::uint32_t> boundary_sides = plc::count_boundary_sides(input.plc);
-  for (std::size_t s = 0; s < boundary_sides.size(); ++s)
-    for (std::size_t i = 1; boundary_sides[s] > 2 && i < input.chains[s].size(); ++i)
+  for (std::size_t s = 0; s < input.plc.segments.size(); ++s)
+    for (std::size_t i = 1; input.plc.segments[s].touching && i < input.chains[s].size(); ++i)
       complex.note_touching(input.chains[s][i - 1].vertex, input.chains[s][i].vertex);
   std::uint64_t removed = 0;
   if (options.steiner == SteinerRule::remove) {

@@ -28,7 +28,7 @@ class VertexRemoval {
   /// Plans to remove a vertex inside a segment, with `neighbors` before and after it on the segment. All cells around
   /// it are replaced, and on each facet the faces around it. The new cells are exactly positive.
   ///
-  /// The domain around the segment must be connected: see `plc::count_boundary_sides`.
+  /// The domain must not touch itself along the segment (`plc::Segment::touching`).
   ///
   /// \return is there a plan?
   bool plan(std::uint32_t vertex, const std::array<std::uint32_t, 2>& neighbors, RemovalEffort effort, Change& change);

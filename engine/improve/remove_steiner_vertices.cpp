@@ -6,7 +6,6 @@
 
 #include "engine/improve/loosen_star.h"
 #include "engine/improve/plan_vertex_removal.h"
-#include "engine/plc/boundary_sides.h"
 
 namespace ccdt::improve {
 namespace {
@@ -132,9 +131,8 @@ std::uint64_t remove_steiner_vertices(const plc::Plc& plc, std::uint32_t first_s
                                       protection::SegmentChains& chains, const Progress& progress) {
   if (protection::count_split(chains) == 0) return 0;
   SteinerRemover remover(x, first_steiner);
-  const std::vector<std::uint32_t> sides = plc::count_boundary_sides(plc);
   for (std::size_t s = 0; s < chains.size(); ++s)
-    if (sides[s] <= 2) remover.add_chain(chains[s]);
+    if (!plc.segments[s].touching) remover.add_chain(chains[s]);
   const std::uint64_t removed = remover.run(progress);
   chains.erase_if([&](const protection::ChainVertex& v) { return x.is_removed(v.vertex); });
   return removed;

@@ -74,6 +74,14 @@ bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const
   return false;
 }
 
+// Does the domain touch itself along the edge?
+bool is_touching(const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
+  if (parts.edges.sides_around(e).size() <= 2) return false;
+  return std::ranges::count_if(parts.edges.around(e), [&](std::uint32_t t) {
+           return map.regions[map.of(t, true)].inside != map.regions[map.of(t, false)].inside;
+         }) > 2;
+}
+
 // The edges that do not lie within one facet, and the segments of the input that are not edges.
 std::vector<Segment> collect_segments(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map) {
   std::vector<Segment> segments;
@@ -91,7 +99,8 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
           const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
           std::uint32_t face = no_face;
           for (const std::uint32_t t : parts.edges.around(e)) face = std::min(face, parts.triangles.faces[t]);
-          segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e), face};
+          segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e),
+                              is_touching(parts, map, e), face};
         }
       });
   for (std::size_t i = 0; i < map.of_loose.size(); ++i) {

@@ -20,6 +20,7 @@ struct Segment {
   std::array<VertexId, 2> ends;
   int marker = 0;
   bool grazeable = false;        ///< a sector of the domain of 180 degrees or more is around it (Shewchuk 2002)
+  bool touching = false;         ///< the domain touches itself along it: more than two triangles there bound the domain
   std::uint32_t face = no_face;  ///< of a triangle at it, in `Plc::faces`: then it is an edge there
 };
 
