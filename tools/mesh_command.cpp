@@ -205,7 +205,8 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
     const std::string tolerance = digits(std::ceil(*result.raised_flatness * 1e9) / 1e9);
     record.notes.push_back("segments could be protected only with facets that are flat within " + tolerance +
                            " of the bounding box, as if the coordinates had once been rounded to single precision; "
-                           "verify the mesh with --flatness " + tolerance);
+                           "verify the mesh with --flatness " +
+                           tolerance);
   }
   if (!options.background.empty() && !is_ccdt)
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
