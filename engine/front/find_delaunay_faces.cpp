@@ -18,7 +18,7 @@ namespace {
 
 using delaunay::no_neighbor;
 
-// Four numbers, one for each corner or face of a cell; which the compiler maps to the registers of the processor.
+// Four numbers, one for each corner or face of a cell. The compiler keeps them in one register of the processor.
 using FourNumbers = std::uint32_t __attribute__((vector_size(16)));
 
 CCDT_ALWAYS_INLINE void load(const std::array<std::uint32_t, 4>& numbers, FourNumbers& result) {
@@ -32,7 +32,8 @@ class FaceFilter {
  public:
   FaceFilter() = default;
   explicit FaceFilter(std::span<const std::array<VertexId, 3>> triangles)
-      : bits_(std::bit_ceil(triangles.size() / 2 + 1)), shift_(27 - std::countr_zero(bits_.size())) {
+      : bits_(std::min(most_words, std::bit_ceil(triangles.size() / 2 + 1))),
+        shift_(std::countr_zero(most_words) - std::countr_zero(bits_.size())) {
     for (const auto& [a, b, c] : triangles) {
       const std::uint32_t place = (mix(a.value) + mix(b.value) + mix(c.value)) >> shift_;
       bits_[place / 32] |= 1u << place % 32;
@@ -56,6 +57,8 @@ class FaceFilter {
     v ^= v >> 15;
     return v * 0x85EBCA77u;
   }
+
+  static constexpr std::size_t most_words = std::size_t{1} << 27;  ///< as many bits as there are hashes
 
   std::vector<std::uint32_t> bits_;  ///< a power of two of words, about 16 bits for each triangle
   int shift_ = 0;

@@ -127,6 +127,7 @@ TEST(PlcRegions, CubesThatTouchInAnEdgeOrAVertexAreTwoRegions) {
       EXPECT_EQ(plc.regions.size(), 3u);
       EXPECT_EQ(inside_count(plc), 2u);
       EXPECT_EQ(grazeable_count(plc), 0u);
+      EXPECT_EQ(std::ranges::count(plc.segments, true, &plc::Segment::touching), z == 0 ? 1 : 0);
     }
   }
 }
