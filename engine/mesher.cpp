@@ -1,14 +1,11 @@
 #include "engine/mesher.h"
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/base/errors.h"
-#include "engine/base/flatness.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/stopwatch.h"
@@ -384,35 +381,12 @@ Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const Mes
       throw MeshError(t.stuck->error);
     try {
       t = tetrahedralize(input, options, remedies, t.least_size, progress, costs);
-    } catch (const ProtectionError&) {  // the new segments are too close to others
+    } catch (const LimitError&) {  // the new segments are too close to others
       if (remedies.follow_input) throw;
       remedies.follow_input = true;
     }
   }
   return t;
-}
-
-/// Rounding bends flat facets. Beyond the tolerance, their triangles are facets of their own; and if these are needles,
-/// nothing can protect their long edges. Files of single precision have a larger tolerance, but a part that was turned
-/// after it had been rounded does not show that. So if edges cannot be protected, that tolerance is tried.
-///
-/// \param options  get the flatness that was used
-Tetrahedralization tetrahedralize_rounded(const InputPlc& input, MeshOptions& options, const Progress& progress,
-                                          StageCosts& costs) {
-  try {
-    return tetrahedralize_with_remedies(input, options, progress, costs);
-  } catch (const ProtectionError&) {
-    const double usual = flatness_for(input.vertices, usual_flatness);
-    const double of_single_precision = flatness_of_single_precision(input.vertices);
-    if (options.flatness != usual_flatness || usual >= of_single_precision) throw;
-    const std::exception_ptr first_error = std::current_exception();
-    options.flatness = of_single_precision;
-    try {
-      return tetrahedralize_with_remedies(input, options, progress, costs);
-    } catch (const Error&) {
-      std::rethrow_exception(first_error);
-    }
-  }
 }
 
 /// The target edge length, with the default of a refined surface. A length beyond the size of the input would only make
@@ -438,7 +412,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   MeshOptions used = options;
   used.edge_length = edge_length_of(options, flat);
   if (used.refine_surface) plc::check_edges_of_surface(flat, used.edge_length);
-  Tetrahedralization t = tetrahedralize_rounded(flat, used, progress, costs);
+  Tetrahedralization t = tetrahedralize_with_remedies(flat, used, progress, costs);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
@@ -465,10 +439,8 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   for (StageSeconds* seconds : {&costs.seconds, &costs.cpu_seconds})
     for (const MeshStage& stage : mesh_stages) seconds->mesh += seconds->*stage.seconds;
-  MeshResult result{std::move(t.mesh), std::move(t.counts), costs.seconds,         costs.cpu_seconds,
-                    costs.threads,     costs.work,          t.plc.largest_rounding};
-  if (used.flatness != options.flatness) result.raised_flatness = used.flatness;
-  return result;
+  return {std::move(t.mesh), std::move(t.counts), costs.seconds,         costs.cpu_seconds,
+          costs.threads,     costs.work,          t.plc.largest_rounding};
 }
 
 }  // namespace

@@ -136,8 +136,6 @@ struct MeshResult {
   StageThreads threads;
   StageWork work;
   double largest_rounding = 0;  ///< largest change of an input coordinate, in the units of the input
-  /// The tolerance of facets as a fraction of the bounding box, if it had to be larger than the usual one.
-  std::optional<double> raised_flatness = {};
 };
 
 /// The improvement with these options: the given one; by default everything, but nothing if the lattice is `none`,

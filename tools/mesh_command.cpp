@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -201,13 +200,6 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   record.largest_rounding = result.largest_rounding;
   record.mesher_settings = run.settings;
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
-  if (result.raised_flatness) {
-    const std::string tolerance = digits(std::ceil(*result.raised_flatness * 1e9) / 1e9);
-    record.notes.push_back("segments could be protected only with facets that are flat within " + tolerance +
-                           " of the bounding box, as if the coordinates had once been rounded to single precision; "
-                           "verify the mesh with --flatness " +
-                           tolerance);
-  }
   if (!options.background.empty() && !is_ccdt)
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(result.mesh);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <utility>
 
 #include "bench/proving_ground/prove.h"
 #include "bench/proving_ground/structured_plc.h"
@@ -9,7 +8,6 @@
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
 #include "engine/plc/bent_facets.h"
-#include "engine/tests/plc_test_solids.h"
 #include "engine/tests/real_parts.h"
 
 // Surfaces that once made the engine fail, meshed with all strategies and verified: `ctest -L hard`.
@@ -40,24 +38,6 @@ INSTANTIATE_TEST_SUITE_P(Files, HardPart, testing::ValuesIn(surfaces_in(folder_o
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
 });
-
-// The file is of single precision. Once the part is turned, its coordinates no longer show that its flat facets are
-// bent.
-TEST(TurnedPart, IsMeshedThoughRoundingHasBentItsFacets) {
-  const std::filesystem::path file = folder_of_hard_parts() / "kingroon_kp3.stl";
-  if (!exists(file)) GTEST_SKIP() << file << " is missing";
-  const InputPlc part = io::read_plc(file);
-  for (const auto& [turn, lattice] : {std::pair{plc_test::rotation(1, 1, 2, 1), Lattice::none},
-                                      {plc_test::rotation(3, 2, 2, 1), Lattice::none},
-                                      {plc_test::rotation(1, 2, 3, 4), Lattice::fcc}}) {
-    const InputPlc input = plc_test::rotated(turn, part);
-    MeshOptions options;
-    options.lattice = lattice;
-    const MeshResult result = mesh_plc(input, options);
-    ASSERT_TRUE(result.raised_flatness.has_value());
-    EXPECT_TRUE(verify::verify(input, result.mesh, {.flatness = *result.raised_flatness}).ok());
-  }
-}
 
 TEST(ProvingGround, ABundleOfManyPiecesIsRight) {
   const proving_ground::Proof proof = proving_ground::prove(proving_ground::structured_plc(4543), {.seconds = 600});

@@ -50,12 +50,6 @@ class LimitError : public Error {
   using Error::Error;
 };
 
-/// A segment cannot be protected: that would take places that are not on the grid, or far too many splits.
-class ProtectionError : public LimitError {
- public:
-  using LimitError::LimitError;
-};
-
 /// The engine could not finish a valid mesh, or a mesh failed a check (exit code 1).
 class MeshError : public Error {
  public:

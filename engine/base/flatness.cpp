@@ -37,17 +37,13 @@ bool are_rounded_to_single(std::span<const Point3> points) {
 
 double flatness_for(std::span<const Point3> points, double tolerance) {
   if (tolerance != usual_flatness || !are_rounded_to_single(points)) return tolerance;
-  return std::max(tolerance, flatness_of_single_precision(points));
-}
-
-double flatness_of_single_precision(std::span<const Point3> points) {
   const auto [low, high] = bounding_box(points);
   const Point3 size = high - low;
   const double extent = std::max({size.x, size.y, size.z});
   const double largest = std::max(
       {std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x), std::fabs(high.y), std::fabs(high.z)});
   constexpr double rounding = 0x1p-24;
-  return extent > 0 ? most_roundings * rounding * largest / extent : 0;
+  return extent > 0 ? std::max(tolerance, most_roundings * rounding * largest / extent) : tolerance;
 }
 
 }  // namespace ccdt

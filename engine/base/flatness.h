@@ -17,8 +17,4 @@ inline constexpr double usual_flatness = 1e-8;
 /// \param tolerance  what was asked for, as such a fraction
 double flatness_for(std::span<const Point3> points, double tolerance);
 
-/// The tolerance, as such a fraction, for facets whose vertices have been rounded to single precision. Those of a part
-/// that was turned afterward no longer show that.
-double flatness_of_single_precision(std::span<const Point3> points);
-
 }  // namespace ccdt

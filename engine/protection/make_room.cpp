@@ -227,7 +227,7 @@ std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges,
                                             const Progress& progress) {
   try {
     return protect_edges(plc, surface, strategy, progress, edges);
-  } catch (const ProtectionError&) {
+  } catch (const LimitError&) {
     return {};
   }
 }

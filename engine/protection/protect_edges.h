@@ -43,7 +43,7 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices
 /// \param to_split  pieces that are split first, whether they are edges or not; those that are too short stay
 /// \return          the same with the Steiner vertices, whose ids follow the existing ones
-/// \throw ProtectionError  a segment would need a split that is not on the grid; carries the place
+/// \throw LimitError  a segment would need a split that is not on the grid; carries the place
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress = {}, std::span<const PieceEnds> to_split = {});
 

@@ -72,9 +72,9 @@ std::size_t most_splits(std::size_t vertices) {
   Place place;
   place.file = plc.name;
   for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
-  throw ProtectionError(std::string("a segment cannot be protected: ") + why, place,
-                        "look for features at its ends or beside it that are smaller than 1e-5 of it, and remove them "
-                        "or split the segment; if these are needles in flat parts, raise --flatness");
+  throw LimitError(std::string("a segment cannot be protected: ") + why, place,
+                   "look for features at its ends or beside it that are smaller than 1e-5 of it, and remove them or "
+                   "split the segment");
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class EdgeSplitter {
   /// Adds a vertex that splits the piece, where `strategy` says, and finds its cavity. The caller adds it to the chain,
   /// examines the cavity and calls `insert`.
   ///
-  /// \throw ProtectionError  the piece is as short as the grid allows, or there are far too many splits
+  /// \throw LimitError  the piece is as short as the grid allows, or there are far too many splits
   ChainVertex choose(const Subsegment& piece);
   const delaunay::Insertion& insertion() const { return insertion_; }
   void insert() { insertion_.fill_cavity(); }
