@@ -382,8 +382,7 @@ Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const Mes
     try {
       t = tetrahedralize(input, options, remedies, t.least_size, progress, costs);
     } catch (const LimitError&) {  // the new segments are too close to others
-      if (remedies.follow_input) throw;
-      remedies.follow_input = true;
+      if (!retry::replace_remedy(remedies)) throw;
     }
   }
   return t;

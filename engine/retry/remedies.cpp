@@ -85,12 +85,13 @@ std::optional<protection::PieceEnds> find_ends(std::span<const protection::Chain
 
 bool add_remedy(const FailedAttempt& attempt, Remedies& remedies) {
   constexpr int most_local = 30;
+  remedies.last_is_split = false;
   if (++remedies.count > most_local) return plc::tighten({}, remedies.strictness);
   if (attempt.faces.size() < remedies.fewest_faces && !attempt.faces.empty()) {
     remedies.fewest_faces = attempt.faces.size();
     if (std::vector<PieceToSplit> pieces = find_long_pieces(attempt); !pieces.empty()) {
       remedies.splits.push_back(std::move(pieces));
-      return true;
+      return remedies.last_is_split = true;
     }
   }
   const std::vector<plc::FacetPart> parts = parts_at_faces(attempt);
@@ -98,6 +99,12 @@ bool add_remedy(const FailedAttempt& attempt, Remedies& remedies) {
   remedies.follow_input = true;
   remedies.divided.clear();
   return plc::tighten(parts, remedies.strictness);
+}
+
+bool replace_remedy(Remedies& remedies) {
+  if (remedies.last_is_split) remedies.splits.pop_back();
+  const bool followed_input = std::exchange(remedies.follow_input, true);
+  return std::exchange(remedies.last_is_split, false) || !followed_input;
 }
 
 protection::ProtectedDelaunay split_pieces(const plc::Plc& plc, protection::ProtectedDelaunay surface,

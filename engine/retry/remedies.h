@@ -29,6 +29,7 @@ struct PieceToSplit {
 struct Remedies {
   std::vector<std::vector<PieceToSplit>> splits;  ///< one list after the other
   std::vector<plc::FacetPart> divided;            ///< see `divide_facets`
+  bool last_is_split = false;                     ///< the last remedy is the last list of splits
   bool follow_input = false;                      ///< facets are divided along the triangles of the input instead
   plc::Strictness strictness;                     ///< which ones
   std::size_t fewest_faces = std::numeric_limits<std::size_t>::max();  ///< near the places where an attempt failed
@@ -51,6 +52,12 @@ struct FailedAttempt {
 ///
 /// \return  false if there is none left
 bool add_remedy(const FailedAttempt& attempt, Remedies& remedies);
+
+/// Gives up the last remedy, with which segments cannot be protected. Splits are taken back, because they would be in
+/// the way of all later remedies. The triangles of the input are followed next.
+///
+/// \return  false if the last remedy was to follow them
+bool replace_remedy(Remedies& remedies);
 
 /// Protects the segments again after each round of splits.
 protection::ProtectedDelaunay split_pieces(const plc::Plc& plc, protection::ProtectedDelaunay surface,

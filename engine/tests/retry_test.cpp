@@ -183,6 +183,30 @@ TEST(Retry, SplitsSegmentsThenDividesFacetsAlongDelaunayTrianglesThenAlongThoseO
   });
 }
 
+TEST(Retry, TakesBackSplitsThatCannotBeProtectedAndThenFollowsTheInput) {
+  for_stuck_plates([](const StuckPlate& plate) {
+    retry::Remedies remedies;
+    ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    ASSERT_TRUE(retry::replace_remedy(remedies));
+    EXPECT_TRUE(remedies.splits.empty());
+    ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    EXPECT_TRUE(remedies.splits.empty());
+    EXPECT_TRUE(remedies.divided.empty());
+    EXPECT_EQ(remedies.strictness.places.size(), plate.front.stuck->faces.size());
+    EXPECT_FALSE(retry::replace_remedy(remedies));
+  });
+}
+
+TEST(Retry, KeepsSplitsIfOnlyTheFacetsDividedAfterThemCannotBeProtected) {
+  for_stuck_plates([](const StuckPlate& plate) {
+    retry::Remedies remedies;
+    while (remedies.divided.empty()) ASSERT_TRUE(retry::add_remedy(plate.attempt(), remedies));
+    ASSERT_TRUE(retry::replace_remedy(remedies));
+    EXPECT_EQ(remedies.splits.size(), 1u);
+    EXPECT_TRUE(remedies.follow_input);
+  });
+}
+
 TEST(DividedFacets, OverlapWhereTheyShareMoreThanAnEdge) {
   const plc::FacetPart part = {{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}}, {0, 0, 1}};
   const auto other = [](const std::array<Point3, 3>& corners, const Point3& normal) {
