@@ -41,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Files, HardPart, testing::ValuesIn(surfaces_in(folder_o
   return name;
 });
 
-// The file is of single precision. Once the part is turned, its coordinates no longer show that its flat facets are
-// bent. So many facets are flat only just within the tolerance.
+// The file is of single precision. Once the part is turned, its coordinates no longer show that rounding has bent its
+// flat facets. The front gets stuck at them, and the first remedies do not help.
 TEST(TurnedPart, IsMeshedThoughRoundingHasBentItsFacets) {
   const std::filesystem::path file = folder_of_hard_parts() / "kingroon_kp3.stl";
   if (!exists(file)) GTEST_SKIP() << file << " is missing";
