@@ -57,6 +57,20 @@ TEST(TurnedPart, IsMeshedThoughRoundingHasBentItsFacets) {
   }
 }
 
+// Where this part's facets fold by almost a full turn, new faces could take space outside that is another part of the
+// domain.
+TEST(TurnedPart, StaysRightWithoutItsSteinerVertices) {
+  const std::filesystem::path file = folder_of_hard_parts() / "kingroon_kp3.stl";
+  if (!exists(file)) GTEST_SKIP() << file << " is missing";
+  const InputPlc input = plc_test::rotated(plc_test::rotation(-4, -9, 7, -1), io::read_plc(file));
+  MeshOptions options;
+  options.flatness = 7.1e-8;
+  options.lattice = Lattice::none;
+  const mesh::TetMesh mesh = mesh_plc(input, options).mesh;
+  EXPECT_FALSE(mesh.constrained_delaunay);
+  EXPECT_TRUE(verify::verify(input, mesh, {.flatness = 7.1e-8}).ok());
+}
+
 TEST(ProvingGround, ABundleOfManyPiecesIsRight) {
   const proving_ground::Proof proof = proving_ground::prove(proving_ground::structured_plc(4543), {.seconds = 600});
   EXPECT_EQ(proof.outcome, proving_ground::Proof::Outcome::right) << proof.what;

@@ -56,6 +56,10 @@ struct Box {
 /// The empty box: the hull of it and another box is the other box.
 inline constexpr Box empty_box = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 
+inline bool is_empty(const Box& box) {
+  return box.low.x > box.high.x;
+}
+
 inline Box hull(const Box& a, const Box& b) {
   return {componentwise_min(a.low, b.low), componentwise_max(a.high, b.high)};
 }

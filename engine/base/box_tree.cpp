@@ -34,4 +34,15 @@ BoxTree::BoxTree(RawVector<Box> boxes) : items_(order_of(boxes)) {
     });
 }
 
+void BoxTree::enlarge(std::uint32_t item, const Box& box) {
+  if (places_.empty()) {
+    places_.resize(items_.size());
+    for (std::uint32_t place = 0; place < items_.size(); ++place) places_[items_[place]] = place;
+  }
+  const std::uint32_t place = places_[item];
+  boxes_[place] = hull(boxes_[place], box);
+  for (std::uint32_t node = leaf_count_ + place / leaf_size; node >= 1; node /= 2)
+    nodes_[node] = hull(nodes_[node], box);
+}
+
 }  // namespace ccdt

@@ -20,7 +20,10 @@ class BoxTree {
  public:
   explicit BoxTree(RawVector<Box> boxes);
 
-  std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_); }
+  std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_, places_); }
+
+  /// From now on, the item is also in this box.
+  void enlarge(std::uint32_t item, const Box& box);
 
   /// Calls visit(item) for all items whose box meets the given box or line segment.
   template <class Shape, class Visit>
@@ -63,10 +66,11 @@ class BoxTree {
       }
   }
 
-  std::vector<std::uint32_t> items_;  // in Morton order
-  RawVector<Box> boxes_;              // of these
-  RawVector<Box> nodes_;              // from 1 on
-  std::uint32_t leaf_count_ = 1;      // a power of two
+  std::vector<std::uint32_t> items_;   // in Morton order
+  RawVector<Box> boxes_;               // of these
+  RawVector<Box> nodes_;               // from 1 on
+  std::vector<std::uint32_t> places_;  // of the items; empty until one is enlarged
+  std::uint32_t leaf_count_ = 1;       // a power of two
 };
 
 }  // namespace ccdt

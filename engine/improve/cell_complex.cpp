@@ -46,6 +46,7 @@ void Change::clear() {
   faces.clear();
   new_vertex.reset();
   merge.reset();
+  space_taken = empty_box;
 }
 
 CellComplex::CellComplex(std::vector<std::array<std::uint32_t, 3>> faces,
@@ -115,6 +116,14 @@ void CellComplex::find_last_cells() {
   });
 }
 
+void CellComplex::index_faces() {
+  if (face_tree_) return;
+  RawVector<Box> boxes(faces_.size());
+  parallel_for(faces_.size(), grain,
+               [&](std::size_t f) { boxes[f] = faces_[f] == no_corners ? Box{} : box_of(faces_[f]); });
+  face_tree_.emplace(std::move(boxes));
+}
+
 void CellComplex::set_wall(std::uint32_t code) {
   walls_[cell_of(code)] |= static_cast<std::uint8_t>(1u << face_of(code));
 }
@@ -166,7 +175,7 @@ bool CellComplex::all_positive(const Change& change) const {
 std::size_t CellComplex::bytes() const {
   return bytes_of(points_, cell_at_, changed_at_, cells_, walls_, regions_, qualities_, generations_, free_, faces_,
                   facet_of_face_, facet_axes_) +
-         segments_.bytes() + face_table_.bytes();
+         segments_.bytes() + face_table_.bytes() + (face_tree_ ? face_tree_->bytes() : 0);
 }
 
 void CellComplex::find_cavity(const Change& change, Cavity& cavity) const {
@@ -234,7 +243,9 @@ void CellComplex::change_faces(const std::vector<FaceChange>& changes) {
   for (const FaceChange& change : changes) face_table_.erase(face_table_.find(key_of(faces_[change.face])));
   for (const FaceChange& change : changes) {
     faces_[change.face] = change.corners;
-    if (change.corners != no_corners) face_table_.insert(key_of(change.corners), change.face);
+    if (change.corners == no_corners) continue;
+    face_table_.insert(key_of(change.corners), change.face);
+    if (face_tree_) face_tree_->enlarge(change.face, box_of(change.corners));
   }
 }
 
@@ -295,6 +306,16 @@ void CellComplex::announce_move(std::span<const std::uint32_t> corners) {
   for (const std::uint32_t v : corners) changed_at_[v] = change_count_;
 }
 
+void CellComplex::announce_faces(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star) {
+  if (!face_tree_) return;
+  for (const std::uint32_t c : star)
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      if (cells_[c].vertices[f] == v || !is_wall(face_code(c, f))) continue;
+      const auto corners = corners_of_face(cells_[c].vertices, f);
+      face_tree_->enlarge(*find_face(corners[0], corners[1], corners[2]), ccdt::box_of(place));
+    }
+}
+
 void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star) {
   points_[v] = place;
   for (const std::uint32_t c : star) qualities_[c] = quality_of(cells_[c].vertices);
@@ -303,7 +324,7 @@ void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<co
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   // The tetrahedra get the memory of what is no longer needed.
   release(qualities_), release(generations_), release(walls_), release(changed_at_), release(facet_of_face_);
-  release(face_table_), release(segments_);
+  release(face_table_), release(segments_), face_tree_.reset();
   std::vector<std::uint32_t> number(points_.size());
   std::vector<Point3> points;
   const auto number_vertices = [&] {

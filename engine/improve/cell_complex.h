@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/box_tree.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
@@ -47,6 +48,8 @@ struct Change {
   std::vector<FaceChange> faces;     ///< on facets; together they cover the same parts of the same facets
   std::optional<Point3> new_vertex;  ///< its id is the number of vertices before the change
   std::optional<SegmentMerge> merge;
+  /// Around the space outside that its new faces take, or would have taken if no face were in the way.
+  Box space_taken = empty_box;
 
   void clear();
   /// Does it leave the faces on facets and the segments alone?
@@ -154,12 +157,21 @@ class CellComplex {
     return !is_interior(a) && !is_interior(b) && segments_.find(edge_key(a, b)) != nullptr;
   }
 
-  /// Notes that the domain touches itself along an edge of a segment: there is space outside on both sides of it.
-  void note_touching(std::uint32_t a, std::uint32_t b) { touching_.insert(edge_key(a, b)); }
-  /// Does the domain touch itself along the edge?
-  bool is_touching(std::uint32_t a, std::uint32_t b) const {
-    return !touching_.empty() && touching_.find(edge_key(a, b)) != nullptr;
+  /// The box of a face with these corners.
+  Box box_of(const std::array<std::uint32_t, 3>& corners) const {
+    return bounding_box(std::array{points_[corners[0]], points_[corners[1]], points_[corners[2]]});
   }
+  /// Calls visit(face) for all faces whose boxes meet the given one. Slow unless the faces are indexed.
+  template <class Visit>
+  void for_each_face_near(const Box& box, const Visit& visit) const {
+    const auto visit_near = [&](std::uint32_t face) {
+      if (faces_[face] != no_corners && box_of(faces_[face]).meets(box)) visit(face);
+    };
+    if (face_tree_) return face_tree_->for_each_meeting(box, visit_near);
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) visit_near(face);
+  }
+  /// Indexes the faces by place, unless that was done before.
+  void index_faces();
 
   /// The quality of a cell with these vertices.
   double quality_of(const std::array<std::uint32_t, 4>& v) const {
@@ -193,6 +205,8 @@ class CellComplex {
 
   /// \param corners  of all cells around the vertex, in any order, some repeatedly
   void announce_move(std::span<const std::uint32_t> corners);
+  /// Notes that the faces around a vertex that is not interior will be where it moves to.
+  void announce_faces(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
 
@@ -234,11 +248,11 @@ class CellComplex {
 
   // The surface.
   HashSet<std::uint64_t> segments_;               // edges that lie on segments
-  HashSet<std::uint64_t> touching_;               // those along which the domain touches itself
   HashTable<FaceKey, std::uint32_t> face_table_;  // places in `faces_`
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> facet_of_face_;
-  std::vector<facets::FacetAxis> facet_axes_;
+  std::vector<facets::FacetAxis> facet_axes_;  // by facet
+  std::optional<BoxTree> face_tree_;           // its boxes may be too large; none until the faces are indexed
 
   Cavity cavity_;  // working memory of `apply`
 };

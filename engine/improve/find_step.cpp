@@ -45,6 +45,7 @@ double StepFinder::quality_after(const Step& step, const std::array<std::uint32_
 void StepFinder::find(std::uint32_t cell, bool has_moved, Effort effort, Step& step) {
   step.kind = Step::Kind::none;
   step.far_vertices.clear();
+  step.space_taken = empty_box;
   find_any(cell, has_moved, effort, step);
   if (step.kind == Step::Kind::change) x_.find_cavity(step.change, step.cavity);
 }
@@ -66,8 +67,11 @@ bool StepFinder::find_swap(std::uint32_t cell, Step& step) {
     step.count = count;
     std::swap(plan_, step.change);
   };
-  for (std::uint32_t edge = 0; edge < 6; ++edge)
-    consider(plan_edge_removal(x_, cell, edge, least, plan_), &ImproveCounts::removed_edges);
+  for (std::uint32_t edge = 0; edge < 6; ++edge) {
+    const bool is_planned = plan_edge_removal(x_, cell, edge, least, plan_);
+    step.space_taken = hull(step.space_taken, plan_.space_taken);
+    consider(is_planned, &ImproveCounts::removed_edges);
+  }
   for (std::uint32_t face = 0; face < 4; ++face)
     consider(plan_face_removal(x_, cell, face, least, plan_), &ImproveCounts::removed_faces);
   if (step.count == nullptr || !x_.all_positive(step.change)) return false;

@@ -38,6 +38,7 @@ struct Step {
 
   /// The vertices of all cells that could have been replaced by a new vertex or a reconnection.
   std::vector<std::uint32_t> far_vertices;
+  Box space_taken = empty_box;  ///< around that of all plans that were made (`Change::space_taken`)
 };
 
 /// The corners of a cell and the apexes of its neighbors; a corner again where a neighbor is missing. All that

@@ -214,13 +214,22 @@ class Improver {
   /// step is found in the complex as it was before the window, and several threads can find them.
   void try_window(Effort effort) {
     const std::uint64_t before = x_.change_count();
-    if (finders_.size() > 1 && window_.size() >= least_shared) return try_together(effort, before);
+    changed_faces_.clear();
+    if (finders_.size() > 1 && window_.size() >= least_shared) {
+      try_together(effort, before);
+    } else {
+      try_in_turn(effort, before);
+    }
+    if (looks_for_faces_) x_.index_faces();
+  }
+
+  void try_in_turn(Effort effort, std::uint64_t before) {
     Attempt& attempt = attempts_[0];
     for (auto& [bad, near] : window_) {
       attempt.waits = have_changed(near, before);
       if (!attempt.waits) {
         find_step(finders_[0], bad, effort, attempt);
-        attempt.waits = have_changed(attempt.step.far_vertices, before);
+        attempt.waits = is_disturbed(attempt.step, before);
       }
       if (!attempt.waits) {
         announce(attempt);
@@ -236,7 +245,7 @@ class Improver {
     for (std::uint32_t i = 0; i < window_.size(); ++i) {
       Attempt& attempt = attempts_[i];
       Step& step = attempt.step;
-      attempt.waits = have_changed(window_[i].near, before) || have_changed(step.far_vertices, before);
+      attempt.waits = have_changed(window_[i].near, before) || is_disturbed(step, before);
       if (attempt.waits) continue;
       const bool is_change = step.kind == Step::Kind::change;
       if (is_change && x_.has_changed_beyond(step.cavity, before)) {
@@ -255,6 +264,12 @@ class Improver {
 
   bool have_changed(std::span<const std::uint32_t> vertices, std::uint64_t since) const {
     return std::ranges::any_of(vertices, [&](std::uint32_t v) { return x_.changed_at(v) > since; });
+  }
+
+  /// Has something farther away changed that the step was made for?
+  bool is_disturbed(const Step& step, std::uint64_t since) const {
+    return have_changed(step.far_vertices, since) ||
+           std::ranges::any_of(changed_faces_, [&](const Box& box) { return box.meets(step.space_taken); });
   }
 
   void find_steps(Effort effort) {
@@ -292,10 +307,18 @@ class Improver {
   /// Does what must be done in the order of the steps.
   void announce(Attempt& attempt) {
     Step& step = attempt.step;
-    if (step.kind == Step::Kind::change) x_.announce(step.change, step.cavity, attempt.new_cells);
-    if (step.kind == Step::Kind::moves)
-      for (std::size_t i = 0; i < step.move_count; ++i) x_.announce_move(step.moves[i].corners);
+    if (step.kind == Step::Kind::change) {
+      x_.announce(step.change, step.cavity, attempt.new_cells);
+      for (const FaceChange& face : step.change.faces)
+        changed_faces_.push_back(hull(x_.box_of(x_.faces()[face.face]), x_.box_of(face.corners)));
+    }
+    for (std::size_t i = 0; step.kind == Step::Kind::moves && i < step.move_count; ++i) announce(step.moves[i]);
     attempt.next_change = x_.change_count() + 1;
+  }
+
+  void announce(const Move& move) {
+    x_.announce_move(move.corners);
+    if (!x_.is_interior(move.vertex)) x_.announce_faces(move.vertex, move.place, move.star);
   }
 
   /// Does the rest.
@@ -325,6 +348,7 @@ class Improver {
       waiting_.push_back(bad);
       return;
     }
+    if (!is_empty(step.space_taken)) looks_for_faces_ = true;
     if (step.kind == Step::Kind::change) {
       ++(counts_.*step.count);
       counts_.facet_flips += !step.change.faces.empty();
@@ -366,6 +390,8 @@ class Improver {
   std::vector<StepFinder> finders_;  ///< one for each thread
   std::vector<Attempt> attempts_;
   std::vector<std::uint32_t> finder_of_;  ///< by attempt
+  std::vector<Box> changed_faces_;        ///< around the faces that were changed in this window
+  bool looks_for_faces_ = false;          ///< some steps depend on faces that are close to new ones
   std::vector<std::uint32_t> announced_;  ///< attempts whose steps are not yet made
   std::vector<BadCell> returning_;
   std::vector<std::uint32_t> new_cells_;
@@ -386,9 +412,6 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   CellComplex complex(std::move(mesh.faces), mesh.edges, std::move(input.cells), std::move(mesh.regions),
                       std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
-  for (std::size_t s = 0; s < input.plc.segments.size(); ++s)
-    for (std::size_t i = 1; input.plc.segments[s].touching && i < input.chains[s].size(); ++i)
-      complex.note_touching(input.chains[s][i - 1].vertex, input.chains[s][i].vertex);
   std::uint64_t removed = 0;
   if (options.steiner == SteinerRule::remove) {
     const auto first_steiner = static_cast<std::uint32_t>(input.first_steiner);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/improve/crossing_faces.h"
 #include "engine/improve/smoothing.h"
 #include "engine/improve/topological_changes.h"
 #include "engine/numbers/predicates.h"
@@ -28,10 +29,18 @@ bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2
   gather_cells(x_, vertex, marks_, star_);
   if (!find_pages()) return false;
   if (effort != RemovalEffort::collapse) return plan_fill(change);
-  const bool is_planned = plan_collapse(0, change);
-  if (!plan_collapse(1, other_)) return is_planned;
-  if (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells)) std::swap(change, other_);
-  return true;
+  return plan_better_collapse(change);
+}
+
+bool VertexRemoval::plan_better_collapse(Change& change) {
+  bool is_planned = plan_collapse(0, change), is_other_planned = plan_collapse(1, other_);
+  if (is_other_planned && (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells))) {
+    std::swap(change, other_);
+    std::swap(is_planned, is_other_planned);
+  }
+  if (is_planned && !would_cross(x_, change)) return true;
+  std::swap(change, other_);
+  return is_other_planned && !would_cross(x_, change);
 }
 
 /// Finds the faces around the vertex on each facet. \return false: they are no pages of a book along the segment
@@ -82,15 +91,15 @@ bool VertexRemoval::find_fan(Page& page, std::size_t from) {
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Triangle t = {polygon[from], polygon[(from + i) % n], polygon[(from + i + 1) % n]};
     page.triangles.push_back(t);
-    if (!is_new_and_upright(x_, t, page.facet)) return false;
+    if (!is_new_and_upright(x_, t, page.facet) || is_on_hull(t)) return false;
   }
-  gather_cells(x_, polygon[from], marks_, around_apex_);
-  return std::ranges::none_of(page.triangles, [&](const Triangle& t) { return is_face_of(around_apex_, t); });
+  return true;
 }
 
-/// In a facet that is flat only within the tolerance, cells can have all corners of a new triangle of a page.
-bool VertexRemoval::is_face_of(std::span<const std::uint32_t> cells, const Triangle& t) const {
-  return std::ranges::any_of(cells, [&](std::uint32_t c) {
+/// In a facet that is flat only within the tolerance, a triangle of the page can be on the hull of the star: then no
+/// new cell would have it.
+bool VertexRemoval::is_on_hull(const Triangle& t) const {
+  return std::ranges::any_of(star_, [&](std::uint32_t c) {
     const auto& v = x_.cell(c).vertices;
     return std::ranges::all_of(t, [&](std::uint32_t corner) { return has(v, corner); });
   });
@@ -106,7 +115,7 @@ void VertexRemoval::replace_star(Change& change) const {
   change.merge = SegmentMerge{vertex_, neighbors_};
 }
 
-/// Plans to move the vertex onto one of its neighbors.
+/// Plans to move the vertex onto one of its neighbors, perhaps across other faces.
 bool VertexRemoval::plan_collapse(std::size_t end, Change& change) {
   change.clear();
   const std::uint32_t to = neighbors_[end];
@@ -180,7 +189,8 @@ bool VertexRemoval::fill_sectors(std::size_t page, Change& change) {
   }
   change.clear();
   replace_star(change);
-  return std::ranges::all_of(sectors_, [&](const Sector& sector) { return fill_sector(sector, change); });
+  return !would_cross(x_, change) &&
+         std::ranges::all_of(sectors_, [&](const Sector& sector) { return fill_sector(sector, change); });
 }
 
 /// Fills a sector without the vertex.

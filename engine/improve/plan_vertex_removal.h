@@ -67,11 +67,12 @@ class VertexRemoval {
   void find_sectors();
   void add_pages(std::uint32_t cell, Sector& sector) const;
   bool find_fan(Page& page, std::size_t from);
-  bool is_face_of(std::span<const std::uint32_t> cells, const Triangle& triangle) const;
+  bool plan_better_collapse(Change& change);
   bool plan_collapse(std::size_t end, Change& change);
   bool plan_fill(Change& change);
   bool fill_sectors(std::size_t page, Change& change);
   bool fill_sector(const Sector& sector, Change& change);
+  bool is_on_hull(const Triangle& triangle) const;
   void replace_star(Change& change) const;
 
   const CellComplex& x_;
@@ -82,7 +83,6 @@ class VertexRemoval {
   // Working memory.
   CellMarks marks_;
   std::vector<std::uint32_t> star_;
-  std::vector<std::uint32_t> around_apex_;  ///< the cells at the apex of a fan
   std::vector<FaceAtVertex> faces_;
   std::vector<Page> pages_;
   std::vector<Sector> sectors_;

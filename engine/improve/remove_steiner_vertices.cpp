@@ -130,6 +130,7 @@ class SteinerRemover {
 std::uint64_t remove_steiner_vertices(const plc::Plc& plc, std::uint32_t first_steiner, CellComplex& x,
                                       protection::SegmentChains& chains, const Progress& progress) {
   if (protection::count_split(chains) == 0) return 0;
+  x.index_faces();
   SteinerRemover remover(x, first_steiner);
   for (std::size_t s = 0; s < chains.size(); ++s)
     if (!plc.segments[s].touching) remover.add_chain(chains[s]);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/base/count_work.h"
+#include "engine/improve/crossing_faces.h"
 #include "engine/numbers/predicates.h"
 
 namespace ccdt::improve {
@@ -171,26 +172,6 @@ bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
          other.vertices[0] == first && other.vertices[other.size] == ring.vertices[0];
 }
 
-/// Is the triangle a face of a cell, except of those given? In a facet that is flat only within the tolerance, cells
-/// can have all corners of a new face of it. Then this cell and a new one would be on the same side of that face.
-bool is_face_of_cell(const CellComplex& x, const std::array<std::uint32_t, 3>& t,
-                     std::span<const std::uint32_t> except) {
-  for (const std::uint32_t corner : t) {
-    std::vector<std::uint32_t> around = {x.cell_at(corner)};
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const Cell& cell = x.cell(around[i]);
-      const auto has = [&](std::uint32_t v) { return std::ranges::find(cell.vertices, v) != cell.vertices.end(); };
-      if (std::ranges::all_of(t, has) && std::ranges::find(except, around[i]) == except.end()) return true;
-      for (std::uint32_t f = 0; f < 4; ++f) {
-        const std::uint32_t next = cell.neighbors[f];
-        if (cell.vertices[f] == corner || next == no_neighbor) continue;
-        if (std::ranges::find(around, cell_of(next)) == around.end()) around.push_back(cell_of(next));
-      }
-    }
-  }
-  return false;
-}
-
 /// Plans to flip an edge on a facet: the cells on both sides change, and the facet gets the other diagonal.
 bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& change) {
   const std::uint32_t a = ring.a, b = ring.b, first = ring.vertices[0], last = ring.vertices[ring.size];
@@ -201,11 +182,14 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   if (other.size > 0 && !add_ring(x, other, least, change)) return false;
   change.faces = {with_corner(x, *face, b, last), with_corner(x, *next, a, first)};
   const std::uint32_t facet = x.facet_of_face()[*face];
-  // In a plane, the new faces cover what the old ones did.
-  const bool is_flat = numbers::orient3d(x.point(a), x.point(b), x.point(first), x.point(last)) == 0;
-  return std::ranges::all_of(change.faces, [&](const FaceChange& f) {
-    return is_new_and_upright(x, f.corners, facet) && (is_flat || !is_face_of_cell(x, f.corners, change.old_cells));
-  });
+  if (!std::ranges::all_of(change.faces, [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, facet); }))
+    return false;
+  // At an edge where less than a half turn is inside, the new faces cut off a tetrahedron. At others they add one.
+  const bool takes_space =
+      other.size == 0 && numbers::orient3d(x.point(a), x.point(b), x.point(first), x.point(last)) < 0;
+  if (!takes_space) return true;
+  change.space_taken = bounding_box(std::array{x.point(a), x.point(b), x.point(first), x.point(last)});
+  return !would_cross(x, change);
 }
 
 /// The largest number of cells on one side of the removed faces.
@@ -269,7 +253,6 @@ class SandwichedFaces {
 
 bool is_new_and_upright(const CellComplex& x, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet) {
   const auto& [a, b, c] = corners;
-  if (x.is_touching(a, b) + x.is_touching(b, c) + x.is_touching(c, a) > 1) return false;
   return !x.find_face(a, b, c) && facets::is_upright(x.point(a), x.point(b), x.point(c), x.axis_of_facet(facet));
 }
 

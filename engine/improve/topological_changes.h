@@ -35,8 +35,7 @@ double worst_of(const std::vector<NewCell>& cells);
 inline constexpr std::uint32_t longest_ring = 8;
 
 /// Exactly: is a triangle not yet a face, and upright on a facet? Positive cells alone do not keep new faces from
-/// folding over: a facet that is flat only within the tolerance has cells with all corners on it. Nor may the triangle
-/// have two edges along which the domain touches itself: beyond the space outside, it may be a face of other cells.
+/// folding over: a facet that is flat only within the tolerance has cells with all corners on it.
 bool is_new_and_upright(const CellComplex& complex, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet);
 
 /// Plans to remove an edge: the cells around it are replaced by the best of all triangulations of the ring of vertices

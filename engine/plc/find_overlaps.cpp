@@ -51,7 +51,7 @@ std::optional<Contact> meet_in_plane(int axis, const Point3& p, const Point3& q,
 }
 
 std::optional<Contact> meet_coplanar(const Point3& p, const Point3& q, const Triangle& t) {
-  const int axis = dominant_axis(t);
+  const int axis = axis_across(t);
   for (const Point3& x : {p, q})
     if (holds(axis, t, x)) return Contact{x, true};
   for (int k = 0; k < 3; ++k)

@@ -40,10 +40,10 @@ struct Contact {
 /// Where a segment meets a triangle, both closed; nothing if they are apart.
 std::optional<Contact> meet_segment_triangle(const Point3& p, const Point3& q, const std::array<Point3, 3>& triangle);
 
-/// Where two triangles without a common vertex meet, both closed.
+/// Where two triangles without a common vertex meet, both closed. Their corners can be any points of the grid.
 std::optional<Contact> meet_triangles(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
 
-/// Where two triangles with only the common corner s[0] = t[0] meet elsewhere.
+/// Where two triangles with only the common corner s[0] = t[0] meet elsewhere. Again, any points of the grid.
 std::optional<Contact> meet_triangles_at_corner(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
 
 /// Where a segment from a corner of a triangle, t[0], meets the triangle elsewhere.

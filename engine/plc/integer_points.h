@@ -107,4 +107,11 @@ inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3
   return orient_in_plane(seen_along(axis, a), seen_along(axis, b), seen_along(axis, c));
 }
 
+/// An axis that is not parallel to the plane of a triangle, whose corners need not be vertices of the input.
+inline int axis_across(const std::array<Point3, 3>& t) {
+  for (const int axis : {0, 1})
+    if (orient_along(axis, t[0], t[1], t[2]) != 0) return axis;
+  return 2;
+}
+
 }  // namespace ccdt::plc

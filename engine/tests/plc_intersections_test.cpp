@@ -192,7 +192,7 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::uint32_t j = i + 1; j < count; ++j)
         if (boxes[i].meets(boxes[j])) expected.emplace_back(i, j);
-    const BoxTree tree(boxes);
+    BoxTree tree(boxes);
     tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { found.push_back(std::minmax(i, j)); });
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
@@ -203,6 +203,16 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
     for (std::uint32_t i = 0; i < count; ++i)
       if (boxes[i].meets(query)) should_meet.push_back(i);
     std::sort(met.begin(), met.end());
+    EXPECT_EQ(met, should_meet);
+
+    if (count == 0) continue;
+    const auto item = static_cast<std::uint32_t>(random() % count);
+    tree.enlarge(item, box_of(query.low));
+    met.clear();
+    tree.for_each_meeting(query, [&](std::uint32_t i) { met.push_back(i); });
+    if (std::ranges::find(should_meet, item) == should_meet.end()) should_meet.push_back(item);
+    std::ranges::sort(should_meet);
+    std::ranges::sort(met);
     EXPECT_EQ(met, should_meet);
   }
 }

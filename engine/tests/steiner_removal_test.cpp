@@ -65,31 +65,6 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdge) {
   }
 }
 
-TEST(VertexRemoval, MakesNoFaceBetweenSegmentsAlongWhichTheDomainTouchesItself) {
-  const std::array<std::uint32_t, 2> ends = {0, 1};
-  const std::uint32_t on_page = 3;
-  for (const std::size_t touching : {0, 1, 2}) {
-    improve::CellComplex x = complex_of(split_segment_in_ring(4), goal);
-    for (std::size_t i = 0; i < touching; ++i) x.note_touching(ends[i], on_page);
-    for (const improve::RemovalEffort effort : {improve::RemovalEffort::collapse, improve::RemovalEffort::fill}) {
-      improve::Change change;
-      EXPECT_EQ(improve::VertexRemoval(x).plan(2, ends, effort, change), touching < 2);
-    }
-  }
-}
-
-TEST(VertexRemoval, MakesNoFaceThatACellBeyondHas) {
-  Model model = split_segment_in_ring(4);
-  // A cell outside the star that has both ends and the vertex on the page.
-  model.points.push_back({2000, 100, 0});
-  const auto beyond = static_cast<std::uint32_t>(model.points.size() - 1);
-  model.cells.push_back({0, 1, 3, beyond});
-  model.regions.push_back(3);
-  improve::CellComplex x = complex_of(model, goal);
-  improve::Change change;
-  EXPECT_FALSE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
-}
-
 TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
   improve::CellComplex x = complex_of(split_segment_in_ring(6), goal);
   mesh::TetMesh mesh;

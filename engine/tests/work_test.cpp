@@ -228,14 +228,15 @@ label.cells_visited 174
 label.peak_bytes 14836
 finish.cells_visited 156
 finish.peak_bytes 5520
-improve.orient3d_filter_failures 2
+improve.orient3d_filter_failures 36
+improve.narrow_evaluations 34
 improve.wide_evaluations 2
-improve.exact_evaluations 2
+improve.exact_evaluations 36
 improve.cells_created 59
 improve.cells_destroyed 77
 improve.changes_tried 220
 improve.quality_evaluations 1022
-improve.peak_bytes 16676
+improve.peak_bytes 25796
 )");
 }
 
