@@ -15,6 +15,7 @@
 #include "engine/facets/touching_faces.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/count_segments.h"
+#include "engine/front/cut_tetrahedra.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
@@ -123,16 +124,30 @@ bool improves(const MeshOptions& options, const Tetrahedralization& t) {
   return removes || improvement_of(options) != Improvement::none;
 }
 
+/// \param faces  that may be the cause; if there are none, nothing is wrong
+std::optional<front::Stuck> stuck_at(const char* what, std::vector<std::uint32_t> faces, const plc::Plc& plc,
+                                     const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
+  if (faces.empty()) return std::nullopt;
+  const auto& [a, b, c] = facets.triangles[faces.front()];
+  front::Stuck stuck =
+      front::stuck_near(what, plc, std::array{delaunay.point(a), delaunay.point(b), delaunay.point(c)});
+  stuck.faces = std::move(faces);
+  return stuck;
+}
+
 /// Facets that are flat only within the tolerance may touch each other, or a segment beside them.
 std::optional<front::Stuck> check_apart(const plc::Plc& plc, const protection::SegmentChains& chains,
                                         const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
-  std::vector<std::uint32_t> touching = facets::find_touching_faces(plc, chains, facets, delaunay.vertices.size());
-  if (touching.empty()) return std::nullopt;
-  const auto& [a, b, c] = facets.triangles[touching.front()];
-  front::Stuck stuck = front::stuck_near("a facet touches another one", plc,
-                                         std::array{delaunay.point(a), delaunay.point(b), delaunay.point(c)});
-  stuck.faces = std::move(touching);
-  return stuck;
+  return stuck_at("a facet touches another one",
+                  facets::find_touching_faces(plc, chains, facets, delaunay.vertices.size()), plc, facets, delaunay);
+}
+
+/// Facets that are flat only within the tolerance may pass through tetrahedra of the front.
+std::optional<front::Stuck> check_uncut(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                        const delaunay::Delaunay& delaunay, const front::FrontResult& front) {
+  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return std::nullopt;
+  return stuck_at("a facet passes through a tetrahedron", front::find_cutting_faces(facets, delaunay, front.tetrahedra),
+                  plc, facets, delaunay);
 }
 
 /// The front with the strategies that were asked for. Where a facet is flat only within the tolerance, one strategy may
@@ -177,6 +192,8 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   if (auto wrong =
           measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
     return wrong;
+  if (auto cut = measured(costs, mesh_stage::finish, [&] { return check_uncut(t.plc, facets, delaunay, front); }))
+    return cut;
   t.points = points_of(delaunay);
   // The next steps need the most memory.
   release(delaunay.vertices), release(delaunay.cell_at), release(codes);
