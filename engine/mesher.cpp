@@ -22,6 +22,7 @@
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/collect_tetrahedra.h"
+#include "engine/mesh/face_to_face.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/edge_length_bounds.h"
@@ -110,8 +111,8 @@ struct Tetrahedralization {
   std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
   double least_size = 0;                     ///< that refinement of the surface found affordable
   MeshCounts counts;
-  std::optional<front::Stuck> stuck;
-  facets::FacetMesh facets;  ///< if stuck
+  std::optional<front::Stuck> stuck;  ///< if there is a mesh all the same, parts of it overlap within the tolerance
+  facets::FacetMesh facets;           ///< if stuck
 };
 
 std::size_t first_steiner_vertex(const Tetrahedralization& t) {
@@ -172,7 +173,7 @@ front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets,
 ///
 /// \param delaunay  loses its cells and vertices
 /// \param codes     of the faces of the facets, see `front::FrontInput`
-/// \return  why there is none
+/// \return  why there is none, or why parts of it overlap
 std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets,
                                         std::vector<std::uint32_t> codes, const MeshOptions& options,
                                         const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
@@ -192,8 +193,8 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
   if (auto wrong =
           measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
     return wrong;
-  if (auto cut = measured(costs, mesh_stage::finish, [&] { return check_uncut(t.plc, facets, delaunay, front); }))
-    return cut;
+  std::optional<front::Stuck> cut =
+      measured(costs, mesh_stage::finish, [&] { return check_uncut(t.plc, facets, delaunay, front); });
   t.points = points_of(delaunay);
   // The next steps need the most memory.
   release(delaunay.vertices), release(delaunay.cell_at), release(codes);
@@ -205,14 +206,14 @@ std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::Fa
                             [&] { return mesh::check_volume(t.plc, facets, t.points, collected.mesh); }))
     return wrong;
   t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
-    return mesh::finish_mesh(t.plc, t.chains, t.points, std::move(facets), collected);
+    return mesh::finish_mesh(t.plc, t.chains, t.points, cut ? facets : std::move(facets), collected);
   });
   if (improves(options, t))
     t.cells = measured(costs, mesh_stage::improve, [&] {
       return mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), std::move(delaunay.cells));
     });
   t.mesh = std::move(collected.mesh);
-  return std::nullopt;
+  return cut;
 }
 
 /// The faces of the facets in the tetrahedralization. Most are triangles that the check of the input has found there.
@@ -388,18 +389,31 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
   return t;
 }
 
-/// Tries remedies for as long as the vertices have no constrained Delaunay tetrahedralization.
+/// Tries remedies for as long as the vertices have no constrained Delaunay tetrahedralization. If none helps, a mesh
+/// whose parts overlap within the tolerance is better than none.
 Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const MeshOptions& options,
                                                 const Progress& progress, StageCosts& costs) {
   retry::Remedies remedies;
   Tetrahedralization t = tetrahedralize(input, options, remedies, 0, progress, costs);
+  std::optional<Tetrahedralization> overlapping;
+  const auto keep_overlapping = [&] {
+    if (!overlapping && !t.mesh.tetrahedra.empty()) overlapping = std::move(t);
+  };
   while (t.stuck) {
-    if (!retry::add_remedy({t.plc, t.chains, t.facets, t.points, t.stuck->faces}, remedies))
+    if (!retry::add_remedy({t.plc, t.chains, t.facets, t.points, t.stuck->faces}, remedies)) {
+      keep_overlapping();
+      if (overlapping) return *std::move(overlapping);
       throw MeshError(t.stuck->error);
+    }
     try {
-      t = tetrahedralize(input, options, remedies, t.least_size, progress, costs);
+      Tetrahedralization next = tetrahedralize(input, options, remedies, t.least_size, progress, costs);
+      keep_overlapping();
+      t = std::move(next);
     } catch (const LimitError&) {  // the new segments are too close to others
-      if (!retry::replace_remedy(remedies)) throw;
+      if (retry::replace_remedy(remedies)) continue;
+      keep_overlapping();
+      if (overlapping) return *std::move(overlapping);
+      throw;
     }
   }
   return t;
@@ -447,6 +461,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
     t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
     t.counts.segments->restored = t.counts.segments->split - protection::count_split(t.chains);
   }
+  if (t.stuck && !mesh::is_face_to_face(t.mesh)) throw MeshError(t.stuck->error);
   t.mesh.vertices =
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   if (const auto attribute = mesh::common_attribute(t.plc.regions))

@@ -57,6 +57,17 @@ TEST(TurnedPart, IsMeshedThoughRoundingHasBentItsFacets) {
   }
 }
 
+// A facet passes through a tetrahedron of the front. Remedies lead to segments that cannot be protected, so parts of
+// the mesh may overlap within the tolerance.
+TEST(TurnedPart, IsMeshedThoughAFacetPassesThroughATetrahedron) {
+  const std::filesystem::path file = folder_of_hard_parts() / "trimaker_nebula_platform.stl";
+  if (!exists(file)) GTEST_SKIP() << file << " is missing";
+  const InputPlc input = plc_test::rotated(plc_test::rotation(1, 1, 1, 2), io::read_plc(file));
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  EXPECT_TRUE(verify::verify(input, mesh_plc(input, options).mesh).ok());
+}
+
 // Where this part's facets fold by almost a full turn, new faces could take space outside that is another part of the
 // domain.
 TEST(TurnedPart, StaysRightWithoutItsSteinerVertices) {

@@ -11,6 +11,8 @@
 #include "engine/improve/cell_complex.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
+#include "engine/mesh/face_to_face.h"
+#include "engine/mesher.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -84,6 +86,18 @@ TEST(JoinTetrahedra, AgreesWithTheCornersOfFacesOfRandomPlcs) {
   std::mt19937 random(11);
   for (int i = 0; i < 10; ++i) expect_neighbors_kept(random_convex(12 + i, random));
   for (int i = 0; i < 4; ++i) expect_neighbors_kept(random_voxels(3, 2, random));
+}
+
+TEST(FaceToFace, IsAMeshWithoutTwoTetrahedraOnOneSideOfAFace) {
+  mesh::TetMesh mesh;
+  EXPECT_TRUE(mesh::is_face_to_face(mesh));
+  mesh.tetrahedra = {{0, 1, 2, 3}, {2, 1, 0, 4}};  // on both sides of 0 1 2
+  EXPECT_TRUE(mesh::is_face_to_face(mesh));
+  mesh.tetrahedra.push_back({5, 2, 1, 3});
+  EXPECT_TRUE(mesh::is_face_to_face(mesh));
+  mesh.tetrahedra.push_back({0, 1, 2, 5});
+  EXPECT_FALSE(mesh::is_face_to_face(mesh));
+  for (const auto& [name, input] : small_inputs()) EXPECT_TRUE(mesh::is_face_to_face(mesh_plc(input).mesh)) << name;
 }
 
 }  // namespace
