@@ -72,6 +72,10 @@ constexpr std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uin
   return {v[corner[0]], v[corner[1]], v[corner[2]]};
 }
 
+/// The ends of each edge of a cell and its other two corners, such that all four are positively oriented.
+inline constexpr std::array<std::array<std::uint8_t, 4>, 6> edge_corners = {
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+
 /// Makes two cells neighbors across the face with code a in one and code b in the other.
 inline void join_faces(LargeVector<Cell>& cells, std::uint32_t a, std::uint32_t b) {
   cells[cell_of(a)].neighbors[face_of(a)] = b;

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::uint32_t no_side = 0xFFFFFFFFu;
 
-/// Each edge of a tetrahedron and the other two corners, such that all four are positively oriented.
-constexpr std::array<std::array<std::uint8_t, 4>, 6> edges_of_tetrahedron = {
-    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
-
 /// The faces at edges between some vertices. Side i of the facets is the edge of triangle i / 3 from its corner i % 3
 /// on.
 class FacesAtEdges {
@@ -57,7 +53,7 @@ std::vector<std::uint32_t> find_cutting_faces(const facets::FacetMesh& facets, c
     return numbers::orient3d(delaunay.point(a), delaunay.point(b), delaunay.point(c), delaunay.point(d));
   };
   for (const auto& t : tetrahedra)
-    for (const auto& [i, j, k, l] : edges_of_tetrahedron) {
+    for (const auto& [i, j, k, l] : delaunay::edge_corners) {
       const std::uint32_t p = t[i], q = t[j], c = t[k], d = t[l];
       faces.for_each(p, q, [&](std::uint32_t side) {
         const std::uint32_t apex = facets.triangles[side / 3][(side + 2) % 3];

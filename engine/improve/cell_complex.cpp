@@ -312,7 +312,8 @@ void CellComplex::announce_faces(std::uint32_t v, const Point3& place, std::span
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (cells_[c].vertices[f] == v || !is_wall(face_code(c, f))) continue;
       const auto corners = corners_of_face(cells_[c].vertices, f);
-      face_tree_->enlarge(*find_face(corners[0], corners[1], corners[2]), ccdt::box_of(place));
+      if (const auto face = find_face(corners[0], corners[1], corners[2]))
+        face_tree_->enlarge(*face, ccdt::box_of(place));
     }
 }
 

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// For each edge its two vertices and the other two, such that all four are positively oriented.
-constexpr std::array<std::array<std::uint8_t, 4>, 6> edge_corners = {
-    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
-
 /// The cells around an edge ab between two walls, or all around it: cell i is a, b, vertex i, vertex i + 1.
 struct Ring {
   std::uint32_t a, b;
@@ -265,7 +261,7 @@ double worst_of(const std::vector<NewCell>& cells) {
 bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t edge, double least, Change& change) {
   ++work_done.changes_tried;
   change.clear();
-  const auto& corner = edge_corners[edge];
+  const auto& corner = delaunay::edge_corners[edge];
   const auto& v = x.cell(cell).vertices;
   Ring ring(v[corner[0]], v[corner[1]]);
   if (x.is_segment(ring.a, ring.b) || !find_ring(x, cell, v[corner[2]], v[corner[3]], ring)) return false;
