@@ -17,7 +17,7 @@ namespace {
 
 using namespace improve_test;
 
-const improve::QualityGoal goal{improve::Objective::r, 1, 1};
+const improve::QualityGoal any_positive{improve::Objective::r, 1, 1};
 
 /// Two tetrahedra below a valley between the vertices 0 and 2. With the other diagonal, from 1 to 3, the faces would be
 /// a ridge at the height 20, 20 above the valley.
@@ -41,7 +41,7 @@ void add(const std::array<Point3, 4>& corners, Model& model) {
 
 /// Can the edge from 0 to 2 be flipped?
 bool can_flip(const Model& model) {
-  const improve::CellComplex x = complex_of(model, goal);
+  const improve::CellComplex x = complex_of(model, any_positive);
   constexpr std::array<std::array<std::uint32_t, 2>, 6> ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
   const auto& v = x.cell(0).vertices;
   improve::Change change;
@@ -142,7 +142,7 @@ TEST(CrossingFaces, AreNotMadeByRandomChanges) {
   std::mt19937 random(4);
   std::size_t flipped = 0;
   for (int i = 0; i < 20; ++i) {
-    improve::CellComplex x = complex_of(Plates(random).model, goal);
+    improve::CellComplex x = complex_of(Plates(random).model, any_positive);
     const std::vector<Triangle> before = x.faces();
     for (std::size_t f = 0; f < before.size(); ++f)
       for (std::size_t g = 0; g < f; ++g)
