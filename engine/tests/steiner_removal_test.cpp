@@ -65,6 +65,30 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdge) {
   }
 }
 
+TEST(VertexRemoval, MakesNoFaceOnTheHullOfTheCellsThatItReplaces) {
+  // Beside the segment from 0 to 1, which vertex 2 splits, are a bent page with the vertices 3 and 4 and a flat one
+  // with vertex 5. The cell 0 2 3 4 is on the bent page. If vertex 2 moved onto 0, a face on its hull would be on the
+  // page.
+  Model model;
+  model.points = {{0, 0, -1000}, {0, 0, 1000}, {0, 0, 100}, {500, -1, -200}, {500, 0, 400}, {0, 800, 0}};
+  model.cells = {{0, 2, 3, 4}, {0, 2, 4, 5}, {0, 3, 4, 5}, {1, 2, 4, 5}};
+  model.regions.assign(model.cells.size(), 0);
+  model.faces = {{0, 3, 2}, {2, 3, 4}, {2, 4, 1}, {0, 2, 5}, {2, 1, 5}};
+  model.facet_of_face = {0, 0, 0, 1, 1};
+  model.segments = {{0, 2}, {2, 1}};
+  for (const improve::RemovalEffort effort : {improve::RemovalEffort::collapse, improve::RemovalEffort::fill}) {
+    improve::CellComplex x = complex_of(model, goal);
+    improve::Change change;
+    if (!improve::VertexRemoval(x).plan(2, {0, 1}, effort, change)) continue;
+    apply_change(x, change);
+    expect_consistent(x);
+    EXPECT_FALSE(x.find_face(0, 3, 4));
+  }
+  improve::CellComplex x = complex_of(model, goal);
+  improve::Change change;
+  EXPECT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+}
+
 TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
   improve::CellComplex x = complex_of(split_segment_in_ring(6), goal);
   mesh::TetMesh mesh;
