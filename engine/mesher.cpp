@@ -15,7 +15,7 @@
 #include "engine/facets/touching_faces.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/count_segments.h"
-#include "engine/front/cut_tetrahedra.h"
+#include "engine/front/cutting_faces.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"

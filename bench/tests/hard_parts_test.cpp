@@ -68,8 +68,7 @@ TEST(TurnedPart, IsMeshedThoughAFacetPassesThroughATetrahedron) {
   EXPECT_TRUE(verify::verify(input, mesh_plc(input, options).mesh).ok());
 }
 
-// Where this part's facets fold by almost a full turn, new faces could take space outside that is another part of the
-// domain.
+// New faces of its bent facets could take space outside where another part of the domain is.
 TEST(TurnedPart, StaysRightWithoutItsSteinerVertices) {
   const std::filesystem::path file = folder_of_hard_parts() / "kingroon_kp3.stl";
   if (!exists(file)) GTEST_SKIP() << file << " is missing";

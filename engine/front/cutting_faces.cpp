@@ -1,4 +1,4 @@
-#include "engine/front/cut_tetrahedra.h"
+#include "engine/front/cutting_faces.h"
 
 #include <algorithm>
 

@@ -120,7 +120,7 @@ void CellComplex::index_faces() {
   if (face_tree_) return;
   RawVector<Box> boxes(faces_.size());
   parallel_for(faces_.size(), grain,
-               [&](std::size_t f) { boxes[f] = faces_[f] == no_corners ? Box{} : box_of(faces_[f]); });
+               [&](std::size_t f) { boxes[f] = faces_[f] == no_corners ? Box{} : box_of_face(faces_[f]); });
   face_tree_.emplace(std::move(boxes));
 }
 
@@ -245,7 +245,7 @@ void CellComplex::change_faces(const std::vector<FaceChange>& changes) {
     faces_[change.face] = change.corners;
     if (change.corners == no_corners) continue;
     face_table_.insert(key_of(change.corners), change.face);
-    if (face_tree_) face_tree_->enlarge(change.face, box_of(change.corners));
+    if (face_tree_) face_tree_->enlarge(change.face, box_of_face(change.corners));
   }
 }
 
@@ -312,8 +312,7 @@ void CellComplex::announce_faces(std::uint32_t v, const Point3& place, std::span
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (cells_[c].vertices[f] == v || !is_wall(face_code(c, f))) continue;
       const auto corners = corners_of_face(cells_[c].vertices, f);
-      if (const auto face = find_face(corners[0], corners[1], corners[2]))
-        face_tree_->enlarge(*face, ccdt::box_of(place));
+      if (const auto face = find_face(corners[0], corners[1], corners[2])) face_tree_->enlarge(*face, box_of(place));
     }
 }
 

@@ -158,14 +158,14 @@ class CellComplex {
   }
 
   /// The box of a face with these corners.
-  Box box_of(const std::array<std::uint32_t, 3>& corners) const {
+  Box box_of_face(const std::array<std::uint32_t, 3>& corners) const {
     return bounding_box(std::array{points_[corners[0]], points_[corners[1]], points_[corners[2]]});
   }
   /// Calls visit(face) for all faces whose boxes meet the given one. Slow unless the faces are indexed.
   template <class Visit>
   void for_each_face_near(const Box& box, const Visit& visit) const {
     const auto visit_near = [&](std::uint32_t face) {
-      if (faces_[face] != no_corners && box_of(faces_[face]).meets(box)) visit(face);
+      if (faces_[face] != no_corners && box_of_face(faces_[face]).meets(box)) visit(face);
     };
     if (face_tree_) return face_tree_->for_each_meeting(box, visit_near);
     for (std::uint32_t face = 0; face < faces_.size(); ++face) visit_near(face);

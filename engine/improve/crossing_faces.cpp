@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "engine/numbers/predicates.h"
@@ -13,8 +14,9 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-bool has(const Triangle& triangle, std::uint32_t v) {
-  return std::ranges::find(triangle, v) != triangle.end();
+template <std::size_t size>
+bool has(const std::array<std::uint32_t, size>& corners, std::uint32_t v) {
+  return std::ranges::find(corners, v) != corners.end();
 }
 
 /// The points of the corners, from the given one on.
@@ -55,8 +57,7 @@ class FacetChange {
     const Triangle& old = x.faces()[mine->face];
     for (const std::uint32_t c : change.old_cells) {
       const auto& v = x.cell(c).vertices;
-      if (!std::ranges::all_of(old, [&](std::uint32_t corner) { return std::ranges::find(v, corner) != v.end(); }))
-        continue;
+      if (!std::ranges::all_of(old, [&](std::uint32_t corner) { return has(v, corner); })) continue;
       is_on_boundary_ = inside_ == 0;
       inside_ = side_of(old, *std::ranges::find_if_not(v, [&](std::uint32_t corner) { return has(old, corner); }));
     }
@@ -97,7 +98,7 @@ class FacetChange {
 
   bool meets_an_unchanged_face(const FaceChange& f) const {
     bool any = false;
-    const Box space = hull(x_.box_of(f.corners), x_.box_of(x_.faces()[f.face]));
+    const Box space = hull(x_.box_of_face(f.corners), x_.box_of_face(x_.faces()[f.face]));
     x_.for_each_face_near(space, [&](std::uint32_t face) {
       if (any || std::ranges::find(change_.faces, face, &FaceChange::face) != change_.faces.end()) return;
       const Triangle& other = x_.faces()[face];

@@ -310,7 +310,7 @@ class Improver {
     if (step.kind == Step::Kind::change) {
       x_.announce(step.change, step.cavity, attempt.new_cells);
       for (const FaceChange& face : step.change.faces)
-        changed_faces_.push_back(hull(x_.box_of(x_.faces()[face.face]), x_.box_of(face.corners)));
+        changed_faces_.push_back(hull(x_.box_of_face(x_.faces()[face.face]), x_.box_of_face(face.corners)));
     }
     for (std::size_t i = 0; step.kind == Step::Kind::moves && i < step.move_count; ++i) announce(step.moves[i]);
     attempt.next_change = x_.change_count() + 1;

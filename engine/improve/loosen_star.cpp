@@ -9,8 +9,6 @@
 namespace ccdt::improve {
 namespace {
 
-constexpr std::uint32_t ends_of_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
 const std::vector<Freedom> nothing_moves;
 
 template <class List>
@@ -40,8 +38,8 @@ bool StarLoosener::remove_an_edge(std::uint32_t vertex) {
   vertices_.assign(1, vertex);
   for (const std::uint32_t c : star_) {
     const auto& v = x_.cell(c).vertices;
-    for (std::uint32_t edge = 0; edge < std::size(ends_of_edge); ++edge) {
-      const auto [from, to] = ends_of_edge[edge];
+    for (std::uint32_t edge = 0; edge < delaunay::edge_corners.size(); ++edge) {
+      const std::uint32_t from = delaunay::edge_corners[edge][0], to = delaunay::edge_corners[edge][1];
       if (v[from] != vertex && v[to] != vertex) continue;
       const std::uint32_t other = v[from] == vertex ? v[to] : v[from];
       if (std::ranges::find(vertices_, other) != vertices_.end()) continue;

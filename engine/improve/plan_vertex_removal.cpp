@@ -32,6 +32,7 @@ bool VertexRemoval::plan(std::uint32_t vertex, const std::array<std::uint32_t, 2
   return plan_better_collapse(change);
 }
 
+/// Plans to move the vertex onto that of its neighbors which leaves better cells, unless faces would cross.
 bool VertexRemoval::plan_better_collapse(Change& change) {
   bool is_planned = plan_collapse(0, change), is_other_planned = plan_collapse(1, other_);
   if (is_other_planned && (!is_planned || worst_of(other_.new_cells) > worst_of(change.new_cells))) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/front/cut_tetrahedra.h"
+#include "engine/front/cutting_faces.h"
 #include "engine/mesher.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"

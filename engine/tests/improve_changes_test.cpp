@@ -37,15 +37,6 @@ Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
   return model;
 }
 
-/// The edge of the cell between two vertices, or 6.
-std::uint32_t edge_of_cell(const improve::CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
-  constexpr std::array<std::array<std::uint32_t, 2>, 6> ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-  const auto& v = x.cell(cell).vertices;
-  std::uint32_t edge = 0;
-  while (edge < 6 && edge_key(v[ends[edge][0]], v[ends[edge][1]]) != edge_key(a, b)) ++edge;
-  return edge;
-}
-
 /// Plans to remove an edge that the first cell has.
 bool plan_removal(const improve::CellComplex& x, std::uint32_t a, std::uint32_t b, improve::Change& change) {
   return improve::plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);

@@ -252,6 +252,14 @@ std::set<Tetrahedron> cells_of(const improve::CellComplex& x) {
   return cells;
 }
 
+std::uint32_t edge_of_cell(const improve::CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
+  const auto& v = x.cell(cell).vertices;
+  std::uint32_t edge = 0;
+  while (edge < 6 && edge_key(v[delaunay::edge_corners[edge][0]], v[delaunay::edge_corners[edge][1]]) != edge_key(a, b))
+    ++edge;
+  return edge;
+}
+
 bool has_edge(const improve::CellComplex& x, std::uint32_t a, std::uint32_t b) {
   return std::ranges::any_of(cells_of(x), [&](const Tetrahedron& t) {
     return std::ranges::count(t, a) == 1 && std::ranges::count(t, b) == 1;

@@ -75,6 +75,9 @@ PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex);
 /// The tetrahedra that are not dead, with sorted vertices.
 std::set<Tetrahedron> cells_of(const improve::CellComplex& complex);
 
+/// The edge of the cell between two vertices, or 6.
+std::uint32_t edge_of_cell(const improve::CellComplex& complex, std::uint32_t cell, std::uint32_t a, std::uint32_t b);
+
 bool has_edge(const improve::CellComplex& complex, std::uint32_t a, std::uint32_t b);
 
 }  // namespace ccdt::improve_test
