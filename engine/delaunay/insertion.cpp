@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "engine/base/count_work.h"
 #include "engine/numbers/predicates.h"
@@ -34,31 +35,92 @@ Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionP
       free_places_(free.begin(), free.end()),
       table_(table_side * table_side) {}
 
-bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
-  v_ = v;
-  ties_ = ties;
-  p_ = d_.point(v);
-  twin_ = ghost_vertex;
-  if (pool_ == nullptr) {
-    marks_.in_cavity.resize(d_.cells.size(), 0);
-    if (marks_.local.size() < d_.vertices.size()) marks_.local.resize(d_.vertices.capacity(), no_local);
-  }
-  const unsigned turn = turn_;
-  const std::uint32_t first = reached_ = pool_ == nullptr ? walk<false>(p_, start) : walk<true>(p_, start);
-  work_done.walk_steps += turn_ - turn;
-  if (is_shared(first)) return false;
-  for (const std::uint32_t corner : d_.cells[first].vertices) {
-    if (corner != ghost_vertex && d_.point(corner) == p_) {
-      twin_ = corner;
-      return false;
+/// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell from
+/// where it would get to cells of another part. The first face to try changes from step to step, so that the walk does
+/// not favor a side. Faces in whose plane p may be are tried last.
+///
+/// \tparam in_part  may there be shared cells? A cell that is not shared is of the own part.
+template <bool in_part>
+CCDT_ALWAYS_INLINE std::uint32_t Insertion::walk(std::uint32_t start) {
+  numbers::Lanes a, b, c, d, p;
+  load(d_.vertices[v_], p);
+  std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
+  bool is_shared = in_part && parts_.is_shared(d_.cells[here]);
+  unsigned allowed = 15;  // all but the face through which the walk came
+  while (true) {
+    const Cell& cell = d_.cells[here];
+    const auto& v = cell.vertices;
+    if (v[3] == ghost_vertex) return here;
+    load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
+    auto [beyond, unknown] = numbers::faces_around_filter(a, b, c, d, p);
+    unknown &= allowed;
+    if (is_shared) {
+      const unsigned crossed = faces_to_cross(cell);
+      beyond &= crossed, unknown &= crossed;
     }
+    ++turn_;
+    while (beyond == 0 && unknown != 0) {
+      const unsigned face = first_face(unknown);
+      const auto [x, y, z] = corners_of_face(v, face);
+      if (numbers::orient3d(d_.point(x), d_.point(y), d_.point(z), p_) < 0) beyond = 1u << face;
+      unknown &= ~(1u << face);
+    }
+    if (beyond == 0) return here;
+    const std::uint32_t code = cell.neighbors[first_face(beyond)];
+    here = cell_of(code);
+    allowed = 15 & ~(1u << face_of(code));
+    if constexpr (in_part)
+      is_shared = is_shared ? parts_.is_shared(d_.cells[here]) : parts_.is_shared_behind_own(d_.cells[here], code);
   }
-  if (!(pool_ == nullptr ? spread(first) : spread_in_part(first))) return false;
-  // Each cell of the cavity except the first was tested once, and the cells around it at each face.
-  work_done.cells_tested += cavity_.size + border_.size - 1;
-  work_done.largest_cavity = std::max<std::uint64_t>(work_done.largest_cavity, cavity_.size);
-  ++work_done.insertions;
-  return true;
+}
+
+/// The first of these faces, from the one whose turn it is.
+inline unsigned Insertion::first_face(unsigned faces) const {
+  const unsigned turned = (faces | faces << 4) >> (turn_ & 3);
+  return (turn_ + static_cast<unsigned>(std::countr_zero(turned))) & 3;
+}
+
+/// The faces of a shared cell that may be crossed, as bits.
+unsigned Insertion::faces_to_cross(const Cell& cell) const {
+  unsigned faces = 0;
+  for (std::uint32_t f = 0; f < 4; ++f) {
+    const auto [a, b, c] = corners_of_face(cell.vertices, f);
+    if (parts_.may_cross(a, b, c)) faces |= 1u << f;
+  }
+  return faces;
+}
+
+/// The neighbors of a cell whose spheres the new vertex is in, as bits by face.
+///
+/// \param open  the neighbors to look at
+CCDT_ALWAYS_INLINE unsigned Insertion::conflicting_neighbors(const Cell& cell, unsigned open) const {
+  const Cell* const cells = d_.cells.data();
+  const auto neighbor = [&](unsigned f) -> const Cell& { return cells[cell_of(cell.neighbors[f])]; };
+  unsigned inside = 0, unknown = open;
+  if (cell.vertices[3] != ghost_vertex) {
+    std::array<std::uint32_t, 4> apex;
+    unsigned ghosts = 0;
+    for (unsigned f = 0; f < 4; ++f) {
+      apex[f] = neighbor(f).vertices[face_of(cell.neighbors[f])];
+      ghosts |= unsigned{apex[f] == ghost_vertex} << f;
+      apex[f] = apex[f] == ghost_vertex ? v_ : apex[f];
+    }
+    const auto& v = cell.vertices;
+    numbers::Lanes a, b, c, d, na, nb, nc, nd, p;
+    load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
+    load(d_.vertices[apex[0]], na), load(d_.vertices[apex[1]], nb);
+    load(d_.vertices[apex[2]], nc), load(d_.vertices[apex[3]], nd);
+    load(d_.vertices[v_], p);
+    const numbers::SpheresAround spheres =
+        numbers::spheres_around_filter(a, b, c, d, na, nb, nc, nd, p, open & ~ghosts);
+    inside = spheres.inside;
+    unknown = spheres.unknown | (ties_ == Ties::greatest_rank ? 0 : spheres.on) | (ghosts & open);
+  }
+  for (; unknown != 0; unknown &= unknown - 1) {
+    const auto f = static_cast<unsigned>(std::countr_zero(unknown));
+    if (conflicts(neighbor(f))) inside |= 1u << f;
+  }
+  return inside;
 }
 
 /// Grows the cavity from its first cell across all faces to cells whose sphere contains the new vertex.
@@ -72,42 +134,62 @@ CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
   std::size_t size = 1, faces = 0;
   bool is_own = true;
   cavity_.slots[0] = first;
-  entries_[0] = 0;
   in_cavity[first] = 1;
   for (std::size_t i = 0; i < size && is_own; ++i) {
-    make_room(cavity_.slots, size + 4), make_room(entries_, size + 4), make_room(border_.slots, faces + 4);
+    make_room(cavity_.slots, size + 4), make_room(border_.slots, faces + 4);
     // They exist by the time they are needed.
     if (i + 1 < size)
       for (const std::uint32_t code : cells[cavity_.slots[i + 1]].neighbors) __builtin_prefetch(cells + cell_of(code));
     const Cell cell = cells[cavity_.slots[i]];
-    for (std::uint32_t k = i == 0 ? 0 : 1; k < 4; ++k) {
-      const std::uint32_t f = (entries_[i] + k) & 3, code = cell.neighbors[f], next = cell_of(code);
-      if (in_cavity[next] != 0) continue;
-      const bool is_inside = conflicts(cells[next]);
-      const bool is_shared = in_part && parts_.is_shared_behind_own(cells[next], code);
+    unsigned open = 0;
+    for (unsigned f = 0; f < 4; ++f) open |= unsigned{in_cavity[cell_of(cell.neighbors[f])] == 0} << f;
+    if (open == 0) continue;
+    const unsigned inside = conflicting_neighbors(cell, open);
+    // Which ones are inside is unpredictable, so there is no branch.
+    for (unsigned f = 0; f < 4; ++f) {
+      const std::uint32_t code = cell.neighbors[f], next = cell_of(code);
+      const bool is_open = (open >> f & 1) != 0, is_inside = (inside >> f & 1) != 0;
+      const bool is_shared = in_part && is_open && parts_.is_shared_behind_own(cells[next], code);
       if (is_shared && is_inside) {
         is_own = false;
         break;
       }
-      // Whether it is inside is unpredictable, so there is no branch.
+      if (!is_shared) in_cavity[next] = static_cast<std::uint8_t>(!is_open | is_inside);
       cavity_.slots[size] = next;
-      entries_[size] = face_of(code);
       size += is_inside;
       border_.slots[faces] = {corners_of_face(cell.vertices, f), code};
-      faces += !is_inside;
-      if (!is_shared) in_cavity[next] = is_inside;
+      faces += is_open & !is_inside;
     }
   }
   cavity_.size = size, border_.size = faces;
   return is_own;
 }
 
-CCDT_WIDE_LANES bool Insertion::spread(std::uint32_t first) {
-  return grow_cavity<false>(first);
-}
-
-CCDT_WIDE_LANES bool Insertion::spread_in_part(std::uint32_t first) {
-  return grow_cavity<true>(first);
+CCDT_WIDE_LANES bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start, Ties ties) {
+  v_ = v;
+  ties_ = ties;
+  p_ = d_.point(v);
+  twin_ = ghost_vertex;
+  if (pool_ == nullptr) {
+    marks_.in_cavity.resize(d_.cells.size(), 0);
+    if (marks_.local.size() < d_.vertices.size()) marks_.local.resize(d_.vertices.capacity(), no_local);
+  }
+  const unsigned turn = turn_;
+  const std::uint32_t first = reached_ = pool_ == nullptr ? walk<false>(start) : walk<true>(start);
+  work_done.walk_steps += turn_ - turn;
+  if (is_shared(first)) return false;
+  for (const std::uint32_t corner : d_.cells[first].vertices) {
+    if (corner != ghost_vertex && d_.point(corner) == p_) {
+      twin_ = corner;
+      return false;
+    }
+  }
+  if (!(pool_ == nullptr ? grow_cavity<false>(first) : grow_cavity<true>(first))) return false;
+  // Each cell of the cavity except the first was tested once, and the cells around it at each face.
+  work_done.cells_tested += cavity_.size + border_.size - 1;
+  work_done.largest_cavity = std::max<std::uint64_t>(work_done.largest_cavity, cavity_.size);
+  ++work_done.insertions;
+  return true;
 }
 
 std::uint32_t Insertion::cell_near(std::uint32_t v, std::uint32_t other) const {
@@ -147,55 +229,12 @@ std::uint32_t Insertion::fill_cavity() {
   return some;
 }
 
-/// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell from
-/// where it would get to cells of another part. The first face to try changes from step to step, so that the walk does
-/// not favor a side.
-///
-/// \tparam in_part  may there be shared cells? A cell that is not shared is of the own part.
-template <bool in_part>
-std::uint32_t Insertion::walk(const Point3& p, std::uint32_t start) {
-  std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
-  std::uint32_t from = no_neighbor;
-  bool is_shared = in_part && parts_.is_shared(d_.cells[here]);
-  while (true) {
-    const Cell& cell = d_.cells[here];
-    if (cell.vertices[3] == ghost_vertex) return here;
-    std::uint32_t exit = 4;
-    ++turn_;
-    for (std::uint32_t k = 0; k < 4 && exit == 4; ++k) {
-      const std::uint32_t f = (turn_ + k) & 3;
-      if (!is_shared && cell.neighbors[f] == from) continue;
-      const auto [a, b, c] = corners_of_face(cell.vertices, f);
-      if (is_shared && !parts_.may_cross(a, b, c)) continue;
-      if (numbers::orient3d(d_.point(a), d_.point(b), d_.point(c), p) < 0) exit = f;
-    }
-    if (exit == 4) return here;
-    from = face_code(here, exit);
-    const std::uint32_t code = cell.neighbors[exit];
-    here = cell_of(code);
-    if constexpr (in_part)
-      is_shared = is_shared ? parts_.is_shared(d_.cells[here]) : parts_.is_shared_behind_own(d_.cells[here], code);
-  }
-}
-
 /// A new vertex with the greatest rank is outside a sphere on which it lies.
-CCDT_ALWAYS_INLINE bool Insertion::conflicts(const Cell& cell) const {
-  if (cell.vertices[3] == ghost_vertex) return ghost_conflicts(cell);
+bool Insertion::conflicts(const Cell& cell) const {
   const auto& v = cell.vertices;
-  numbers::Lanes a, b, c, d, e;
-  load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
-  load(d_.vertices[v_], e);
-  const numbers::Sign sign = numbers::insphere_filter(a, b, c, d, e);
-  if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
-  if (sign == numbers::Sign::zero && ties_ == Ties::greatest_rank) return false;
-  return conflicts_in_doubt(cell, sign);
-}
-
-/// \param sign  zero or unknown
-bool Insertion::conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const {
-  const auto& v = cell.vertices;
+  if (v[3] == ghost_vertex) return ghost_conflicts(cell);
   const Point3 &a = d_.point(v[0]), &b = d_.point(v[1]), &c = d_.point(v[2]), &d = d_.point(v[3]);
-  const int exact = sign == numbers::Sign::zero ? 0 : numbers::insphere_exactly(a, b, c, d, p_);
+  const int exact = numbers::insphere_exactly(a, b, c, d, p_);
   if (exact != 0 || ties_ == Ties::greatest_rank) return exact > 0;
   const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
   const std::array ranks = {rank(v[0]), rank(v[1]), rank(v[2]), rank(v[3]), rank(v_)};

@@ -131,13 +131,13 @@ class Insertion {
 
   bool is_shared(std::uint32_t cell) const { return pool_ != nullptr && parts_.is_shared(d_.cells[cell]); }
   template <bool in_part>
-  std::uint32_t walk(const Point3& p, std::uint32_t start);
+  std::uint32_t walk(std::uint32_t start);
+  unsigned first_face(unsigned faces) const;
+  unsigned faces_to_cross(const Cell& cell) const;
   template <bool in_part>
   bool grow_cavity(std::uint32_t first);
-  bool spread(std::uint32_t first);
-  bool spread_in_part(std::uint32_t first);
+  unsigned conflicting_neighbors(const Cell& cell, unsigned open) const;
   bool conflicts(const Cell& cell) const;
-  bool conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const;
   bool ghost_conflicts(const Cell& ghost) const;
   void choose_places();
   std::uint32_t make_cell(const CavityFace& face, std::uint32_t place) const;
@@ -159,7 +159,6 @@ class Insertion {
   Point3 p_;
   unsigned turn_ = 0;
   List<std::uint32_t> cavity_;
-  std::vector<std::uint32_t> entries_ = {0};  ///< by cell of the cavity: its face through which it was reached
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
   // Vertices of the border get small local numbers, so that its directed edges are places in a small table of face

@@ -64,7 +64,7 @@ CCDT_ALWAYS_INLINE void opposite(const Lanes& v, Lanes& result) {
 }
 
 /// Are the entries, integers of magnitude up to `largest`, multiples of some 2^k with largest <= limit * 2^k?
-/// `low_bits` are the `integer_bits` of all entries, or-ed.
+/// `low_bits` are those of `add_integer_bits` of all entries.
 CCDT_ALWAYS_INLINE bool few_bits(const IntegerLanes& low_bits, double largest, double limit) {
   if (largest >= 0x1p51) return false;
   const std::int64_t bits = (low_bits[0] | low_bits[1] | low_bits[2]) & ((std::int64_t{1} << 52) - 1);
@@ -72,10 +72,10 @@ CCDT_ALWAYS_INLINE bool few_bits(const IntegerLanes& low_bits, double largest, d
   return largest <= limit * static_cast<double>(std::uint64_t{1} << (k < 52 ? k : 52));
 }
 
-/// The low 52 bits of the integers in two's complement, for magnitudes below 2^51.
-CCDT_ALWAYS_INLINE void integer_bits(const Lanes& a, IntegerLanes& result) {
+/// Adds the low 52 bits of integers in two's complement, for magnitudes below 2^51.
+CCDT_ALWAYS_INLINE void add_integer_bits(const Lanes& a, IntegerLanes& bits) {
   constexpr double magic = 0x1.8p52;
-  result = reinterpret_cast<IntegerLanes>(a + magic);
+  bits |= reinterpret_cast<IntegerLanes>(a + magic);
 }
 
 }  // namespace filter
@@ -95,69 +95,166 @@ CCDT_ALWAYS_INLINE Sign orient3d_filter(const Point3& a, const Point3& b, const 
                mz = largest_magnitude(bz, cz, dz);
   if (std::fabs(det) > orient3d_error * mx * my * mz) return det > 0 ? Sign::plus : Sign::minus;
   const Lanes rows[3] = {{bx, by, bz, 0}, {cx, cy, cz, 0}, {dx, dy, dz, 0}};
-  IntegerLanes bits = {}, row_bits;
-  for (const Lanes& row : rows) {
-    filter::integer_bits(row, row_bits);
-    bits |= row_bits;
-  }
+  IntegerLanes bits = {};
+  for (const Lanes& row : rows) filter::add_integer_bits(row, bits);
   // Intermediate results are below 6 * largest^3 <= 2^53.
   if (filter::few_bits(bits, largest_magnitude(mx, my, mz), 114000.0))
     return det > 0 ? Sign::plus : det < 0 ? Sign::minus : Sign::zero;
   return Sign::unknown;
 }
 
-/// Sign of the insphere determinant (plus: e inside, for positively oriented abcd). The four lanes are a, b, c, d; with
-/// `next` the following lane, minors are formed of neighboring lanes (ab, bc, cd, da) and of opposite ones (ac, bd, ca,
-/// db).
-///
-/// \param a,b,c,d,e  x, y, z, and anything
-CCDT_ALWAYS_INLINE Sign insphere_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
-                                        const Lanes& e) {
-  const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
-  // Transpose: x of all four, y, z.
-  const Lanes ab_low = __builtin_shufflevector(ra, rb, 0, 4, 2, 6),
-              ab_high = __builtin_shufflevector(ra, rb, 1, 5, 3, 7);
-  const Lanes cd_low = __builtin_shufflevector(rc, rd, 0, 4, 2, 6),
-              cd_high = __builtin_shufflevector(rc, rd, 1, 5, 3, 7);
-  const Lanes x = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-  const Lanes y = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-  const Lanes z = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-  using filter::next, filter::opposite;
+namespace filter {
+
+/// The columns of the rows a, b, c and d.
+CCDT_ALWAYS_INLINE void transpose(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, Lanes& x, Lanes& y,
+                                  Lanes& z) {
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  x = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  y = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  z = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+}
+
+/// The determinants of the rows abc, bcd, cda and dab. With `next` the following lane, minors are formed of neighboring
+/// lanes (ab, bc, cd, da) and of opposite ones (ac, bd, ca, db).
+CCDT_ALWAYS_INLINE void find_volumes(const Lanes& x, const Lanes& y, const Lanes& z, Lanes& result) {
   Lanes x1, y1, z1, x2, y2, z2;
   next(x, x1), next(y, y1), next(z, z1);
   opposite(x, x2), opposite(y, y2), opposite(z, z2);
   const Lanes neighboring = x * y1 - x1 * y, across = x * y2 - x2 * y;
   Lanes neighboring_next;
   next(neighboring, neighboring_next);
-  const Lanes volume = z * neighboring_next - z1 * across + z2 * neighboring;  // abc, bcd, cda, dab
-  Lanes volume_next;
-  next(volume, volume_next);
+  result = z * neighboring_next - z1 * across + z2 * neighboring;
+}
+
+/// The lanes in which the first condition holds as bits 0 to 3, those of the second one as bits 4 to 7.
+CCDT_ALWAYS_INLINE unsigned lanes_of(const IntegerLanes& first, const IntegerLanes& second) {
+  const IntegerLanes bits = (first & IntegerLanes{1, 2, 4, 8}) | (second & IntegerLanes{16, 32, 64, 128});
+  return static_cast<unsigned>((bits[0] | bits[1]) | (bits[2] | bits[3]));
+}
+
+/// The largest magnitude in each column of four rows.
+CCDT_ALWAYS_INLINE void largest_magnitudes(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
+                                           Lanes& result) {
+  Lanes ma, mb, mc, md;
+  magnitude(a, ma), magnitude(b, mb), magnitude(c, mc), magnitude(d, md);
+  maximum(ma, mb, ma), maximum(mc, md, mc), maximum(ma, mc, result);
+}
+
+CCDT_ALWAYS_INLINE double largest_of_three(const Lanes& magnitudes) {
+  return larger(magnitudes[0], larger(magnitudes[1], magnitudes[2]));
+}
+
+}  // namespace filter
+
+/// Faces of a tetrahedron as bits: bit i is the face opposite to corner i.
+struct FacesAround {
+  unsigned beyond;   ///< the point is certainly on their outer side
+  unsigned unknown;  ///< the point may be in their plane
+};
+
+/// On which sides of the faces of the positively oriented abcd a point e is.
+///
+/// \param a,b,c,d,e  x, y, z, and anything
+CCDT_ALWAYS_INLINE FacesAround faces_around_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
+                                                   const Lanes& e) {
+  const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
+  Lanes x, y, z, volume, m;
+  filter::transpose(rb, rc, rd, ra, x, y, z);
+  filter::find_volumes(x, y, z, volume);  // bcd, cda, dab, abc: those of the faces opposite to a, b, c and d
+  filter::largest_magnitudes(ra, rb, rc, rd, m);
+  const Lanes inward = volume * Lanes{1, -1, 1, -1}, bound = Lanes{} + orient3d_error * (m[0] * m[1] * m[2]);
+  const unsigned certain = filter::lanes_of(inward<-bound, inward> bound);
+  return {certain & 15, ~(certain | certain >> 4) & 15};
+}
+
+/// The error of `insphere`, relative to the product of the largest entries in x, y, z and lift: 24 products of three
+/// entries and a lift, each with at most twelve roundings, make 288 * 2^-53, rounded up for the bound's own roundings.
+inline constexpr double insphere_error = 320 * 0x1p-53;
+
+/// `insphere` has no error for integers up to this: all intermediate results are below 72 * largest^5 <= 2^53.
+inline constexpr double insphere_exact = 650;
+
+/// Sign of the insphere determinant (plus: e inside, for positively oriented abcd).
+CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
+                                        const Point3& e) {
+  Lanes ra, rb, rc, rd;
+  filter::load(a - e, ra), filter::load(b - e, rb), filter::load(c - e, rc), filter::load(d - e, rd);
+  Lanes x, y, z, volume, volume_next;
+  filter::transpose(ra, rb, rc, rd, x, y, z);
+  filter::find_volumes(x, y, z, volume);
+  filter::next(volume, volume_next);
   const Lanes lift = x * x + y * y + z * z;
   const Lanes terms = lift * volume_next;
   const double det = (terms[0] - terms[1]) + (terms[2] - terms[3]);
 
-  Lanes ma, mb, mc, md, m;
-  filter::magnitude(ra, ma), filter::magnitude(rb, mb), filter::magnitude(rc, mc), filter::magnitude(rd, md);
-  filter::maximum(ma, mb, ma), filter::maximum(mc, md, mc), filter::maximum(ma, mc, m);
-  // 24 products of three entries, times a lift: with at most twelve roundings each, 288 * 2^-53, rounded up.
-  constexpr double factor = 320 * 0x1p-53;
-  const double bound = factor * (m[0] * m[1] * m[2]) * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+  Lanes m;
+  filter::largest_magnitudes(ra, rb, rc, rd, m);
+  const double bound = insphere_error * (m[0] * m[1] * m[2]) * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
   if (std::fabs(det) > bound) return det > 0 ? Sign::plus : Sign::minus;
-  IntegerLanes bits_a, bits_b, bits_c, bits_d;
-  filter::integer_bits(ra, bits_a), filter::integer_bits(rb, bits_b);
-  filter::integer_bits(rc, bits_c), filter::integer_bits(rd, bits_d);
-  const IntegerLanes bits = (bits_a | bits_b) | (bits_c | bits_d);
-  // Intermediate results are below 72 * largest^5 <= 2^53.
-  if (filter::few_bits(bits, filter::larger(m[0], filter::larger(m[1], m[2])), 650.0))
+  IntegerLanes bits = {};
+  for (const Lanes* const row : {&ra, &rb, &rc, &rd}) filter::add_integer_bits(*row, bits);
+  if (filter::few_bits(bits, filter::largest_of_three(m), insphere_exact))
     return det > 0 ? Sign::plus : det < 0 ? Sign::minus : Sign::zero;
   return Sign::unknown;
 }
 
-CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
-                                        const Point3& e) {
-  Lanes la, lb, lc, ld, le;
-  filter::load(a, la), filter::load(b, lb), filter::load(c, lc), filter::load(d, ld), filter::load(e, le);
-  return insphere_filter(la, lb, lc, ld, le);
+/// The circumspheres of the four neighbors of a tetrahedron as bits: bit i is that of the neighbor opposite to corner
+/// i.
+struct SpheresAround {
+  unsigned inside;   ///< the point is certainly inside
+  unsigned on;       ///< the point is exactly on the sphere
+  unsigned unknown;  ///< the point may be on the sphere
+};
+
+/// In which circumspheres of the neighbors of the positively oriented abcd a point e is. Each neighbor has three
+/// corners of abcd and one more: na is that of the neighbor opposite to a.
+///
+/// The lifted corners of each face span a plane; e is in the sphere if the lifted fourth corner is on one side of it.
+///
+/// \param a,b,c,d,na,nb,nc,nd,e  x, y, z, and anything
+/// \param wanted                 the neighbors to look at
+CCDT_ALWAYS_INLINE SpheresAround spheres_around_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
+                                                       const Lanes& na, const Lanes& nb, const Lanes& nc,
+                                                       const Lanes& nd, const Lanes& e, unsigned wanted) {
+  using filter::next, filter::opposite;
+  const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
+  const Lanes sa = na - e, sb = nb - e, sc = nc - e, sd = nd - e;
+  Lanes x, y, z, nx, ny, nz;
+  filter::transpose(rb, rc, rd, ra, x, y, z);
+  filter::transpose(sa, sb, sc, sd, nx, ny, nz);
+  const Lanes lift = x * x + y * y + z * z, n_lift = nx * nx + ny * ny + nz * nz;
+  Lanes x1, y1, z1, lift1, x2, y2, z2, lift2;
+  next(x, x1), next(y, y1), next(z, z1), next(lift, lift1);
+  opposite(x, x2), opposite(y, y2), opposite(z, z2), opposite(lift, lift2);
+  const Lanes xy = x * y1 - x1 * y, yz = y * z1 - y1 * z, zx = z * x1 - z1 * x;
+  Lanes xy1, yz1, zx1;
+  next(xy, xy1), next(yz, yz1), next(zx, zx1);
+  const Lanes xy_across = x * y2 - x2 * y, yz_across = y * z2 - y2 * z, zx_across = z * x2 - z2 * x;
+  // Lanes: bcd, cda, dab, abc.
+  const Lanes volume = z * xy1 - z1 * xy_across + z2 * xy;
+  const Lanes tilt_x = lift * yz1 - lift1 * yz_across + lift2 * yz;
+  const Lanes tilt_y = lift * zx1 - lift1 * zx_across + lift2 * zx;
+  const Lanes tilt_z = lift * xy1 - lift1 * xy_across + lift2 * xy;
+  const Lanes det = ((nx * tilt_x + ny * tilt_y) + (nz * tilt_z - n_lift * volume)) * Lanes{1, -1, 1, -1};
+
+  Lanes m, mx, my, mz;
+  filter::largest_magnitudes(ra, rb, rc, rd, m);
+  filter::magnitude(nx, mx), filter::magnitude(ny, my), filter::magnitude(nz, mz);
+  filter::maximum(mx, Lanes{} + m[0], mx), filter::maximum(my, Lanes{} + m[1], my);
+  filter::maximum(mz, Lanes{} + m[2], mz);
+  const Lanes bound = insphere_error * (mx * my * mz) * (mx * mx + my * my + mz * mz);
+  const unsigned certain = filter::lanes_of(det > bound, det < -bound);
+  const unsigned unknown = wanted & ~(certain | certain >> 4);
+  if (unknown == 0) return {certain & wanted, 0, 0};
+  IntegerLanes bits = {};
+  for (const Lanes* const row : {&ra, &rb, &rc, &rd, &sa, &sb, &sc, &sd}) filter::add_integer_bits(*row, bits);
+  Lanes n;
+  filter::largest_magnitudes(sa, sb, sc, sd, n);
+  filter::maximum(m, n, m);
+  if (!filter::few_bits(bits, filter::largest_of_three(m), insphere_exact)) return {certain & wanted, 0, unknown};
+  const unsigned exact = filter::lanes_of(det > Lanes{}, det == Lanes{});
+  return {exact & wanted, (exact >> 4) & wanted, 0};
 }
 
 /// Sign of the sum of angles that `incircle` (predicates.cpp) is about. The axis is the one nearest to the normal of

@@ -114,6 +114,18 @@ int insphere_sign(const std::array<std::array<std::int64_t, 3>, 4>& m) {
   return sign_of(sum);
 }
 
+/// Sign of the sum of four products first[i] * second[i] of 62 and 93 bits, added up in two digits.
+int sum_sign_in_two_digits(const std::array<std::int64_t, 4>& first, const std::array<Int128, 4>& second) {
+  Int128 low = 0, high = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    low += Int128(low_digit(second[i])) * first[i];
+    high += rest(second[i]) * first[i];
+  }
+  high += rest(low);
+  if (high != 0) return sign_of(high);
+  return low_digit(low) != 0 ? 1 : 0;
+}
+
 /// Sign of the sum of up to four products first[i] * second[i] of 123 bits each, added up in three digits of 64.
 template <std::size_t n>
 int sum_sign_in_digits(const std::array<Int128, n>& first, const std::array<Int128, n>& second) {
@@ -197,6 +209,10 @@ int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
     count_narrow_evaluation();
     if (m.bits <= 20) return insphere_sign<std::int64_t, std::int64_t, Int128>(m.row);
     if (m.bits <= 24) return insphere_sign<std::int64_t, Int128, Int128>(m.row);
+    if (m.bits <= 30) {
+      const InsphereTerms<std::int64_t, Int128> terms(m.row);
+      return sum_sign_in_two_digits(terms.height, terms.volume);
+    }
     const InsphereTerms<Int128, Int128> terms(m.row);
     return sum_sign_in_digits(terms.height, terms.volume);
   }

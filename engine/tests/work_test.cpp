@@ -168,8 +168,11 @@ TEST(Work, ExactEvaluationsAreTheSumOfTheirKinds) {
 
 TEST(WorkOfSmallInputs, DelaunayOfRandomPoints) {
   expect_work(text_of("random", work_of([] { delaunay::build_delaunay(random_points(1000)); })), R"(
+random.insphere_filter_failures 1838
+random.narrow_evaluations 1838
+random.exact_evaluations 1838
 random.insertions 996
-random.walk_steps 5385
+random.walk_steps 5389
 random.cells_tested 47560
 random.cells_created 27499
 random.cells_destroyed 21062
@@ -186,10 +189,10 @@ plc.cells_visited 297
 plc.faces_tested 594
 plc.peak_bytes 17872
 protect.peak_bytes 11520
-facets.orient3d_filter_failures 96
-facets.narrow_evaluations 74
+facets.orient3d_filter_failures 95
+facets.narrow_evaluations 73
 facets.wide_evaluations 22
-facets.exact_evaluations 96
+facets.exact_evaluations 95
 facets.cells_visited 1897
 facets.edges_tested 199
 facets.edges_flipped 19
@@ -203,12 +206,12 @@ lattice.ray_triangles 176
 lattice.sites_tested 72
 lattice.obstacles_tested 2338
 lattice.peak_bytes 23356
-delaunay.orient3d_filter_failures 77
-delaunay.insphere_filter_failures 45
-delaunay.narrow_evaluations 122
-delaunay.exact_evaluations 122
+delaunay.orient3d_filter_failures 60
+delaunay.insphere_filter_failures 211
+delaunay.narrow_evaluations 271
+delaunay.exact_evaluations 271
 delaunay.insertions 59
-delaunay.walk_steps 217
+delaunay.walk_steps 231
 delaunay.cells_tested 1811
 delaunay.cells_created 1111
 delaunay.cells_destroyed 764
@@ -309,7 +312,7 @@ front.centroid_filter_failures 4
 front.narrow_evaluations 12
 front.exact_evaluations 12
 front.octree_nodes 421
-front.cells_visited 52
+front.cells_visited 53
 front.octree_nodes_created 31
 front.front_candidates 336
 front.visibility_tests 195
@@ -324,7 +327,7 @@ front.centroid_filter_failures 16
 front.narrow_evaluations 48
 front.exact_evaluations 48
 front.grid_cells 725
-front.cells_visited 52
+front.cells_visited 53
 front.front_candidates 239
 front.visibility_tests 679
 front.peak_bytes 11864
@@ -341,7 +344,7 @@ front.centroid_filter_failures 7
 front.narrow_evaluations 24
 front.exact_evaluations 24
 front.octree_nodes 347
-front.cells_visited 359
+front.cells_visited 356
 front.octree_nodes_created 14
 front.front_candidates 295
 front.visibility_tests 246
