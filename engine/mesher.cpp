@@ -461,7 +461,10 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
     t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
     t.counts.segments->restored = t.counts.segments->split - protection::count_split(t.chains);
   }
-  if (t.stuck && !mesh::is_face_to_face(t.mesh)) throw MeshError(t.stuck->error);
+  if (t.stuck) {
+    if (!mesh::is_face_to_face(t.mesh)) throw MeshError(t.stuck->error);
+    t.counts.cutting_faces = t.stuck->faces.size();
+  }
   t.mesh.vertices =
       measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   if (const auto attribute = mesh::common_attribute(t.plc.regions))

@@ -126,6 +126,9 @@ struct MeshCounts {
   std::uint64_t refined_in_facets = 0;         ///< and to facets
   std::optional<SegmentCounts> segments = {};  ///< only of ccdt
   ImproveCounts improve = {};
+  /// Faces that passed through a tetrahedron of the front where no other mesh was found: by less than the tolerance of
+  /// flatness, parts of the mesh may overlap there.
+  std::uint64_t cutting_faces = 0;
 };
 
 struct MeshResult {

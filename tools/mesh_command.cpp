@@ -177,6 +177,12 @@ std::string words_of(const bench::SurfaceLimit& limit) {
          "); --surface refine puts even triangles on flat facets, --surface remesh on bent surfaces, too";
 }
 
+std::string note_on_overlaps(std::uint64_t cutting_faces) {
+  return "parts of the mesh may overlap by less than --flatness, because " + results::with_separators(cutting_faces) +
+         (cutting_faces == 1 ? " face passes" : " faces pass") +
+         " through tetrahedra and no other mesh was found; `ccdt verify --details` shows where";
+}
+
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.
 void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
   if (command.report.empty()) return;
@@ -207,6 +213,7 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
       record.quality.r.max > bench::SurfaceLimit::bad_r)
     if (const bench::SurfaceLimit limit = bench::find_surface_limit(result.mesh); limit.limits_quality())
       record.notes.push_back(words_of(limit));
+  if (result.counts.cutting_faces > 0) record.notes.push_back(note_on_overlaps(result.counts.cutting_faces));
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
 }
 

@@ -272,5 +272,35 @@ TEST(VerifyTouching, AVertexThatIsOnTheBoundaryOnlyWithinTheToleranceMayBeMissin
   expect_failure({input, cube.mesh}, "input vertices");
 }
 
+/// Two pyramids, base to base. The corners of the bases lie in two planes, so a base is flat only within the tolerance
+/// and higher along one diagonal than along the other. The gap between the bases is smaller than that.
+///
+/// \param crossing  does the mesh of the lower pyramid divide its base along the other diagonal?
+MeshedInput base_to_base(bool crossing) {
+  const double high = 4e-9, gap = 2e-9;
+  MeshedInput m;
+  m.input.vertices = {{0, 0, 0},   {1, 0, high},       {1, 1, 0},   {0, 1, high},       {0.5, 0.5, -1},
+                      {0, 0, gap}, {1, 0, high + gap}, {1, 1, gap}, {0, 1, high + gap}, {0.5, 0.5, 2}};
+  m.input.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4},
+                       {5, 7, 6}, {5, 8, 7}, {5, 6, 9}, {6, 7, 9}, {7, 8, 9}, {8, 5, 9}};
+  m.mesh.vertices = m.input.vertices;
+  m.mesh.tetrahedra = {{5, 6, 7, 9}, {5, 7, 8, 9}, {0, 2, 1, 4}, {0, 3, 2, 4}};
+  if (crossing) m.mesh.tetrahedra[2] = {0, 3, 1, 4}, m.mesh.tetrahedra[3] = {1, 3, 2, 4};
+  m.mesh.regions.assign(4, 0);
+  return m;
+}
+
+TEST(Verify, SaysWhereAMeshOverlapsItselfWithinTheTolerance) {
+  for (const bool crossing : {false, true}) {
+    const MeshedInput m = base_to_base(crossing);
+    expect_ok(m);
+    const verify::Verification v = verify::verify(m.input, m.mesh);
+    const verify::Check& check = check_named(v, "boundary without crossings");
+    EXPECT_FALSE(check.required);
+    EXPECT_EQ(check.failed > 0, crossing);
+    EXPECT_EQ(check.examples.empty(), !crossing);
+  }
+}
+
 }  // namespace
 }  // namespace ccdt

@@ -1,10 +1,11 @@
 #include "bench/verify/crossings.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "bench/verify/exact.h"
-#include "engine/base/box.h"
+#include "engine/base/box_tree.h"
+#include "engine/base/parallel.h"
 
 namespace ccdt::verify {
 namespace {
@@ -54,18 +55,23 @@ class CrossingTest {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> find_crossings(const plc::InputPlc& surface) {
-  std::vector<Box> boxes;
-  for (const Triangle& triangle : surface.triangles) boxes.push_back(box_of(surface, triangle));
-  std::vector<std::uint32_t> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {}, [&](std::uint32_t t) { return boxes[t].low.x; });
+  const auto& triangles = surface.triangles;
+  RawVector<Box> boxes;
+  for (const Triangle& triangle : triangles) boxes.push_back(box_of(surface, triangle));
+  const BoxTree tree(std::move(boxes));
   const CrossingTest cross(surface);
-  std::vector<std::array<std::uint32_t, 2>> crossings;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].low.x <= boxes[order[i]].high.x; ++j)
-      if (boxes[order[i]].meets(boxes[order[j]]) && cross(surface.triangles[order[i]], surface.triangles[order[j]]))
-        crossings.push_back({order[i], order[j]});
-  return crossings;
+  using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+  const auto found = parallel_chunks(triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    Pairs crossings;
+    for (std::size_t i = begin; i < end; ++i)
+      tree.for_each_meeting(box_of(surface, triangles[i]), [&](std::uint32_t j) {
+        if (i < j && cross(triangles[i], triangles[j])) crossings.push_back({static_cast<std::uint32_t>(i), j});
+      });
+    return crossings;
+  });
+  Pairs all;
+  for (const Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
+  return all;
 }
 
 }  // namespace ccdt::verify

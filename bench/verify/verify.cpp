@@ -370,9 +370,10 @@ plc::InputPlc boundary_of(const Topology& topology) {
   return boundary;
 }
 
-/// The boundary of the mesh does not cross itself.
-Check check_crossings(const plc::InputPlc& boundary) {
-  Check check{.name = "boundary without crossings", .checked = boundary.triangles.size()};
+/// The boundary of the mesh does not cross itself. Facets that are flat only within the tolerance may do so by less
+/// than the tolerance, and the mesh is still right.
+Check check_crossings(const plc::InputPlc& boundary, bool required) {
+  Check check{.name = "boundary without crossings", .checked = boundary.triangles.size(), .required = required};
   for (const auto& [one, other] : find_crossings(boundary)) {
     fail(check, [&, a = one, b = other] {
       return "the face" + text(boundary.vertices, boundary.triangles[a]) + " meets the face" +
@@ -402,7 +403,7 @@ void check_own_surface(const plc::InputPlc& input, const Topology& topology, con
                        const Progress& progress, Verification& result) {
   if (!result.ok()) return;  // the boundary of inverted tetrahedra, or of more than two at a face, encloses nothing
   const plc::InputPlc boundary = boundary_of(topology);
-  result.checks.push_back(check_crossings(boundary));
+  result.checks.push_back(check_crossings(boundary, true));
   if (result.checks.back().failed == 0) result.checks.push_back(check_enclosed(boundary, topology, progress));
   result.mesh_volume = mesh_volume(topology.mesh);
   const Tolerances tolerances = find_tolerances(input, options.flatness);
@@ -431,6 +432,8 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
     check_own_surface(input, topology, options, progress, result);
   else
     check_at_tolerances(input, topology, options, progress, result);
+  if (options.surface == VerifyOptions::Surface::same && result.ok())
+    checks.push_back(check_crossings(boundary_of(topology), false));
   return result;
 }
 
