@@ -106,13 +106,13 @@ CCDT_ALWAYS_INLINE unsigned Insertion::conflicting_neighbors(const Cell& cell, u
       apex[f] = apex[f] == ghost_vertex ? v_ : apex[f];
     }
     const auto& v = cell.vertices;
-    numbers::Lanes a, b, c, d, na, nb, nc, nd, p;
+    numbers::Lanes a, b, c, d, oa, ob, oc, od, p;
     load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
-    load(d_.vertices[apex[0]], na), load(d_.vertices[apex[1]], nb);
-    load(d_.vertices[apex[2]], nc), load(d_.vertices[apex[3]], nd);
+    load(d_.vertices[apex[0]], oa), load(d_.vertices[apex[1]], ob);
+    load(d_.vertices[apex[2]], oc), load(d_.vertices[apex[3]], od);
     load(d_.vertices[v_], p);
     const numbers::SpheresAround spheres =
-        numbers::spheres_around_filter(a, b, c, d, na, nb, nc, nd, p, open & ~ghosts);
+        numbers::spheres_around_filter(a, b, c, d, oa, ob, oc, od, p, open & ~ghosts);
     inside = spheres.inside;
     unknown = spheres.unknown | (ties_ == Ties::greatest_rank ? 0 : spheres.on) | (ghosts & open);
   }

@@ -208,22 +208,22 @@ struct SpheresAround {
 };
 
 /// In which circumspheres of the neighbors of the positively oriented abcd a point e is. Each neighbor has three
-/// corners of abcd and one more: na is that of the neighbor opposite to a.
+/// corners of abcd and one more: oa is that of the neighbor opposite to a.
 ///
 /// The lifted corners of each face span a plane; e is in the sphere if the lifted fourth corner is on one side of it.
 ///
-/// \param a,b,c,d,na,nb,nc,nd,e  x, y, z, and anything
+/// \param a,b,c,d,oa,ob,oc,od,e  x, y, z, and anything
 /// \param wanted                 the neighbors to look at
 CCDT_ALWAYS_INLINE SpheresAround spheres_around_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
-                                                       const Lanes& na, const Lanes& nb, const Lanes& nc,
-                                                       const Lanes& nd, const Lanes& e, unsigned wanted) {
+                                                       const Lanes& oa, const Lanes& ob, const Lanes& oc,
+                                                       const Lanes& od, const Lanes& e, unsigned wanted) {
   using filter::next, filter::opposite;
   const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
-  const Lanes sa = na - e, sb = nb - e, sc = nc - e, sd = nd - e;
-  Lanes x, y, z, nx, ny, nz;
+  const Lanes sa = oa - e, sb = ob - e, sc = oc - e, sd = od - e;
+  Lanes x, y, z, ox, oy, oz;
   filter::transpose(rb, rc, rd, ra, x, y, z);
-  filter::transpose(sa, sb, sc, sd, nx, ny, nz);
-  const Lanes lift = x * x + y * y + z * z, n_lift = nx * nx + ny * ny + nz * nz;
+  filter::transpose(sa, sb, sc, sd, ox, oy, oz);
+  const Lanes lift = x * x + y * y + z * z, o_lift = ox * ox + oy * oy + oz * oz;
   Lanes x1, y1, z1, lift1, x2, y2, z2, lift2;
   next(x, x1), next(y, y1), next(z, z1), next(lift, lift1);
   opposite(x, x2), opposite(y, y2), opposite(z, z2), opposite(lift, lift2);
@@ -236,11 +236,11 @@ CCDT_ALWAYS_INLINE SpheresAround spheres_around_filter(const Lanes& a, const Lan
   const Lanes tilt_x = lift * yz1 - lift1 * yz_across + lift2 * yz;
   const Lanes tilt_y = lift * zx1 - lift1 * zx_across + lift2 * zx;
   const Lanes tilt_z = lift * xy1 - lift1 * xy_across + lift2 * xy;
-  const Lanes det = ((nx * tilt_x + ny * tilt_y) + (nz * tilt_z - n_lift * volume)) * Lanes{1, -1, 1, -1};
+  const Lanes det = ((ox * tilt_x + oy * tilt_y) + (oz * tilt_z - o_lift * volume)) * Lanes{1, -1, 1, -1};
 
   Lanes m, mx, my, mz;
   filter::largest_magnitudes(ra, rb, rc, rd, m);
-  filter::magnitude(nx, mx), filter::magnitude(ny, my), filter::magnitude(nz, mz);
+  filter::magnitude(ox, mx), filter::magnitude(oy, my), filter::magnitude(oz, mz);
   filter::maximum(mx, Lanes{} + m[0], mx), filter::maximum(my, Lanes{} + m[1], my);
   filter::maximum(mz, Lanes{} + m[2], mz);
   const Lanes bound = insphere_error * (mx * my * mz) * (mx * mx + my * my + mz * mz);

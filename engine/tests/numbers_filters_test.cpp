@@ -23,11 +23,11 @@ numbers::FacesAround faces_around(const std::array<Point3, 4>& t, const Point3& 
 
 numbers::SpheresAround spheres_around(const std::array<Point3, 4>& t, const std::array<Point3, 4>& apex,
                                       const Point3& e, unsigned wanted) {
-  numbers::Lanes a, b, c, d, na, nb, nc, nd, p;
+  numbers::Lanes a, b, c, d, oa, ob, oc, od, p;
   using numbers::filter::load;
   load(t[0], a), load(t[1], b), load(t[2], c), load(t[3], d), load(e, p);
-  load(apex[0], na), load(apex[1], nb), load(apex[2], nc), load(apex[3], nd);
-  return numbers::spheres_around_filter(a, b, c, d, na, nb, nc, nd, p, wanted);
+  load(apex[0], oa), load(apex[1], ob), load(apex[2], oc), load(apex[3], od);
+  return numbers::spheres_around_filter(a, b, c, d, oa, ob, oc, od, p, wanted);
 }
 
 /// How many faces or spheres were decided.
