@@ -115,16 +115,31 @@ CCDT_ALWAYS_INLINE void transpose(const Lanes& a, const Lanes& b, const Lanes& c
   z = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
 }
 
-/// The determinants of the rows abc, bcd, cda and dab. With `next` the following lane, minors are formed of neighboring
-/// lanes (ab, bc, cd, da) and of opposite ones (ac, bd, ca, db).
+/// The 2 x 2 minors of two columns: of neighboring rows (ab, bc, cd, da), of those after them (bc, cd, da, ab), and of
+/// opposite rows (ac, bd, ca, db).
+struct Minors {
+  Lanes neighboring, next, across;
+};
+
+CCDT_ALWAYS_INLINE void find_minors(const Lanes& u, const Lanes& v, Minors& result) {
+  Lanes u1, v1, u2, v2;
+  next(u, u1), next(v, v1), opposite(u, u2), opposite(v, v2);
+  result.neighboring = u * v1 - u1 * v;
+  result.across = u * v2 - u2 * v;
+  next(result.neighboring, result.next);
+}
+
+/// The determinants of the rows abc, bcd, cda and dab of three columns: the two of the minors, and w.
+CCDT_ALWAYS_INLINE void find_determinants(const Minors& minors, const Lanes& w, Lanes& result) {
+  Lanes w1, w2;
+  next(w, w1), opposite(w, w2);
+  result = w * minors.next - w1 * minors.across + w2 * minors.neighboring;
+}
+
 CCDT_ALWAYS_INLINE void find_volumes(const Lanes& x, const Lanes& y, const Lanes& z, Lanes& result) {
-  Lanes x1, y1, z1, x2, y2, z2;
-  next(x, x1), next(y, y1), next(z, z1);
-  opposite(x, x2), opposite(y, y2), opposite(z, z2);
-  const Lanes neighboring = x * y1 - x1 * y, across = x * y2 - x2 * y;
-  Lanes neighboring_next;
-  next(neighboring, neighboring_next);
-  result = z * neighboring_next - z1 * across + z2 * neighboring;
+  Minors xy;
+  find_minors(x, y, xy);
+  find_determinants(xy, z, result);
 }
 
 /// The lanes in which the first condition holds as bits 0 to 3, those of the second one as bits 4 to 7.
@@ -163,8 +178,8 @@ CCDT_ALWAYS_INLINE FacesAround faces_around_filter(const Lanes& a, const Lanes& 
   filter::transpose(rb, rc, rd, ra, x, y, z);
   filter::find_volumes(x, y, z, volume);  // bcd, cda, dab, abc: those of the faces opposite to a, b, c and d
   filter::largest_magnitudes(ra, rb, rc, rd, m);
-  const Lanes inward = volume * Lanes{1, -1, 1, -1}, bound = Lanes{} + orient3d_error * (m[0] * m[1] * m[2]);
-  const unsigned certain = filter::lanes_of(inward<-bound, inward> bound);
+  const Lanes outward = volume * Lanes{-1, 1, -1, 1}, bound = Lanes{} + orient3d_error * (m[0] * m[1] * m[2]);
+  const unsigned certain = filter::lanes_of(outward > bound, -outward > bound);
   return {certain & 15, ~(certain | certain >> 4) & 15};
 }
 
@@ -199,8 +214,7 @@ CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const 
   return Sign::unknown;
 }
 
-/// The circumspheres of the four neighbors of a tetrahedron as bits: bit i is that of the neighbor opposite to corner
-/// i.
+/// The circumspheres of a tetrahedron's neighbors as bits: bit i is that of the neighbor opposite to corner i.
 struct SpheresAround {
   unsigned inside;   ///< the point is certainly inside
   unsigned on;       ///< the point is exactly on the sphere
@@ -217,25 +231,17 @@ struct SpheresAround {
 CCDT_ALWAYS_INLINE SpheresAround spheres_around_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
                                                        const Lanes& oa, const Lanes& ob, const Lanes& oc,
                                                        const Lanes& od, const Lanes& e, unsigned wanted) {
-  using filter::next, filter::opposite;
   const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
   const Lanes sa = oa - e, sb = ob - e, sc = oc - e, sd = od - e;
   Lanes x, y, z, ox, oy, oz;
   filter::transpose(rb, rc, rd, ra, x, y, z);
   filter::transpose(sa, sb, sc, sd, ox, oy, oz);
   const Lanes lift = x * x + y * y + z * z, o_lift = ox * ox + oy * oy + oz * oz;
-  Lanes x1, y1, z1, lift1, x2, y2, z2, lift2;
-  next(x, x1), next(y, y1), next(z, z1), next(lift, lift1);
-  opposite(x, x2), opposite(y, y2), opposite(z, z2), opposite(lift, lift2);
-  const Lanes xy = x * y1 - x1 * y, yz = y * z1 - y1 * z, zx = z * x1 - z1 * x;
-  Lanes xy1, yz1, zx1;
-  next(xy, xy1), next(yz, yz1), next(zx, zx1);
-  const Lanes xy_across = x * y2 - x2 * y, yz_across = y * z2 - y2 * z, zx_across = z * x2 - z2 * x;
-  // Lanes: bcd, cda, dab, abc.
-  const Lanes volume = z * xy1 - z1 * xy_across + z2 * xy;
-  const Lanes tilt_x = lift * yz1 - lift1 * yz_across + lift2 * yz;
-  const Lanes tilt_y = lift * zx1 - lift1 * zx_across + lift2 * zx;
-  const Lanes tilt_z = lift * xy1 - lift1 * xy_across + lift2 * xy;
+  filter::Minors xy, yz, zx;
+  filter::find_minors(x, y, xy), filter::find_minors(y, z, yz), filter::find_minors(z, x, zx);
+  Lanes volume, tilt_x, tilt_y, tilt_z;  // of the faces bcd, cda, dab, abc
+  filter::find_determinants(xy, z, volume), filter::find_determinants(yz, lift, tilt_x);
+  filter::find_determinants(zx, lift, tilt_y), filter::find_determinants(xy, lift, tilt_z);
   const Lanes det = ((ox * tilt_x + oy * tilt_y) + (oz * tilt_z - o_lift * volume)) * Lanes{1, -1, 1, -1};
 
   Lanes m, mx, my, mz;
