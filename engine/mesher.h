@@ -126,8 +126,8 @@ struct MeshCounts {
   std::uint64_t refined_in_facets = 0;         ///< and to facets
   std::optional<SegmentCounts> segments = {};  ///< only of ccdt
   ImproveCounts improve = {};
-  /// Faces that passed through a tetrahedron of the front where no other mesh was found: by less than the tolerance of
-  /// flatness, parts of the mesh may overlap there.
+  /// Faces that pass through a tetrahedron of the front, if no other mesh was found. Parts of the mesh may overlap
+  /// there by less than the tolerance of flatness.
   std::uint64_t cutting_faces = 0;
 };
 

@@ -92,34 +92,45 @@ unsigned Insertion::faces_to_cross(const Cell& cell) const {
 
 /// The neighbors of a cell whose spheres the new vertex is in, as bits by face.
 ///
-/// \param open  the neighbors to look at
+/// \param open  the neighbors that are not in the cavity yet
 CCDT_ALWAYS_INLINE unsigned Insertion::conflicting_neighbors(const Cell& cell, unsigned open) const {
   const Cell* const cells = d_.cells.data();
   const auto neighbor = [&](unsigned f) -> const Cell& { return cells[cell_of(cell.neighbors[f])]; };
-  unsigned inside = 0, unknown = open;
-  if (cell.vertices[3] != ghost_vertex) {
-    std::array<std::uint32_t, 4> apex;
-    unsigned ghosts = 0;
-    for (unsigned f = 0; f < 4; ++f) {
-      apex[f] = neighbor(f).vertices[face_of(cell.neighbors[f])];
-      ghosts |= unsigned{apex[f] == ghost_vertex} << f;
-      apex[f] = apex[f] == ghost_vertex ? v_ : apex[f];
+  // Adds those of some faces, one by one.
+  const auto add = [&](unsigned faces, const auto& conflicts, unsigned& inside) {
+    for (; faces != 0; faces &= faces - 1) {
+      const auto f = static_cast<unsigned>(std::countr_zero(faces));
+      if (conflicts(neighbor(f))) inside |= 1u << f;
     }
-    const auto& v = cell.vertices;
-    numbers::Lanes a, b, c, d, oa, ob, oc, od, p;
-    load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
-    load(d_.vertices[apex[0]], oa), load(d_.vertices[apex[1]], ob);
-    load(d_.vertices[apex[2]], oc), load(d_.vertices[apex[3]], od);
-    load(d_.vertices[v_], p);
-    const numbers::SpheresAround spheres =
-        numbers::spheres_around_filter(a, b, c, d, oa, ob, oc, od, p, open & ~ghosts);
-    inside = spheres.inside;
-    unknown = spheres.unknown | (ties_ == Ties::greatest_rank ? 0 : spheres.on) | (ghosts & open);
+  };
+  unsigned inside = 0;
+  if (cell.vertices[3] == ghost_vertex) {
+    add(
+        open, [&](const Cell& next) { return conflicts(next); }, inside);
+    return inside;
   }
-  for (; unknown != 0; unknown &= unknown - 1) {
-    const auto f = static_cast<unsigned>(std::countr_zero(unknown));
-    if (conflicts(neighbor(f))) inside |= 1u << f;
+  std::array<std::uint32_t, 4> apex;
+  unsigned ghosts = 0;
+  for (unsigned f = 0; f < 4; ++f) {
+    apex[f] = neighbor(f).vertices[face_of(cell.neighbors[f])];
+    ghosts |= unsigned{apex[f] == ghost_vertex} << f;
+    apex[f] = apex[f] == ghost_vertex ? v_ : apex[f];
   }
+  const auto& v = cell.vertices;
+  numbers::Lanes a, b, c, d, oa, ob, oc, od, p;
+  load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
+  load(d_.vertices[apex[0]], oa), load(d_.vertices[apex[1]], ob);
+  load(d_.vertices[apex[2]], oc), load(d_.vertices[apex[3]], od);
+  load(d_.vertices[v_], p);
+  const numbers::SpheresAround spheres = numbers::spheres_around_filter(a, b, c, d, oa, ob, oc, od, p, open & ~ghosts);
+  inside = spheres.inside;
+  if (ties_ != Ties::greatest_rank)
+    add(
+        spheres.on, [&](const Cell& next) { return conflicts_in_doubt(next, numbers::Sign::zero); }, inside);
+  add(
+      spheres.unknown, [&](const Cell& next) { return conflicts_in_doubt(next, numbers::Sign::unknown); }, inside);
+  add(
+      ghosts & open, [&](const Cell& next) { return ghost_conflicts(next); }, inside);
   return inside;
 }
 
@@ -229,12 +240,22 @@ std::uint32_t Insertion::fill_cavity() {
   return some;
 }
 
-/// A new vertex with the greatest rank is outside a sphere on which it lies.
 bool Insertion::conflicts(const Cell& cell) const {
   const auto& v = cell.vertices;
   if (v[3] == ghost_vertex) return ghost_conflicts(cell);
+  const numbers::Sign sign =
+      numbers::insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
+  if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
+  return conflicts_in_doubt(cell, sign);
+}
+
+/// A new vertex with the greatest rank is outside a sphere on which it lies.
+///
+/// \param sign  zero or unknown
+bool Insertion::conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const {
+  const auto& v = cell.vertices;
   const Point3 &a = d_.point(v[0]), &b = d_.point(v[1]), &c = d_.point(v[2]), &d = d_.point(v[3]);
-  const int exact = numbers::insphere_exactly(a, b, c, d, p_);
+  const int exact = sign == numbers::Sign::zero ? 0 : numbers::insphere_exactly(a, b, c, d, p_);
   if (exact != 0 || ties_ == Ties::greatest_rank) return exact > 0;
   const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
   const std::array ranks = {rank(v[0]), rank(v[1]), rank(v[2]), rank(v[3]), rank(v_)};

@@ -168,9 +168,6 @@ TEST(Work, ExactEvaluationsAreTheSumOfTheirKinds) {
 
 TEST(WorkOfSmallInputs, DelaunayOfRandomPoints) {
   expect_work(text_of("random", work_of([] { delaunay::build_delaunay(random_points(1000)); })), R"(
-random.insphere_filter_failures 1838
-random.narrow_evaluations 1838
-random.exact_evaluations 1838
 random.insertions 996
 random.walk_steps 5389
 random.cells_tested 47560
@@ -207,9 +204,9 @@ lattice.sites_tested 72
 lattice.obstacles_tested 2338
 lattice.peak_bytes 23356
 delaunay.orient3d_filter_failures 60
-delaunay.insphere_filter_failures 211
-delaunay.narrow_evaluations 271
-delaunay.exact_evaluations 271
+delaunay.insphere_filter_failures 45
+delaunay.narrow_evaluations 105
+delaunay.exact_evaluations 105
 delaunay.insertions 59
 delaunay.walk_steps 231
 delaunay.cells_tested 1811
