@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
         "  ccdt mesh part.stl -o part.vtu && ccdt verify part.stl part.vtu\n");
     add_model_command(app, exit_code);
     add_mesh_command(app, exit_code);
+    add_check_command(app, exit_code);
     add_verify_command(app, exit_code);
     add_reproduce_command(app, exit_code);
     add_sweep_command(app, exit_code);

@@ -14,6 +14,7 @@
 #include "bench/surface_limit.h"
 #include "engine/base/count_work.h"
 #include "engine/base/digits.h"
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
@@ -217,6 +218,17 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
 }
 
+/// Runs a mesher. If it refuses the input, the error also names the verb that lists everything that is wrong with it.
+template <class Run>
+auto with_advice_on_input(const std::string& file, const Run& run) {
+  try {
+    return run();
+  } catch (const InputError& error) {
+    const std::string advice = "\n  ccdt check " + file + " lists everything that is wrong with it, and can repair it";
+    throw InputError(error.what(), error.place(), error.remedy() + advice);
+  }
+}
+
 /// Reads, meshes, measures and writes. At every moment, the record contains what is known of the run.
 void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   ProgressBar bar;
@@ -246,7 +258,8 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
   record.mesher_settings = baselines::settings_of(chosen, input, options);
   leave_provisional_record(command, record);
 
-  const baselines::MesherRun run = chosen.run(input, options, progress);
+  const baselines::MesherRun run =
+      with_advice_on_input(command.input, [&] { return chosen.run(input, options, progress); });
   record.peak_rss_bytes = bench::peak_rss_bytes();  // the mesher's own, without that of the measurements below
   record_result(command, options, run, record);
 

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/plc/close_triangles.h"
-#include "engine/plc/find_overlaps.h"
+#include "engine/plc/connect_parts.h"
 #include "engine/plc/find_regions.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/input_faults.h"
@@ -22,7 +19,7 @@ namespace ccdt::plc {
 namespace {
 
 constexpr std::string_view stage = "plc";
-constexpr std::uint64_t steps_of_build = 5;
+constexpr std::uint64_t steps_of_build = 4;
 constexpr std::size_t most_overlaps = 1000;
 
 void check_facets_exist(const InputPlc& input) {
@@ -30,27 +27,10 @@ void check_facets_exist(const InputPlc& input) {
   throw InputError("there are no facets", {.file = input.name}, "give a surface, or a .poly or .smesh with facets");
 }
 
-void check_overlaps(const Plc& plc, const PlcParts& parts, const std::vector<Overlap>& overlaps) {
-  if (!overlaps.empty())
-    throw_overlaps(plc, parts.triangles, parts.segments, overlaps, overlaps.size() == most_overlaps);
-}
-
-// By triangle: is it not known to be a face of the complex? Empty: no triangle is known to be one.
-std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
-  std::vector<std::uint8_t> is_doubtful;
-  if (std::ranges::all_of(triangles.faces, [](std::uint32_t face) { return face == no_face; })) return is_doubtful;
-  is_doubtful.resize(triangles.size());
-  parallel_for(triangles.size(), 4096, [&](std::size_t t) { is_doubtful[t] = triangles.faces[t] == no_face; });
-  return is_doubtful;
-}
-
-// Splits triangles at the vertices that are on them. Returns the pairs that may cross.
-std::vector<TrianglePair> make_conforming(std::span<const Point3> vertices, TriangleSet& triangles) {
-  const std::vector<std::uint8_t> is_doubtful = find_doubtful(triangles);
-  if (!is_doubtful.empty() && std::ranges::find(is_doubtful, 1) == is_doubtful.end()) return {};
-  std::vector<TrianglePair> close = find_close_triangles(vertices, triangles, is_doubtful);
-  if (split_triangles_at_vertices(vertices, close, triangles)) close = find_close_triangles(vertices, triangles);
-  return close;
+void check_overlaps(const Plc& plc, const ConnectedParts& connected) {
+  const auto& [parts, overlaps, tree] = connected;
+  for (const auto* pairs : {&overlaps.covering, &overlaps.crossing, &overlaps.of_segments})
+    if (!pairs->empty()) throw_overlaps(plc, parts.triangles, parts.segments, *pairs, pairs->size() == most_overlaps);
 }
 
 // Is a sector of the domain of 180 degrees or more around the edge?
@@ -154,32 +134,17 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const 
 
 Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options, const Progress& progress) {
   Plc plc = std::move(gathered.plc);
-  PlcParts parts{std::move(gathered.triangles), std::move(gathered.segments), {}, {}, {}};
-  auto& [triangles, segments, edges, match, patches] = parts;
-  check_duplicate_triangles(plc, triangles);
-  const std::vector<TrianglePair> close = make_conforming(plc.vertices, triangles);
-  split_segments_at_vertices(plc.vertices, segments);
-  edges = make_edge_table(triangles.corners);
-  match = match_segments(segments, edges);
-
+  check_duplicate_triangles(plc, gathered.triangles);
+  const std::vector<TrianglePair> close = make_conforming(plc.vertices, gathered.triangles);
+  split_segments_at_vertices(plc.vertices, gathered.segments);
   report(progress, stage, 2, steps_of_build);
-  const std::vector<double> tolerances =
-      tolerances_of(plc.vertices, triangles.corners, options.strictness, tolerance_of(plc, options.flatness));
-  patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerances);
+  ConnectedParts connected =
+      connect_parts(plc, std::move(gathered.triangles), std::move(gathered.segments), close, options, most_overlaps);
+  check_overlaps(plc, connected);
+  auto& [parts, overlaps, tree] = connected;
+  const auto& [triangles, segments, edges, match, patches] = parts;
 
   report(progress, stage, 3, steps_of_build);
-  const auto covering =
-      sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, std::ranges::min(tolerances), edges, 1);
-  if (!covering.empty()) throw_overlaps(plc, triangles, segments, covering, false);
-  check_overlaps(plc, parts, find_overlaps(plc.vertices, triangles, patches, close, most_overlaps));
-  std::optional<BoxTree> tree;  // of the triangles, made only where it pays
-  if (!match.loose.empty()) {
-    tree.emplace(boxes_of(plc.vertices, triangles));
-    check_overlaps(plc, parts,
-                   find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, most_overlaps));
-  }
-
-  report(progress, stage, 4, steps_of_build);
   RegionMap map = find_regions(input, plc, parts, tree);
   note_bytes(bytes_of(plc.world, plc.vertices, triangles.corners, triangles.markers, triangles.numbers, segments.ends,
                       edges.ends, patches.facet_of, map.of_side) +

@@ -3,20 +3,13 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
+#include "engine/plc/options.h"
 #include "engine/plc/plc.h"
-#include "engine/plc/strict_places.h"
 
 namespace ccdt::plc {
-
-struct PlcOptions {
-  double flatness = usual_flatness;  ///< tolerance for the vertices of a patch to be in one plane, so that it is one
-                                     ///< facet; as a fraction of the box. See `flatness_for`
-  Strictness strictness = {};        ///< where it is smaller
-};
 
 /// The input on the grid, as triangles and segments that may still cross each other.
 struct UncheckedPlc {

@@ -52,6 +52,11 @@ inline std::array<Point3, 3> points_of(std::span<const Point3> vertices, const V
   return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
 }
 
+/// The corner of a triangle after another one.
+constexpr std::size_t next_corner(std::size_t corner) {
+  return corner == 2 ? 0 : corner + 1;
+}
+
 inline bool has_corner(const VertexTriple& t, VertexId v) {
   return t[0] == v || t[1] == v || t[2] == v;
 }

@@ -31,9 +31,9 @@ void throw_input_error(const Plc& plc, const std::string& what, const std::strin
   throw InputError(what, place, remedy);
 }
 
-void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
+std::vector<TrianglePair> find_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
   // A face is that of one triangle, so one of two with the same corners has none.
-  if (std::ranges::find(triangles.faces, no_face) == triangles.faces.end()) return;
+  if (std::ranges::find(triangles.faces, no_face) == triangles.faces.end()) return {};
   std::vector<char> may_be_shared(plc.vertices.size(), 0);
   const auto smallest = [](const VertexTriple& t) { return std::min({t[0], t[1], t[2]}); };
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
@@ -48,9 +48,18 @@ void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
         }
       });
   sort_in_buckets(sorted, [](const KeyedTriangle& t) { return t.first[0]; });
-  const auto twin = std::ranges::adjacent_find(sorted, {}, &KeyedTriangle::first);
-  if (twin == sorted.end()) return;
-  const std::uint32_t s = twin[0].second, t = twin[1].second;
+  std::vector<TrianglePair> pairs;
+  for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
+    if (sorted[i].first != sorted[first].first) first = i;
+    if (i != first) pairs.push_back({sorted[first].second, sorted[i].second});
+  }
+  return pairs;
+}
+
+void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
+  const std::vector<TrianglePair> pairs = find_duplicate_triangles(plc, triangles);
+  if (pairs.empty()) return;
+  const auto [s, t] = pairs.front();
   throw_input_error(plc, "two facets have the same corners", "remove one of the two",
                     world_points(plc, triangles.corners[s]), {triangles.numbers[s], triangles.numbers[t]});
 }

@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt::plc {
+
+/// The triangles with the same corners as one before them, each with the first of these.
+std::vector<TrianglePair> find_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
 
 /// \throw InputError  a facet occurs twice
 void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);

@@ -16,7 +16,7 @@ constexpr const char* cube_off =
 
 TEST_F(Program, HelpOfEveryVerbHasAnExample) {
   EXPECT_EQ(run("--help").exit_code, 0);
-  for (const std::string verb : {"model", "mesh", "verify", "reproduce"}) {
+  for (const std::string verb : {"model", "check", "mesh", "verify", "reproduce"}) {
     const Outcome help = run(verb + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.out.find("Example"), std::string::npos) << help.out;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/simplex_map.h"
+#include "engine/plc/build_plc.h"
+
+namespace ccdt::repair {
+
+/// A part of an edge, as `WeldedEdge`; or a cut between two vertices, as if there were an edge.
+struct Piece {
+  std::uint32_t triangle;
+  VertexId a, b, from, to;
+};
+
+/// The cuts of a round, between vertices.
+struct VertexCuts {
+  std::vector<Piece> pieces;     ///< within triangles, by triangle
+  std::vector<AtEdge> on_edges;  ///< the new vertices of edges
+};
+
+inline std::uint64_t key_of_edge(const plc::VertexTriple& t, std::size_t k) {
+  return edge_key(t[k], t[plc::next_corner(k)]);
+}
+
+/// Replaces the triangles that have pieces, or vertices on their edges, by smaller ones with these. Divides segments
+/// with the edges that they are.
+///
+/// \return  how many triangles were replaced
+std::size_t cut_along(VertexCuts cuts, plc::UncheckedPlc& soup);
+
+}  // namespace ccdt::repair

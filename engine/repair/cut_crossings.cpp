@@ -1,0 +1,151 @@
+#include "engine/repair/cut_crossings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/union_find.h"
+#include "engine/plc/close_triangles.h"
+#include "engine/plc/gather_parts.h"
+#include "engine/repair/arrange_cuts.h"
+#include "engine/repair/cut_along.h"
+#include "engine/repair/equal_triangles.h"
+#include "engine/repair/find_cuts.h"
+#include "engine/repair/find_welds.h"
+#include "engine/repair/vertex_finders.h"
+
+namespace ccdt::repair {
+namespace {
+
+using plc::TrianglePair;
+using plc::TriangleSet;
+
+constexpr std::string_view stage = "cut crossings";
+constexpr std::size_t most_rounds = 16;  // general positions need one, welds mostly up to eight
+
+/// Leaves triangles that have an area, are pairwise different and have no vertices on them. Returns the pairs that may
+/// cross.
+std::vector<TrianglePair> clean(std::span<const Point3> vertices, TriangleSet& triangles, Fins fins) {
+  plc::drop_triangles_without_area(vertices, triangles);
+  drop_equal_triangles(triangles, fins);
+  std::vector<TrianglePair> close = plc::find_close_triangles(vertices, triangles);
+  if (plc::split_triangles_at_vertices(vertices, close, triangles)) {
+    drop_equal_triangles(triangles, fins);
+    close = plc::find_close_triangles(vertices, triangles);
+  }
+  return close;
+}
+
+VertexCuts number_vertices(const std::vector<Arrangement>& arrangements, plc::UncheckedPlc& soup) {
+  VertexFinder vertices(soup.plc);
+  VertexCuts cuts;
+  for (const Arrangement& arrangement : arrangements) {
+    for (const auto& [p, q] : arrangement.pieces) {
+      const VertexId a = vertices.at(p), b = vertices.at(q);
+      cuts.pieces.push_back({arrangement.triangle, a, b, a, b});
+    }
+    for (const auto& [k, p] : arrangement.on_edges)
+      cuts.on_edges.push_back({key_of_edge(soup.triangles.corners[arrangement.triangle], k), vertices.at(p)});
+  }
+  return cuts;
+}
+
+VertexCuts number_vertices(const Welds& welds, plc::UncheckedPlc& soup) {
+  NearVertexFinder vertices(soup);
+  VertexCuts cuts;
+  for (const auto& [edge, p] : welds.on_edges) cuts.on_edges.push_back({edge, vertices.at(p)});
+  for (const WeldedEdge& e : welds.in_triangles)
+    cuts.pieces.push_back({e.triangle, e.a, e.b, vertices.at(e.from), vertices.at(e.to)});
+  std::ranges::stable_sort(cuts.pieces, {}, &Piece::triangle);
+  return cuts;
+}
+
+/// Makes equal vertices one, the first of them.
+void merge_vertices(const std::vector<std::array<VertexId, 2>>& equal, plc::UncheckedPlc& soup,
+                    std::vector<std::uint8_t>& is_near) {
+  plc::Plc& plc = soup.plc;
+  UnionFind sets(plc.vertices.size());
+  for (const auto& [a, b] : equal) sets.join(a, b);
+  std::vector<VertexId> numbers(plc.vertices.size());
+  std::uint32_t next = 0;
+  for (std::uint32_t v = 0; v < numbers.size(); ++v) {
+    const std::uint32_t first = sets.find(v);
+    if (first != v) {
+      numbers[v] = numbers[first];
+      continue;
+    }
+    numbers[v] = VertexId(next);
+    plc.vertices[next] = plc.vertices[v];
+    plc.world[next] = plc.world[v];
+    is_near[next++] = is_near[v];
+  }
+  plc.vertices.resize(next);
+  plc.world.resize(next);
+  is_near.resize(next);
+  const auto renumber = [&](auto& ids) {
+    for (VertexId& v : ids) v = numbers[v];
+  };
+  renumber(plc.vertex_of_input);
+  for (plc::VertexTriple& t : soup.triangles.corners) renumber(t);
+  for (auto& ends : soup.segments.ends) renumber(ends);
+}
+
+/// Marks the corners of the triangles that are cut, and all vertices that were made.
+void mark_near(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup, std::vector<std::uint8_t>& is_near) {
+  is_near.resize(soup.plc.vertices.size(), is_near.empty() ? 0 : 1);
+  for (const Cut& cut : cuts)
+    for (const std::uint32_t t : {cut.triangle, cut.by})
+      for (const VertexId v : soup.triangles.corners[t]) is_near[v] = 1;
+}
+
+/// Finds what should touch and does not, once something near it was to be cut.
+class WeldSearch {
+ public:
+  Welds find(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup) {
+    mark_near(cuts, soup, is_near);
+    Welds welds = find_welds(soup.plc.vertices, soup.triangles, is_near);
+    if (welds.empty() || is_near_everywhere_) return welds;
+    // What should touch in one place may be so all around.
+    is_near_everywhere_ = true;
+    std::ranges::fill(is_near, std::uint8_t{1});
+    return find_welds(soup.plc.vertices, soup.triangles, is_near);
+  }
+
+  std::vector<std::uint8_t> is_near;  ///< by vertex: of triangles that were or are to be cut
+
+ private:
+  bool is_near_everywhere_ = false;
+};
+
+}  // namespace
+
+CutCounts cut_crossings(plc::UncheckedPlc& soup, const Progress& progress) {
+  CutCounts counts;
+  WeldSearch search;
+  for (;; ++counts.rounds) {
+    report(progress, stage, counts.rounds, most_rounds);
+    const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be meant
+    const std::vector<TrianglePair> close = clean(soup.plc.vertices, soup.triangles, fins);
+    const Cuts found = find_cuts(soup.plc.vertices, soup.triangles, close);
+    counts.left = found.pairs;
+    if (counts.rounds == 0) counts.pairs = found.pairs;
+    if (counts.pairs == 0 || counts.rounds == most_rounds) break;
+    const Welds welds = search.find(found.cuts, soup);
+    if (found.pairs == 0 && welds.empty()) break;
+    plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
+    // Where triangles almost touch, their intersection is accidental. So they are welded first.
+    if (!welds.equal.empty())
+      merge_vertices(welds.equal, soup, search.is_near);
+    else if (!welds.empty())
+      counts.cut += cut_along(number_vertices(welds, soup), soup);
+    else
+      counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
+  }
+  report(progress, stage, most_rounds, most_rounds);
+  return counts;
+}
+
+}  // namespace ccdt::repair

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+
+#include "engine/base/progress.h"
+#include "engine/plc/build_plc.h"
+
+namespace ccdt::repair {
+
+/// What was done where triangles crossed or covered each other.
+struct CutCounts {
+  std::size_t pairs = 0;   ///< of triangles that met in more than common corners and edges, at first
+  std::size_t cut = 0;     ///< triangles that were replaced by smaller ones, in all rounds
+  std::size_t rounds = 0;  ///< of cuts and welds; one if nothing almost touches
+  std::size_t left = 0;    ///< pairs that still meet after the last round
+};
+
+/// Cuts triangles along their intersections, so that they meet only in common vertices and edges. Triangles that become
+/// equal are merged: the first one stays. Triangles without area are dropped.
+///
+/// The points where triangles meet are found exactly and rounded to the quantum. Equal points are one vertex, in all
+/// triangles that have it, so the surface stays closed where it was. What rounding makes cross is cut in another round.
+///
+/// Facets that should touch, such as those of turned solids that stand on each other, do so only within the rounding of
+/// their vertices. Where triangles cross, what is within a few quanta of each other is welded before it is cut. This
+/// merges vertices and renumbers them.
+///
+/// A soup without crossings, vertices on triangles, equal triangles and triangles without area stays as it is. Segments
+/// that are edges are divided with these; other segments may still cross triangles.
+CutCounts cut_crossings(plc::UncheckedPlc& soup, const Progress& progress = {});
+
+}  // namespace ccdt::repair

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "engine/base/progress.h"
+#include "engine/plc/input.h"
+#include "engine/plc/options.h"
+#include "engine/repair/faults.h"
+
+namespace ccdt::repair {
+
+/// Lists everything that is wrong with an input, instead of stopping at the first error as `plc::build_plc` does.
+///
+/// The input is valid exactly if `plc::build_plc` accepts it after `plc::triangulate_bent_facets`. Only where vertices
+/// have no finite coordinates, or no facet has an area, nothing else is looked for.
+Diagnosis find_faults(const plc::InputPlc& input, const plc::PlcOptions& options = {}, const Progress& progress = {});
+
+}  // namespace ccdt::repair

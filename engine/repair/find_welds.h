@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/numbers/grid.h"
+#include "engine/plc/edge_table.h"
+
+namespace ccdt::repair {
+
+/// Vertices that are nearer to each other than this, in grid units, should be one.
+inline constexpr double reach_of_vertices = 8 * numbers::DyadicGrid::quantum;
+
+/// Vertices and edges that are nearer than this to edges and triangles should be on them. Rounding moves each point by
+/// less than a quantum. The reach of vertices is greater: a vertex that is to be on an edge is not beside its end.
+inline constexpr double reach_of_edges = 4 * numbers::DyadicGrid::quantum;
+
+/// A part of an edge, or a vertex (if a = b), that runs within a triangle but for the rounding to the grid.
+struct WeldedEdge {
+  std::uint32_t triangle;
+  VertexId a, b;    ///< of the edge
+  Point3 from, to;  ///< of the part, as a walk along the edge from a to b meets them
+};
+
+/// What is so near to each other that it should have been at the same place.
+struct Welds {
+  std::vector<std::array<VertexId, 2>> equal;              ///< vertices that should be one
+  std::vector<std::pair<std::uint64_t, Point3>> on_edges;  ///< edges (`edge_key`), and points that should be on them
+  std::vector<WeldedEdge> in_triangles;
+
+  bool empty() const { return equal.empty() && on_edges.empty() && in_triangles.empty(); }
+};
+
+/// Finds triangles that would touch or cover each other if the grid were infinitely fine, and do not.
+///
+/// In such places the exact intersections are accidental: to cut along them makes ever more tiny triangles.
+///
+/// \param is_near  by vertex: only triangles with such a corner are looked at
+Welds find_welds(std::span<const Point3> vertices, const plc::TriangleSet& triangles,
+                 const std::vector<std::uint8_t>& is_near);
+
+}  // namespace ccdt::repair

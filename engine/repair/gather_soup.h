@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/plc/build_plc.h"
+#include "engine/plc/input.h"
+#include "engine/plc/options.h"
+
+namespace ccdt::repair {
+
+/// An input as triangles, without what cannot be one.
+struct Soup {
+  plc::InputPlc input;             ///< without the polygons that are none; bent ones are triangles
+  plc::UncheckedPlc parts;         ///< the triangles that have an area, and the segments
+  std::vector<Place> no_polygons;  ///< the facets that were left out, because they are no polygons in one plane
+  std::vector<std::uint32_t> without_area;  ///< the numbers of facets that were left out, because they have no area
+};
+
+/// Makes triangles of an input, whatever else is wrong with it.
+///
+/// \throw InputError  coordinates that are not finite; no facet has an area
+Soup gather_soup(const plc::InputPlc& given, const plc::PlcOptions& options = {});
+
+}  // namespace ccdt::repair

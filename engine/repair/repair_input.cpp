@@ -1,0 +1,163 @@
+#include "engine/repair/repair_input.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "engine/base/box.h"
+#include "engine/base/errors.h"
+#include "engine/base/simplex_map.h"
+#include "engine/repair/close_gaps.h"
+#include "engine/repair/cut_crossings.h"
+#include "engine/repair/equal_triangles.h"
+#include "engine/repair/fill_holes.h"
+#include "engine/repair/gather_soup.h"
+#include "engine/repair/orient_shells.h"
+#include "engine/repair/remove_walls.h"
+
+namespace ccdt::repair {
+namespace {
+
+using plc::InputPlc;
+
+constexpr std::string_view repair_stage = "repair";
+constexpr std::uint64_t steps_of_repair = 4;
+
+bool is_surface(const InputPlc& input) {
+  return input.inside == InputPlc::Inside::even_odd;
+}
+
+double widest_gap(const RepairOptions& options, const plc::Plc& plc) {
+  if (options.gap > 0) return options.gap / plc.grid.unit;
+  const Box box = bounding_box(plc.vertices);
+  const Point3 size = box.high - box.low;
+  return usual_gap * std::max({size.x, size.y, size.z});
+}
+
+// Here and below, add(step) notes what was done.
+template <class Add>
+void join_open_edges(double gap, plc::UncheckedPlc& soup, const Add& add) {
+  const GapCounts gaps = close_gaps(soup, gap);
+  add({"merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices});
+  add({"split_edges", "open edges split at vertices beside them", gaps.split_edges});
+  add({"collapsed_facets", "facets removed that had become equal", drop_equal_triangles(soup.triangles, Fins::keep)});
+  add({"flaps", "facets removed that hung on others and bounded nothing", remove_flaps(soup)});
+}
+
+template <class Add>
+void fill(plc::UncheckedPlc& soup, const Add& add) {
+  const HoleCounts holes = fill_holes(soup);
+  add({"filled_holes", "holes filled", holes.filled});
+  add({"filling_triangles", "triangles that fill them", holes.triangles});
+}
+
+// Returns the number of crossings.
+template <class Add>
+std::size_t cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress,
+                          plc::UncheckedPlc& soup, const Add& add) {
+  const OrientedSurface given{soup.plc.vertices, soup.triangles.corners};
+  const CutCounts cuts = cut_crossings(soup, progress);
+  add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
+  if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts.pairs;
+  try {
+    add({"walls", "facets removed from the inside of the union", remove_walls(soup, given, input, options)});
+  } catch (const InputError&) {
+    // As in `turn_outward`.
+  }
+  return cuts.pairs;
+}
+
+/// Turns triangles that face another way than the given ones with the same corners.
+std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t vertices,
+                      std::vector<plc::VertexTriple>& triangles) {
+  const FaceMap faces(given, vertices);
+  std::size_t turned = 0;
+  for (plc::VertexTriple& corners : triangles) {
+    const FaceMap::Found found = faces.find(corners[0], corners[1], corners[2]);
+    if (found.index == FaceMap::none || !found.faces_the_other_way) continue;
+    std::swap(corners[1], corners[2]);
+    ++turned;
+  }
+  return turned;
+}
+
+/// Turns the facets of a valid surface so that their normals point out of the domain. Facets inside stay as they are.
+void turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::UncheckedPlc& soup) {
+  try {
+    const plc::Plc plc = plc::check_plc(input, soup, options);
+    turn_like(outward_triangles(plc), plc.vertices.size(), soup.triangles.corners);
+  } catch (const InputError&) {
+    // Whoever checks the repaired input sees what is still wrong with it.
+  }
+}
+
+InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
+  const auto& [plc, triangles, segments] = soup;
+  InputPlc input;
+  input.name = given.name;
+  input.inside = given.inside;
+  input.holes = given.holes;
+  input.regions = given.regions;
+  std::vector<std::uint32_t> number(plc.vertices.size(), 0);
+  if (is_surface(given)) {
+    for (const auto& corners : triangles.corners)
+      for (const VertexId v : corners) number[v] = 1;
+    for (const auto& ends : segments.ends)
+      for (const VertexId v : ends) number[v] = 1;
+  } else {
+    std::ranges::fill(number, 1u);  // a vertex alone is a vertex of the mesh
+  }
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == 0) continue;
+    number[v] = static_cast<std::uint32_t>(input.vertices.size());
+    input.vertices.push_back(plc.world[v]);
+  }
+  for (const auto& [a, b, c] : triangles.corners) input.triangles.push_back({number[a], number[b], number[c]});
+  if (std::ranges::any_of(triangles.markers, [](int marker) { return marker != 0; }))
+    input.triangle_markers = triangles.markers;
+  for (const auto& [a, b] : segments.ends) input.segments.push_back({number[a], number[b]});
+  if (std::ranges::any_of(segments.markers, [](int marker) { return marker != 0; }))
+    input.segment_markers = segments.markers;
+  return input;
+}
+
+}  // namespace
+
+Repaired repair_input(const InputPlc& input, const RepairOptions& options, const Progress& progress) {
+  report(progress, repair_stage, 0, steps_of_repair);
+  Repaired repaired;
+  const auto add = [&](const RepairStep& step) {
+    if (step.count > 0) repaired.steps.push_back(step);
+  };
+  Soup soup = gather_soup(input, options.plc);
+  plc::UncheckedPlc& parts = soup.parts;
+  add({"no_polygons", "facets removed that are no polygons in one plane", soup.no_polygons.size()});
+  add({"bent_facets", "polygons triangulated that are not planar", soup.input.bent.count});
+  add({"without_area", "facets without area removed", soup.without_area.size()});
+  add({"equal_vertices", "vertices merged with one at the same place",
+       input.vertices.size() - parts.plc.vertices.size()});
+  add({"duplicates", "facets removed that were there twice", drop_equal_triangles(parts.triangles, Fins::keep)});
+  report(progress, repair_stage, 1, steps_of_repair);
+  if (is_surface(input)) join_open_edges(widest_gap(options, parts.plc), parts, add);
+  const std::vector<plc::VertexTriple> as_given = parts.triangles.corners;
+  std::size_t turned = 0;
+  if (is_surface(input)) {
+    turned = orient_shells(parts);
+    fill(parts, add);
+  }
+  report(progress, repair_stage, 2, steps_of_repair);
+  const std::size_t crossings = cut_and_unite(soup.input, options.plc, progress, parts, add);
+  report(progress, repair_stage, 3, steps_of_repair);
+  if (is_surface(input)) {
+    turn_outward(soup.input, options.plc, parts);
+    // Pieces of facets cannot be compared with these.
+    std::vector<plc::VertexTriple> now = parts.triangles.corners;
+    if (crossings == 0) turned = turn_like(as_given, parts.plc.vertices.size(), now);
+    add({"turned_facets", "facets turned", turned});
+  }
+  repaired.input = to_input(input, parts);
+  report(progress, repair_stage, steps_of_repair, steps_of_repair);
+  return repaired;
+}
+
+}  // namespace ccdt::repair

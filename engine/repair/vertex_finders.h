@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "engine/base/hash_table.h"
+#include "engine/plc/build_plc.h"
+#include "engine/plc/integer_points.h"
+#include "engine/repair/find_welds.h"
+
+namespace ccdt::repair {
+
+/// Points and cells of the grid as keys.
+struct PointTraits {
+  static constexpr plc::IntegerPoint none() {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    return {most, most, most};
+  }
+  static std::size_t hash(const plc::IntegerPoint& p) {
+    std::uint64_t h = 0;
+    for (const std::int64_t x : p) h = HashTraits<std::uint64_t>::hash(h ^ static_cast<std::uint64_t>(x));
+    return static_cast<std::size_t>(h);
+  }
+};
+
+/// Finds the vertex at a point, or makes it.
+class VertexFinder {
+ public:
+  explicit VertexFinder(plc::Plc& plc) : plc_(plc) {
+    known_.reserve(plc.vertices.size());
+    for (std::uint32_t v = 0; v < plc.vertices.size(); ++v) known_.insert(plc::to_integers(plc.vertices[v]), v);
+  }
+
+  VertexId at(const Point3& p) {
+    const auto [vertex, is_new] = known_.insert(plc::to_integers(p), static_cast<std::uint32_t>(plc_.vertices.size()));
+    if (is_new) {
+      plc_.vertices.push_back(p);
+      plc_.world.push_back(plc_.grid.to_world(p));
+    }
+    return VertexId(*vertex);
+  }
+
+ private:
+  plc::Plc& plc_;
+  HashTable<plc::IntegerPoint, std::uint32_t, PointTraits> known_;
+};
+
+/// Finds the vertex that is nearest to a point, if it is within the reach of vertices, or makes one.
+class NearVertexFinder {
+ public:
+  explicit NearVertexFinder(plc::UncheckedPlc& soup) : plc_(soup.plc), is_known_(soup.plc.vertices.size(), 0) {
+    for (const plc::VertexTriple& t : soup.triangles.corners)
+      for (const VertexId v : t)
+        if (std::exchange(is_known_[v], 1) == 0) add(v);
+  }
+
+  VertexId at(const Point3& p) {
+    const plc::IntegerPoint cell = cell_of(p);
+    VertexId nearest;
+    double least = reach_of_vertices * reach_of_vertices;
+    for (std::int64_t x = cell[0] - 1; x <= cell[0] + 1; ++x)
+      for (std::int64_t y = cell[1] - 1; y <= cell[1] + 1; ++y)
+        for (std::int64_t z = cell[2] - 1; z <= cell[2] + 1; ++z) {
+          const plc::IntegerPoint other = {x, y, z};
+          for (VertexId v = last_in_cell_.get(other, {}); !v.is_none(); v = before_[v]) {
+            const double distance = squared_length(plc_.vertices[v] - p);
+            if (distance > least || (distance == least && v > nearest)) continue;
+            least = distance;
+            nearest = v;
+          }
+        }
+    if (!nearest.is_none()) return nearest;
+    const VertexId made(plc_.vertices.size());
+    plc_.vertices.push_back(p);
+    plc_.world.push_back(plc_.grid.to_world(p));
+    add(made);
+    return made;
+  }
+
+ private:
+  static plc::IntegerPoint cell_of(const Point3& p) {
+    const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x / reach_of_vertices)); };
+    return {cell(p.x), cell(p.y), cell(p.z)};
+  }
+
+  void add(VertexId v) {
+    VertexId& last = *last_in_cell_.insert(cell_of(plc_.vertices[v])).first;
+    if (before_.size() <= v) before_.resize(v + std::size_t{1});
+    before_[v] = std::exchange(last, v);
+  }
+
+  plc::Plc& plc_;
+  std::vector<char> is_known_;
+  HashTable<plc::IntegerPoint, VertexId, PointTraits> last_in_cell_;
+  std::vector<VertexId> before_;  // of a vertex: the one before it in its cell
+};
+
+}  // namespace ccdt::repair

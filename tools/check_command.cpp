@@ -1,0 +1,113 @@
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/io/files.h"
+#include "engine/io/plc_files.h"
+#include "engine/repair/find_faults.h"
+#include "engine/repair/repair_input.h"
+#include "reports/check_text.h"
+#include "tools/commands.h"
+#include "tools/freed_memory.h"
+#include "tools/options.h"
+#include "tools/progress_bar.h"
+#include "tools/terminal.h"
+
+namespace ccdt::tools {
+namespace {
+
+struct CheckCommand {
+  std::string input, output, report;
+  bool repair = false, details = false;
+  repair::RepairOptions options;
+  unsigned threads = 0;
+};
+
+void check_files(const CheckCommand& command) {
+  for (const std::string& file : {command.output, command.report}) {
+    if (file.empty()) continue;
+    check_can_be_written(file);
+    check_are_different(command.input, file);
+  }
+}
+
+void print(const std::string& file, const repair::Diagnosis& diagnosis, bool details) {
+  constexpr std::size_t usual_places = 3;
+  const std::string verdict = diagnosis.is_valid() ? toned("valid", Tone::good) : toned("NOT VALID", Tone::bad);
+  std::printf("%s%s: %s: %s\n", reports::to_terminal(diagnosis, details ? std::string::npos : usual_places).c_str(),
+              file.c_str(), verdict.c_str(), reports::in_few_words(diagnosis).c_str());
+}
+
+/// \return  is the input, or its repaired copy, valid?
+bool run(const CheckCommand& command) {
+  keep_freed_memory();
+  check_files(command);
+  reports::CheckReport report{.input = command.input};
+  {
+    ProgressBar bar;
+    const plc::InputPlc input = io::read_plc(command.input);
+    report.diagnosis = repair::find_faults(input, command.options.plc, bar.progress());
+    if (command.repair) {
+      repair::Repaired repaired = repair::repair_input(input, command.options, bar.progress());
+      io::write_plc(repaired.input, command.output);
+      // The format may round coordinates, so the file is checked, not what was written into it.
+      report.copy = {command.output, std::move(repaired.steps),
+                     repair::find_faults(io::read_plc(command.output), command.options.plc, bar.progress())};
+    }
+  }
+  print(command.input, report.diagnosis, command.details);
+  if (report.copy) {
+    std::printf("%s", reports::to_terminal(report.copy->steps).c_str());
+    print(command.output, report.copy->diagnosis, command.details);
+  }
+  if (!command.report.empty()) {
+    io::OutputFile file(command.report);
+    file << reports::to_json(report);
+    file.commit();
+  }
+  return report.copy ? report.copy->diagnosis.is_valid() : report.diagnosis.is_valid();
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App* verb = app.add_subcommand("check", "list everything that is wrong with an input, and repair it");
+  verb->add_option("INPUT", command->input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")
+      ->required();
+  CLI::Option* repair = verb->add_flag("--repair", command->repair, "write a repaired copy of the input");
+  CLI::Option* output = verb->add_option("-o,--output", command->output,
+                                         "the repaired copy: .stl .off .obj .ply .poly .smesh .mesh .meshb");
+  repair->needs(output);
+  output->needs(repair);
+  verb->add_option("--gap", command->options.gap,
+                   "with --repair: width of the widest gap between open edges to close, in units of the input; "
+                   "default: a ten-thousandth of the largest extent")
+      ->check(positive_number())
+      ->needs(repair);
+  verb->add_option(
+          "--flatness", command->options.plc.flatness,
+          "tolerance for flat facets, as a fraction of the bounding box; the default is larger for coordinates rounded "
+          "to single precision")
+      ->check(non_negative_number())
+      ->capture_default_str();
+  add_threads(*verb, command->threads);
+  verb->add_flag("--details", command->details, "list the first 1,000 places of each fault, not only three");
+  verb->add_option("--report", command->report, "write all faults to this file as JSON (schema ccdt.check/1)");
+  verb->footer(
+      "Errors keep an input from being meshed; notes do not, but the input may not be what was meant.\n"
+      "Facets are numbered from 0, as in the file.\n"
+      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not.\n\n"
+      "Example: list what is wrong with a part\n"
+      "  ccdt check part.stl\n"
+      "Example: repair it, close gaps of up to 0.01 units, and mesh the copy\n"
+      "  ccdt check part.stl --repair --gap 0.01 -o repaired.off && ccdt mesh repaired.off -o part.vtu\n");
+  verb->callback([command, &exit_code] {
+    exit_code = with_threads(command->threads, [&] { return run(*command); }) ? done : bad_input;
+  });
+}
+
+}  // namespace ccdt::tools
