@@ -21,6 +21,9 @@ set(public_headers
   mesher.h
   plc/input.h
   protection/options.h
+  repair/faults.h
+  repair/find_faults.h
+  repair/repair_input.h
   surface/remesh_surface.h
 )
 

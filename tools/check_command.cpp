@@ -49,13 +49,13 @@ bool run(const CheckCommand& command) {
   {
     ProgressBar bar;
     const plc::InputPlc input = io::read_plc(command.input);
-    report.diagnosis = repair::find_faults(input, command.options.plc, bar.progress());
+    report.diagnosis = repair::find_faults(input, command.options.flatness, bar.progress());
     if (command.repair) {
       repair::Repaired repaired = repair::repair_input(input, command.options, bar.progress());
       io::write_plc(repaired.input, command.output);
       // The format may round coordinates, so the file is checked, not what was written into it.
       report.copy = {command.output, std::move(repaired.steps),
-                     repair::find_faults(io::read_plc(command.output), command.options.plc, bar.progress())};
+                     repair::find_faults(io::read_plc(command.output), command.options.flatness, bar.progress())};
     }
   }
   print(command.input, report.diagnosis, command.details);
@@ -89,7 +89,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       ->check(positive_number())
       ->needs(repair);
   verb->add_option(
-          "--flatness", command->options.plc.flatness,
+          "--flatness", command->options.flatness,
           "tolerance for flat facets, as a fraction of the bounding box; the default is larger for coordinates rounded "
           "to single precision")
       ->check(non_negative_number())

@@ -140,7 +140,8 @@ class TriangleArranger {
     if (!edges) {
       edges = 0;
       for (std::size_t k = 0; k < 3; ++k)
-        if (side_of_line(axis_, corners_[k], corners_[plc::next_corner(k)], places_[point].exact) == 0) *edges |= 1u << k;
+        if (side_of_line(axis_, corners_[k], corners_[plc::next_corner(k)], places_[point].exact) == 0)
+          *edges |= 1u << k;
     }
     return *edges;
   }

@@ -21,15 +21,15 @@ namespace {
 using plc::EdgeTable;
 
 /// The open edges of a soup, and their vertices.
-struct Rims {
+struct OpenRims {
   std::vector<std::uint32_t> edges;
   std::vector<VertexId> vertices;
   std::vector<double> reach;  ///< of each of these: the widest gap that may be closed at it
 };
 
 /// No reach is more than half of the shortest open edge at its vertex, so that triangles do not collapse.
-Rims find_rims(std::span<const Point3> points, const EdgeTable& edges, double width) {
-  Rims rims;
+OpenRims find_rims(std::span<const Point3> points, const EdgeTable& edges, double width) {
+  OpenRims rims;
   std::vector<double> reach(points.size(), 0);
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     if (edges.sides_around(e).size() != 1) continue;
@@ -46,7 +46,7 @@ Rims find_rims(std::span<const Point3> points, const EdgeTable& edges, double wi
 }
 
 /// Boxes that hold the places within reach of the vertices.
-RawVector<Box> boxes_of(std::span<const Point3> points, const Rims& rims) {
+RawVector<Box> boxes_of(std::span<const Point3> points, const OpenRims& rims) {
   RawVector<Box> boxes;
   for (std::size_t i = 0; i < rims.vertices.size(); ++i)
     boxes.push_back(expanded(box_of(points[rims.vertices[i]]), rims.reach[i]));
@@ -62,7 +62,7 @@ struct Candidate {
 };
 
 /// Those within reach of each other, the nearest first.
-std::vector<Candidate> find_candidates(std::span<const Point3> points, const Rims& rims) {
+std::vector<Candidate> find_candidates(std::span<const Point3> points, const OpenRims& rims) {
   std::vector<Candidate> candidates;
   BoxTree(boxes_of(points, rims)).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
     const double squared = squared_length(points[rims.vertices[j]] - points[rims.vertices[i]]);
@@ -76,7 +76,7 @@ std::vector<Candidate> find_candidates(std::span<const Point3> points, const Rim
 /// Vertices move to the first one of their set, so sets are joined only if their first ones are near to each other.
 std::size_t merge_vertices(plc::UncheckedPlc& soup, double width) {
   const std::vector<Point3>& points = soup.plc.vertices;
-  const Rims rims = find_rims(points, plc::make_edge_table(soup.triangles.corners), width);
+  const OpenRims rims = find_rims(points, plc::make_edge_table(soup.triangles.corners), width);
   std::vector<double> reach(points.size(), 0);
   for (std::size_t i = 0; i < rims.vertices.size(); ++i) reach[rims.vertices[i]] = rims.reach[i];
   UnionFind sets(points.size());
@@ -105,7 +105,7 @@ struct Beside {
 
 /// In order along each edge.
 std::vector<Beside> find_vertices_beside(std::span<const Point3> points, const plc::TriangleSet& triangles,
-                                         const EdgeTable& edges, const Rims& rims) {
+                                         const EdgeTable& edges, const OpenRims& rims) {
   const BoxTree tree(boxes_of(points, rims));
   std::vector<Beside> found;
   for (const std::uint32_t e : rims.edges) {
@@ -126,7 +126,7 @@ std::vector<Beside> find_vertices_beside(std::span<const Point3> points, const p
 /// Splits an edge of each triangle that has open ones with vertices beside them.
 std::size_t split_open_edges(plc::UncheckedPlc& soup, double width) {
   const EdgeTable edges = plc::make_edge_table(soup.triangles.corners);
-  const Rims rims = find_rims(soup.plc.vertices, edges, width);
+  const OpenRims rims = find_rims(soup.plc.vertices, edges, width);
   const std::vector<Beside> beside = find_vertices_beside(soup.plc.vertices, soup.triangles, edges, rims);
   plc::TriangleSet& triangles = soup.triangles;
   std::vector<char> is_split(triangles.size(), 0);

@@ -42,7 +42,7 @@ constexpr auto names_of(FaultKind) {
        {covering_facets, "covering-facets", "pairs of facets in one plane that cover each other"},
        {crossing_facets, "crossing-facets", "pairs of facets that cross each other"},
        {crossing_segments, "crossing-segments", "segments that cross a facet or another segment"},
-       {open_edges, "open-edges", "loops of edges that have only one facet"},
+       {open_edges, "open-edges", "loops or chains of edges that have only one facet"},
        {domain, "domain", "the facets enclose nothing, or a seed is misplaced"},
        {facets_without_area, "facets-without-area", "facets without area, which are left out"},
        {equal_vertices, "equal-vertices", "vertices at the place of another one, which are merged"},

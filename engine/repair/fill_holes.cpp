@@ -20,22 +20,28 @@ namespace {
 using plc::EdgeTable;
 
 /// Of the area of all triangles: nothing greater is taken for a flap.
-constexpr double largest_flap = 0.1;
+constexpr double largest_flap = 0.5;
 
 /// The triangle at an open edge.
 std::uint32_t triangle_at(const EdgeTable& edges, VertexId a, VertexId b) {
   return plc::triangle_of(edges.sides_around(edges.find(a, b))[0]);
 }
 
-/// The loops of open edges, and the chains that one more edge closes, which two triangles have: a third one was there.
-std::vector<std::vector<VertexId>> find_rims_to_fill(const EdgeTable& edges) {
+bool is_closed_by_an_edge(const std::vector<VertexId>& chain, const EdgeTable& edges, Rims which) {
+  const std::uint32_t e = edges.find(chain.front(), chain.back());
+  return chain.size() > 2 && e != EdgeTable::none && (which == Rims::all || edges.sides_around(e).size() == 2);
+}
+
+std::vector<std::vector<VertexId>> find_rims(const EdgeTable& edges, Rims which) {
   OpenEdges rims = find_open_edges(edges);
-  std::erase_if(rims.chains, [&](const std::vector<VertexId>& chain) {
-    const std::uint32_t e = edges.find(chain.front(), chain.back());
-    return chain.size() < 3 || e == EdgeTable::none || edges.sides_around(e).size() != 2;
-  });
-  std::ranges::move(rims.chains, std::back_inserter(rims.loops));
+  for (std::vector<VertexId>& chain : rims.chains)
+    if (is_closed_by_an_edge(chain, edges, which)) rims.loops.push_back(std::move(chain));
   return std::move(rims.loops);
+}
+
+bool is_loose(std::uint32_t triangle, const EdgeTable& edges) {
+  return std::ranges::all_of(edges.edges_of[triangle],
+                             [&](std::uint32_t e) { return edges.sides_around(e).size() == 1; });
 }
 
 /// The triangles of a polygon; none if it cannot be triangulated.
@@ -84,25 +90,28 @@ std::size_t remove_flaps(plc::UncheckedPlc& soup) {
       area[parts.find(t)] += length(area_vector(plc::points_of(soup.plc.vertices, soup.triangles.corners[t])));
     const double most = largest_flap * std::accumulate(area.begin(), area.end(), 0.0);
     std::vector<char> is_flap(soup.triangles.size(), 0);
-    for (const auto& chain : rims.chains)
+    for (const auto& chain : rims.chains) {
+      if (is_closed_by_an_edge(chain, edges, Rims::of_holes)) continue;
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const std::uint32_t part = parts.find(triangle_at(edges, chain[i], chain[i + 1]));
         if (area[part] <= most) is_flap[part] = 1;
       }
+    }
     std::vector<char> is_kept(soup.triangles.size(), 1);
-    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) is_kept[t] = is_flap[parts.find(t)] == 0;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+      is_kept[t] = is_flap[parts.find(t)] == 0 && !is_loose(t, edges);
     const auto flaps = static_cast<std::size_t>(std::ranges::count(is_kept, 0));
-    if (flaps == 0) return removed;
+    if (flaps == 0 || flaps == soup.triangles.size()) return removed;
     removed += flaps;
     keep_triangles(is_kept, soup.triangles);
   }
 }
 
-HoleCounts fill_holes(plc::UncheckedPlc& soup) {
+HoleCounts fill_holes(plc::UncheckedPlc& soup, Rims which) {
   const EdgeTable edges = plc::make_edge_table(soup.triangles.corners);
   HoleCounts counts;
   const plc::TriangleSet around = soup.triangles;
-  for (const std::vector<VertexId>& loop : find_rims_to_fill(edges)) {
+  for (const std::vector<VertexId>& loop : find_rims(edges, which)) {
     std::vector<plc::VertexTriple> filling = triangulate(soup.plc.vertices, loop);
     if (filling.empty()) {
       ++counts.left;

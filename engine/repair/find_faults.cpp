@@ -229,7 +229,8 @@ Diagnosis describe(const InputPlc& input) {
 
 }  // namespace
 
-Diagnosis find_faults(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress) {
+Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& progress) {
+  const plc::PlcOptions options{flatness, {}};
   Diagnosis diagnosis = describe(input);
   report(progress, check_stage, 0, check_steps);
   if (find_coordinates(input, diagnosis)) return diagnosis;

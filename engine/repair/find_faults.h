@@ -1,8 +1,8 @@
 #pragma once
 
+#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/plc/input.h"
-#include "engine/plc/options.h"
 #include "engine/repair/faults.h"
 
 namespace ccdt::repair {
@@ -11,6 +11,8 @@ namespace ccdt::repair {
 ///
 /// The input is valid exactly if `plc::build_plc` accepts it after `plc::triangulate_bent_facets`. Only where vertices
 /// have no finite coordinates, or no facet has an area, nothing else is looked for.
-Diagnosis find_faults(const plc::InputPlc& input, const plc::PlcOptions& options = {}, const Progress& progress = {});
+///
+/// \param flatness  tolerance for flat facets, as that of the mesher
+Diagnosis find_faults(const plc::InputPlc& input, double flatness = usual_flatness, const Progress& progress = {});
 
 }  // namespace ccdt::repair

@@ -37,12 +37,12 @@ bool is_near_triangle(const Point3& p, const std::array<Point3, 3>& t) {
 }
 
 /// An edge, from its smaller end to its greater.
-struct Edge {
+struct EdgeEnds {
   VertexId a, b;
   std::uint64_t key() const { return edge_key(a, b); }
 };
 
-Edge edge_of(const VertexTriple& t, std::size_t k) {
+EdgeEnds edge_of(const VertexTriple& t, std::size_t k) {
   return {std::min(t[k], t[plc::next_corner(k)]), std::max(t[k], t[plc::next_corner(k)])};
 }
 
@@ -103,7 +103,7 @@ class WeldFinder {
     for (std::size_t k = 0; k < 3; ++k)
       if (box.meets(box_of(vertices_[c[k]]))) at[k] = look_at_vertex(c[k], other, pair);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Edge e = edge_of(c, k);
+      const EdgeEnds e = edge_of(c, k);
       if (plc::has_corner(t, e.a) && plc::has_corner(t, e.b)) continue;
       if (!box.meets(hull(box_of(vertices_[e.a]), box_of(vertices_[e.b])))) continue;
       const bool is_turned = e.a != c[k];
@@ -124,7 +124,7 @@ class WeldFinder {
         return Mask{1u << k | 1u << (k + 2) % 3};
       }
     for (std::size_t k = 0; k < 3; ++k) {
-      const Edge f = edge_of(t, k);
+      const EdgeEnds f = edge_of(t, k);
       if (!is_near_segment(p, vertices_[f.a], vertices_[f.b])) continue;
       pair.welds.on_edges.emplace_back(f.key(), p);
       pair.is_inexact = true;
@@ -136,7 +136,7 @@ class WeldFinder {
     return Mask{0};
   }
 
-  void look_at_edge(const Edge& e, std::optional<Mask> at_a, std::optional<Mask> at_b, std::uint32_t triangle,
+  void look_at_edge(const EdgeEnds& e, std::optional<Mask> at_a, std::optional<Mask> at_b, std::uint32_t triangle,
                     Pair& pair) const {
     const Point3 &a = vertices_[e.a], &b = vertices_[e.b];
     const Box box = expanded(hull(box_of(a), box_of(b)), reach_of_edges);
@@ -159,7 +159,7 @@ class WeldFinder {
   }
 
   /// Where two edges pass each other, away from their ends: the position on the first one, and the common point.
-  std::optional<std::pair<double, Point3>> crossing(const Edge& e, const Edge& f, Pair& pair) const {
+  std::optional<std::pair<double, Point3>> crossing(const EdgeEnds& e, const EdgeEnds& f, Pair& pair) const {
     if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return std::nullopt;
     const Point3 &a = vertices_[e.a], &b = vertices_[e.b], &c = vertices_[f.a], &d = vertices_[f.b];
     if (!expanded(hull(box_of(a), box_of(b)), reach_of_edges).meets(hull(box_of(c), box_of(d)))) return std::nullopt;
@@ -168,7 +168,7 @@ class WeldFinder {
     const auto positions = nearest_on_lines(a, b - a, c, d - c);
     if (!positions) return std::nullopt;
     const auto [s, t] = *positions;
-    if (!(s > 0 && s < 1 && t > 0 && t < 1)) return std::nullopt;
+    if (s <= 0 || s >= 1 || t <= 0 || t >= 1) return std::nullopt;
     const Point3 p = a + s * (b - a), q = c + t * (d - c);
     if (!are_near(p, q)) return std::nullopt;
     const Point3 middle = e.key() < f.key() ? p + 0.5 * (q - p) : q + 0.5 * (p - q);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-
 namespace ccdt::repair {
 namespace {
 
@@ -41,15 +40,14 @@ Point3 look_through(const plc::Plc& plc, const Window& window) {
 std::vector<long> wind(const plc::Plc& plc, const OrientedSurface& given) {
   std::vector<long> numbers;
   for (const Window& window : find_windows(plc))
-    numbers.push_back(window.area == 0 ? 0
-                                       : std::lround(winding_number(look_through(plc, window), given)));
+    numbers.push_back(window.area == 0 ? 0 : std::lround(winding_number(look_through(plc, window), given)));
   return numbers;
 }
 
 }  // namespace
 
-std::size_t remove_walls(plc::UncheckedPlc& soup, const OrientedSurface& given,
-                         const plc::InputPlc& input, const plc::PlcOptions& options) {
+std::size_t remove_walls(plc::UncheckedPlc& soup, const OrientedSurface& given, const plc::InputPlc& input,
+                         const plc::PlcOptions& options) {
   const plc::Plc plc = plc::check_plc(input, soup, options);
   const std::vector<long> times = wind(plc, given);
   plc::TriangleSet kept;

@@ -15,7 +15,7 @@ namespace ccdt::repair {
 /// \param given   the surface before it was cut at its crossings
 /// \return  the number of removed triangles
 /// \throw InputError  the soup is not a valid PLC
-std::size_t remove_walls(plc::UncheckedPlc& soup, const OrientedSurface& given,
-                         const plc::InputPlc& input, const plc::PlcOptions& options);
+std::size_t remove_walls(plc::UncheckedPlc& soup, const OrientedSurface& given, const plc::InputPlc& input,
+                         const plc::PlcOptions& options);
 
 }  // namespace ccdt::repair

@@ -21,7 +21,7 @@ namespace {
 using plc::InputPlc;
 
 constexpr std::string_view repair_stage = "repair";
-constexpr std::uint64_t steps_of_repair = 4;
+constexpr std::uint64_t steps_of_repair = 2;
 
 bool is_surface(const InputPlc& input) {
   return input.inside == InputPlc::Inside::even_odd;
@@ -34,33 +34,53 @@ double widest_gap(const RepairOptions& options, const plc::Plc& plc) {
   return usual_gap * std::max({size.x, size.y, size.z});
 }
 
-// Here and below, add(step) notes what was done.
-template <class Add>
-void join_open_edges(double gap, plc::UncheckedPlc& soup, const Add& add) {
+/// Notes what was done.
+class StepList {
+ public:
+  explicit StepList(std::vector<RepairStep>& steps) : steps_(steps) {}
+
+  void add(const RepairStep& step) {
+    if (step.count == 0) return;
+    const auto known = std::ranges::find(steps_, step.name, &RepairStep::name);
+    if (known == steps_.end())
+      steps_.push_back(step);
+    else
+      known->count += step.count;
+  }
+
+ private:
+  std::vector<RepairStep>& steps_;
+};
+
+void join_open_edges(double gap, plc::UncheckedPlc& soup, StepList& steps) {
   const GapCounts gaps = close_gaps(soup, gap);
-  add({"merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices});
-  add({"split_edges", "open edges split at vertices beside them", gaps.split_edges});
-  add({"collapsed_facets", "facets removed that had become equal", drop_equal_triangles(soup.triangles, Fins::keep)});
-  add({"flaps", "facets removed that hung on others and bounded nothing", remove_flaps(soup)});
+  steps.add({"merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices});
+  steps.add({"split_edges", "open edges split at vertices beside them", gaps.split_edges});
+  steps.add(
+      {"collapsed_facets", "facets removed that had become equal", drop_equal_triangles(soup.triangles, Fins::keep)});
 }
 
-template <class Add>
-void fill(plc::UncheckedPlc& soup, const Add& add) {
-  const HoleCounts holes = fill_holes(soup);
-  add({"filled_holes", "holes filled", holes.filled});
-  add({"filling_triangles", "triangles that fill them", holes.triangles});
+/// \return  was there anything to do?
+bool close_surface(plc::UncheckedPlc& soup, StepList& steps) {
+  const std::size_t flaps = remove_flaps(soup);
+  steps.add({"flaps", "facets removed that hung on others and bounded nothing", flaps});
+  orient_shells(soup);
+  HoleCounts holes = fill_holes(soup);
+  if (flaps == 0 && holes.filled == 0) holes = fill_holes(soup, Rims::all);
+  steps.add({"filled_holes", "holes filled", holes.filled});
+  steps.add({"filling_triangles", "triangles that fill them", holes.triangles});
+  return flaps > 0 || holes.filled > 0;
 }
 
-// Returns the number of crossings.
-template <class Add>
+/// \return  the number of crossings
 std::size_t cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress,
-                          plc::UncheckedPlc& soup, const Add& add) {
+                          plc::UncheckedPlc& soup, StepList& steps) {
   const OrientedSurface given{soup.plc.vertices, soup.triangles.corners};
   const CutCounts cuts = cut_crossings(soup, progress);
-  add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
+  steps.add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
   if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts.pairs;
   try {
-    add({"walls", "facets removed from the inside of the union", remove_walls(soup, given, input, options)});
+    steps.add({"walls", "facets removed from the inside of the union", remove_walls(soup, given, input, options)});
   } catch (const InputError&) {
     // As in `turn_outward`.
   }
@@ -89,6 +109,23 @@ void turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::Un
   } catch (const InputError&) {
     // Whoever checks the repaired input sees what is still wrong with it.
   }
+}
+
+/// Closes the surface, cuts it, and turns it outward. What fills a hole can cross other facets, and cuts can leave
+/// flaps.
+void repair_surface(Soup& soup, const plc::PlcOptions& options, const Progress& progress, StepList& steps) {
+  constexpr int most_rounds = 5;
+  plc::UncheckedPlc& parts = soup.parts;
+  const std::vector<plc::VertexTriple> as_given = parts.triangles.corners;
+  bool are_comparable = true;  // pieces of facets cannot be compared with these
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!close_surface(parts, steps) && round > 0) break;
+    if (cut_and_unite(soup.input, options, progress, parts, steps) > 0) are_comparable = false;
+  }
+  turn_outward(soup.input, options, parts);
+  if (!are_comparable) return;
+  std::vector<plc::VertexTriple> now = parts.triangles.corners;
+  steps.add({"turned_facets", "facets turned", turn_like(as_given, parts.plc.vertices.size(), now)});
 }
 
 InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
@@ -125,35 +162,23 @@ InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
 
 Repaired repair_input(const InputPlc& input, const RepairOptions& options, const Progress& progress) {
   report(progress, repair_stage, 0, steps_of_repair);
+  const plc::PlcOptions plc_options{options.flatness, {}};
   Repaired repaired;
-  const auto add = [&](const RepairStep& step) {
-    if (step.count > 0) repaired.steps.push_back(step);
-  };
-  Soup soup = gather_soup(input, options.plc);
+  StepList steps(repaired.steps);
+  Soup soup = gather_soup(input, plc_options);
   plc::UncheckedPlc& parts = soup.parts;
-  add({"no_polygons", "facets removed that are no polygons in one plane", soup.no_polygons.size()});
-  add({"bent_facets", "polygons triangulated that are not planar", soup.input.bent.count});
-  add({"without_area", "facets without area removed", soup.without_area.size()});
-  add({"equal_vertices", "vertices merged with one at the same place",
-       input.vertices.size() - parts.plc.vertices.size()});
-  add({"duplicates", "facets removed that were there twice", drop_equal_triangles(parts.triangles, Fins::keep)});
+  steps.add({"no_polygons", "facets removed that are no polygons in one plane", soup.no_polygons.size()});
+  steps.add({"bent_facets", "polygons triangulated that are not planar", soup.input.bent.count});
+  steps.add({"without_area", "facets without area removed", soup.without_area.size()});
+  steps.add({"equal_vertices", "vertices merged with one at the same place",
+             input.vertices.size() - parts.plc.vertices.size()});
+  steps.add({"duplicates", "facets removed that were there twice", drop_equal_triangles(parts.triangles, Fins::keep)});
   report(progress, repair_stage, 1, steps_of_repair);
-  if (is_surface(input)) join_open_edges(widest_gap(options, parts.plc), parts, add);
-  const std::vector<plc::VertexTriple> as_given = parts.triangles.corners;
-  std::size_t turned = 0;
   if (is_surface(input)) {
-    turned = orient_shells(parts);
-    fill(parts, add);
-  }
-  report(progress, repair_stage, 2, steps_of_repair);
-  const std::size_t crossings = cut_and_unite(soup.input, options.plc, progress, parts, add);
-  report(progress, repair_stage, 3, steps_of_repair);
-  if (is_surface(input)) {
-    turn_outward(soup.input, options.plc, parts);
-    // Pieces of facets cannot be compared with these.
-    std::vector<plc::VertexTriple> now = parts.triangles.corners;
-    if (crossings == 0) turned = turn_like(as_given, parts.plc.vertices.size(), now);
-    add({"turned_facets", "facets turned", turned});
+    join_open_edges(widest_gap(options, parts.plc), parts, steps);
+    repair_surface(soup, plc_options, progress, steps);
+  } else {
+    cut_and_unite(soup.input, plc_options, progress, parts, steps);
   }
   repaired.input = to_input(input, parts);
   report(progress, repair_stage, steps_of_repair, steps_of_repair);

@@ -4,14 +4,14 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/plc/input.h"
-#include "engine/plc/options.h"
 
 namespace ccdt::repair {
 
 struct RepairOptions {
-  plc::PlcOptions plc;
+  double flatness = usual_flatness;  ///< tolerance for flat facets, as that of the mesher
   double gap = 0;  ///< the widest gap to close, in the units of the input; 0: `usual_gap` of the largest extent
 };
 

@@ -1,13 +1,15 @@
 #pragma once
 
 /// \file
-/// All that the library offers: reading, meshing and writing.
+/// All that the library offers: reading, checking, repairing, meshing and writing.
 
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/mesher.h"
+#include "engine/repair/find_faults.h"
+#include "engine/repair/repair_input.h"
 #include "engine/surface/remesh_surface.h"
 #include "engine/version.h"
 
@@ -18,6 +20,8 @@ using io::read_sizes;
 using io::read_tet_mesh;
 using io::write_plc;
 using io::write_tet_mesh;
+using repair::find_faults;
+using repair::repair_input;
 using surface::remesh_surface;
 using surface::RemeshOptions;
 
