@@ -205,17 +205,17 @@ void find_inward_facets(const Plc& plc, const std::vector<plc::VertexTriple>& ou
 
 /// What only the finished PLC shows. An error that it has left, as that of a seed, is a fault of the domain.
 ///
-/// \param conforming  the triangles as the file has them, split at vertices
-void examine_domain(const InputPlc& input, const plc::PlcOptions& options, const TriangleSet& conforming,
+/// \param soup  without other errors
+void examine_domain(const InputPlc& input, const plc::UncheckedPlc& soup, const plc::PlcOptions& options,
                     Diagnosis& diagnosis) {
   try {
-    const Plc plc = plc::build_plc(input, options);
+    const Plc plc = assemble_plc(input, soup, options);
     diagnosis.regions = static_cast<std::uint64_t>(std::ranges::count(plc.regions, true, &plc::Region::inside));
     const std::vector<plc::VertexTriple> outward = outward_triangles(plc);
     double sixfold = 0;
     for (const auto& [a, b, c] : outward) sixfold += dot(plc.world[a], cross(plc.world[b], plc.world[c]));
     diagnosis.volume = sixfold / 6;
-    if (input.inside == InputPlc::Inside::even_odd) find_inward_facets(plc, outward, conforming, diagnosis);
+    if (input.inside == InputPlc::Inside::even_odd) find_inward_facets(plc, outward, soup.triangles, diagnosis);
   } catch (const InputError& error) {
     const Place place{.points = error.place().points, .facets = error.place().facets};
     diagnosis.faults.push_back(
@@ -262,7 +262,7 @@ Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& pr
                    diagnosis);
   find_overlap_faults(soup.parts, close, options, diagnosis);
   report(progress, check_stage, 3, check_steps);
-  if (diagnosis.is_valid()) examine_domain(soup.input, options, triangles, diagnosis);
+  if (diagnosis.is_valid()) examine_domain(soup.input, soup.parts, options, diagnosis);
   std::ranges::stable_partition(diagnosis.faults, &Fault::is_error);
   report(progress, check_stage, check_steps, check_steps);
   return diagnosis;

@@ -11,7 +11,7 @@ namespace ccdt::repair {
 /// there, two solids overlap, and what is left is their union. Facets between parts with the same number stay, as
 /// between two solids that touch.
 ///
-/// \param soup    closed, without crossings
+/// \param soup    without crossings
 /// \param given   the surface before it was cut at its crossings
 /// \return  the number of removed triangles
 /// \throw InputError  the soup is not a valid PLC

@@ -72,19 +72,18 @@ bool close_surface(plc::UncheckedPlc& soup, StepList& steps) {
   return flaps > 0 || holes.filled > 0;
 }
 
-/// \return  the number of crossings
-std::size_t cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress,
-                          plc::UncheckedPlc& soup, StepList& steps) {
+CutCounts cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress,
+                        plc::UncheckedPlc& soup, StepList& steps) {
   const OrientedSurface given{soup.plc.vertices, soup.triangles.corners};
   const CutCounts cuts = cut_crossings(soup, progress);
   steps.add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
-  if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts.pairs;
+  if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts;
   try {
     steps.add({"walls", "facets removed from the inside of the union", remove_walls(soup, given, input, options)});
   } catch (const InputError&) {
     // As in `turn_outward`.
   }
-  return cuts.pairs;
+  return cuts;
 }
 
 /// Turns triangles that face another way than the given ones with the same corners.
@@ -101,10 +100,11 @@ std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t v
   return turned;
 }
 
-/// Turns the facets of a valid surface so that their normals point out of the domain. Facets inside stay as they are.
+/// Turns the facets of a surface without crossings so that their normals point out of the domain. Facets inside stay as
+/// they are.
 void turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::UncheckedPlc& soup) {
   try {
-    const plc::Plc plc = plc::check_plc(input, soup, options);
+    const plc::Plc plc = assemble_plc(input, soup, options);
     turn_like(outward_triangles(plc), plc.vertices.size(), soup.triangles.corners);
   } catch (const InputError&) {
     // Whoever checks the repaired input sees what is still wrong with it.
@@ -118,11 +118,14 @@ void repair_surface(Soup& soup, const plc::PlcOptions& options, const Progress& 
   plc::UncheckedPlc& parts = soup.parts;
   const std::vector<plc::VertexTriple> as_given = parts.triangles.corners;
   bool are_comparable = true;  // pieces of facets cannot be compared with these
+  std::size_t crossings = 0;
   for (int round = 0; round < most_rounds; ++round) {
     if (!close_surface(parts, steps) && round > 0) break;
-    if (cut_and_unite(soup.input, options, progress, parts, steps) > 0) are_comparable = false;
+    const CutCounts cuts = cut_and_unite(soup.input, options, progress, parts, steps);
+    if (cuts.pairs > 0) are_comparable = false;
+    crossings = cuts.left;
   }
-  turn_outward(soup.input, options, parts);
+  if (crossings == 0) turn_outward(soup.input, options, parts);
   if (!are_comparable) return;
   std::vector<plc::VertexTriple> now = parts.triangles.corners;
   steps.add({"turned_facets", "facets turned", turn_like(as_given, parts.plc.vertices.size(), now)});
