@@ -10,7 +10,7 @@ int main(int argc, char** argv) try {
   }
   const ccdt::InputPlc input = ccdt::read_plc(argv[1]);
   for (const ccdt::repair::Fault& fault : ccdt::find_faults(input).faults)
-    std::printf("%s %s: %llu\n", fault.is_error ? "error" : "note", name_of(fault.kind).data(),
+    std::printf("%s %s: %llu\n", fault.is_error ? "error" : "note", ccdt::name_of(fault.kind).data(),
                 static_cast<unsigned long long>(fault.count));
 
   // Lengths are in the units of the file.

@@ -72,11 +72,19 @@ bool close_surface(plc::UncheckedPlc& soup, StepList& steps) {
   return flaps > 0 || holes.filled > 0;
 }
 
+/// Sheets that are folded back to back vanish.
+void check_something_is_left(const InputPlc& input, const plc::UncheckedPlc& soup) {
+  if (soup.triangles.size() > 0) return;
+  throw InputError("no facet encloses anything, so a repair leaves nothing", {.file = input.name},
+                   "give a surface that encloses something");
+}
+
 CutCounts cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress,
                         plc::UncheckedPlc& soup, StepList& steps) {
   const OrientedSurface given{soup.plc.vertices, soup.triangles.corners};
   const CutCounts cuts = cut_crossings(soup, progress);
   steps.add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
+  check_something_is_left(input, soup);
   if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts;
   try {
     steps.add({"walls", "facets removed from the inside of the union", remove_walls(soup, given, input, options)});

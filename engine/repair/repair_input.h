@@ -37,7 +37,7 @@ struct Repaired {
 /// the domain. Facets that cross are cut at their intersections; where closed surfaces overlap, their union is left.
 /// Vertices keep their places, except where gaps are closed.
 ///
-/// \throw InputError  coordinates that are not finite; no facet has an area
+/// \throw InputError  coordinates that are not finite; no facet has an area, or none is left
 Repaired repair_input(const plc::InputPlc& input, const RepairOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::repair

@@ -206,6 +206,13 @@ TEST(Repair, KeepsMarkersSegmentsAndSeedsOfAPlc) {
   EXPECT_EQ(result.input.vertices.size(), 19u);
 }
 
+TEST(Repair, RefusesSheetsThatEncloseNothing) {
+  plc::InputPlc input;
+  input.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0, 0}, {4, 1, 0}};
+  input.triangles = {{0, 1, 2}, {0, 3, 4}};
+  EXPECT_THROW(repair::repair_input(input), InputError);
+}
+
 TEST(Repair, OfDamagedSolidsGivesValidOnes) {
   std::mt19937_64 random(2007);
   int damaged = 0, valid = 0;

@@ -62,9 +62,20 @@ TEST_F(CheckCommand, ReportMatchesItsSchema) {
   EXPECT_NO_THROW(baselines::read_user_file(work() / "report.json", {"a report", schema.c_str(), ""}));
 }
 
-TEST_F(CheckCommand, CopyThatIsStillBrokenExitsWithThree) {
+TEST_F(CheckCommand, SheetsThatEncloseNothingHaveNoCopy) {
   write("sheet.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 0\n4 1 0\n3 0 1 2\n3 0 3 4\n");
   EXPECT_EQ(run("check sheet.off --repair -o copy.off").exit_code, 3);
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(CheckCommand, CopyThatIsStillBrokenIsWrittenAndExitsWithThree) {
+  // The seed of a region is outside of everything, and no repair moves it.
+  write_cube("cube.off", 12, std::string(bottom) + sides + top);
+  ASSERT_EQ(run("check cube.off --repair -o cube.poly").exit_code, 0);
+  const std::string poly = text_of(work() / "cube.poly");
+  write("seed.poly", poly.substr(0, poly.rfind("0")) + "1\n0 5 5 5\n0\n");
+  EXPECT_EQ(run("check seed.poly --repair -o copy.poly").exit_code, 3);
+  EXPECT_TRUE(std::filesystem::exists(work() / "copy.poly"));
 }
 
 TEST_F(CheckCommand, FileThatCannotBeReadIsAnErrorMessage) {
