@@ -17,7 +17,7 @@
 #include "engine/plc/input_faults.h"
 #include "engine/repair/equal_triangles.h"
 #include "engine/repair/gather_soup.h"
-#include "engine/repair/open_loops.h"
+#include "engine/repair/open_edges.h"
 #include "engine/repair/orient_shells.h"
 
 namespace ccdt::repair {

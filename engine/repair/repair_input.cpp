@@ -13,6 +13,7 @@
 #include "engine/repair/fill_holes.h"
 #include "engine/repair/gather_soup.h"
 #include "engine/repair/orient_shells.h"
+#include "engine/repair/remove_flaps.h"
 #include "engine/repair/remove_walls.h"
 
 namespace ccdt::repair {

@@ -1,4 +1,4 @@
-#include "engine/repair/open_loops.h"
+#include "engine/repair/open_edges.h"
 
 #include <algorithm>
 #include <array>
@@ -67,6 +67,15 @@ OpenEdges find_open_edges(const plc::EdgeTable& edges) {
       for (const VertexId v : ends)
         if (!from_ends || graph.is_end(v)) walk(v, graph, found);
   return found;
+}
+
+std::uint32_t triangle_at(const plc::EdgeTable& edges, VertexId a, VertexId b) {
+  return plc::triangle_of(edges.sides_around(edges.find(a, b))[0]);
+}
+
+bool is_closed_by_an_edge(const std::vector<VertexId>& chain, const plc::EdgeTable& edges, Rims which) {
+  const std::uint32_t e = edges.find(chain.front(), chain.back());
+  return chain.size() > 2 && e != plc::EdgeTable::none && (which == Rims::all || edges.sides_around(e).size() == 2);
 }
 
 }  // namespace ccdt::repair

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/base/index.h"
@@ -15,5 +16,17 @@ struct OpenEdges {
 
 /// Divides the open edges into chains. Each edge is in one of them.
 OpenEdges find_open_edges(const plc::EdgeTable& edges);
+
+/// The triangle at an open edge.
+std::uint32_t triangle_at(const plc::EdgeTable& edges, VertexId a, VertexId b);
+
+/// Which rims are those of holes.
+enum class Rims {
+  of_holes,  ///< loops, and chains that an edge of two triangles closes: a third one was there
+  all        ///< also chains that any other edge closes
+};
+
+/// Does an edge between the ends of a chain make it the rim of a hole?
+bool is_closed_by_an_edge(const std::vector<VertexId>& chain, const plc::EdgeTable& edges, Rims which);
 
 }  // namespace ccdt::repair
